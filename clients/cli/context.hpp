@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,8 +10,11 @@
 #include "clients/cli/exit_status.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/lib/client.hpp"
-#include "clients/lib/retry.hpp"
+#include "clients/lib/reply.hpp"
 #include "clients/lib/server_location.hpp"
+
+/// One function for each group of verbs: adds it to the application. The verbs run as CLI11
+/// callbacks and leave their status in the context, which must outlive the application.
 
 namespace dripline::cli {
 
@@ -69,5 +73,37 @@ auto fetch_all(std::uint64_t limit, Fetch fetch) -> decltype(fetch(client::Page{
   }
   return all;
 }
+
+void add_program_commands(Command app, Context& context);
+void add_machine_commands(Command app, Context& context);
+void add_run_commands(Command app, Context& context);
+void add_port_commands(Command app, Context& context);
+void add_port_transfer_commands(Command group, Context& context);
+/// Verbs of `dnc port` that need no server.
+void add_port_doctor_command(Command group, Context& context);
+void add_port_replay_command(Command group, Context& context);
+void add_port_page_command(Command group, Context& context);
+void add_setup_commands(Command app, Context& context);
+void add_memory_commands(Command app, Context& context);
+void add_report_commands(Command app, Context& context);
+void add_server_commands(Command app, Context& context);
+void add_check_command(Command app, Context& context);
+void add_trace_command(Command app, Context& context);
+void add_edit_command(Command app, Context& context);
+void add_approximate_command(Command app, Context& context);
+void add_forecast_command(Command app, Context& context);
+void add_graphics_command(Command app, Context& context);
+void add_touch_command(Command app, Context& context);
+void add_convert_command(Command app, Context& context);
+void add_chart_command(Command app, Context& context);
+void add_extract_command(Command app, Context& context);
+void add_conversational_commands(Command app, Context& context);
+
+/// From here on Ctrl-C (and SIGTERM) set a flag instead of ending the process at once; a second
+/// Ctrl-C does end it.
+void catch_interrupts();
+bool is_interrupted();
+/// False when interrupted before the time was over.
+bool wait_unless_interrupted(std::chrono::milliseconds time);
 
 }  // namespace dripline::cli

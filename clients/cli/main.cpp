@@ -2,7 +2,7 @@
 #include <csignal>
 
 #include "clients/cli/command_line.hpp"
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "clients/lib/api_types.hpp"
 #include "clients/lib/http.hpp"
 #include "clients/lib/reply.hpp"
-#include "clients/lib/server_address.hpp"
+#include "clients/lib/server_location.hpp"
 
 namespace dripline::client {
 

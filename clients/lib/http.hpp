@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "clients/lib/reply.hpp"
-#include "clients/lib/server_address.hpp"
+#include "clients/lib/server_location.hpp"
 
 namespace dripline::client {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "clients/lib/client.hpp"
-#include "clients/lib/retry.hpp"
+#include "clients/lib/reply.hpp"
 
 namespace dripline::client {
 

@@ -5,7 +5,7 @@
 
 #include "clients/lib/byte_source.hpp"
 #include "clients/lib/client.hpp"
-#include "clients/lib/retry.hpp"
+#include "clients/lib/reply.hpp"
 
 namespace dripline::client {
 

@@ -3,11 +3,17 @@
 #include <optional>
 #include <string>
 
-#include "clients/lib/server_address.hpp"
+#include "protocol/base/private_folder.hpp"
 #include "protocol/base/result.hpp"
-#include "protocol/base/state_location.hpp"
 
 namespace dripline::client {
+
+/// The address of a server and the access to it.
+struct ServerAddress {
+  std::string url;    ///< http://HOST:PORT or https://HOST:PORT, no path, no slash at the end
+  std::string token;  ///< empty: none; the server refuses the calls then
+  std::optional<std::string> ca_file;  ///< https: PEM file of the authority to trust
+};
 
 /// What the user gave to find the server; everything is optional.
 struct LocationOptions {

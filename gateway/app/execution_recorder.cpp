@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "gateway/interpreter/core/event_words.hpp"
+#include "gateway/interpreter/core/event.hpp"
 
 namespace dripline::gateway {
 

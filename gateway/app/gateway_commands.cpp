@@ -3,7 +3,7 @@
 #include "gateway/app/gateway.hpp"
 #include "gateway/feed/pull_feed.hpp"
 #include "protocol/base/names.hpp"
-#include "protocol/dds/stop_commands.hpp"
+#include "protocol/dds/endpoint.hpp"
 #include "protocol/process/log.hpp"
 
 /// The gateway's commands: those of the server, and what is done at the machine's own panel.

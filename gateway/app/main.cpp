@@ -13,10 +13,9 @@
 #include "gateway/app/panel/panel_socket.hpp"
 #include "gateway/app/state_folder.hpp"
 #include "protocol/base/random.hpp"
-#include "protocol/dds/dds_log.hpp"
+#include "protocol/dds/configuration.hpp"
 #include "protocol/process/daemon_log.hpp"
 #include "protocol/process/log.hpp"
-#include "protocol/process/open_files.hpp"
 #include "protocol/process/settings_reader.hpp"
 #include "protocol/process/stop_signals.hpp"
 

@@ -8,7 +8,7 @@
 #include "gateway/app/motion_choice.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
 #include "protocol/base/names.hpp"
-#include "protocol/base/state_location.hpp"
+#include "protocol/base/private_folder.hpp"
 #include "protocol/process/settings_reader.hpp"
 #include "protocol/wire/tnc_parameters.hpp"
 

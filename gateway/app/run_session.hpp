@@ -9,7 +9,7 @@
 
 #include "gateway/app/control_memory.hpp"
 #include "gateway/app/execution_recorder.hpp"
-#include "gateway/feed/program_feed.hpp"
+#include "gateway/feed/line_feed.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "gateway/machine/capability_filter.hpp"
 

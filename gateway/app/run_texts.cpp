@@ -3,7 +3,7 @@
 #include <array>
 #include <map>
 
-#include "gateway/interpreter/core/event_words.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "protocol/base/utf8.hpp"
 
 namespace dripline::gateway {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "protocol/base/file_lock.hpp"
+#include "protocol/base/descriptor.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::gateway {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "protocol/base/one_line.hpp"
+#include "protocol/base/utf8.hpp"
 
 namespace dripline::gateway {
 

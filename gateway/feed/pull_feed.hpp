@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gateway/feed/chunk_cache.hpp"
-#include "gateway/feed/program_feed.hpp"
+#include "gateway/feed/line_feed.hpp"
 
 namespace dripline::feed {
 

@@ -2,12 +2,7 @@
 
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/centurion/dialect.hpp"
-#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
-#include "gateway/interpreter/dialects/prototrak/dialect.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
-#include "gateway/interpreter/dialects/tektronix1704/dialect.hpp"
-#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
 
 namespace dripline::interpreter {
 namespace {

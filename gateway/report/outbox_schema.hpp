@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "storage/sqlite/migration.hpp"
+#include "storage/sqlite/transaction.hpp"
 
 namespace dripline::report {
 

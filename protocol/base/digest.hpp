@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -43,5 +44,8 @@ class Sha256 {
 
 Digest sha256(std::span<const std::byte> bytes);
 Digest sha256(std::string_view text);
+
+/// CRC-32 (IEEE 802.3, as zlib computes it) of `bytes`; pass the previous value to continue.
+std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t previous = 0);
 
 }  // namespace dripline

@@ -1,7 +1,9 @@
 #include "protocol/base/private_folder.hpp"
 
-#include <sys/stat.h>
+#include <cstdlib>
 #include <system_error>
+
+#include <sys/stat.h>
 
 namespace dripline {
 
@@ -27,6 +29,20 @@ Result<std::string> make_private_folder(const std::filesystem::path& folder) {
   return fmt::format(
       "folder '{}' could be entered or written by others (mode {:o}): closed to them",
       folder.string(), facts.st_mode & kModes);
+}
+
+std::optional<std::string> process_environment(std::string_view name) {
+  const char* value = std::getenv(std::string(name).c_str());
+  if (value == nullptr || *value == '\0') return std::nullopt;
+  return std::string(value);
+}
+
+Result<std::string> default_state_folder(const Environment& environment, bool is_root) {
+  if (auto state = environment("DRIPLINE_STATE")) return *state;
+  if (is_root) return std::string("/var/lib/dripline");
+  if (auto state = environment("XDG_STATE_HOME")) return *state + "/dripline";
+  if (auto home = environment("HOME")) return *home + "/.local/state/dripline";
+  return fail(Errc::NotFound, "no state folder: HOME is not set, expected --state DIR");
 }
 
 }  // namespace dripline

@@ -1,5 +1,9 @@
 #include "protocol/base/utf8.hpp"
 
+#include <iterator>
+
+#include <fmt/format.h>
+
 namespace dripline {
 
 std::size_t utf8_length(std::string_view text) {
@@ -17,6 +21,24 @@ std::size_t utf8_length(std::string_view text) {
   if (lead == 0xF0 && second < 0x90) return 0;  // overlong
   if (lead == 0xF4 && second > 0x8F) return 0;  // beyond U+10FFFF
   return length;
+}
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  line.reserve(text.size());
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    constexpr unsigned char kBlank = 0x20;
+    constexpr unsigned char kDelete = 0x7f;
+    if (code >= kBlank && code != kDelete) {
+      line += c;
+    } else if (c == '\n') {
+      line += "\\n";
+    } else {
+      line += fmt::format("\\x{:02x}", code);
+    }
+  }
+  return line;
 }
 
 }  // namespace dripline

@@ -4,9 +4,13 @@
 #include <charconv>
 #include <span>
 
-#include "protocol/base/crc32.hpp"
+#include <dds/dds.h>
+#include <dds/ddsrt/log.h>
+
+#include "protocol/base/digest.hpp"
 
 namespace dripline::dds {
+
 namespace {
 
 constexpr std::uint32_t kMaxDomain = 230;  // above this, the ports exceed 16 bits
@@ -143,6 +147,24 @@ Result<std::string> domain_configuration(const NetworkOptions& options, Role rol
       "<WriterLingerDuration>100ms</WriterLingerDuration></Internal></Domain></CycloneDDS>",
       interface_element(options.interface), size_elements(options.interface), options.domain,
       escape_xml(options.tag), *place, options.discovery_interval_ms, options.lease_ms);
+}
+
+namespace {
+
+using Receiver = void (*)(bool is_error, std::string_view text);
+
+void pass_on(void* userdata, const dds_log_data_t* entry) {
+  std::string_view text(entry->message, entry->size);
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\0')) text.remove_suffix(1);
+  constexpr std::uint32_t kErrors = DDS_LC_FATAL | DDS_LC_ERROR;
+  reinterpret_cast<Receiver>(userdata)((entry->priority & kErrors) != 0, text);
+}
+
+}  // namespace
+
+void send_log_to(Receiver to) {
+  dds_set_log_sink(pass_on, reinterpret_cast<void*>(to));
+  dds_set_trace_sink(pass_on, reinterpret_cast<void*>(to));
 }
 
 }  // namespace dripline::dds

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "protocol/base/result.hpp"
 #include "protocol/dds/endpoint.hpp"
@@ -27,5 +28,9 @@ constexpr std::uint16_t server_port(std::uint32_t domain, std::uint32_t cell = 0
 /// Errors: Syntax, LimitExceeded (an impossible option).
 Result<std::string> domain_configuration(const NetworkOptions& options, Role role,
                                          std::uint32_t cell);
+
+/// Sends the log of Cyclone DDS to `to` instead of standard error, for the whole process. `to` is
+/// called on any thread and must bound its output: each packet of a stranger can cause a line.
+void send_log_to(void (*to)(bool is_error, std::string_view text));
 
 }  // namespace dripline::dds

@@ -10,8 +10,8 @@
 #include <mutex>
 #include <optional>
 
-#include "protocol/base/one_line.hpp"
-#include "protocol/base/rate_limit.hpp"
+#include "protocol/base/clock.hpp"
+#include "protocol/base/utf8.hpp"
 
 namespace dripline::process {
 namespace {

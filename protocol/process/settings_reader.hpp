@@ -20,7 +20,7 @@ namespace dripline::process {
 /// Reads the rows of a table into one Options object: from a TOML file, then from the command line,
 /// whose values win. Every error names the place: `line 3: lease-ms: ...` or `--lease-ms: ...`.
 /// Rows and object must outlive it. The environment is not read here: what comes from it
-/// (protocol/base/state_location.hpp) are defaults, so it belongs into the object before the
+/// (protocol/base/private_folder.hpp) are defaults, so it belongs into the object before the
 /// reader.
 class SettingsReader {
  public:

@@ -2,18 +2,39 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "protocol/base/result.hpp"
 #include "protocol/wire/discipline.hpp"
 
 /// The ends of real lines: local ttys, TCP streams, RFC 2217 device servers.
+
+/// The kinds of channel. Errors of all: those of open_channel.
+
 namespace dripline::serial {
+
+struct TtyAddress {
+  std::string path;
+  friend bool operator==(const TtyAddress&, const TtyAddress&) = default;
+};
+struct TcpAddress {
+  std::string host;  ///< name or number; an IPv6 address without brackets
+  std::uint16_t port = 0;
+  bool speaks_rfc2217 = false;
+  friend bool operator==(const TcpAddress&, const TcpAddress&) = default;
+};
+using Address = std::variant<TtyAddress, TcpAddress>;
+
+/// "/dev/ttyUSB0", "tcp://moxa-3:4001", "rfc2217://[fd00::3]:4001". Pure.
+/// Errors: Syntax (naming the expected form), LimitExceeded (port not 1 to 65535).
+Result<Address> parse_address(std::string_view text);
 
 /// The result of reading: characters, or the fault of one.
 struct Received {
@@ -49,6 +70,22 @@ class Channel {
 /// `limit` for a connection. Errors: Syntax, NotFound (no such device), Busy (in use; names the
 /// owner), Timeout, Io, Denied.
 Result<std::unique_ptr<Channel>> open_channel(const std::string& address,
+                                              const wire::LineSettings& settings,
+                                              std::chrono::milliseconds limit);
+
+/// A local tty: a UART, a USB adapter, or a pty.
+Result<std::unique_ptr<Channel>> open_tty(const std::string& path,
+                                          const wire::LineSettings& settings);
+
+/// The characters of a line as a TCP stream, as device servers offer it in raw mode; rate and
+/// parity are set at the device server by hand.
+Result<std::unique_ptr<Channel>> open_tcp(const std::string& name, const TcpAddress& address,
+                                          std::chrono::milliseconds limit);
+
+/// A port of a device server whose line settings the client sets. Opening negotiates, sets the line
+/// and waits for the server's answers, all within `limit`. Errors also: Unsupported (not an RFC
+/// 2217 server, or it set another value than requested, named).
+Result<std::unique_ptr<Channel>> open_rfc2217(const std::string& name, const TcpAddress& address,
                                               const wire::LineSettings& settings,
                                               std::chrono::milliseconds limit);
 

@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "protocol/serial/impl/command_queue.hpp"
-#include "protocol/serial/impl/pacer.hpp"
 
 namespace dripline::serial {
 namespace {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "protocol/wire/impl/line_character.hpp"
-#include "protocol/wire/impl/protocols.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
 #include "protocol/wire/setting_value.hpp"
 #include "protocol/wire/tape_code.hpp"
 

@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "protocol/base/clock.hpp"
 #include "server/api/event_hub.hpp"
 #include "server/api/router.hpp"
-#include "server/api/token.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
@@ -15,7 +17,18 @@
 #include "server/machines/machine_control.hpp"
 #include "server/ports/port_control.hpp"
 
+/// The handlers, a file for each kind of resource. `services` must outlive the router.
+
 namespace dripline::api {
+
+/// A bearer token and the name under which its changes are audited.
+struct Token {
+  std::string name;
+  std::string secret;
+};
+
+/// Whether `authorization` ("Bearer ...") has this token. Takes the same time wherever they differ.
+bool is_authorized(const Token& token, const std::string& authorization);
 
 /// The constant part of the answer to `GET /api/v1/server`.
 struct ServerFacts {
@@ -76,5 +89,49 @@ std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub)
 
 /// The OpenAPI description, as JSON text.
 std::string_view openapi_text();
+
+void add_server_routes(Router& router, Services& services);
+void add_program_routes(Router& router, Services& services);
+void add_upload_routes(Router& router, Services& services);
+void add_machine_routes(Router& router, Services& services);
+void add_run_routes(Router& router, Services& services);
+void add_report_routes(Router& router, Services& services);
+void add_setup_routes(Router& router, Services& services);
+void add_memory_routes(Router& router, Services& services);
+void add_port_routes(Router& router, Services& services);
+
+inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer
+/// `limit` (default 100) and `offset`.
+storage::Page read_page(QueryReader& query);
+/// Gives a command to a run or a machine, and notes it in the audit trail.
+Response carry_out(Services& services, const Request& request,
+                   const machines::CommandRequest& command);
+/// The answer when the hub has kMaxSubscriptions listeners.
+Response too_many_listeners();
+
+/// A handler that uses the services and nothing else.
+inline Handler with(Services& services, Response (*handler)(Services&, const Request&)) {
+  return [&services, handler](const Request& request) { return handler(services, request); };
+}
+
+/// `{"NAME": [...]}` with what `view` makes of each item, or the error.
+template <class T, class View>
+Response list_response(const char* name, const Result<std::vector<T>>& list, View view) {
+  if (!list) return error_response(list.error());
+  auto array = nlohmann::json::array();
+  for (const auto& item : *list) array.push_back(view(item));
+  return json_response(200, {{name, std::move(array)}});
+}
+
+/// What `view` makes of the value, or the error.
+template <class T, class View>
+Response value_response(int status, const Result<T>& value, View view) {
+  return value ? json_response(status, view(*value)) : error_response(value.error());
+}
+
+/// No content, or the error.
+inline Response empty_response(const Result<void>& done) {
+  return done ? no_content() : error_response(done.error());
+}
 
 }  // namespace dripline::api

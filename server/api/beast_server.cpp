@@ -10,7 +10,7 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <thread>
 
-#include "protocol/base/rate_limit.hpp"
+#include "protocol/base/clock.hpp"
 #include "protocol/process/log.hpp"
 #include "server/api/http_server.hpp"
 #include "server/api/impl/http_session.hpp"

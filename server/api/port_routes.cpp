@@ -2,8 +2,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
-#include "server/api/routes.hpp"
 #include "server/api/views.hpp"
 #include "server/ports/port_control.hpp"
 

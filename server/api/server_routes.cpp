@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "server/api/routes.hpp"
+#include "server/api/api.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {

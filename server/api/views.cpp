@@ -4,7 +4,7 @@
 
 #include "protocol/dds/members.hpp"
 #include "protocol/dds/message.hpp"
-#include "server/machines/machine_notices.hpp"
+#include "server/machines/machine_registry.hpp"
 
 namespace dripline::api {
 

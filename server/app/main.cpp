@@ -4,10 +4,9 @@
 #include <csignal>
 #include <ctime>
 
-#include "protocol/dds/dds_log.hpp"
+#include "protocol/dds/configuration.hpp"
 #include "protocol/process/daemon_log.hpp"
 #include "protocol/process/log.hpp"
-#include "protocol/process/open_files.hpp"
 #include "protocol/process/stop_signals.hpp"
 #include "server/app/server.hpp"
 #include "server/app/settings.hpp"

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "protocol/base/private_folder.hpp"
 #include "protocol/base/result.hpp"
-#include "protocol/base/state_location.hpp"
 #include "protocol/process/settings_reader.hpp"
 #include "storage/port_store.hpp"
 

@@ -13,7 +13,7 @@ namespace dripline::app {
 /// Everything that can be set of dncd. The defaults are here, the rest in the table of
 /// settings.cpp, from which command line, configuration file and help are made.
 struct Settings {
-  std::string state;  ///< default: default_state_folder (protocol/base/state_location.hpp)
+  std::string state;  ///< default: default_state_folder (protocol/base/private_folder.hpp)
   std::string http = "127.0.0.1:8430";
   std::string tls_certificate, tls_key;
   std::uint32_t http_connections = 512;

@@ -1,9 +1,10 @@
 #include "server/library/control_catalog.hpp"
 
-#include <fmt/ranges.h>
 #include <algorithm>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include <fmt/ranges.h>
+
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 namespace dripline::library {
@@ -58,6 +59,18 @@ Result<void> DialectCatalog::check_setup(std::string_view control, std::string_v
 bool DialectCatalog::is_protected(std::string_view control, std::string_view head) const {
   const auto dialect = interpreter::find_dialect(control);
   return dialect && (*dialect)->is_protected != nullptr && (*dialect)->is_protected(head);
+}
+
+std::string control_words(std::string_view control, Refusal refusal) {
+  const auto dialect = interpreter::find_dialect(control);
+  if (!dialect || (*dialect)->refusal_words == nullptr) return {};
+  return (*dialect)->refusal_words(refusal);
+}
+
+Error with_control_words(Error error, std::string_view control, Refusal refusal) {
+  const std::string words = control_words(control, refusal);
+  if (!words.empty()) error.what += fmt::format(" ({} {})", control, words);
+  return error;
 }
 
 }  // namespace dripline::library

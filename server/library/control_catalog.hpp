@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/interpreter/core/dialect.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::library {
@@ -40,5 +41,15 @@ class DialectCatalog final : public ControlCatalog {
   Result<void> check_setup(std::string_view control, std::string_view toml) const override;
   bool is_protected(std::string_view control, std::string_view head) const override;
 };
+
+using interpreter::Refusal;
+
+/// The control's own words: "error 300: program already exists"; empty: it has no number for this
+/// refusal, or numbers none. Pure.
+std::string control_words(std::string_view control, Refusal refusal);
+
+/// The error with the control's words after it, for an operator who knows those:
+/// "... exists already (centurion error 300: program already exists)".
+Error with_control_words(Error error, std::string_view control, Refusal refusal);
 
 }  // namespace dripline::library

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+
+#include "protocol/process/log.hpp"
+
 namespace dripline::library {
 
 std::string_view to_string(Health::Level level) {
@@ -43,6 +48,75 @@ Health::State Health::state() const {
   }
   for (const auto& finding : state.findings) state.level = std::max(state.level, finding.level);
   return state;
+}
+
+namespace {
+
+constexpr std::uint64_t kMega = 1024 * 1024;
+
+}  // namespace
+
+Health::Finding judge_disk(std::uint64_t size, std::uint64_t free) {
+  constexpr std::uint64_t kFailed = 8 * kMega;
+  constexpr std::uint64_t kLow = 64 * kMega;
+  constexpr std::uint64_t kPlenty = 2048 * kMega;
+  constexpr std::uint64_t kLowPart = 20;  // one in twenty
+  Health::Finding finding{.level = Health::Level::Ok, .subject = "disk", .what = {}, .detail = {}};
+  finding.detail = fmt::format("{} MiB of {} MiB left", free / kMega, size / kMega);
+  if (free < kFailed) {
+    finding.level = Health::Level::Failed;
+    finding.what = "the disk is full";
+  } else if (free < kLow || (free < kPlenty && free < size / kLowPart)) {
+    finding.level = Health::Level::Degraded;
+    finding.what = "the disk is nearly full";
+  }
+  return finding;
+}
+
+HealthWatch::HealthWatch(Parts parts) : parts_(std::move(parts)) {
+  look();
+  thread_ = std::thread([this] { run(); });
+}
+
+HealthWatch::~HealthWatch() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void HealthWatch::run() {
+  std::unique_lock lock(mutex_);
+  while (!changed_.wait_for(lock, Health::kInterval, [this] { return is_stopping_; })) {
+    lock.unlock();
+    look();
+    lock.lock();
+  }
+}
+
+void HealthWatch::look() {
+  look_at_disk();
+  const auto done = parts_.probe();
+  Health::Finding finding{.level = Health::Level::Ok, .subject = "store", .what = {}, .detail = {}};
+  if (!done) {
+    // A store that is only busy for long does not lose anything.
+    const bool is_busy = done.error().code == Errc::Busy;
+    finding.level = is_busy ? Health::Level::Degraded : Health::Level::Failed;
+    finding.what = is_busy ? "the store is slow" : "the store cannot be written or read";
+    finding.detail = done.error().what;
+    process::log_error("{}: {}", finding.what, finding.detail);
+  }
+  parts_.health.report("", std::move(finding));
+  parts_.health.looked();
+}
+
+void HealthWatch::look_at_disk() {
+  struct statvfs disk {};
+  if (::statvfs(parts_.folder.c_str(), &disk) != 0) return;  // the probe reports more
+  parts_.health.report("",
+                       judge_disk(disk.f_blocks * disk.f_frsize, disk.f_bavail * disk.f_frsize));
 }
 
 }  // namespace dripline::library

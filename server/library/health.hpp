@@ -1,15 +1,20 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "protocol/base/clock.hpp"
+#include "protocol/base/result.hpp"
 
 namespace dripline::library {
 
@@ -48,5 +53,37 @@ class Health {
 
 /// ok, degraded, failed
 std::string_view to_string(Health::Level level);
+
+/// Writes and reads the store and checks its disk, now and every Health::kInterval, on a thread
+/// of its own.
+class HealthWatch {
+ public:
+  struct Parts {
+    Health& health;
+    /// Writes something small onto the disk and reads it again.
+    std::function<Result<void>()> probe;
+    std::filesystem::path folder;
+  };
+  /// Returns after the first check.
+  explicit HealthWatch(Parts parts);
+  ~HealthWatch();
+  HealthWatch(const HealthWatch&) = delete;
+  HealthWatch& operator=(const HealthWatch&) = delete;
+
+ private:
+  void look();
+  void look_at_disk();
+  void run();
+
+  Parts parts_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_stopping_ = false;
+  std::thread thread_;
+};
+
+/// How a disk of `size` bytes with `free` left is: Failed when hardly a commit fits, Degraded when
+/// the operator should make room. Pure.
+Health::Finding judge_disk(std::uint64_t size, std::uint64_t free);
 
 }  // namespace dripline::library

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "protocol/base/one_line.hpp"
+#include "protocol/base/utf8.hpp"
 
 namespace dripline::library {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "protocol/base/names.hpp"
 #include "protocol/process/log.hpp"
-#include "server/library/control_words.hpp"
+#include "server/library/control_catalog.hpp"
 
 namespace dripline::library {
 namespace {

@@ -1,6 +1,6 @@
 #include "server/library/setups.hpp"
 
-#include "server/library/control_words.hpp"
+#include "server/library/control_catalog.hpp"
 
 namespace dripline::library {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "protocol/process/log.hpp"
-#include "server/machines/called_programs.hpp"
+#include "server/machines/control_memory.hpp"
 
 namespace dripline::machines {
 namespace {

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "protocol/base/random.hpp"
-#include "protocol/dds/stop_commands.hpp"
+#include "protocol/dds/endpoint.hpp"
 #include "server/machines/identifiers.hpp"
 
 namespace dripline::machines {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "protocol/process/log.hpp"
-#include "server/machines/machine_notices.hpp"
 
 namespace dripline::machines {
+
 namespace {
 
 constexpr std::size_t kMaxSessions = 8;
@@ -229,6 +231,46 @@ void MachineRegistry::save() {
                          saved.error().what);
     }
   }
+}
+
+using std::chrono::microseconds;
+
+void GatewayClocks::compare(const dds::Status& status, UtcTime now, SteadyTime steady_now) {
+  if (status.steady == microseconds{0}) return;  // from a gateway that does not report it
+  steady_ahead_ =
+      status.steady - std::chrono::duration_cast<microseconds>(steady_now.time_since_epoch());
+  time_ahead_[count_++ % kSamples] = status.time - now;
+}
+
+std::optional<microseconds> GatewayClocks::time_ahead() const {
+  if (count_ < kSamples) return std::nullopt;
+  return *std::max_element(time_ahead_.begin(), time_ahead_.end());
+}
+
+std::string protocol_notice(std::uint32_t protocol) {
+  if (protocol == dds::kProtocolVersion) return {};
+  return fmt::format(
+      "the gateway speaks protocol {}, this server {}: install the same version at both ends",
+      protocol, dds::kProtocolVersion);
+}
+
+std::string clock_notice(std::chrono::microseconds ahead) {
+  const auto distance = std::chrono::abs(ahead);
+  if (distance <= GatewayClocks::kTolerance) return {};
+  return fmt::format("the gateway's clock is {:.1f} s {} the server's",
+                     std::chrono::duration<double>(distance).count(),
+                     ahead.count() > 0 ? "ahead of" : "after");
+}
+
+std::vector<std::string> notices_of(const MachineView& view) {
+  std::vector<std::string> notices;
+  const auto add = [&notices](std::string notice) {
+    if (!notice.empty()) notices.push_back(std::move(notice));
+  };
+  if (view.is_contested) add("two gateways claim to be this machine: stop one of them");
+  if (view.protocol) add(protocol_notice(*view.protocol));
+  if (view.is_connected && view.clock_ahead) add(clock_notice(*view.clock_ahead));
+  return notices;
 }
 
 }  // namespace dripline::machines

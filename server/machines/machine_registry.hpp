@@ -1,20 +1,47 @@
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "protocol/base/clock.hpp"
+#include "protocol/dds/message.hpp"
 #include "server/machines/command_dispatcher.hpp"
-#include "server/machines/gateway_clocks.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/machines/worker_pool.hpp"
 
 namespace dripline::machines {
+
+/// How the clocks of one gateway compare with the server's, from the statuses it writes at least
+/// once a second. A status is delayed in transit, so each comparison shows the gateway's clock at
+/// most as far ahead as it is; the largest of the last ones is the best. Not thread-safe.
+class GatewayClocks {
+ public:
+  static constexpr std::chrono::microseconds kTolerance{1'000'000};
+
+  /// Another gateway took over: nothing is known of its clocks.
+  void reset() { *this = {}; }
+  void compare(const dds::Status& status, UtcTime now, SteadyTime steady_now);
+
+  /// How far its steady clock is ahead of the server's, never overestimated.
+  std::optional<std::chrono::microseconds> steady_ahead() const { return steady_ahead_; }
+  /// How far its time of day is ahead of the server's; negative: after. None before kSamples
+  /// comparisons.
+  std::optional<std::chrono::microseconds> time_ahead() const;
+
+ private:
+  static constexpr std::size_t kSamples = 4;
+  std::array<std::chrono::microseconds, kSamples> time_ahead_{};
+  std::size_t count_ = 0;
+  std::optional<std::chrono::microseconds> steady_ahead_;
+};
 
 /// What is known of every machine now. Status lives in memory only; its counters go to the run at
 /// most every kSaveInterval. A machine is added when it announces itself for the first time.
@@ -79,5 +106,16 @@ class MachineRegistry {
   mutable std::mutex mutex_;
   std::map<std::string, Entry> entries_;
 };
+
+/// Faults between the server and this machine's gateway, in sentences for people; empty when there
+/// is none. Without what the machine itself reports.
+std::vector<std::string> notices_of(const MachineView& view);
+
+/// Why a machine whose gateway has this protocol version takes no command but a stop; empty when
+/// the version is the server's.
+std::string protocol_notice(std::uint32_t protocol);
+
+/// "the gateway's clock is 3600.0 s ahead of the server's"; empty while they agree.
+std::string clock_notice(std::chrono::microseconds ahead);
 
 }  // namespace dripline::machines

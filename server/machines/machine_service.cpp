@@ -2,11 +2,11 @@
 
 #include <set>
 
-#include "protocol/dds/stop_commands.hpp"
+#include "protocol/dds/endpoint.hpp"
 #include "protocol/process/log.hpp"
 #include "server/machines/control_memory.hpp"
 #include "server/machines/identifiers.hpp"
-#include "server/machines/machine_notices.hpp"
+#include "server/machines/machine_registry.hpp"
 #include "server/machines/start_point.hpp"
 
 namespace dripline::machines {

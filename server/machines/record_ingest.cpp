@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "protocol/dds/message.hpp"
 #include "protocol/dds/record_text.hpp"
@@ -9,6 +10,7 @@
 #include "storage/store.hpp"
 
 namespace dripline::machines {
+
 namespace {
 
 storage::RunState to_state(dds::RunOutcome outcome) {
@@ -309,6 +311,34 @@ void RecordIngest::acknowledge(const std::string& machine) {
     lanes_[machine].ack_is_owed = true;
   }
   parts_.pool.post_after(kAckRetry, [this, machine] { acknowledge(machine); });
+}
+
+Result<std::uint64_t> RecordWriter::store(const storage::RecordBatch& batch) {
+  auto stored = parts_.store.store(batch);
+  if (!stored && is_hopeless(stored.error())) return stored;
+  std::chrono::milliseconds before{};
+  {
+    const std::lock_guard lock(mutex_);
+    before = pause_;
+    pause_ =
+        stored ? std::chrono::milliseconds{0} : std::clamp(pause_ * 2, kFirstPause, kLongestPause);
+  }
+  if (!stored) {
+    if (before.count() == 0) {
+      process::log_error("records cannot be stored, {} machine={}: {}", parts_.consequence,
+                         parts_.machine, stored.error().what);
+    }
+    if (parts_.on_fault) parts_.on_fault(stored.error().what);
+  } else if (before.count() > 0) {
+    process::log_info("records are stored again machine={}", parts_.machine);
+    if (parts_.on_fault) parts_.on_fault("");
+  }
+  return stored;
+}
+
+std::chrono::milliseconds RecordWriter::pause() const {
+  const std::lock_guard lock(mutex_);
+  return pause_;
 }
 
 }  // namespace dripline::machines

@@ -5,9 +5,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "protocol/base/clock.hpp"
-#include "server/machines/record_writer.hpp"
+#include "server/machines/record_ingest.hpp"
+#include "server/ports/port_line.hpp"
 #include "server/ports/strand.hpp"
 #include "storage/record_store.hpp"
 
@@ -52,6 +54,18 @@ class LineRecords : public std::enable_shared_from_this<LineRecords> {
   std::deque<Entry> waiting_;
   std::optional<std::uint64_t> last_;  ///< number given last
   std::size_t numbered_ = 0;           ///< of those that wait
+};
+
+/// The line that each machine is connected to now. Any thread.
+class LineDirectory {
+ public:
+  virtual ~LineDirectory() = default;
+  /// nullptr: no enabled port has this machine.
+  virtual std::shared_ptr<PortLine> line_of(const std::string& machine) const = 0;
+  /// In order of the ports' names.
+  virtual std::vector<std::shared_ptr<PortLine>> lines() const = 0;
+  /// Of a machine that has, or had, a line. Used on its strand only.
+  virtual std::shared_ptr<LineRecords> records_of(const std::string& machine) const = 0;
 };
 
 }  // namespace dripline::ports

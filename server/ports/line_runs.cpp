@@ -9,8 +9,8 @@
 #include "server/machines/identifiers.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/ports/programs/modal_scan.hpp"
+#include "server/ports/programs/program_head.hpp"
 #include "server/ports/programs/program_stream.hpp"
-#include "server/ports/programs/start_finder.hpp"
 
 namespace dripline::ports {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
-#include "server/library/control_words.hpp"
-#include "server/ports/control_protocol.hpp"
+#include "server/library/control_catalog.hpp"
 #include "server/ports/line_runs.hpp"
+#include "server/ports/port_settings.hpp"
 #include "server/ports/programs/program_head.hpp"
 #include "server/ports/programs/program_stream.hpp"
 

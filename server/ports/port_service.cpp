@@ -6,8 +6,7 @@
 
 #include "protocol/base/names.hpp"
 #include "protocol/process/log.hpp"
-#include "protocol/serial/address.hpp"
-#include "server/ports/control_protocol.hpp"
+#include "protocol/serial/channel.hpp"
 #include "server/ports/line_transfer.hpp"
 #include "server/ports/port_settings.hpp"
 #include "server/ports/requests/rule_reader.hpp"

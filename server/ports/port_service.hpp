@@ -10,8 +10,8 @@
 #include "server/library/programs.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/machines/worker_pool.hpp"
-#include "server/ports/line_directory.hpp"
 #include "server/ports/line_machines.hpp"
+#include "server/ports/line_records.hpp"
 #include "server/ports/port_control.hpp"
 #include "server/ports/requests/rule_set.hpp"
 

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
 #include "protocol/wire/tnc_parameters.hpp"
 
 namespace dripline::ports {
@@ -39,6 +41,23 @@ std::string line_identity(const std::string& address) {
   std::error_code ec;
   const auto real = std::filesystem::weakly_canonical(address, ec);
   return ec ? address : real.string();
+}
+
+namespace tnc155 = interpreter::tnc155;
+
+Result<void> check_protocol(storage::SetupStore& store, const std::string& machine,
+                            wire::Flow flow) {
+  if (flow != wire::Flow::HeidenhainBcc) return {};
+  const auto stored = store.find(machine, std::nullopt);
+  if (!stored) return {};
+  const auto setup = interpreter::parse_control_data(stored->text);
+  // Options of another control are no question here.
+  const auto version = setup ? tnc155::version_of(setup->control)
+                             : Result<tnc155::ControlVersion>(fail(setup.error()));
+  if (!version || version->has(tnc155::Feature::BlockwiseTransfer)) return {};
+  return fail(Errc::Unsupported,
+              "machine '{}', setup {}: {}; flow heidenhain (template tnc155) is its interface",
+              machine, stored->number, version->lacks(tnc155::Feature::BlockwiseTransfer));
 }
 
 }  // namespace dripline::ports

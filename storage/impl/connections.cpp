@@ -4,8 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "storage/impl/schema.hpp"
-
 namespace dripline::storage {
 namespace {
 

@@ -2,10 +2,11 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <span>
 #include <type_traits>
 #include <vector>
 
-#include "protocol/base/file_lock.hpp"
+#include "protocol/base/descriptor.hpp"
 #include "storage/sqlite/transaction.hpp"
 #include "storage/sqlite_store.hpp"
 
@@ -92,5 +93,8 @@ class Connections {
   ConnectionPool writer_;
   ConnectionPool readers_;
 };
+
+/// The files of storage/schema, compiled in.
+std::span<const sqlite::Migration> schema();
 
 }  // namespace dripline::storage

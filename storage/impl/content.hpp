@@ -1,14 +1,44 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "storage/impl/chunk_codec.hpp"
+#include "protocol/base/digest.hpp"
 #include "storage/sqlite/query.hpp"
 
 /// Rows of content, content_chunk and chunk. Functions that write run inside the caller's
 /// transaction.
+
 namespace dripline::storage {
+
+/// Plain bytes of every chunk but a content's last. Part of the file format: the chunk of an offset
+/// is found by division.
+inline constexpr std::uint64_t kChunkBytes = 256 << 10;
+
+/// A chunk as it is stored: one zstd frame, addressed by the SHA-256 of its plain bytes.
+struct EncodedChunk {
+  Digest digest;
+  std::uint64_t size = 0;  ///< plain
+  std::vector<std::byte> data;
+};
+
+/// Cuts `tail` + `bytes` into chunks (the last may be short) and encodes them.
+std::vector<EncodedChunk> encode_chunks(std::span<const std::byte> tail,
+                                        std::span<const std::byte> bytes);
+
+/// The plain bytes, checked. Never allocates more than `size` and kChunkBytes allow, whatever the
+/// stored bytes are. Errors: Corrupt (what does not fit; the caller adds which chunk).
+Result<std::vector<std::byte>> decode_chunk(const Digest& digest, std::uint64_t size,
+                                            std::span<const std::byte> data);
 
 struct ContentRow {
   std::int64_t id = 0;
@@ -44,5 +74,38 @@ Result<std::vector<std::byte>> load_chunk(sqlite::Database& database, std::int64
 Result<std::vector<std::byte>> load_range(sqlite::Database& database, const ContentRow& content,
                                           std::uint64_t offset, std::uint64_t length,
                                           std::string_view label);
+
+/// A checked, decompressed chunk of a committed content.
+struct CachedChunk {
+  std::uint64_t content_size = 0;
+  std::vector<std::byte> bytes;
+};
+
+/// The chunks read last, up to a number of bytes. Committed content never changes, so nothing in
+/// here is ever stale. Thread-safe.
+class ChunkCache {
+ public:
+  struct Key {
+    Digest content;
+    std::uint64_t position = 0;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+
+  explicit ChunkCache(std::uint64_t capacity) : capacity_(capacity) {}
+  /// Null when it is not cached.
+  std::shared_ptr<const CachedChunk> find(const Key& key);
+  void insert(const Key& key, std::shared_ptr<const CachedChunk> chunk);
+
+ private:
+  struct Entry {
+    Key key;
+    std::shared_ptr<const CachedChunk> chunk;
+  };
+  const std::uint64_t capacity_;  // bytes
+  std::mutex mutex_;
+  std::uint64_t bytes_ = 0;
+  std::list<Entry> entries_;  // used last first
+  std::map<Key, std::list<Entry>::iterator> index_;
+};
 
 }  // namespace dripline::storage

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "storage/impl/chunk_cache.hpp"
 #include "storage/impl/connections.hpp"
+#include "storage/impl/content.hpp"
 #include "storage/impl/content_seal.hpp"
 #include "storage/impl/revision_rows.hpp"
 #include "storage/program_store.hpp"

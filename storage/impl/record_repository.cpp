@@ -3,7 +3,6 @@
 #include <limits>
 #include <map>
 
-#include "storage/impl/run_endings.hpp"
 #include "storage/sqlite/query.hpp"
 
 namespace dripline::storage {

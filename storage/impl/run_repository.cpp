@@ -2,7 +2,6 @@
 
 #include "storage/impl/content.hpp"
 #include "storage/impl/revision_rows.hpp"
-#include "storage/impl/run_endings.hpp"
 
 namespace dripline::storage {
 namespace {

@@ -11,7 +11,7 @@ function(dripline_embed_schema OUTPUT)
   endforeach()
   file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 // Generated from storage/schema/*.sql.
-#include "storage/impl/schema.hpp"
+#include "storage/impl/connections.hpp"
 
 namespace dripline::storage {
 namespace {

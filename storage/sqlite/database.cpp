@@ -6,7 +6,7 @@
 #include <SQLiteCpp/Statement.h>
 #include <unordered_map>
 
-#include "storage/sqlite/error.hpp"
+#include "storage/sqlite/statement.hpp"
 
 namespace dripline::storage::sqlite {
 namespace {

@@ -16,6 +16,10 @@ namespace SQLite {
 class Statement;
 }
 
+namespace SQLite {
+class Exception;
+}
+
 namespace dripline::storage::sqlite {
 
 /// A prepared statement and its use: bound, stepped, and reset when it leaves its scope. Positions
@@ -90,5 +94,10 @@ class Statement {
   std::shared_ptr<SQLite::Statement> statement_;
   bool* is_busy_;
 };
+
+/// SQLite's refusal as an Error. `extended` is SQLite's extended result code, `subject` the SQL or
+/// the file.
+Error error_of(int extended, std::string_view message, std::string_view subject);
+Error error_of(const SQLite::Exception& exception, std::string_view subject);
 
 }  // namespace dripline::storage::sqlite

@@ -3,7 +3,6 @@
 #include <cctype>
 #include <cstdlib>
 
-#include "clients/tools/offline/event_tee.hpp"
 #include "clients/tools/offline/offline_run.hpp"
 #include "clients/tools/offline/trace_writer.hpp"
 #include "tests/golden/golden_case.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/base/file_lock.hpp"
+#include "protocol/base/descriptor.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/rest_client.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "tests/support/event_log.hpp"
 

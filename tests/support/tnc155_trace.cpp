@@ -4,7 +4,7 @@
 
 #include "clients/tools/offline/offline_run.hpp"
 #include "clients/tools/offline/trace_writer.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 
 namespace dripline::interpreter {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 namespace dripline::interpreter {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/context.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/tools/approximation/arc_approximation.hpp"
 

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/chart_index.hpp"
 

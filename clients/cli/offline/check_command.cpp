@@ -3,14 +3,13 @@
 #include <charconv>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/offline/check_report.hpp"
-#include "clients/cli/offline/offline_options.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/offline/offline_program.hpp"
 #include "clients/cli/text/progress.hpp"
-#include "clients/tools/offline/event_tee.hpp"
+#include "clients/cli/text/standard_output.hpp"
+#include "clients/tools/offline/check_summary.hpp"
 #include "clients/tools/offline/offline_run.hpp"
-#include "clients/tools/offline/stop_list.hpp"
 
 namespace dripline::cli {
 namespace {

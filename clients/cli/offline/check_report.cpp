@@ -6,8 +6,8 @@
 
 #include "clients/cli/text/table.hpp"
 #include "clients/cli/text/value_text.hpp"
-#include "clients/tools/offline/stop_list.hpp"
-#include "gateway/interpreter/core/event_words.hpp"
+#include "clients/tools/offline/check_summary.hpp"
+#include "gateway/interpreter/core/event.hpp"
 
 namespace dripline::cli {
 namespace {

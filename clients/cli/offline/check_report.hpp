@@ -5,7 +5,6 @@
 #include <string>
 
 #include "clients/tools/offline/check_summary.hpp"
-#include "clients/tools/offline/machine_state.hpp"
 
 namespace dripline::cli {
 

@@ -3,9 +3,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/port/port_file.hpp"
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/tools/conversational/catalog.hpp"

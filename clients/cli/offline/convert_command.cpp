@@ -2,8 +2,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
-#include "clients/cli/interrupt.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/offline/form_conversion.hpp"
 #include "clients/cli/offline/tape_conversion.hpp"
 #include "clients/cli/text/progress.hpp"

@@ -2,10 +2,10 @@
 #include <charconv>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/offline/edited_text.hpp"
 #include "clients/cli/offline/form_conversion.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
 namespace dripline::cli {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "clients/cli/context.hpp"
-#include "clients/tools/program_editing/program_editor.hpp"
+#include "clients/tools/program_editing/program_edit.hpp"
 
 namespace dripline::cli {
 

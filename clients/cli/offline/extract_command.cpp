@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/program_extraction.hpp"
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/commands.hpp"
-#include "clients/cli/offline/offline_options.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/context.hpp"
+#include "clients/cli/offline/offline_program.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/tools/offline/forecast.hpp"

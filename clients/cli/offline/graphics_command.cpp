@@ -2,14 +2,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/commands.hpp"
-#include "clients/cli/offline/graphics_files.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/offline/graphics_options.hpp"
-#include "clients/cli/offline/offline_options.hpp"
-#include "clients/cli/offline/tnc_version.hpp"
+#include "clients/cli/offline/offline_program.hpp"
 #include "clients/cli/offline/turning_graphics.hpp"
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/progress.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/offline/offline_run.hpp"
 
 namespace dripline::cli {

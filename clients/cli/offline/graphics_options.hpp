@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "clients/cli/offline/offline_program.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/graphics/cutting_simulation.hpp"
+#include "clients/tools/graphics/picture.hpp"
 #include "clients/tools/graphics/views.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::cli {
@@ -47,5 +50,20 @@ Result<AxisRanges> parse_ranges(std::string_view text, bool is_inch);
 /// error when there is none. Errors: Syntax (an axis is missing, a range without extent).
 Result<graphics::Cuboid> cuboid_of(const AxisRanges& ranges, const graphics::WorkFrame& frame,
                                    const std::optional<graphics::Cuboid>& whole);
+
+/// The picture as PNG, and for a printer, where the command asks for them. The printer is the one
+/// that was named, else that of the setup's machine parameters 226 to 233, else an EPSON. Errors:
+/// Io, NotFound (the printer), Syntax, LimitExceeded (a machine parameter); nothing is written
+/// then.
+Result<void> write_picture(const GraphicsCommand& command, const interpreter::Setup& setup,
+                           const graphics::Picture& picture);
+
+/// Which TNC 151/155 a setup file describes; of no file (an empty name) the newest, which has
+/// everything. Errors: Io, Syntax; naming the file.
+Result<interpreter::tnc155::ControlVersion> tnc_version_of(const std::string& setup_file);
+
+/// Whether the TNC that the program's setup describes could show what the command asks for; other
+/// controls have no graphics of their own. Errors: Unsupported.
+Result<void> check_tnc_graphics(const GraphicsCommand& command, const OfflineProgram& program);
 
 }  // namespace dripline::cli

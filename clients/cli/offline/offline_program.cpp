@@ -1,14 +1,18 @@
 #include "clients/cli/offline/offline_program.hpp"
 
-#include <fmt/core.h>
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <span>
 
-#include "clients/cli/server/program_folder.hpp"
+#include <fmt/core.h>
+
+#include "gateway/interpreter/core/called_program_names.hpp"
 #include "protocol/wire/tape_image.hpp"
 
 namespace dripline::cli {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,6 +142,24 @@ std::string OfflineProgram::place_of(const interpreter::MemorySource& source,
 std::string OfflineProgram::alarm_place(const interpreter::MemorySource& source,
                                         const interpreter::OfflineOutcome& outcome) const {
   return place_of(source, outcome.alarm_program, outcome.alarm->line);
+}
+
+std::optional<std::string> find_called_program(const std::string& folder, std::string_view name) {
+  for (const auto& file_name : interpreter::called_program_names(name)) {
+    const auto path = std::filesystem::path(folder) / file_name;
+    std::error_code ec;
+    if (std::filesystem::is_regular_file(path, ec) && std::ifstream(path, std::ios::binary)) {
+      return path.string();
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> load_called_program(const std::string& folder, std::string_view name) {
+  const auto path = find_called_program(folder, name);
+  if (!path) return std::nullopt;
+  std::ifstream file(*path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
 }  // namespace dripline::cli

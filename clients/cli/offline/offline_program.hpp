@@ -1,11 +1,15 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "clients/cli/command_line.hpp"
+#include "clients/cli/exit_status.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
 #include "clients/tools/offline/offline_run.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "protocol/base/result.hpp"
@@ -54,5 +58,30 @@ class OfflineProgram {
   interpreter::Setup setup_;
   std::string library_;
 };
+
+/// FILE, --control and --setup, as both offline verbs take them.
+inline void add_offline_options(Command command, OfflineCommand& options) {
+  command.add_option("FILE", options.file, "The NC program").required();
+  command.add_option(
+      "--control", options.control,
+      "Its control, e.g. centurion (default: detected from the text and the file name)");
+  command.add_option("--setup", options.setup,
+                     "TOML file: start, tools, offsets, variables, answers, probe surfaces, "
+                     "options of the control, library of called programs");
+}
+
+/// The status for an interpretation that could not be carried through: a program that never ends is
+/// the program's fault, anything else (setup, missing answers) the user's to correct.
+inline int complain_offline(const Error& error) {
+  complain(error);
+  return error.code == Errc::LimitExceeded ? kExitNo : kExitUsage;
+}
+
+/// The file in `folder` that holds the program called `name`, with the folder: the first of
+/// `interpreter::called_program_names` that can be read.
+std::optional<std::string> find_called_program(const std::string& folder, std::string_view name);
+
+/// Its text.
+std::optional<std::string> load_called_program(const std::string& folder, std::string_view name);
 
 }  // namespace dripline::cli

@@ -2,9 +2,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/offline/touch_setup.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/text/standard_output.hpp"
 
 namespace dripline::cli {
 namespace {

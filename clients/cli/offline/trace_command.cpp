@@ -1,8 +1,8 @@
 #include <csignal>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
-#include "clients/cli/offline/offline_options.hpp"
+#include "clients/cli/context.hpp"
+#include "clients/cli/offline/offline_program.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/offline/offline_run.hpp"
 #include "clients/tools/offline/trace_writer.hpp"

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/offline/graphics_files.hpp"
-#include "clients/cli/offline/offline_options.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/offline/graphics_options.hpp"
+#include "clients/cli/offline/offline_program.hpp"
 #include "clients/cli/text/progress.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/graphics/turned_views.hpp"
 #include "clients/tools/offline/offline_run.hpp"
 

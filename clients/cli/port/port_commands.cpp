@@ -1,14 +1,12 @@
 #include <memory>
 #include <string>
 
-#include "clients/cli/commands.hpp"
 #include "clients/cli/context.hpp"
 #include "clients/cli/port/port_file.hpp"
-#include "clients/cli/port/port_listing.hpp"
 #include "clients/cli/port/port_monitor.hpp"
 #include "clients/cli/port/port_parameters.hpp"
 #include "clients/cli/port/port_text.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/text/standard_output.hpp"
 
 namespace dripline::cli {
 namespace {

@@ -2,11 +2,10 @@
 #include <memory>
 #include <thread>
 
-#include "clients/cli/commands.hpp"
-#include "clients/cli/interrupt.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/port/line_examination.hpp"
-#include "clients/cli/text/json_text.hpp"
-#include "clients/cli/text/live_area.hpp"
+#include "clients/cli/text/standard_output.hpp"
+#include "clients/cli/text/terminal.hpp"
 
 namespace dripline::cli {
 namespace {

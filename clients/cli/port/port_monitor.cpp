@@ -3,12 +3,11 @@
 #include <unistd.h>
 #include <chrono>
 
-#include "clients/cli/interrupt.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/port/port_text.hpp"
 #include "clients/cli/port/traffic_text.hpp"
-#include "clients/cli/text/json_text.hpp"
-#include "clients/cli/text/live_area.hpp"
 #include "clients/cli/text/standard_output.hpp"
+#include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/lib/event_stream.hpp"
 #include "protocol/base/clock.hpp"

@@ -2,10 +2,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/port/port_file.hpp"
-#include "clients/cli/port/port_line.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/port/port_parameters.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/lines/centurion_page.hpp"
 
 /// `dnc port page`: the serial page of a Centurion and the line that fits it, without a server.

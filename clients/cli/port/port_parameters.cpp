@@ -1,17 +1,18 @@
 #include "clients/cli/port/port_parameters.hpp"
 
 #include <memory>
+
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/port/port_file.hpp"
-#include "clients/cli/port/port_line.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
 #include "protocol/wire/tnc_parameters.hpp"
 
 namespace dripline::cli {
+
 namespace {
 
 namespace tnc = interpreter::tnc155;
@@ -218,6 +219,43 @@ void add_port_parameters_command(Command group, Context& context) {
       "--for tnc155-bcc > mp  # what to set at the control\n  dnc port parameters --port line-3    "
       "      # does the port fit its machine's setup?");
   command.callback([&context, options] { context.status = run(context, *options); });
+}
+
+Result<wire::LineSettings> line_named(const std::string& name,
+                                      const std::vector<std::string>& changes) {
+  wire::LineSettings line;
+  if (const auto found = wire::find_template(name)) {
+    line = (*found)->settings;
+  } else if (auto done = wire::apply_short_form(name, line); !done) {
+    return fail(Errc::NotFound, "{}: neither a template nor a short form such as 9600e72", name);
+  }
+  for (const auto& change : changes) {
+    const auto sign = change.find('=');
+    auto done = sign == std::string::npos
+                    ? wire::apply_short_form(change, line)
+                    : wire::set_value(line, change.substr(0, sign), change.substr(sign + 1));
+    if (!done) return fail(done.error());
+  }
+  return line;
+}
+
+int show_line(Context& context, std::string_view template_name, const wire::LineSettings& line) {
+  const auto usual = wire::find_template(template_name);
+  nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+  std::string text = fmt::format("--template {}", template_name);
+  for (const auto& row : wire::setting_rows()) {
+    const std::string value = row.get(line);
+    if (row.key == "line" || (usual && value == row.get((*usual)->settings))) continue;
+    settings[std::string(row.key)] = value;
+    text += fmt::format(" {}={}", row.key, value);
+  }
+  if (context.wants_json) {
+    context.print(
+        json_text(nlohmann::ordered_json{{"template", template_name}, {"settings", settings}}));
+  } else {
+    context.print(text + "\n");
+  }
+  return kExitOk;
 }
 
 }  // namespace dripline::cli

@@ -1,13 +1,13 @@
 #include <fstream>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/context.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/tools/lines/line_replay.hpp"
 #include "clients/tools/offline/check_summary.hpp"
 #include "clients/tools/offline/offline_run.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 namespace dripline::cli {

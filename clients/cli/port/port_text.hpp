@@ -4,10 +4,14 @@
 #include <string>
 #include <string_view>
 
+#include "clients/cli/context.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/lib/api_types.hpp"
 
 /// How ports look. Pure.
+
+/// Lists ports and their settings. Each function returns the exit status.
+
 namespace dripline::cli {
 
 /// "9600e72 xonxoff".
@@ -25,5 +29,10 @@ Style style_of_state(const client::Port& port);
 Details port_details(const client::Port& port);
 /// A note where the baud rate of the control's setup is not the line's; else empty.
 std::string baud_warning(const client::Port& port, std::optional<int> control_rate);
+
+int list_ports(Context& context, client::Client& client);
+int show_port(Context& context, client::Client& client, const std::string& name);
+/// `name` empty: all of them.
+int list_templates(Context& context, client::Client& client, const std::string& name);
 
 }  // namespace dripline::cli

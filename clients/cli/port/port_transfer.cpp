@@ -1,9 +1,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/commands.hpp"
-#include "clients/cli/interrupt.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/context.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/lib/api_json.hpp"
 

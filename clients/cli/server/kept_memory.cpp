@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include "clients/cli/setup/setup_edit.hpp"
+#include "clients/cli/setup/setup_changes.hpp"
 
 namespace dripline::cli {
 KeptMemory cells_of(const client::Memory& memory) {

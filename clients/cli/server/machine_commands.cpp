@@ -2,14 +2,12 @@
 #include <memory>
 #include <string>
 
-#include "clients/cli/commands.hpp"
 #include "clients/cli/context.hpp"
-#include "clients/cli/interrupt.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/setup/change_log.hpp"
-#include "clients/cli/text/json_text.hpp"
-#include "clients/cli/text/live_area.hpp"
+#include "clients/cli/text/standard_output.hpp"
+#include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/lib/event_stream.hpp"
 

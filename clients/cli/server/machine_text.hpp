@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "clients/lib/api_types.hpp"
 
 /// Machines and runs in words, shared by listings and watches.
+
 namespace dripline::cli {
 
 Style style_of_execution(const std::string& execution);
@@ -40,5 +42,12 @@ std::string waiting_line(const client::Run& run, const client::MachineStatus& st
 std::string record_line(const client::Record& record);
 /// How the run ended, in one line.
 std::string outcome_line(const client::Run& run);
+
+/// "X 12.500 Z -3.000": in the order of the axis letters on a control's screen.
+std::string axes_text(const std::map<std::string, double>& axes);
+
+/// The five position displays of a control, and where datum, shift, rotation, scale, mirrored axes
+/// and the last circle center are.
+void add_coordinates(Details& details, const client::MachineStatus& status);
 
 }  // namespace dripline::cli

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/server/kept_memory.hpp"
 #include "clients/cli/server/machine_text.hpp"
-#include "clients/cli/server/run_reference.hpp"
+#include "clients/cli/server/run_control.hpp"
 #include "clients/cli/setup/setup_changes.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
 namespace dripline::cli {

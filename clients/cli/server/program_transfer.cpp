@@ -5,8 +5,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "clients/cli/interrupt.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"

@@ -2,14 +2,12 @@
 #include <cstdio>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/server/machine_text.hpp"
-#include "clients/cli/server/run_reference.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
-#include "clients/cli/text/visible_text.hpp"
 
 namespace dripline::cli {
 namespace {

@@ -1,5 +1,5 @@
-#include "clients/cli/commands.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/context.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
 

@@ -1,12 +1,15 @@
 #include "clients/cli/setup/setup_changes.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <memory>
+#include <vector>
 
-#include "clients/cli/setup/setup_edit.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
@@ -14,6 +17,7 @@
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 
 namespace dripline::cli {
+
 namespace {
 
 namespace tnc155 = interpreter::tnc155;
@@ -237,6 +241,59 @@ void add_setup_changes(Command group, Context& context) {
       "(T5 P8; pocket 0\nis the spindle). They become the next version of the setup: refused while "
       "a run is active, and when the\nsetup has changed since the run began.");
   add_verb(pockets, context, taken, &take_pockets);
+}
+
+namespace {
+
+struct Splice {
+  std::size_t begin, end;
+  const std::string* value;
+};
+
+/// Where a line and a column lie, both from 1; the columns of a line are characters, not bytes.
+std::size_t offset_of(std::string_view text, const toml::source_position& at) {
+  std::size_t offset = 0;
+  for (toml::source_index line = 1; line < at.line; ++line) {
+    offset = std::min(text.find('\n', offset), text.size() - 1) + 1;
+  }
+  const auto is_continued = [&] {
+    return offset < text.size() && (static_cast<unsigned char>(text[offset]) & 0xC0) == 0x80;
+  };
+  for (toml::source_index column = 1; column < at.column && offset < text.size(); ++column) {
+    ++offset;
+    while (is_continued()) ++offset;
+  }
+  return offset;
+}
+
+Result<toml::table> parse(std::string_view text) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    return fail(Errc::Syntax, "line {}: {}", error.source().begin.line, error.description());
+  }
+}
+
+}  // namespace
+
+Result<std::string> with_numbers(std::string_view toml, std::span<const SetupChange> changes) {
+  const auto table = parse(toml);
+  if (!table) return fail(table.error());
+  std::vector<Splice> splices;
+  for (const SetupChange& change : changes) {
+    const auto found = table->at_path(change.path);
+    if (!found.is_number()) {
+      return fail(Errc::NotFound, "the setup has no number at {}", change.path);
+    }
+    const toml::source_region& region = found.node()->source();
+    splices.push_back({offset_of(toml, region.begin), offset_of(toml, region.end), &change.value});
+  }
+  std::ranges::sort(splices, std::greater{}, &Splice::begin);
+  std::string text(toml);
+  for (const Splice& splice : splices) {
+    text.replace(splice.begin, splice.end - splice.begin, *splice.value);
+  }
+  return text;
 }
 
 }  // namespace dripline::cli

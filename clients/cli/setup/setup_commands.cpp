@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "clients/cli/commands.hpp"
-#include "clients/cli/offline/tnc_version.hpp"
+#include "clients/cli/context.hpp"
+#include "clients/cli/offline/graphics_options.hpp"
 #include "clients/cli/port/port_file.hpp"
 #include "clients/cli/setup/setup_changes.hpp"
 #include "clients/cli/setup/setup_forms.hpp"
 #include "clients/cli/setup/setup_options.hpp"
 #include "clients/cli/setup/setup_text.hpp"
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "gateway/interpreter/core/option_rows.hpp"
 #include "gateway/interpreter/registry.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "clients/cli/text/live_area.hpp"
+#include "clients/cli/text/terminal.hpp"
 #include "protocol/base/clock.hpp"
 
 namespace dripline::cli {

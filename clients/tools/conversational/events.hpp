@@ -2,15 +2,37 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
-#include "clients/tools/conversational/entry.hpp"
+#include "protocol/base/result.hpp"
+
+/// Conversational programming of the Centurion: events, the fields of their screens, and the
+/// program text the control posts for them.
 
 /// The events of conversational programming, one record a screen. Lengths are in the program's
 /// units; X positions are diameters unless a member says radius. What each field means, its limits
 /// and its default are in `fields.hpp`.
+
 namespace dripline::conversational {
+
+/// The number in a field of an event's screen; nothing is a field left blank, which posts nothing.
+using Entry = std::optional<double>;
+
+/// A number as it was typed.
+struct TypedNumber {
+  double value = 0;
+  bool is_fraction = false;  ///< such as 5/16: rounded to what the field shows
+};
+
+/// "1.25", "-.5" or "5/16" (up to 9 digits on each side of the stroke, no exponent). Errors:
+/// Syntax.
+Result<TypedNumber> parse_entry(std::string_view typed);
+
+/// As the control writes numbers into a program: up to six decimals, no zero before the point,
+/// none at the end (".5", "-2", "0").
+std::string number_text(double value);
 
 enum class Dimensions { Absolute, Incremental };
 enum class UnitSystem { English, Metric };
@@ -203,7 +225,7 @@ struct ToolSelection {
   bool has_coolant = false;
 };
 
-/// Each choice is an index into its list in `miscellaneous_codes.hpp`; 0 posts nothing.
+/// Each choice is an index into its list in `posting.hpp`; 0 posts nothing.
 struct Miscellaneous {
   std::size_t feed_mode = 0;
   Entry feed;

@@ -1,10 +1,123 @@
-#include "clients/tools/conversational/impl/form_reader.hpp"
-
-#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+#include <nlohmann/json.hpp>
+
+#include "clients/tools/conversational/impl/form_reader.hpp"
+
 namespace dripline::conversational {
+
+namespace {
+
+unsigned line_of(const toml::node& node) {
+  return static_cast<unsigned>(node.source().begin.line);
+}
+
+Result<FileValue> value_of(const toml::key& key, const toml::node& node) {
+  if (const auto* text = node.as_string()) return FileValue(text->get());
+  if (const auto* flag = node.as_boolean()) return FileValue(flag->get());
+  if (const auto* whole = node.as_integer()) return FileValue(static_cast<double>(whole->get()));
+  if (const auto* number = node.as_floating_point()) return FileValue(number->get());
+  return fail(Errc::Syntax, "line {}: {}: {}", line_of(node), key.str(), kShape);
+}
+
+Result<FileEvent> event_of(const toml::node& node) {
+  const auto* table = node.as_table();
+  if (table == nullptr) return fail(Errc::Syntax, "line {}: {}", line_of(node), kShape);
+  FileEvent event;
+  event.line = static_cast<int>(line_of(node));
+  for (const auto& [key, field] : *table) {
+    auto value = value_of(key, field);
+    if (!value) return fail(value.error());
+    event.fields.push_back({std::string(key.str()), *std::move(value)});
+  }
+  return event;
+}
+
+Result<std::vector<FileEvent>> events_of(const toml::table& file) {
+  std::vector<FileEvent> events;
+  for (const auto& [key, node] : file) {
+    const auto* list = node.as_array();
+    if (key.str() != "event" || list == nullptr) {
+      return fail(Errc::Syntax, "line {}: {}: {}", line_of(node), key.str(), kShape);
+    }
+    if (list->size() > kMaxEvents) {
+      return fail(Errc::LimitExceeded, "{} events are more than {}", list->size(), kMaxEvents);
+    }
+    for (const auto& element : *list) {
+      auto event = event_of(element);
+      if (!event) return fail(event.error());
+      events.push_back(*std::move(event));
+    }
+  }
+  return events;
+}
+
+}  // namespace
+
+Result<std::vector<FileEvent>> read_toml(std::string_view text) {
+  try {
+    return events_of(toml::parse(text));
+  } catch (const toml::parse_error& e) {
+    return fail(Errc::Syntax, "line {}: {}", e.source().begin.line, e.description());
+  }
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Result<FileEvent> event_of(const Json& object, std::size_t number) {
+  if (!object.is_object()) return fail(Errc::Syntax, "event {}: {}", number, kShape);
+  FileEvent event;
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_string()) {
+      event.fields.push_back({key, value.get<std::string>()});
+    } else if (value.is_boolean()) {
+      event.fields.push_back({key, value.get<bool>()});
+    } else if (value.is_number()) {
+      event.fields.push_back({key, value.get<double>()});
+    } else if (!value.is_null()) {  // null: left blank
+      return fail(Errc::Syntax, "event {}: {}: {}", number, key, kShape);
+    }
+  }
+  return event;
+}
+
+/// No value of such a file is deeper; deeper files are not read into memory.
+Json parse(std::string_view text) {
+  constexpr int kDeepest = 4;
+  bool is_too_deep = false;
+  const auto guard = [&](int depth, Json::parse_event_t, Json&) {
+    is_too_deep = is_too_deep || depth > kDeepest;
+    return !is_too_deep;
+  };
+  return Json::parse(text, guard, false);
+}
+
+}  // namespace
+
+Result<std::vector<FileEvent>> read_json(std::string_view text) {
+  const Json file = parse(text);
+  const bool has_events =
+      file.is_object() && file.size() == 1 && file.contains("event") && file["event"].is_array();
+  if (!has_events)
+    return fail(Errc::Syntax, "expected {{\"event\": [{{\"type\": ...}}, ...]}} in JSON");
+  const Json& list = file["event"];
+  if (list.size() > kMaxEvents) {
+    return fail(Errc::LimitExceeded, "{} events are more than {}", list.size(), kMaxEvents);
+  }
+  std::vector<FileEvent> events;
+  for (const Json& object : list) {
+    auto event = event_of(object, events.size());
+    if (!event) return fail(event.error());
+    events.push_back(*std::move(event));
+  }
+  return events;
+}
+
 namespace {
 
 std::string lower(std::string_view text) {

@@ -2,6 +2,7 @@
 
 #include <png.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace dripline::graphics {
@@ -42,6 +43,103 @@ Result<std::string> Picture::png() const {
     return fail(Errc::Io, "PNG: {}", image.message);
   }
   bytes.resize(size);
+  return bytes;
+}
+
+namespace {
+
+/// Ordered dither, 4 x 4: which shades still print a dot here.
+constexpr std::array<std::array<int, 4>, 4> kDither{
+    {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}}};
+
+bool prints_dot(Shade shade, std::size_t x, std::size_t y) {
+  return shade < kDither[y % 4][x % 4] * 16 + 8;
+}
+
+struct PrinterRow {
+  std::string_view name, title;
+  std::uint16_t before_picture[4];
+  std::uint16_t before_line[4];
+};
+constexpr std::array kPrinters{
+    PrinterRow{"epson", "EPSON matrix printer", {1819, 17217, 6963, 5642}, {1290, 6987, 2, 0}},
+    PrinterRow{"ti-850",
+               "Texas Instruments OMNI 800, model 850",
+               {1819, 17200, 6977, 2060},
+               {1290, 6990, 2, 0}},
+};
+
+/// Dots a picture takes: as many columns as the paper has, never more than the picture's own.
+struct Paper {
+  std::size_t columns, rows;
+  double step;  ///< pixels of the picture for one dot
+};
+Paper paper_for(const Picture& picture) {
+  const double step = std::max(1.0, static_cast<double>(picture.width()) / kDotColumns);
+  const auto dots = [step](std::size_t pixels) {
+    return static_cast<std::size_t>(static_cast<double>(pixels) / step);
+  };
+  return {std::min(dots(picture.width()), kDotColumns), dots(picture.height()), step};
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> printer_bytes(const std::uint16_t (&words)[4]) {
+  const std::size_t count = words[0] >> 8;
+  constexpr std::size_t kMax = 7;
+  if (count > kMax) {
+    return fail(Errc::LimitExceeded, "{} bytes: a group of four words holds {}", count, kMax);
+  }
+  std::vector<std::uint8_t> bytes{static_cast<std::uint8_t>(words[0] & 0xff)};
+  for (std::size_t i = 1; i < 4; ++i) {
+    bytes.push_back(static_cast<std::uint8_t>(words[i] >> 8));
+    bytes.push_back(static_cast<std::uint8_t>(words[i] & 0xff));
+  }
+  bytes.resize(count);
+  return bytes;
+}
+
+Result<Printer> find_printer(std::string_view name) {
+  std::string known;
+  for (const PrinterRow& row : kPrinters) {
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
+    if (row.name != name) continue;
+    auto picture = printer_bytes(row.before_picture);
+    auto line = printer_bytes(row.before_line);
+    if (!picture) return fail(picture.error());
+    if (!line) return fail(line.error());
+    return Printer{row.name, row.title, std::move(*picture), std::move(*line)};
+  }
+  return fail(Errc::NotFound, "printer {}: expected one of {}", name, known);
+}
+
+Result<Printer> printer_of_parameters(const std::array<std::uint16_t, 8>& words) {
+  constexpr int kPicture = 226, kLine = 230;
+  auto picture = printer_bytes({words[0], words[1], words[2], words[3]});
+  if (!picture) return fail(picture.error().code, "MP{}: {}", kPicture, picture.error().what);
+  auto line = printer_bytes({words[4], words[5], words[6], words[7]});
+  if (!line) return fail(line.error().code, "MP{}: {}", kLine, line.error().what);
+  return Printer{"setup", "MP 226 to 233", std::move(*picture), std::move(*line)};
+}
+
+std::string hardcopy(const Picture& picture, const Printer& printer) {
+  const Paper paper = paper_for(picture);
+  const auto dot = [&](std::size_t x, std::size_t y) {
+    if (x >= paper.columns || y >= paper.rows) return false;
+    const auto pixel = [&](std::size_t at, std::size_t most) {
+      return std::min(static_cast<std::size_t>(static_cast<double>(at) * paper.step), most - 1);
+    };
+    return prints_dot(picture.at(pixel(x, picture.width()), pixel(y, picture.height())), x, y);
+  };
+  std::string bytes(printer.before_picture.begin(), printer.before_picture.end());
+  for (std::size_t top = 0; top < paper.rows; top += 8) {
+    bytes.append(printer.before_line.begin(), printer.before_line.end());
+    for (std::size_t x = 0; x < kDotColumns; ++x) {
+      unsigned pins = 0;
+      for (std::size_t pin = 0; pin < 8; ++pin) pins = pins << 1 | (dot(x, top + pin) ? 1u : 0u);
+      bytes.push_back(static_cast<char>(pins));
+    }
+  }
   return bytes;
 }
 

@@ -6,6 +6,7 @@
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 
 namespace dripline::interpreter {
+
 namespace {
 
 constexpr double kSecondsPerMinute = 60;
@@ -171,6 +172,35 @@ void CheckSummary::on_end(const End& end) {
 
 void CheckSummary::on_block_end(const Origin& origin) {
   summary_.blocks = std::max(summary_.blocks, origin.block);
+}
+
+void MachineState::on_line(const Line& event) {
+  position_ = event.to;
+  feed_ = event.feed;
+}
+
+void MachineState::on_arc(const Arc& event) {
+  position_ = event.to;
+  feed_ = event.feed;
+}
+
+void MachineState::on_tool(const ToolChange& event) {
+  if (!event.is_preselection) tool_ = event.number;
+}
+
+void MachineState::on_probe(const Probe& event) {
+  if (event.result) position_ = event.result->at;
+}
+
+void StopList::on_stop(const Stop& event) {
+  ++count_;
+  const auto place = std::tuple(event.origin.program, event.origin.offset, event.kind);
+  if (const auto known = known_.find(place); known != known_.end()) {
+    ++places_[known->second].times;
+  } else if (places_.size() < kMaxPlaces) {
+    known_.emplace(place, places_.size());
+    places_.push_back({event, 1});
+  }
 }
 
 }  // namespace dripline::interpreter

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "gateway/interpreter/core/event.hpp"
@@ -76,6 +78,61 @@ class CheckSummary final : public EventSink {
   CheckRates rates_;
   Position last_;
   Spindle spindle_;
+};
+
+/// The state of the machine after the last event: what a program has set so far. One thread.
+class MachineState final : public EventSink {
+ public:
+  explicit MachineState(const Position& start = {}) : position_(start) {}
+
+  const Position& position() const { return position_; }
+  const std::optional<int>& tool() const { return tool_; }
+  const std::optional<Feed>& feed() const { return feed_; }  ///< of the last move at feed
+  const Spindle& spindle() const { return spindle_; }
+  const Coolant& coolant() const { return coolant_; }
+  const Origin& block() const { return block_; }  ///< finished last
+
+  void on_rapid(const Rapid& event) override { position_ = event.to; }
+  void on_line(const Line& event) override;
+  void on_arc(const Arc& event) override;
+  void on_thread(const Thread& event) override { position_ = event.to; }
+  void on_spindle(const Spindle& event) override { spindle_ = event; }
+  void on_coolant(const Coolant& event) override { coolant_ = event; }
+  void on_tool(const ToolChange& event) override;
+  void on_probe(const Probe& event) override;
+  void on_block_end(const Origin& event) override { block_ = event; }
+
+ private:
+  Position position_;
+  std::optional<int> tool_;
+  std::optional<Feed> feed_;
+  Spindle spindle_;
+  Coolant coolant_;
+  Origin block_;
+};
+
+/// The places at which a program stops and waits for the operator, in the order they are met. A
+/// place that is met again, in a repeat or a subprogram, is counted. The end of a program is no
+/// stop. One thread; memory bounded by kMaxPlaces.
+class StopList final : public EventSink {
+ public:
+  struct Place {
+    Stop stop;  ///< when it was met first
+    std::uint64_t times = 0;
+  };
+  static constexpr std::size_t kMaxPlaces = 1000;
+
+  const std::vector<Place>& places() const { return places_; }
+  /// Number of all places, those beyond the first kMaxPlaces included.
+  std::uint64_t count() const { return count_; }
+
+  void on_stop(const Stop& event) override;
+
+ private:
+  std::vector<Place> places_;
+  /// Where in `places_` a stop of that program, offset and kind is.
+  std::map<std::tuple<ProgramIndex, std::uint64_t, StopKind>, std::size_t> known_;
+  std::uint64_t count_ = 0;
 };
 
 }  // namespace dripline::interpreter

@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "clients/tools/offline/event_tee.hpp"
-
 namespace dripline::interpreter {
 namespace {
 

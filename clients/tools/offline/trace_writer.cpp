@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "clients/tools/offline/number_text.hpp"
-#include "gateway/interpreter/core/event_words.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 
 namespace dripline::interpreter {

@@ -1,9 +1,13 @@
 #include "clients/tools/program_editing/program_edit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
+#include "clients/tools/program_editing/tnc155/whole_program.hpp"
+
 namespace dripline::program_editing {
+
 namespace {
 
 /// The lines of a change that are not blank.
@@ -172,6 +176,22 @@ Result<EditedProgram> edit_lines(std::string_view text, std::span<const BlockCha
 std::string_view line_end_of(std::string_view text) {
   const std::size_t end = text.find('\n');
   return end != std::string_view::npos && end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
+}
+
+namespace {
+
+constexpr std::array kEditors{ProgramEditor{.control = "tnc155",
+                                            .protect = &with_protection,
+                                            .edit = &edit_program,
+                                            .change_words = &change_words,
+                                            .search = &search_words,
+                                            .renumber = &renumbered}};
+
+}  // namespace
+
+const ProgramEditor* find_program_editor(std::string_view control) {
+  const auto found = std::ranges::find(kEditors, control, &ProgramEditor::control);
+  return found == kEditors.end() ? nullptr : &*found;
 }
 
 }  // namespace dripline::program_editing

@@ -1,7 +1,5 @@
 #include "clients/tools/tnc_conversion/conversion.hpp"
 
-#include "clients/tools/tnc_conversion/conversion_parts.hpp"
-
 namespace dripline::tnc_conversion {
 
 using namespace interpreter;

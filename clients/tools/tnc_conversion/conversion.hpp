@@ -5,12 +5,15 @@
 #include <string_view>
 #include <vector>
 
-#include "clients/tools/tnc_conversion/text_layout.hpp"
+#include "clients/tools/tnc_conversion/program_text.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 #include "protocol/base/result.hpp"
 
 /// Whole programs from text to text. Pure; memory is a small multiple of the text.
+
+/// The two directions of the conversion; errors as of `convert_program`.
+
 namespace dripline::tnc_conversion {
 
 using interpreter::tnc155::ControlOptions;
@@ -36,5 +39,8 @@ Result<std::string> rewrite_program(std::string_view text, const ConversionOptio
 /// and what has no counterpart).
 Result<std::string> convert_program(std::string_view text, Form form,
                                     const ConversionOptions& options = {});
+
+Result<std::string> to_iso(const PlainProgram& program, const ConversionOptions& options);
+Result<std::string> to_plain(const IsoProgram& program, const ConversionOptions& options);
 
 }  // namespace dripline::tnc_conversion

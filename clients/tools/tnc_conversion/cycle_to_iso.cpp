@@ -1,7 +1,7 @@
 #include "clients/tools/tnc_conversion/cycle_to_iso.hpp"
 
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_cycles.hpp"
 
 namespace dripline::tnc_conversion {

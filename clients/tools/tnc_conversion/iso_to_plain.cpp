@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <bit>
 
-#include "clients/tools/tnc_conversion/conversion_parts.hpp"
+#include "clients/tools/tnc_conversion/conversion.hpp"
 #include "clients/tools/tnc_conversion/mode_flow.hpp"
 #include "clients/tools/tnc_conversion/rounding_use.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/blend_ahead.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/version_check.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/word_check.hpp"
 
 namespace dripline::tnc_conversion {
 

@@ -1,6 +1,6 @@
-#include "clients/tools/tnc_conversion/text_layout.hpp"
+#include "clients/tools/tnc_conversion/program_text.hpp"
 #include "clients/tools/tnc_conversion/value_text.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 
 namespace dripline::tnc_conversion {
 

@@ -3,7 +3,7 @@
 #include <bit>
 #include <map>
 
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 
 namespace dripline::tnc_conversion {
 

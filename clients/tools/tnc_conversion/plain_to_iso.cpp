@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "clients/tools/tnc_conversion/conversion_parts.hpp"
+#include "clients/tools/tnc_conversion/conversion.hpp"
 #include "clients/tools/tnc_conversion/cycle_to_iso.hpp"
 #include "clients/tools/tnc_conversion/rounding_use.hpp"
 #include "clients/tools/tnc_conversion/start_plane.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 
 namespace dripline::tnc_conversion {
 

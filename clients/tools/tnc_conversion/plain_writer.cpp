@@ -1,4 +1,4 @@
-#include "clients/tools/tnc_conversion/text_layout.hpp"
+#include "clients/tools/tnc_conversion/program_text.hpp"
 #include "clients/tools/tnc_conversion/value_text.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 

@@ -1,6 +1,6 @@
 #include "clients/tools/tnc_conversion/program_text.hpp"
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 
 namespace dripline::tnc_conversion {
 

@@ -1,6 +1,6 @@
 #include "clients/tools/tnc_conversion/start_plane.hpp"
 
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 
 namespace dripline::tnc_conversion {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/core/geometry/workpiece.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/transformation.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block.hpp"

@@ -1,6 +1,6 @@
 #include "gateway/app/panel/consent.hpp"
 
-#include "protocol/dds/stop_commands.hpp"
+#include "protocol/dds/endpoint.hpp"
 
 namespace dripline::gateway {
 namespace {

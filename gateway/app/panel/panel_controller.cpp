@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "protocol/dds/stop_commands.hpp"
+#include "protocol/dds/endpoint.hpp"
 #include "protocol/process/log.hpp"
 
 namespace dripline::gateway {

@@ -8,7 +8,6 @@
 #include "gateway/app/panel/consent.hpp"
 #include "gateway/app/run_session.hpp"
 #include "gateway/interpreter/core/dialect.hpp"
-#include "gateway/interpreter/core/panel_tables.hpp"
 
 namespace dripline::gateway {
 

@@ -3,18 +3,64 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/interpreter.hpp"
-#include "gateway/interpreter/core/memory_verdict.hpp"
-#include "gateway/interpreter/core/panel_tables.hpp"
-#include "gateway/interpreter/core/refusal.hpp"
 #include "gateway/interpreter/core/setup.hpp"
-#include "gateway/interpreter/core/text_form.hpp"
 
 namespace dripline::interpreter {
+
+/// The override of each position of a panel's switches, where a control's setup has tables of them.
+/// Factors: 1 is 100 %.
+struct PanelTables {
+  std::vector<double> feed;     ///< overrides
+  std::vector<double> spindle;  ///< overrides
+  /// The program time that a click of the handwheel passes, for each position of the feed switch;
+  /// positions beyond the last one have its time. Empty: a handwheel drives no program.
+  std::vector<double> click_seconds;
+};
+
+/// How the text of a control reads where it is searched and not interpreted.
+struct TextForm {
+  enum class Kind : std::uint8_t {
+    Words,          ///< blocks of letters with numbers
+    Events,         ///< the events of a ProtoTRAK
+    PlainLanguage,  ///< the dialog of a TNC
+  };
+  Kind kind = Kind::Words;
+  std::span<const int> motion_codes = {};  ///< G codes that move besides G0 to G3, in tenths
+  bool has_diameter_codes = false;         ///< G7 and G8 choose diameters and radii
+  bool is_all_programs = false;            ///< the control sends programs and prints nothing
+};
+
+/// What program storage refuses and what controls have a message for too.
+enum class Refusal : std::uint8_t {
+  None,
+  NameTaken,        ///< a program of that name exists
+  BadNumber,        ///< no number that the control takes
+  NothingToSelect,  ///< no program at all
+  NotSaved,         ///< a program could not be stored
+  NotLoaded,        ///< a stored program could not be read
+  OntoItself,       ///< copied or renamed to its own name
+  BadParameters,    ///< tools, offsets and parameters that the control would not take
+  MemoryFull,       ///< the control's memory for programs
+  DiskFull,         ///< of the computer that stores programs
+  NoSuchProgram,
+};
+
+/// Whether a control could keep a program, with all those it calls, in its part-program memory.
+struct MemoryVerdict {
+  /// The setup says that the control keeps its programs, so a program it refuses cannot run.
+  /// Otherwise programs are drip-fed, and a refusal is only worth a warning.
+  bool is_binding = false;
+  /// In the order in which the programs would be loaded. Lines are those of the program that was
+  /// started; for a called program it is the line of its call.
+  std::vector<Diagnostic> refused;
+};
 
 struct ListedOption;  ///< option_rows.hpp
 

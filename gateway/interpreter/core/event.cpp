@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace dripline::interpreter {
 
@@ -29,6 +30,41 @@ Length mean_lead(const Thread& thread, Length path) {
   const double lead = std::fabs(thread.lead.mm());
   const double square = lead * lead + 2 * thread.lead_change.mm() * path.mm();
   return Length::mm((lead + std::sqrt(std::max(0.0, square))) / 2);
+}
+
+namespace {
+
+/// `words` are in the order of the enumerators.
+template <class Enum>
+std::string_view word_among(std::initializer_list<std::string_view> words, Enum value) {
+  return words.begin()[static_cast<std::size_t>(value)];
+}
+
+}  // namespace
+
+std::string_view word_of(Units units) {
+  return word_among({"in", "mm"}, units);
+}
+std::string_view word_of(Turn turn) {
+  return word_among({"cw", "ccw"}, turn);
+}
+std::string_view word_of(ProbeUntil until) {
+  return word_among({"contact", "release"}, until);
+}
+std::string_view word_of(SpindleState state) {
+  return word_among({"off", "cw", "ccw", "oriented"}, state);
+}
+std::string_view word_of(StopKind kind) {
+  return word_among({"program", "optional", "tool_change", "operator"}, kind);
+}
+std::string_view word_of(OutputDevice device) {
+  return word_among({"file", "port1", "port2", "screen", "printer"}, device);
+}
+std::string_view word_of(Feed::Per per) {
+  return word_among({"min", "rev", "move"}, per);
+}
+std::string_view word_of(Plane plane) {
+  return word_among({"XY", "ZX", "YZ"}, plane);
 }
 
 }  // namespace dripline::interpreter

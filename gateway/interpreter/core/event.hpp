@@ -4,17 +4,56 @@
 #include <bitset>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
-#include "gateway/interpreter/core/diagnostic.hpp"
-#include "gateway/interpreter/core/origin.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "protocol/base/units.hpp"
 
 /// The actions of a program, as plain structs, in execution order.
 /// Lengths are machine lengths in millimeters (a lathe's X is the radius), whatever the program's
 /// units; the writer of a trace converts back. string_views live until the sink's function returns.
 /// No event of an ordinary motion block allocates.
+
+/// The override inhibits of a tapping cycle, on every control that cuts the thread in step with the
+/// spindle. `usual` are those that the program has set itself, where the control has codes for it.
+
 namespace dripline::interpreter {
+
+/// One fault of a program, with an id that never changes. Tests and callers compare ids, people
+/// read texts. The id is a dialect prefix and a number (CEN0103): the control's own number where
+/// its manual numbers its errors.
+struct Diagnostic {
+  std::string_view id;  ///< static storage
+  /// The control's own wording where its manual has one, then the value and the limit.
+  std::string text;
+  std::uint64_t line = 0;    ///< 1-based
+  std::uint32_t column = 0;  ///< 1-based byte within the line; 0 where it concerns the whole block
+};
+
+/// A row of a control's table of alarms and warnings: its id, and the control's wording.
+struct DiagnosticRow {
+  std::string_view id;    ///< static storage
+  std::string_view text;  ///< static storage
+  bool operator==(const DiagnosticRow&) const = default;
+};
+
+/// `detail` follows the text: which value, which limit.
+Diagnostic diagnostic(const DiagnosticRow& row, std::string_view detail, std::uint64_t line,
+                      std::uint32_t column = 0);
+
+/// The place in the program that an event comes from.
+struct Origin {
+  /// Ordinal of the executed block, from 1; every pass of a loop has new ones.
+  std::uint64_t block = 0;
+  std::uint64_t offset = 0;       ///< of the block's first byte in its program
+  std::uint64_t line = 0;         ///< 1-based line of the source text
+  std::int64_t sequence = kNone;  ///< the N or block number last seen on this block, or kNone
+  ProgramIndex program = kMainProgram;
+
+  static constexpr std::int64_t kNone = -1;
+  friend bool operator==(const Origin&, const Origin&) = default;
+};
 
 enum class Axis : std::uint8_t { X, Y, Z, A, B, C, U, V, W };
 inline constexpr std::size_t kAxisCount = 9;
@@ -289,5 +328,32 @@ class EventSink {
   /// The block is finished: every event it caused has been delivered.
   virtual void on_block_end(const Origin&) {}
 };
+
+/// It is in force from the clearance plane to the bottom and back.
+inline OverrideInhibit tapping_lock(const Origin& origin) {
+  return {.origin = origin,
+          .feed_override = true,
+          .spindle_override = true,
+          .single_block = true,
+          .hold = FeedHoldInhibit::Later,
+          .is_tapping = true};
+}
+
+/// It is in force for the rapid retraction: a hold that came in the hole waits for its end too.
+inline OverrideInhibit lock_after_tap(OverrideInhibit usual) {
+  if (usual.hold == FeedHoldInhibit::AtOnce) usual.hold = FeedHoldInhibit::LaterToo;
+  return usual;
+}
+
+/// The words of traces and records for the enumerators of events. Outside tools read them: add, do
+/// not rename.
+std::string_view word_of(Units units);
+std::string_view word_of(Turn turn);
+std::string_view word_of(ProbeUntil until);
+std::string_view word_of(SpindleState state);
+std::string_view word_of(StopKind kind);
+std::string_view word_of(OutputDevice device);
+std::string_view word_of(Feed::Per per);
+std::string_view word_of(Plane plane);
 
 }  // namespace dripline::interpreter

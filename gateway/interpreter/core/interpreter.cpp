@@ -1,8 +1,11 @@
 #include "gateway/interpreter/core/interpreter.hpp"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 namespace dripline::interpreter {
+
 namespace {
 
 /// Least significant byte first, so that a digest is the same on every machine.
@@ -54,6 +57,35 @@ Result<void> Snapshot::check_kind(std::string_view expected_dialect,
 
 tl::unexpected<Error> Snapshot::damage() const {
   return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", bytes.size());
+}
+
+std::string_view hole_cycle_name(int g_code) {
+  using Row = std::pair<int, std::string_view>;
+  constexpr std::array kNames{
+      Row{73, "peck drill with short retracts"},
+      Row{74, "left tap"},
+      Row{76, "fine bore"},
+      Row{81, "drill"},
+      Row{82, "drill with dwell"},
+      Row{83, "peck drill"},
+      Row{84, "tap"},
+      Row{85, "bore"},
+      Row{86, "bore with spindle stop"},
+      Row{87, "back bore"},
+      Row{88, "bore with manual retract"},
+      Row{89, "bore with dwell"},
+  };
+  const auto* row = std::ranges::find(kNames, g_code, &Row::first);
+  return row != kNames.end() ? row->second : std::string_view();
+}
+
+CoordinateFrame::Values CoordinateFrame::to_program(const Values& machine) const {
+  Values program = base_;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      program[row] += turn_[3 * row + column] * machine[column];
+  for (std::size_t i = 3; i < kAxisCount; ++i) program[i] += machine[i];
+  return program;
 }
 
 }  // namespace dripline::interpreter

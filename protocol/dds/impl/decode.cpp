@@ -5,9 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "protocol/base/crc32.hpp"
+#include "protocol/base/digest.hpp"
 #include "protocol/dds/impl/check.hpp"
-#include "protocol/dds/impl/utf8.hpp"
 #include "protocol/dds/members.hpp"
 
 namespace dripline::dds {

@@ -4,9 +4,8 @@
 #include <array>
 #include <cstring>
 
-#include "protocol/base/crc32.hpp"
+#include "protocol/base/digest.hpp"
 #include "protocol/dds/impl/check.hpp"
-#include "protocol/dds/impl/utf8.hpp"
 #include "protocol/dds/members.hpp"
 
 namespace dripline::dds {

@@ -1,4 +1,4 @@
-#include "protocol/serial/impl/channels.hpp"
+#include "protocol/serial/channel.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>

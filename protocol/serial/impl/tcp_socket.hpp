@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "protocol/base/descriptor.hpp"
-#include "protocol/serial/address.hpp"
+#include "protocol/serial/channel.hpp"
 
 namespace dripline::serial {
 

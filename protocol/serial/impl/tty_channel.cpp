@@ -1,4 +1,4 @@
-#include "protocol/serial/impl/channels.hpp"
+#include "protocol/serial/channel.hpp"
 
 #include <fcntl.h>
 #include <linux/serial.h>
@@ -11,7 +11,6 @@
 #include <system_error>
 
 #include "protocol/base/descriptor.hpp"
-#include "protocol/serial/impl/parity_marks.hpp"
 #include "protocol/serial/impl/port_lock.hpp"
 #include "protocol/serial/impl/tty_settings.hpp"
 

@@ -1,9 +1,17 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "protocol/wire/discipline.hpp"
 #include "protocol/wire/impl/line_limits.hpp"
+#include "protocol/wire/line_settings.hpp"
+
+/// One factory for each protocol; make_discipline() has checked the settings before it calls one.
+
+/// Characters that control a line, as they are on the line in its code.
 
 namespace dripline::wire {
 
@@ -82,5 +90,26 @@ class DisciplineBase : public Discipline {
   bool is_last_offered_ = false;
   bool has_seen_dsr_ = false;
 };
+
+std::unique_ptr<Discipline> make_plain(const LineSettings& settings, Role role);
+std::unique_ptr<Discipline> make_xmodem(const LineSettings& settings, Role role);
+std::unique_ptr<Discipline> make_tnc_blockwise_host(const LineSettings& settings);
+std::unique_ptr<Discipline> make_tnc_blockwise_control(const LineSettings& settings);
+std::unique_ptr<Discipline> make_tnc_standard(const LineSettings& settings, Role role);
+std::unique_ptr<Discipline> make_tape_reader_host(const LineSettings& settings);
+std::unique_ptr<Discipline> make_tape_reader_control(const LineSettings& settings);
+
+inline constexpr char kDc1 = 0x11, kDc2 = 0x12, kDc3 = 0x13, kDc4 = 0x14;
+
+/// People see printable characters (`%`) as part of a program's text, the others not.
+constexpr bool is_printable(char character) {
+  return character > ' ' && character < 0x7f;
+}
+
+/// The character on the line; nullopt: the code does not have it.
+std::optional<std::byte> to_line(CharacterCode code, char character);
+/// Its 7-bit character; nullopt: wrong parity, or EIA, which has no control characters except those
+/// of tape ('%' for its rewind stop).
+std::optional<char> from_line(CharacterCode code, std::byte character);
 
 }  // namespace dripline::wire

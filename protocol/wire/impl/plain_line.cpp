@@ -1,7 +1,6 @@
 #include "protocol/wire/impl/plain_line.hpp"
 
-#include "protocol/wire/impl/line_character.hpp"
-#include "protocol/wire/impl/protocols.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
 
 /// The common part of both directions of a plain line; see plain_sending.cpp and
 /// plain_receiving.cpp.

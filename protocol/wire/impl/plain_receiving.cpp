@@ -1,4 +1,4 @@
-#include "protocol/wire/impl/line_character.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
 #include "protocol/wire/impl/plain_line.hpp"
 
 namespace dripline::wire {

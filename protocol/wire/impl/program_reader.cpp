@@ -1,6 +1,6 @@
 #include "protocol/wire/impl/program_reader.hpp"
 
-#include "protocol/wire/impl/line_character.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
 #include "protocol/wire/impl/line_limits.hpp"
 
 namespace dripline::wire {

@@ -1,6 +1,6 @@
 #include "protocol/wire/impl/program_writer.hpp"
 
-#include "protocol/wire/impl/line_character.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
 
 namespace dripline::wire {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "protocol/wire/character_coder.hpp"
 #include "protocol/wire/impl/discipline_base.hpp"
-#include "protocol/wire/impl/protocols.hpp"
 #include "protocol/wire/impl/tape_reader_commands.hpp"
 #include "protocol/wire/tape_code.hpp"
 

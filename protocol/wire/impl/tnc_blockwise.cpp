@@ -5,7 +5,6 @@
 namespace dripline::wire {
 namespace {
 
-constexpr char kDc1 = 0x11;
 /// Longer than any sender's pause inside a block.
 constexpr LineTime kBlockSilence = std::chrono::seconds(1);
 /// After this time an answer is being withheld.

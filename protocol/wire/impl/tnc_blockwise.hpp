@@ -2,7 +2,6 @@
 
 #include "protocol/wire/impl/discipline_base.hpp"
 #include "protocol/wire/tnc_frames.hpp"
-#include "protocol/wire/tnc_program.hpp"
 
 namespace dripline::wire {
 

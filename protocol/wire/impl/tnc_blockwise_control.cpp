@@ -1,10 +1,9 @@
-#include "protocol/wire/impl/protocols.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
 #include "protocol/wire/impl/tnc_blockwise.hpp"
 
 namespace dripline::wire {
 namespace {
 
-constexpr char kDc1 = 0x11;
 constexpr std::size_t kMaxNumber = 8;
 constexpr std::string_view kNoneLeft = "the device has no program left";
 

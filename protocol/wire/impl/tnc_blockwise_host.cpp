@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "protocol/wire/impl/protocols.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
 #include "protocol/wire/impl/tnc_blockwise.hpp"
 
 namespace dripline::wire {

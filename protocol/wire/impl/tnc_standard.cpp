@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
-#include "protocol/wire/impl/protocols.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
 #include "protocol/wire/tape_code.hpp"
 #include "protocol/wire/tnc_frames.hpp"
 
 namespace dripline::wire {
 namespace {
 
-constexpr char kDc1 = 0x11, kDc3 = 0x13;
 constexpr std::size_t kSentHead = 40;  // enough of a line to see an END
 
 std::optional<LineTime> after(std::optional<std::chrono::milliseconds> limit, LineTime now) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "protocol/wire/impl/discipline_base.hpp"
-#include "protocol/wire/tnc_program.hpp"
+#include "protocol/wire/tnc_frames.hpp"
 
 namespace dripline::wire {
 

@@ -1,6 +1,6 @@
 #include "protocol/wire/impl/xmodem_line.hpp"
 
-#include "protocol/wire/impl/protocols.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
 
 /// The common part of both directions of XMODEM; see xmodem_sending.cpp and xmodem_receiving.cpp.
 namespace dripline::wire {

@@ -12,7 +12,6 @@
 
 #include "protocol/process/log.hpp"
 #include "server/api/impl/http_head.hpp"
-#include "server/api/impl/signal.hpp"
 #include "server/api/impl/transport.hpp"
 
 namespace dripline::api {

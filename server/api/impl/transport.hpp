@@ -1,12 +1,21 @@
 #pragma once
 
-#include <boost/asio/awaitable.hpp>
-#include <boost/asio/buffer.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/ssl/context.hpp>
 #include <chrono>
+#include <cstdint>
+#include <functional>
+#include <list>
 #include <memory>
 #include <string_view>
+#include <utility>
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
 
 namespace dripline::api {
 
@@ -36,5 +45,77 @@ class Transport {
 /// `tls` null: unencrypted.
 std::unique_ptr<Transport> make_transport(boost::asio::ip::tcp::socket socket,
                                           boost::asio::ssl::context* tls);
+
+/// Wakes a coroutine from other handlers of the same thread. It has one waiter.
+class Signal {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  explicit Signal(boost::asio::io_context& io) : timer_(io) {}
+  void set() {
+    is_set_ = true;
+    timer_.cancel();
+  }
+  /// True: the signal was set, and this wait resets it; false: `until` has passed.
+  boost::asio::awaitable<bool> wait(Time until = Time::max()) {
+    if (!is_set_) {
+      timer_.expires_at(until);
+      boost::system::error_code ignored;
+      co_await timer_.async_wait(boost::asio::redirect_error(boost::asio::use_awaitable, ignored));
+    }
+    co_return std::exchange(is_set_, false);
+  }
+
+ private:
+  boost::asio::steady_timer timer_;
+  bool is_set_ = false;
+};
+
+/// The memory that the request bodies of all connections may use together. On one thread.
+class BodyMemory {
+ public:
+  explicit BodyMemory(std::uint64_t limit) : left_(limit) {}
+
+  /// A share that is returned when it is destroyed.
+  class Share {
+   public:
+    Share() = default;
+    Share(BodyMemory& memory, std::uint64_t size) : memory_(&memory), size_(size) {}
+    Share(Share&& other) noexcept
+        : memory_(std::exchange(other.memory_, nullptr)), size_(other.size_) {}
+    Share& operator=(Share&& other) noexcept {
+      std::swap(memory_, other.memory_);
+      std::swap(size_, other.size_);
+      return *this;
+    }
+    ~Share() {
+      if (memory_ != nullptr) memory_->give_back(size_);
+    }
+
+   private:
+    BodyMemory* memory_ = nullptr;
+    std::uint64_t size_ = 0;
+  };
+
+  bool has(std::uint64_t size) const { return size <= left_; }
+  Share take(std::uint64_t size) {
+    left_ -= size;
+    return {*this, size};
+  }
+
+  /// `wake` is called whenever memory is returned, until it is removed.
+  using Waiter = std::list<std::function<void()>>::iterator;
+  Waiter wait(std::function<void()> wake) {
+    return waiters_.insert(waiters_.end(), std::move(wake));
+  }
+  void remove(Waiter waiter) { waiters_.erase(waiter); }
+
+ private:
+  void give_back(std::uint64_t size) {
+    left_ += size;
+    for (const auto& wake : waiters_) wake();
+  }
+  std::uint64_t left_;
+  std::list<std::function<void()>> waiters_;
+};
 
 }  // namespace dripline::api

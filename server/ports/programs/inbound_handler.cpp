@@ -1,10 +1,10 @@
 #include "server/ports/programs/inbound_handler.hpp"
 
 #include "gateway/interpreter/registry.hpp"
-#include "protocol/base/one_line.hpp"
+#include "protocol/base/utf8.hpp"
 #include "protocol/dds/message.hpp"
 #include "protocol/process/log.hpp"
-#include "server/library/control_words.hpp"
+#include "server/library/control_catalog.hpp"
 
 namespace dripline::ports {
 namespace {

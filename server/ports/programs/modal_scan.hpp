@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/core/text_form.hpp"
+#include "gateway/interpreter/core/dialect.hpp"
 #include "server/ports/programs/modal_codes.hpp"
 
 namespace dripline::ports {

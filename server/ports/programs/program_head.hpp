@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "server/machines/machine_control.hpp"
+#include "storage/store.hpp"
 
 namespace dripline::ports {
 
@@ -28,5 +32,17 @@ std::string program_number(std::string_view stored_name);
 /// Looks for a comment `(KEY)` or `(KEY=value)`, or `;KEY=value` to the end of its line. Letters of
 /// either case; blanks around key and value do not count. The value; empty when it has none.
 std::optional<std::string> find_trigger(std::string_view head, std::string_view key);
+
+/// A place in a program.
+struct ProgramPlace {
+  std::uint64_t byte = 0;
+  std::uint64_t line = 1;  ///< 1-based; the block that holds the byte
+};
+
+/// Finds where a run is to begin: reads stored content piece by piece, in bounded memory. Errors:
+/// NotFound (the program has no such byte, line or N number; names the last one there is), Corrupt,
+/// Io.
+Result<ProgramPlace> find_start(storage::ProgramStore& store, const storage::Run& run,
+                                const machines::StartPoint& from);
 
 }  // namespace dripline::ports

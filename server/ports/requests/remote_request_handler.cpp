@@ -11,7 +11,7 @@
 #include "gateway/interpreter/core/called_program_names.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
-#include "server/library/control_words.hpp"
+#include "server/library/control_catalog.hpp"
 #include "server/machines/start_point.hpp"
 #include "server/ports/line_runs.hpp"
 #include "server/ports/line_transfer.hpp"

@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "server/library/control_words.hpp"
-#include "server/ports/line_directory.hpp"
+#include "server/library/control_catalog.hpp"
 #include "server/ports/line_machines.hpp"
+#include "server/ports/line_records.hpp"
 #include "server/ports/requests/rule_set.hpp"
 
 namespace dripline::ports {

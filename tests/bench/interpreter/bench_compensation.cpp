@@ -3,7 +3,7 @@
 #include <string>
 
 #include "clients/tools/offline/offline_run.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 /// What the compensation stage costs a block: moves through it while it is off, and while it

@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 #include <chrono>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 /// Blocks per second of an interpreter that nothing holds up, and how that compares with merely

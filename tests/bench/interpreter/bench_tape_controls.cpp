@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 /// Straight blocks of the Tektronix 1704 and cutting events of the ProtoTRAK Plus, in proportion to

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 /// Straight blocks of the TNC 155 in both forms, in proportion to straight RS274/NGC blocks in the

@@ -7,7 +7,7 @@
 
 #include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "tests/differential/rs274ngc/peer.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clients/tools/offline/offline_run.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 
 /// The probing macros of deploy/macros on a simulated control and workpiece. The simulated probe
 /// has no ball: a surface is where the center of the ball would be when it touches.

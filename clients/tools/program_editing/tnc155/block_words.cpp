@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "gateway/interpreter/dialects/tnc155/reading/iso_codes.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/text_cursor.hpp"
 
 namespace dripline::program_editing {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clients/tools/program_editing/program_edit.hpp"
-#include "clients/tools/tnc_conversion/text_layout.hpp"
+#include "clients/tools/tnc_conversion/program_text.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"
 #include "protocol/base/result.hpp"
 

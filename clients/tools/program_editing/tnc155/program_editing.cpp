@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "clients/tools/program_editing/program_edit.hpp"
 #include "clients/tools/program_editing/tnc155/cut_program.hpp"
-#include "clients/tools/program_editing/tnc155/tnc_editor.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_end.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"

@@ -1,7 +1,6 @@
 #include "clients/tools/program_editing/tnc155/whole_program.hpp"
 
 #include "clients/tools/tnc_conversion/program_text.hpp"
-#include "clients/tools/tnc_conversion/text_layout.hpp"
 
 namespace dripline::program_editing {
 

@@ -2,9 +2,9 @@
 #include <map>
 #include <optional>
 
+#include "clients/tools/program_editing/program_edit.hpp"
 #include "clients/tools/program_editing/tnc155/block_words.hpp"
 #include "clients/tools/program_editing/tnc155/cut_program.hpp"
-#include "clients/tools/program_editing/tnc155/tnc_editor.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 
 /// Where straight lines and circles without ends meet. Give coordinates relative to a point near
 /// by: far-off ones cost digits. Curves that only just miss each other, by rounding, touch.

@@ -1,4 +1,5 @@
-#include "gateway/interpreter/dialects/centurion/dialect.hpp"
+#include "gateway/interpreter/dialects/centurion/options.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

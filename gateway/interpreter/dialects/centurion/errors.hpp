@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "gateway/interpreter/core/diagnostic.hpp"
+#include "gateway/interpreter/core/event.hpp"
 
 /// The errors of this control with its own numbers (manual: appendix), and from 1001 on those that
 /// only this software has. The ids are stable: CEN0549 is the control's error 549.

@@ -5,7 +5,7 @@
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
-#include "gateway/interpreter/dialects/centurion/start/dry_run.hpp"
+#include "gateway/interpreter/dialects/centurion/start/start_search.hpp"
 
 namespace dripline::interpreter::centurion {
 

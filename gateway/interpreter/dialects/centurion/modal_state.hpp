@@ -9,7 +9,7 @@
 #include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/pattern.hpp"
-#include "gateway/interpreter/dialects/centurion/motion/transformation.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
 
 /// Everything that stays from one block to the next. Lengths are in program units (`units` says

@@ -4,7 +4,6 @@
 
 #include "gateway/interpreter/core/option_rows.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
-#include "gateway/interpreter/dialects/centurion/dialect.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/panel_tables.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
@@ -69,5 +70,8 @@ struct ControlOptions {
 /// Reads the options. Errors: Syntax, Unsupported (an option this control does not have, or has
 /// but this version does not honor).
 Result<ControlOptions> read_options(const Setup& setup);
+
+/// The rows of its options, for people.
+std::vector<ListedOption> list_options();
 
 }  // namespace dripline::interpreter::centurion

@@ -1,4 +1,5 @@
-#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/dialects/fanuc/options.hpp"
 
 #include <algorithm>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "gateway/interpreter/core/diagnostic.hpp"
+#include "gateway/interpreter/core/event.hpp"
 
 /// The alarms of this control with its own numbers and wording, and ours; and the warnings.
 namespace dripline::interpreter::fanuc {

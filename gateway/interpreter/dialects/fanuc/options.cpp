@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gateway/interpreter/core/option_rows.hpp"
-#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

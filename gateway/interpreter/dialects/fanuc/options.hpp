@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/fanuc/state.hpp"
 
@@ -83,5 +84,8 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Moda
 
 /// The G codes that power on and reset put in force; units, work system and cycle data aside.
 void apply_start_codes(const ControlOptions& options, ModalState& state);
+
+/// The rows of its options, for people.
+std::vector<ListedOption> list_options();
 
 }  // namespace dripline::interpreter::fanuc

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "gateway/interpreter/dialects/prototrak/program_event.hpp"
+#include "gateway/interpreter/dialects/prototrak/event_list.hpp"
 
 namespace dripline::interpreter::prototrak {
 

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/prototrak/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
 
 #include <algorithm>
 #include <string>

@@ -7,8 +7,7 @@
 #include "gateway/interpreter/core/language/loop_guard.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/prototrak/contour.hpp"
-#include "gateway/interpreter/dialects/prototrak/diagnostics.hpp"
-#include "gateway/interpreter/dialects/prototrak/program_event.hpp"
+#include "gateway/interpreter/dialects/prototrak/event_list.hpp"
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 namespace dripline::interpreter::prototrak {

@@ -6,11 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/core/diagnostic.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/language/line_reader.hpp"
 #include "gateway/interpreter/core/language/word_ledger.hpp"
-#include "gateway/interpreter/dialects/prototrak/diagnostics.hpp"
-#include "gateway/interpreter/dialects/prototrak/program_event.hpp"
+#include "gateway/interpreter/dialects/prototrak/event_list.hpp"
 #include "gateway/interpreter/dialects/prototrak/words.hpp"
 
 namespace dripline::interpreter::prototrak {

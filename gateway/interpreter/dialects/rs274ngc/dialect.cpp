@@ -1,11 +1,12 @@
-#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/options.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <string>
 
 #include "gateway/interpreter/dialects/rs274ngc/interpreter.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 namespace dripline::interpreter {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "gateway/interpreter/core/diagnostic.hpp"
+#include "gateway/interpreter/core/event.hpp"
 
 /// What this control calls an error. The texts are the reference interpreter's, without what they
 /// name; NGC0217 is its error 217 where it has one.

@@ -7,7 +7,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/execution/execution.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/splines.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "gateway/interpreter/core/option_rows.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/retained_memory.hpp"
 
 namespace dripline::interpreter::rs274ngc {

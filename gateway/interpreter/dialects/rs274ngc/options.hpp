@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/codes.hpp"
@@ -50,5 +51,8 @@ Result<ControlOptions> read_options(const Setup& setup);
 /// setup. Errors: Unsupported, naming the record that this control does not have.
 Result<void> load_memory(const Setup& setup, const ControlOptions& options, State& state,
                          Parameters& parameters, std::vector<Tool>& tools);
+
+/// The rows of its options, for people.
+std::vector<ListedOption> list_options();
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -1,4 +1,5 @@
-#include "gateway/interpreter/dialects/tektronix1704/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/dialects/tektronix1704/options.hpp"
 
 #include <algorithm>
 #include <string>

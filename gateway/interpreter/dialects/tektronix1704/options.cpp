@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "gateway/interpreter/core/option_rows.hpp"
-#include "gateway/interpreter/dialects/tektronix1704/dialect.hpp"
 
 namespace dripline::interpreter::tektronix1704 {
 namespace {

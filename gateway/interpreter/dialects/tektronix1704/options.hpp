@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "protocol/base/result.hpp"
 
@@ -80,5 +81,8 @@ struct ControlOptions {
 
 /// Errors: Syntax, Unsupported, naming the option.
 Result<ControlOptions> read_options(const Setup& setup);
+
+/// The rows of its options, for people.
+std::vector<ListedOption> list_options();
 
 }  // namespace dripline::interpreter::tektronix1704

@@ -1,4 +1,5 @@
-#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/dialects/tnc155/options.hpp"
 
 #include <string>
 
@@ -27,7 +28,7 @@ Result<void> load_datum(const Setup& setup, State& state) {
   return {};
 }
 
-/// datum.C: as the control kept it (retained_memory.cpp).
+/// datum.C: as the control kept it (program_memory.cpp).
 bool load_datum_cell(const VariableRecord& variable, State& state) {
   for (const Axis axis : kAllAxes) {
     const auto i = static_cast<std::size_t>(axis);

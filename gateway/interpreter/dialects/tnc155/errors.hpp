@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "gateway/interpreter/core/diagnostic.hpp"
+#include "gateway/interpreter/core/event.hpp"
 
 /// The errors of this control. It has texts and no numbers, so the ids are ours and stable; texts
 /// that are not in its manual are marked in the table.

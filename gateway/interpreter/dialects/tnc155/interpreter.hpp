@@ -1,7 +1,6 @@
 #pragma once
 
 #include "gateway/interpreter/core/retained_memory.hpp"
-#include "gateway/interpreter/dialects/tnc155/execution/ahead_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/run.hpp"

@@ -5,7 +5,6 @@
 #include <charconv>
 
 #include "gateway/interpreter/core/option_rows.hpp"
-#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"

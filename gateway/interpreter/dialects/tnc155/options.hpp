@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
 
@@ -72,5 +73,8 @@ Result<ControlOptions> read_options(const Setup& setup);
 
 /// `decimal_sign` alone, of options that may be another control's besides. Errors: Syntax.
 Result<char> decimal_sign_of(const Options& options);
+
+/// The rows of its options, for people.
+std::vector<ListedOption> list_options();
 
 }  // namespace dripline::interpreter::tnc155

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gateway/interpreter/core/block_interpreter.hpp"
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/tnc155/cycles/cycle_state.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/transformation.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"

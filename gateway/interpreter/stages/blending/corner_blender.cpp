@@ -3,7 +3,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "gateway/interpreter/stages/blending/impl/blend.hpp"
+#include "gateway/interpreter/stages/blending/impl/corner.hpp"
 #include "gateway/interpreter/stages/blending/impl/path_writer.hpp"
 
 namespace dripline::interpreter::blending {

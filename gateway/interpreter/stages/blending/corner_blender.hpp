@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "gateway/interpreter/stages/blending/fault.hpp"
 #include "gateway/interpreter/stages/blending/impl/corner.hpp"
 #include "gateway/interpreter/stages/blending/impl/state.hpp"
 #include "gateway/interpreter/stages/blending/policy.hpp"

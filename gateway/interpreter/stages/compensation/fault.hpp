@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "gateway/interpreter/stages/look_ahead/contour_fault.hpp"
+#include "gateway/interpreter/stages/look_ahead/look_ahead_stage.hpp"
 
 namespace dripline::interpreter::compensation {
 

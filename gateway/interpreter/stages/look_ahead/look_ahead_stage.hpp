@@ -7,14 +7,25 @@
 #include <variant>
 #include <vector>
 
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
-#include "gateway/interpreter/stages/compensation/compensation_sink.hpp"
-#include "gateway/interpreter/stages/look_ahead/contour_fault.hpp"
+#include "gateway/interpreter/stages/compensation/policy.hpp"
 #include "gateway/interpreter/stages/look_ahead/held_events.hpp"
 #include "protocol/base/result.hpp"
+#include "protocol/base/units.hpp"
 
 namespace dripline::interpreter::look_ahead {
+
+/// The rule that a contour breaks, one of the stage's `Kind`s, and where.
+template <class Kind>
+struct ContourFault {
+  Kind kind{};
+  Origin origin{};            ///< the element that cannot be carried out
+  Origin next{};              ///< the element that showed it; the same one where no other took part
+  Length value{}, limit{};    ///< `Kind` states what they are
+  bool first_is_arc = false;  ///< the element before the corner
+  bool next_is_arc = false;   ///< the element after it
+};
 
 /// More than the state of any stage takes.
 inline constexpr std::size_t kMaxStateBytes = 64 * 1024;

@@ -1,4 +1,4 @@
-#include "clients/cli/server/program_folder.hpp"
+#include "clients/cli/offline/offline_program.hpp"
 
 #include <gtest/gtest.h>
 #include <fstream>

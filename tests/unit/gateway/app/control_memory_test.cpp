@@ -3,10 +3,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/centurion/dialect.hpp"
-#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
-#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
 #include "storage/sqlite/database.hpp"
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
 

@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/centurion/dialect.hpp"
-#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
-#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 /// Where tools are changed by hand the machine waits, and the operator is shown which tool.

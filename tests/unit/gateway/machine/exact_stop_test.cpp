@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "tests/unit/gateway/machine/test_machine.hpp"
 

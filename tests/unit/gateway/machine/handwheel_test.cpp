@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/core/override_inhibit.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "tests/unit/gateway/machine/test_machine.hpp"
 
 /// A program driven by the handwheel. Row: CEN-224.

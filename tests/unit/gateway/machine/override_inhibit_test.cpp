@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/core/override_inhibit.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "tests/unit/gateway/machine/test_machine.hpp"
 
 /// What a program keeps the operator's hands off: G63, tapping cycles, threads.

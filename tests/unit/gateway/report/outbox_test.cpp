@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "gateway/report/outbox_schema.hpp"
-#include "storage/sqlite/migration.hpp"
+#include "storage/sqlite/transaction.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::report {

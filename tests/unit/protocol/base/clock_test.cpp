@@ -1,9 +1,21 @@
-#include "protocol/base/clock.hpp"
-
 #include <gtest/gtest.h>
 
+#include "protocol/base/clock.hpp"
+
 namespace dripline {
+
 namespace {
+
+TEST(RateLimit, LetsABurstPassAndCountsTheRest) {
+  RateLimit limit(2, std::chrono::seconds(10));
+  const RateLimit::Time start{};
+  EXPECT_EQ(limit.pass(start), 0u);
+  EXPECT_EQ(limit.pass(start), 0u);
+  EXPECT_EQ(limit.pass(start), std::nullopt);
+  EXPECT_EQ(limit.pass(start + std::chrono::seconds(9)), std::nullopt);
+  EXPECT_EQ(limit.pass(start + std::chrono::seconds(10)), 2u);
+  EXPECT_EQ(limit.pass(start + std::chrono::seconds(10)), 0u);
+}
 
 UtcTime at(std::int64_t microseconds) {
   return UtcTime{std::chrono::microseconds{microseconds}};
@@ -21,4 +33,5 @@ TEST(ToIso8601, TakesEveryTimeThatAMessageCanHold) {
 }
 
 }  // namespace
+
 }  // namespace dripline

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "protocol/base/crc32.hpp"
-
 namespace dripline {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "protocol/base/file_lock.hpp"
+#include "protocol/base/descriptor.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

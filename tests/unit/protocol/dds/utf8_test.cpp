@@ -1,4 +1,4 @@
-#include "protocol/dds/impl/utf8.hpp"
+#include "protocol/dds/impl/check.hpp"
 
 #include <gtest/gtest.h>
 

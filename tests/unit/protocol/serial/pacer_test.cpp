@@ -1,4 +1,4 @@
-#include "protocol/serial/impl/pacer.hpp"
+#include "protocol/serial/impl/command_queue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 
 #include "server/api/api.hpp"
 #include "tests/unit/server/api/fake_machines.hpp"
-#include "tests/unit/server/api/fake_ports.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
 namespace dripline::server_test {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "server/machines/machine_control.hpp"
+#include "server/ports/port_control.hpp"
 
 namespace dripline::server_test {
 
@@ -33,6 +35,81 @@ class FakeMachines final : public machines::MachineControl {
   std::vector<machines::CommandRequest> commands;
   std::optional<Error> refusal;
   storage::Run run;
+};
+
+/// Ports that a test fills; nothing is opened.
+class FakePorts final : public ports::PortControl {
+ public:
+  std::vector<ports::PortView> ports() const override { return views; }
+  Result<ports::PortView> port(const std::string& name) const override {
+    const auto found = std::ranges::find_if(
+        views, [&](const ports::PortView& view) { return view.port.name == name; });
+    if (found == views.end()) return fail(Errc::NotFound, "port '{}' is not known", name);
+    return *found;
+  }
+  Result<ports::PortView> save(const storage::Port& port) override {
+    if (refusal) return fail(*refusal);
+    std::erase_if(views, [&](const auto& view) { return view.port.name == port.name; });
+    ports::PortView view;
+    view.port = port;
+    for (const auto& [key, value] : port.settings) {
+      if (auto set = wire::set_value(view.settings, key, value); !set) return fail(set.error());
+    }
+    views.push_back(view);
+    return view;
+  }
+  Result<void> remove(const std::string& name) override {
+    if (refusal) return fail(*refusal);
+    if (auto known = port(name); !known) return fail(known.error());
+    std::erase_if(views, [&](const auto& view) { return view.port.name == name; });
+    return {};
+  }
+  Result<ports::PortTest> test(const std::string& name) override {
+    if (auto known = port(name); !known) return fail(known.error());
+    return ports::PortTest{false, {"CTS is off: is the cable plugged in?"}};
+  }
+  Result<ports::PortTransfer> send(const std::string& name,
+                                   const std::vector<ports::ProgramChoice>& programs) override {
+    if (refusal) return fail(*refusal);
+    if (auto known = port(name); !known) return fail(known.error());
+    ports::PortTransfer transfer{.id = "transfer-1", .size = 100};
+    for (const auto& choice : programs) {
+      transfer.programs.push_back(
+          fmt::format("{} revision {}", choice.program, choice.revision.value_or(1)));
+    }
+    return transfer;
+  }
+  Result<void> receive(const std::string& name) override {
+    if (refusal) return fail(*refusal);
+    if (auto known = port(name); !known) return fail(known.error());
+    return {};
+  }
+  Result<void> stop_transfer(const std::string& name, const std::string& reason) override {
+    if (refusal) return fail(*refusal);
+    if (auto known = port(name); !known) return fail(known.error());
+    stop_reason = reason;
+    return {};
+  }
+  Result<ports::RuleVerdict> test_rules(const std::string& name,
+                                        const std::string& text) const override {
+    if (auto known = port(name); !known) return fail(known.error());
+    tested_text = text;
+    return ports::RuleVerdict{"ask", "send", "O1234", {"ask: PRG=1234 fits (PRG=*)"}};
+  }
+  Result<std::vector<ports::PortTraffic>> recording(const std::string& name) const override {
+    if (auto known = port(name); !known) return fail(known.error());
+    return traffic;
+  }
+  void on_traffic(std::function<void(const ports::PortTraffic&)> wanted) override {
+    listener = std::move(wanted);
+  }
+
+  std::vector<ports::PortView> views;
+  std::vector<ports::PortTraffic> traffic;
+  std::function<void(const ports::PortTraffic&)> listener;
+  std::optional<Error> refusal;
+  std::string stop_reason;
+  mutable std::string tested_text;
 };
 
 }  // namespace dripline::server_test

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "server/api/api.hpp"
 #include "server/api/http_address.hpp"
-#include "server/api/token.hpp"
 
 namespace dripline::api {
 namespace {

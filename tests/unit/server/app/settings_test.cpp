@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "protocol/base/state_location.hpp"
+#include "protocol/base/private_folder.hpp"
 #include "server/app/server.hpp"
 #include "server/app/state_folder.hpp"
 #include "tests/support/temporary_folder.hpp"

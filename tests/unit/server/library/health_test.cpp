@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "server/library/health_watch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 

@@ -1,5 +1,5 @@
 // How program text gets to the gateways.
-#include "server/machines/called_programs.hpp"
+#include "server/machines/control_memory.hpp"
 #include "tests/support/store_decorator.hpp"
 #include "tests/unit/server/machines/machine_fixture.hpp"
 

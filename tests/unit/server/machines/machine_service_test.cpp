@@ -1,5 +1,5 @@
 // Starting runs, ordering, and bringing stored states and machines together.
-#include "server/machines/machine_notices.hpp"
+#include "server/machines/machine_registry.hpp"
 #include "tests/support/store_decorator.hpp"
 #include "tests/unit/server/machines/machine_fixture.hpp"
 

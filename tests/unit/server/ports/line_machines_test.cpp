@@ -1,4 +1,4 @@
-#include "server/ports/machine_router.hpp"
+#include "server/ports/line_machines.hpp"
 #include "tests/unit/server/api/fake_machines.hpp"
 #include "tests/unit/server/ports/port_fixture.hpp"
 

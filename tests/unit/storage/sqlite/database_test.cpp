@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "storage/sqlite/migration.hpp"
 #include "storage/sqlite/transaction.hpp"
-#include "tests/unit/storage/temporary_directory.hpp"
+#include "tests/unit/storage/store_fixture.hpp"
 
 namespace dripline::storage::sqlite {
 namespace {

@@ -8,7 +8,7 @@ namespace dripline::interpreter::centurion {
 /// of a probe move it is called again.
 bool execute_block(Run& run);
 
-// Steps of it; in g_functions.cpp.
+// Steps of it.
 /// The G codes, F and S of the block, before anything moves.
 bool apply_modes(Run& run);
 /// The dwell, G12 and G45 to G48, in the order written.

@@ -2,7 +2,7 @@
 
 #include "gateway/interpreter/dialects/centurion/codes/modes.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/block_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"

@@ -35,7 +35,7 @@ bool end_scaling(Run& run, const GRow& row);
 bool end_rotation(Run& run, const GRow& row);
 
 /// G990 keeps L user parameters from P on in file Q of the control, G991 restores them; defaults:
-/// P0, L10, Q0 (memory/parameter_files.cpp).
+/// P0, L10, Q0 (memory/pins.cpp).
 bool save_parameters(Run& run, const GRow& row);
 bool load_parameters(Run& run, const GRow& row);
 /// G995: P0 = PB[P1]; G996: PB[P1] = P0.

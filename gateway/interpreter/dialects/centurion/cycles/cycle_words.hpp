@@ -4,6 +4,9 @@
 
 /// The words of the drilling and grooving cycles, and what they leave for the next cycle: a
 /// word that a block does not have keeps its value of an earlier cycle (manual: data of a cycle).
+
+/// The cycles of one block without threads. Every word is checked before anything moves.
+
 namespace dripline::interpreter::centurion {
 
 /// P116-P148 as these cycles use them. Positions are work coordinates as programmed (X a diameter),
@@ -36,5 +39,17 @@ bool cycle_dwell_word(Run& run, double& seconds);
 
 /// F of this block, of an earlier cycle, or the feed in force. Errors: 519.
 bool cycle_feed_word(Run& run, Feed& feed);
+
+/// G90, cycle A: in along X, cut to the end, out along X, back to the start point (manual: G90).
+bool cut_turning_box(Run& run);
+/// G94, cycle B: in along Z, cut to the end, out along Z, back to the start point (manual: G94).
+bool cut_facing_box(Run& run);
+
+/// G81-G86 and G89 (manual): at the tool's X, along Z. One-shot: the next block does not repeat
+/// them. Errors: 517, 518, 519, 520, 539, CycleTooLong.
+bool run_drilling_cycle(Run& run);
+/// G74 (grooves in a face, high-speed pecks) and G75 (grooves in a diameter): the same cycle along
+/// Z and along X. Errors: 517, 519, CycleTooLong.
+bool run_groove_cycle(Run& run);
 
 }  // namespace dripline::interpreter::centurion

@@ -1,4 +1,3 @@
-#include "gateway/interpreter/dialects/centurion/cycles/block_cycles.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>

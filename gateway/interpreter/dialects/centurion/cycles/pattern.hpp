@@ -4,12 +4,19 @@
 #include <vector>
 
 #include "gateway/interpreter/core/event.hpp"
-#include "gateway/interpreter/dialects/centurion/compensation/plane_point.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
 
 /// What the cycles that follow a pattern (G70-G73) keep from block to block. It is part of the
 /// run's state, so a cycle resumes from any snapshot.
+
 namespace dripline::interpreter::centurion {
+
+/// X is a radius.
+struct Point {
+  double x = 0;
+  double z = 0;
+  friend bool operator==(const Point&, const Point&) = default;
+};
 
 /// The moves of one pattern, so that no pass of a cycle makes more moves than a machine queues.
 inline constexpr std::size_t kMaxPatternMoves = 500;

@@ -13,7 +13,7 @@ namespace dripline::interpreter::centurion {
 /// G70-G73: takes the block's words; the jump to the pattern follows the block.
 bool plan_pattern_cycle(Run& run);
 
-/// Reads the words of the block into `cycle` and P110-P119 (pattern_words.cpp). False: an alarm.
+/// Reads the words of the block into `cycle` and P110-P119 (pattern_recorder.cpp). False: an alarm.
 bool read_pattern_words(Run& run, PatternCycle& cycle, std::uint32_t& first_label);
 
 /// Takes the jump to the pattern: both its ends are found.

@@ -6,6 +6,10 @@
 
 /// Threads (manual: G32, G34 to G36; G92; G76): single lines (G32, G34-G36), cycle 1 (G92), the
 /// multiple cycle (G76). The lead is along the path; F and E of these blocks never change the feed.
+
+/// The words and parameters of a thread, shared by lines and cycles. Each reader keeps the value
+/// where programs find it (P101-P108, P123-P125) and returns false with an alarm.
+
 namespace dripline::interpreter::centurion {
 
 /// F and E of the block are the lead of a thread.
@@ -20,5 +24,33 @@ bool thread_to(Run& run, const Target& target, const std::optional<ThreadArc>& a
 bool cut_single_thread(Run& run);
 /// G76: all passes are made in this one block, up to 400.
 bool cut_multiple_thread(Run& run);
+
+struct Lead {
+  double length = 0;            ///< per revolution, program units
+  std::optional<double> shift;  ///< degrees; absent without Q
+};
+bool read_lead(Run& run, Lead& lead);
+
+/// A word, or else what an earlier cycle left in parameter `number`.
+double word_or_parameter(Run& run, Address address, int number);
+
+/// The pull-out at the end of a thread: P103 long, P104 degrees from straight out (manual: G92).
+struct ThreadChamfer {
+  double along = 0;  ///< before the end, toward the start
+  double out = 0;
+};
+bool read_chamfer(Run& run, ThreadChamfer& chamfer);
+
+/// One pass: in at rapid, along the thread, out, and back to where the cycle began.
+struct ThreadPass {
+  Point start;     ///< of the cycle
+  Point cut_from;  ///< where the thread begins
+  Point cut_to;    ///< where it ends without the pull-out
+};
+bool check_pass(Run& run, const ThreadPass& pass, const ThreadChamfer& chamfer);
+void cut_pass(Run& run, const ThreadPass& pass, const ThreadChamfer& chamfer, const Lead& lead);
+
+/// Reads the end point of a cycle, which needs both of its words.
+bool read_cycle_target(Run& run, Target& target);
 
 }  // namespace dripline::interpreter::centurion

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/core/panel_tables.hpp"
+#include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "protocol/base/result.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/characters.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/keywords.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

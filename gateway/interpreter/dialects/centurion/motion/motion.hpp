@@ -38,10 +38,10 @@ void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed);
 void machine_rapid_to(Run& run, const Point& machine, AxesNamed named);
 void machine_feed_to(Run& run, const Point& machine, AxesNamed named);
 
-/// G2, G3; in arc_words.cpp.
+/// G2, G3; in arcs.cpp.
 bool move_on_arc(Run& run);
 
-// Shared by motion.cpp, arc_words.cpp and the cycles.
+// Shared by motion.cpp, arcs.cpp and the cycles.
 inline constexpr AxesNamed kBothAxes{true, true};
 bool check_target(Run& run, const Point& to);
 bool check_feed(Run& run);

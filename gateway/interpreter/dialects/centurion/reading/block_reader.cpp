@@ -8,7 +8,7 @@
 #include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/number.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 
 namespace dripline::interpreter::centurion {

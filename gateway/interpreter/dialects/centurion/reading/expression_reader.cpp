@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/number.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

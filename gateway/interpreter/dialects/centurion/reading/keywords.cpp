@@ -3,7 +3,6 @@
 #include <array>
 
 #include "gateway/interpreter/core/language/spelling.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/characters.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -3,9 +3,13 @@
 #include <cstdint>
 #include <string_view>
 
-#include "gateway/interpreter/core/language/function.hpp"
+#include "gateway/interpreter/core/language/spelling.hpp"
 
 /// The words of several letters; blanks inside them mean nothing (manual: addresses and keywords).
+
+/// The characters of this control: a block ends with CR, LF or CR LF; blanks carry no information;
+/// letters may be small or capital. (Manual, section 1.4.)
+
 namespace dripline::interpreter::centurion {
 
 enum class Keyword : std::uint8_t {
@@ -48,5 +52,30 @@ Keyword take_keyword(const char*& at);
 Function take_function(const char*& at);
 /// The operator at `at` and where it ends; None when the text continues with something else.
 language::Operator operator_at(const char* at, const char*& after);
+
+using language::CharKind;
+using language::is_digit;
+using language::upper;
+
+inline constexpr language::CharKinds kCharKinds = [] {
+  auto kinds = language::printable_characters();
+  kinds[' '] = kinds['\t'] = CharKind::Blank;
+  kinds['\r'] = kinds['\n'] = CharKind::EndOfBlock;
+  return kinds;
+}();
+
+constexpr CharKind kind_of(char c) {
+  return kCharKinds[static_cast<unsigned char>(c)];
+}
+constexpr bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+constexpr bool is_end_of_block(char c) {
+  return c == '\n' || c == '\r';
+}
+inline const char* skip_blanks(const char* at) {
+  while (is_blank(*at)) ++at;
+  return at;
+}
 
 }  // namespace dripline::interpreter::centurion

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "gateway/interpreter/dialects/centurion/reading/characters.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/keywords.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "gateway/interpreter/dialects/centurion/reading/keywords.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/number.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

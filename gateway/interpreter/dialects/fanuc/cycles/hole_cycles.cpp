@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/core/override_inhibit.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 

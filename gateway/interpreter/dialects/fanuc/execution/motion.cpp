@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <bit>
 
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {

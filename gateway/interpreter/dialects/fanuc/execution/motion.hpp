@@ -55,7 +55,7 @@ inline void arrive(Run& run, const Position& to) {
 Position point_on_arc(const Arc& arc, const Position& from, double degrees);
 
 /// G27 to G30, by the block's one-shot code: reference points, which are machine coordinates;
-/// reference.cpp.
+/// coordinates.cpp.
 bool execute_reference(Run& run);
 
 }  // namespace dripline::interpreter::fanuc

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "gateway/interpreter/core/language/spelling.hpp"
-#include "gateway/interpreter/dialects/fanuc/reading/characters.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

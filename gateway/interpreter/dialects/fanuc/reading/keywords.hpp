@@ -3,9 +3,14 @@
 #include <cstdint>
 #include <string_view>
 
-#include "gateway/interpreter/core/language/function.hpp"
+#include "gateway/interpreter/core/language/spelling.hpp"
 
 /// The words of custom macro B. Capitals or not; blanks within mean nothing.
+
+/// What each byte of a program may be, as one table. A block ends with LF (and with a semicolon,
+/// by option); CR, blanks, NUL and DEL of punched tapes mean nothing outside comments, so that
+/// LF, CR LF and LF CR CR all end a block.
+
 namespace dripline::interpreter::fanuc {
 
 enum class Keyword : std::uint8_t {
@@ -32,5 +37,32 @@ Keyword take_keyword(const char*& at);
 Function take_function(const char*& at);
 /// The operator at `at`, and where it ends.
 language::Operator operator_at(const char* at, const char*& after);
+
+using language::CharKind;
+using language::is_digit;
+using language::upper;
+
+inline constexpr language::CharKinds kCharKinds = [] {
+  auto kinds = language::printable_characters();
+  kinds[' '] = kinds['\t'] = kinds['\r'] = kinds[0] = kinds[0x7F] = CharKind::Blank;
+  kinds['\n'] = CharKind::EndOfBlock;
+  kinds['#'] = CharKind::Hash;
+  return kinds;
+}();
+
+constexpr CharKind kind_of(char c) {
+  return kCharKinds[static_cast<unsigned char>(c)];
+}
+constexpr bool is_blank(char c) {
+  return kind_of(c) == CharKind::Blank;
+}
+constexpr bool is_letter(char c) {
+  return kind_of(c) == CharKind::Letter;
+}
+/// The text must end with a LF.
+inline const char* skip_blanks(const char* at) {
+  while (is_blank(*at)) ++at;
+  return at;
+}
 
 }  // namespace dripline::interpreter::fanuc

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gateway/interpreter/core/language/line_window.hpp"
-#include "gateway/interpreter/dialects/fanuc/reading/characters.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/keywords.hpp"
 
 namespace dripline::interpreter::fanuc {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/compensation/compensation_paths.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/tool_table.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/compensation/compensation_paths.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 
 /// The later program holds the last move back until it knows the next: inside corners are trimmed

@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/rs274ngc/compensation/compensation_paths.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 
 /// The NIST program compensates line by line: convex corners get an arc, concave ones are refused
 /// (NIST appendix B).

@@ -3,9 +3,8 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/core/override_inhibit.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/cycles/cycle_table.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/motion.hpp"

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/core/override_inhibit.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/motion.hpp"

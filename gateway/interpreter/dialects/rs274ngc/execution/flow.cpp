@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
 /// Straight moves, arcs and probing, and how all moves reach the sink (NIST 3.5).

@@ -5,8 +5,8 @@
 #include "gateway/interpreter/dialects/rs274ngc/execution/flow.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 /// Flow: sub, call, return, and M98 with M99.
 namespace dripline::interpreter::rs274ngc {

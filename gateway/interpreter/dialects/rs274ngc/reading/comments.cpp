@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {

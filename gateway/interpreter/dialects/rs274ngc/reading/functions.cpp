@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {

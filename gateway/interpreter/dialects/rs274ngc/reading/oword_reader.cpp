@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {

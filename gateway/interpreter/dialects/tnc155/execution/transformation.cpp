@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {

@@ -2,7 +2,7 @@
 #include <deque>
 #include <set>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/program_memory.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/core/memory_verdict.hpp"
+#include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"

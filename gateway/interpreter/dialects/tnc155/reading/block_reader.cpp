@@ -7,7 +7,7 @@
 
 #include "gateway/interpreter/dialects/tnc155/reading/block_end.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/version_check.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/word_check.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {

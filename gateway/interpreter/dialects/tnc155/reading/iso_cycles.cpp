@@ -5,7 +5,7 @@
 #include <array>
 
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
 namespace dripline::interpreter::tnc155 {

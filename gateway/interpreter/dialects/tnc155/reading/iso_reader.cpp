@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 #include <string_view>
 
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_codes.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
 namespace dripline::interpreter::tnc155 {

@@ -2,7 +2,6 @@
 #include <bit>
 #include <utility>
 
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/plain_parts.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
 namespace dripline::interpreter::tnc155::plain {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "gateway/interpreter/dialects/tnc155/reading/plain_parts.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
 namespace dripline::interpreter::tnc155::plain {

@@ -1,6 +1,5 @@
 #include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 
-#include "gateway/interpreter/dialects/tnc155/reading/plain_parts.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
 namespace dripline::interpreter::tnc155 {

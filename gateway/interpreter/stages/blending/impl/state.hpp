@@ -27,7 +27,7 @@ struct CornerPlace {
 
 using Held = look_ahead::HeldEvents<compensation::Command, UncountedEnd, CornerPlace>;
 
-/// Everything that decides the rest of the path; `visit_state` (state_bytes.cpp) lists the
+/// Everything that decides the rest of the path; `visit_state` (state.cpp) lists the
 /// members: add new ones there too.
 struct State : look_ahead::StageState<Element, Held> {
   static constexpr std::string_view kName = "blending";

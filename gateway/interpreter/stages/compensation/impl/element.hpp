@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/stages/compensation/policy.hpp"
 
 /// Raw doubles inside this folder: millimeters and radians in the compensated plane. They

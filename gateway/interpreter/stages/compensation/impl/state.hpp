@@ -16,7 +16,7 @@ enum class Phase : std::uint8_t {
 };
 
 /// Everything that decides the rest of the path, in a few fixed kilobytes; `visit_state`
-/// (state_bytes.cpp) lists the members: add new ones there too.
+/// (state.cpp) lists the members: add new ones there too.
 struct State : look_ahead::StageState<Element, look_ahead::HeldEvents<>> {
   static constexpr std::string_view kName = "compensation";
 

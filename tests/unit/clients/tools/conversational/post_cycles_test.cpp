@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/unit/clients/tools/conversational/posted.hpp"
+#include "tests/unit/clients/tools/conversational/posted_run.hpp"
 
 namespace dripline::conversational {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/tools/conversational/catalog.hpp"
-#include "tests/unit/clients/tools/conversational/posted.hpp"
+#include "tests/unit/clients/tools/conversational/posted_run.hpp"
 
 namespace dripline::conversational {
 namespace {

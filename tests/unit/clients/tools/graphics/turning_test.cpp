@@ -5,7 +5,7 @@
 
 #include "clients/tools/graphics/turned_views.hpp"
 #include "clients/tools/offline/offline_run.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 /// Turned parts: CEN-227. Volumes are those of the bodies that geometry books have.

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "clients/tools/graphics/hardcopy.hpp"
+#include "clients/tools/graphics/picture.hpp"
 #include "clients/tools/graphics/views.hpp"
 
 // Rows: HD-200 (3D view), HD-201 (three planes), HD-202 (plan views), HD-206 (hardcopy).

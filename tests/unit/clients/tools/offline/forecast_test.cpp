@@ -5,7 +5,7 @@
 #include <string>
 
 #include "clients/tools/offline/offline_run.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 /// Reader limitation, on any line. Rows: TK-52, TK-53.

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gateway/interpreter/core/language/line_reader.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 namespace dripline::interpreter {

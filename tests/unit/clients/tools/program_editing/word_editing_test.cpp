@@ -1,9 +1,9 @@
 // HD-062, HD-064, HD-065: searching by address; words with new values, left out, shortened blocks.
 #include <gtest/gtest.h>
 
+#include "clients/tools/program_editing/program_edit.hpp"
 #include "clients/tools/program_editing/tnc155/block_words.hpp"
 #include "clients/tools/program_editing/tnc155/cut_program.hpp"
-#include "clients/tools/program_editing/tnc155/tnc_editor.hpp"
 #include "tests/golden/golden_case.hpp"
 
 namespace dripline::program_editing {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "clients/tools/tnc_conversion/text_layout.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "clients/tools/tnc_conversion/program_text.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 
 namespace dripline::tnc_conversion {
 

@@ -3,7 +3,7 @@
 
 #include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/core/language/loop_guard.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 /// Programs that repeat without end. Rows: FAN-062, NGC-088.

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "tests/unit/gateway/interpreter/core/chunked_source.hpp"
 
 namespace dripline::interpreter {

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
-#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
 #include "tests/support/program_run.hpp"
 
 /// What the programs of the milling controls keep the operator's hands off; the lathe's are in

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "tests/support/event_log.hpp"
 #include "tests/support/vanished_words.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/centurion/dialect.hpp"
+#include "gateway/interpreter/dialects/dialects.hpp"
 #include "tests/support/program_run.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "tests/golden/golden_case.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 /// One part, written with the control's own events and as the tool-center path of a Fanuc post,

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "tests/support/event_log.hpp"
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "protocol/wire/tape_image.hpp"
 #include "tests/support/event_log.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "clients/tools/offline/offline_run.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 namespace dripline::interpreter {

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "tests/unit/gateway/interpreter/dialects/tnc155/path_run.hpp"
 

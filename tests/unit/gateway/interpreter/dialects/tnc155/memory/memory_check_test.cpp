@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/program_memory.hpp"
 
 namespace dripline::interpreter::tnc155 {
