@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 
 namespace dripline::interpreter {
 namespace {

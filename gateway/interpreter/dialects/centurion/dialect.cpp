@@ -1,5 +1,5 @@
+#include "gateway/interpreter/core/dialects.hpp"
 #include "gateway/interpreter/dialects/centurion/options.hpp"
-#include "gateway/interpreter/dialects/dialects.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

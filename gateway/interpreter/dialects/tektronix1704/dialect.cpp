@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/options.hpp"
 
 #include <algorithm>

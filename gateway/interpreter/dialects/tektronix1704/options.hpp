@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/dialect.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "protocol/base/result.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "storage/sqlite/database.hpp"
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
 

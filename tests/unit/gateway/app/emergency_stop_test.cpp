@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 /// The emergency stop at the panel of every machine, whatever its control. Row: HD-195.

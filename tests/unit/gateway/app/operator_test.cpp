@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 /// What the operator of a Centurion lathe does at the panel while a program runs.

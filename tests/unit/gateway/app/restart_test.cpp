@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 /// A program that was interrupted and is started again in its middle, at the gateway.

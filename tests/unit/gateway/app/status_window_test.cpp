@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 /// The position displays and the coordinates of a control's status window.

@@ -6,8 +6,8 @@
 #include "clients/tools/conversational/post.hpp"
 #include "clients/tools/conversational/reader.hpp"
 #include "clients/tools/offline/offline_run.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
-#include "gateway/interpreter/dialects/dialects.hpp"
 
 namespace dripline::conversational {
 

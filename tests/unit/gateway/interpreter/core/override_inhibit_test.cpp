@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "tests/support/program_run.hpp"
 
 /// What the programs of the milling controls keep the operator's hands off; the lathe's are in

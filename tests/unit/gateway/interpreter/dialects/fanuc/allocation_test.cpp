@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <string>
 
+#include "gateway/interpreter/core/dialects.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
-#include "gateway/interpreter/dialects/dialects.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 /// Ordinary blocks do not allocate: this program counts every call of operator new.

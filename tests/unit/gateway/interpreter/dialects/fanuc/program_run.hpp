@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/dialects.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "tests/support/program_run.hpp"
 
 namespace dripline::interpreter::fanuc {

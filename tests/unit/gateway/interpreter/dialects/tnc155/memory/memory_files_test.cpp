@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gateway/interpreter/core/dialects.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
-#include "gateway/interpreter/dialects/dialects.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 
 // Rows: HD-067 (tool store), HD-068 (special tools), HD-234 (both files on the line).

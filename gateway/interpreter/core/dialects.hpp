@@ -4,6 +4,8 @@
 
 namespace dripline::interpreter {
 
+// Each is defined in its own folder; only the registry and tests need to know them.
+
 /// Milltronics Centurion 5T/6T lathe control.
 extern const Dialect kCenturionDialect;
 /// Fanuc-class machining centers (0-M, 6M, 11M, 16/18/21-M) with custom macro B.
