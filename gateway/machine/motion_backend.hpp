@@ -92,6 +92,15 @@ class MotionBackend {
   virtual void turn_handwheel(Seconds program_time) = 0;
   /// Slows down along the path, then discards everything: on_aborted, possibly during this call.
   virtual void abort() = 0;
+  /// Moves the axes to their reference points; only the operator at the machine asks for it, while
+  /// no program runs. Returns at once. Errors: Unsupported (nothing to home), Busy.
+  virtual Result<void> home() {
+    return fail(Errc::Unsupported, "this machine has nothing to home");
+  }
+  /// Takes the position of a locked machine for right, without homing. Errors: as for home.
+  virtual Result<void> unlock() {
+    return fail(Errc::Unsupported, "this machine has nothing to unlock");
+  }
 
   // -- what it does now -----------------------------------------------------------------------
   virtual MachineState state() const = 0;

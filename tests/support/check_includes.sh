@@ -25,6 +25,7 @@ clients/tools/program_editing: protocol/base gateway/interpreter clients/tools/p
 clients/tools/tnc_conversion: protocol/base gateway/interpreter clients/tools/tnc_conversion
 clients/tools/tnc_probing: protocol/base gateway/interpreter clients/tools/tnc_probing
 gateway/machine: protocol/base gateway/interpreter gateway/machine
+gateway/machine/grbl: protocol/base protocol/wire protocol/serial gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite

@@ -1,0 +1,117 @@
+#include "gateway/machine/grbl/board_info.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dripline::machine::grbl {
+namespace {
+
+constexpr std::size_t kLeastWindow = 80;  ///< a line of the longest form must fit
+
+bool is_zero(const AxisValues& offset) {
+  return std::all_of(offset.value.begin(), offset.value.begin() + offset.count,
+                     [](double value) { return value == 0; });
+}
+
+}  // namespace
+
+char letter_of(std::size_t axis) {
+  return interpreter::letter(static_cast<interpreter::Axis>(axis));
+}
+
+void BoardInfo::take(const Greeting& greeting) {
+  version_ = greeting.version;
+  is_grbl_hal_ = greeting.is_grbl_hal;
+}
+
+double BoardInfo::setting_or(int number, double otherwise) const {
+  const auto found = settings_.find(number);
+  return found == settings_.end() ? otherwise : found->second;
+}
+
+std::string BoardInfo::firmware() const {
+  return fmt::format("{} {}", is_grbl_hal_ ? "GrblHAL" : "Grbl", version_);
+}
+
+std::size_t BoardInfo::axes() const {
+  std::size_t count = 0;
+  while (count < kMaxAxes && settings_.contains(100 + static_cast<int>(count))) ++count;
+  return count;
+}
+
+std::size_t BoardInfo::window() const {
+  return build_ && build_->bytes > 1 ? static_cast<std::size_t>(build_->bytes) - 1 : 0;
+}
+
+int BoardInfo::decimals() const {
+  double finest = 0;
+  for (std::size_t i = 0; i < axes(); ++i) finest = std::max(finest, steps(i));
+  return finest > 500 ? 4 : 3;  // a digit is at most half a step
+}
+
+std::string BoardInfo::work_system() const {
+  for (const char* name : {"G54", "G55", "G56", "G57", "G58", "G59"}) {
+    const auto found = offsets_.find(name);
+    if (found != offsets_.end() && is_zero(found->second)) return name;
+  }
+  return {};
+}
+
+std::optional<BoardInfo::Range> BoardInfo::travel(std::size_t axis) const {
+  const double length = setting(130, axis);
+  if (setting_or(20, 0) == 0 || !(length > 0)) return std::nullopt;
+  // Homing makes the home position the zero where the build says so (Z), else the upper end.
+  const auto homes_at_low_end = static_cast<unsigned>(setting_or(23, 0)) >> axis & 1U;
+  if (has_letter('Z') && homes_at_low_end != 0) return Range{0, length};
+  return Range{-length, 0};
+}
+
+double BoardInfo::tolerance(std::size_t axis) const {
+  constexpr double kReported = 0.0015;  // three decimals, and the line's own rounding
+  const double step = steps(axis) > 0 ? 1 / steps(axis) : 0;
+  return kReported * report_scale() + 0.75 * step;
+}
+
+Coordinates BoardInfo::in_mm(const AxisValues& values) const {
+  Coordinates point{};
+  for (std::size_t i = 0; i < values.count; ++i)
+    point[i] = values.value[i] *
+               (interpreter::is_rotary(static_cast<interpreter::Axis>(i)) ? 1 : report_scale());
+  return point;
+}
+
+Result<void> BoardInfo::check() const {
+  if (!is_grbl_hal_ && !version_.starts_with("1.1"))
+    return fail(Errc::Unsupported, "the firmware is Grbl {}, this back end needs 1.1 or grblHAL",
+                version_);
+  if (!build_) return fail(Errc::Unsupported, "the board does not state its buffers ($I, [OPT:])");
+  if (window() < kLeastWindow)
+    return fail(Errc::Unsupported,
+                "the board's receive buffer has {} bytes, at least {} are needed", build_->bytes,
+                kLeastWindow + 1);
+  if (axes() < 2)
+    return fail(Errc::Unsupported, "the board states {} axes ($100 ...), at least 2 are needed",
+                axes());
+  for (std::size_t i = 0; i < axes(); ++i) {
+    if (!(steps(i) > 0 && max_rate(i) > 0 && acceleration(i) > 0))
+      return fail(Errc::Unsupported,
+                  "axis {}: steps ${}={}, rate ${}={} and acceleration ${}={} must be above 0",
+                  letter_of(i), 100 + i, steps(i), 110 + i, max_rate(i), 120 + i, acceleration(i));
+  }
+  if (setting_or(32, 0) != 0)
+    return fail(Errc::Unsupported, "the board is in {} mode ($32={}): a milling machine has $32=0",
+                setting_or(32, 0) == 1 ? "laser" : "lathe", setting_or(32, 0));
+  // Without either, no report shows what has been executed.
+  if (!has_line_numbers() && (static_cast<unsigned>(setting_or(10, 0)) & 2U) == 0)
+    return fail(Errc::Unsupported,
+                "the board reports neither line numbers (a build option) nor its buffers: set $10 "
+                "to {}",
+                static_cast<unsigned>(setting_or(10, 0)) | 2U);
+  if (work_system().empty())
+    return fail(Errc::Conflict,
+                "none of the board's work offsets G54 to G59 is zero: programs use machine "
+                "coordinates, clear one (G10 L2 P6 with every axis 0)");
+  return {};
+}
+
+}  // namespace dripline::machine::grbl

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gateway/interpreter/core/event.hpp"
+#include "gateway/machine/grbl/reply.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::machine::grbl {
+
+/// A point of the board by axis number: millimetres or, for A, B and C, degrees.
+using Coordinates = std::array<double, kMaxAxes>;
+
+/// What the board states about itself at connect: `$I`, `$$` and `$#`. Value type.
+class BoardInfo {
+ public:
+  // -- filled by the replies, in any order --------------------------------------------------------
+  void take(const Greeting& greeting);
+  void take(const BuildReply& build) { build_ = build; }
+  void take(const SettingReply& setting) { settings_[setting.number] = setting.value; }
+  void take(const OffsetReply& offset) { offsets_[offset.name] = offset.value; }
+
+  /// Everything that a run needs is known, and the board can run programs. Errors: Unsupported
+  /// (what the board lacks or how it is set), Conflict (no work offset is zero).
+  Result<void> check() const;
+
+  // -- what they mean -----------------------------------------------------------------------------
+  std::string firmware() const;  ///< "Grbl 1.1f"
+  std::size_t axes() const;      ///< those with a $100 setting
+  double steps(std::size_t axis) const { return setting(100, axis); }     ///< per mm or degree
+  double max_rate(std::size_t axis) const { return setting(110, axis); }  ///< per minute
+  double acceleration(std::size_t axis) const {
+    return setting(120, axis);
+  }  ///< per second squared
+  double max_rpm() const { return setting_or(30, 0); }
+  bool has_mist() const { return has_letter('M'); }
+  bool has_line_numbers() const { return has_letter('N'); }
+  int planner_blocks() const { return build_ ? build_->blocks : 0; }
+  /// Bytes that may be unanswered: one less than the receive buffer, which some builds need.
+  std::size_t window() const;
+  /// The longest line that the firmware reads, its end not counted.
+  std::size_t line_limit() const { return is_grbl_hal_ ? 250 : 78; }
+  /// Digits after the point that the steps of the finest axis deserve.
+  int decimals() const;
+  /// Millimetres of one unit of the reports ($13).
+  double report_scale() const { return setting_or(13, 0) != 0 ? 25.4 : 1; }
+  /// The work coordinate system whose zero is the machine's: "G54". Empty: there is none.
+  std::string work_system() const;
+  struct Range {
+    double low = 0, high = 0;
+  };
+  /// The travel of an axis in machine coordinates, where soft limits ($20) make it known.
+  std::optional<Range> travel(std::size_t axis) const;
+  /// Where an axis that was sent to `value` may be found: half a step, and the report's rounding.
+  double tolerance(std::size_t axis) const;
+  /// A report's position in millimetres and degrees.
+  Coordinates in_mm(const AxisValues& values) const;
+
+ private:
+  double setting_or(int number, double otherwise) const;
+  double setting(int first, std::size_t axis) const {
+    return setting_or(first + static_cast<int>(axis), 0);
+  }
+  bool has_letter(char letter) const {
+    return build_ && build_->letters.find(letter) != std::string::npos;
+  }
+
+  std::string version_;
+  bool is_grbl_hal_ = false;
+  std::optional<BuildReply> build_;
+  std::map<int, double> settings_;
+  std::map<std::string, AxisValues> offsets_;
+};
+
+/// "X", "A"
+char letter_of(std::size_t axis);
+
+}  // namespace dripline::machine::grbl

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "gateway/machine/grbl/board_info.hpp"
+#include "gateway/machine/grbl/character_counter.hpp"
+#include "gateway/machine/grbl/execution_tracker.hpp"
+#include "protocol/base/clock.hpp"
+
+namespace dripline::machine::grbl {
+
+/// Why a program cannot go on; ids as in the README.
+struct BoardFault {
+  std::string_view id;  ///< static storage
+  std::string text;
+};
+
+/// Percent, as the board's override commands reach them.
+struct OverridePercent {
+  int feed = 100, rapid = 100, spindle = 100;
+  friend bool operator==(const OverridePercent&, const OverridePercent&) = default;
+};
+
+/// Times after which the board is not what it was.
+struct SessionLimits {
+  std::chrono::milliseconds poll{100}, idle_poll{250};
+  std::chrono::milliseconds wake{6000};    ///< an opened board answers
+  std::chrono::milliseconds answer{3000};  ///< to a line, while the board is at rest
+  std::chrono::milliseconds hold_after{3000}, lost_after{6000};  ///< of silence
+  std::chrono::milliseconds stall{30'000};                       ///< in Run without motion
+  std::chrono::milliseconds brake{10'000};                       ///< from a feed hold to rest
+  std::chrono::milliseconds emergency_brake{500};
+  std::chrono::milliseconds homing{180'000};  ///< most boards report nothing meanwhile
+  std::size_t bytes_per_second = 64 * 1024;
+  int garbage = 3;  ///< lines that are none, in one program
+};
+
+/// The conversation with one board: wakes and identifies it, counts characters, polls its status,
+/// and stops it. A pure state machine: bytes and times come in, bytes come out.
+///
+/// Nothing that moves is ever sent by itself: motion comes by `send`, and leaves a feed hold only
+/// by `resume`. After a fault the board is held and reset, which drops what it had, and then
+/// nothing is sent until `restart`.
+class BoardSession {
+ public:
+  explicit BoardSession(SessionLimits limits = {}) : limits_(limits) {}
+
+  // -- the line -----------------------------------------------------------------------------------
+  void opened(SteadyTime now);
+  void lost(const std::string& reason);
+  void receive(std::span<const std::byte> bytes, SteadyTime now);
+  void tick(SteadyTime now);
+  /// What must be written, in order. Bounded by the board's buffer and a few real-time bytes.
+  std::string take_output() { return std::exchange(output_, {}); }
+  /// The board is silent or gives no sense: the line should be opened again.
+  bool wants_reopen() const { return wants_reopen_; }
+  /// Not after a fault: opening a port resets many boards.
+  bool may_open() const { return !fault_; }
+
+  // -- the program --------------------------------------------------------------------------------
+  /// A program begins or ends: only then a misbehavior of the board is a fault.
+  void set_active(bool is_active);
+  /// Identified, fit for programs, at rest and without a fault. Errors: Busy, with the reason.
+  Result<void> check_ready() const;
+  bool is_ready() const { return phase_ == Phase::Ready; }
+  /// A line can be sent now.
+  bool may_send(std::size_t bytes) const;
+  /// Sends a line without N word and end; returns its serial number. `longest`: how long the board
+  /// may be at rest with it.
+  std::uint64_t send(const std::string& text, bool moves, std::chrono::milliseconds longest = {});
+  /// Sends a $ command.
+  void send_system(const std::string& text);
+  const ExecutionTracker& tracker() const { return tracker_; }
+  /// Every line is answered and executed, as reports show.
+  bool is_empty() const { return counter_.unanswered_lines() == 0 && tracker_.is_empty(); }
+  /// Of `$G`, since it was asked last.
+  const std::optional<ModesReply>& modes() const { return modes_; }
+  const std::optional<ProbeReply>& probe() const { return probe_; }
+  void drop_modes() { modes_.reset(); }
+  void drop_probe() { probe_.reset(); }
+  void raise(std::string_view id, std::string text, SteadyTime now);
+  const std::optional<BoardFault>& fault() const { return fault_; }
+  /// Counts resets: the modes of the board are those after a start.
+  std::uint64_t resets() const { return resets_; }
+
+  // -- the operator -------------------------------------------------------------------------------
+  void hold(SteadyTime now);
+  /// False: the board cannot continue (a door is open).
+  bool resume(SteadyTime now);
+  bool is_held() const { return is_held_; }
+  void set_overrides(const OverridePercent& percent) { wanted_overrides_ = percent; }
+  /// Feed hold, then a soft reset at rest: the position is kept. Ends with `is_stopped`.
+  void stop(bool is_emergency, SteadyTime now);
+  bool is_stopping() const { return stop_ != Stop::None; }
+  /// Ends a fault: resets and identifies the board again.
+  void restart(SteadyTime now);
+  bool door_is_open() const;
+  /// Homes the axes ($H), or unlocks an alarm without homing ($X). Errors: Busy (no board, a fault,
+  /// a program, not at rest).
+  Result<void> reference(bool is_homing, SteadyTime now);
+
+  // -- what it does -------------------------------------------------------------------------------
+  const BoardInfo& board() const { return info_; }
+  const std::optional<StatusReport>& report() const { return report_; }
+  /// In machine coordinates.
+  const Coordinates& position() const { return position_; }
+  bool is_moving() const;
+  OverridePercent overrides() const { return sent_overrides_; }
+  const std::string& trouble() const { return trouble_; }
+
+ private:
+  enum class Phase : std::uint8_t { Closed, Waking, Resetting, Identifying, Ready, Silent };
+  enum class Stop : std::uint8_t { None, Wake, Abort, Emergency, Fault };
+
+  void on(const OkReply&, SteadyTime now);
+  void on(const ErrorReply& error, SteadyTime now);
+  void on(const AlarmReply& alarm, SteadyTime now);
+  void on(const Greeting& greeting, SteadyTime now);
+  void on(const StatusReport& report, SteadyTime now);
+  void on(const SettingReply& setting, SteadyTime) { info_.take(setting); }
+  void on(const BuildReply& build, SteadyTime) { info_.take(build); }
+  void on(const OffsetReply& offset, SteadyTime) { info_.take(offset); }
+  void on(const ProbeReply& probe, SteadyTime) { probe_ = probe; }
+  void on(const ModesReply& modes, SteadyTime) { modes_ = modes; }
+  void on(const NoticeReply&, SteadyTime) {}
+  void on(const UnusedReply&, SteadyTime) {}
+  void on(const GarbageReply& garbage, SteadyTime now);
+
+  void real_time(char byte) { output_ += byte; }
+  void identify_next(SteadyTime now);
+  void begin_stop(Stop stop, std::chrono::milliseconds brake, SteadyTime now);
+  void reset_board(SteadyTime now);
+  void drop_lines();
+  void end_homing(SteadyTime now);
+  void take_position(const StatusReport& report);
+  void watch_state(const StatusReport& report, SteadyTime now);
+  void watch_motion(const StatusReport& report, SteadyTime now);
+  void correct_overrides(const StatusReport& report);
+  void send_overrides();
+  void ask(SteadyTime now);
+  void watch_silence(SteadyTime now);
+  void watch_answers(SteadyTime now);
+  void give_up(std::string reason);
+
+  SessionLimits limits_;
+  Phase phase_ = Phase::Closed;
+  Stop stop_ = Stop::None;
+  BoardInfo info_;
+  LineSplitter splitter_;
+  CharacterCounter counter_;
+  ExecutionTracker tracker_;
+  std::string output_;
+
+  std::optional<StatusReport> report_;
+  Coordinates position_{};
+  AxisValues work_offset_;
+  std::optional<ModesReply> modes_;
+  std::optional<ProbeReply> probe_;
+  std::optional<BoardFault> fault_;
+  std::string trouble_ = "the board is not connected";  ///< why it is not Ready
+  std::uint64_t resets_ = 0;
+
+  bool is_active_ = false, is_held_ = false, is_resuming_ = false;
+  bool hold_is_sent_ = false, cycle_start_is_sent_ = false, wants_reopen_ = false;
+  std::size_t identified_ = 0;  ///< commands of the identification that are answered
+  int garbage_ = 0, override_waits_ = 0;
+  OverridePercent wanted_overrides_, sent_overrides_;
+
+  SteadyTime phase_began_{}, next_poll_{}, asked_at_{}, stop_limit_{}, second_began_{}, moved_at_{};
+  std::optional<SteadyTime> unanswered_poll_, resting_since_, homing_limit_;
+  std::chrono::milliseconds longest_{};
+  std::size_t bytes_in_second_ = 0;
+  Coordinates moved_to_{};
+};
+
+}  // namespace dripline::machine::grbl

@@ -1,0 +1,220 @@
+#include "gateway/machine/grbl/line_writer.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dripline::machine::grbl {
+namespace {
+
+using interpreter::Axis;
+using interpreter::Plane;
+using interpreter::Position;
+using interpreter::Turn;
+using Lines = std::vector<std::string>;
+
+BoardInfo board_of(double steps = 1000, std::size_t axes = 3) {
+  BoardInfo board;
+  board.take(Greeting{"1.1f", false});
+  board.take(BuildReply{"VN", 15, 128});
+  for (std::size_t i = 0; i < axes; ++i) {
+    const int n = static_cast<int>(i);
+    board.take(SettingReply{100 + n, steps});
+    board.take(SettingReply{110 + n, 6000});
+    board.take(SettingReply{120 + n, 500});
+    board.take(SettingReply{130 + n, 200});
+  }
+  board.take(SettingReply{10, 1});
+  board.take(SettingReply{30, 5000});
+  board.take(OffsetReply{"G54", {{1, 0, 0}, 3}});
+  board.take(OffsetReply{"G55", {{0, 0, 0}, 3}});
+  return board;
+}
+
+Position point(double x, double y, double z) {
+  Position position;
+  position.set(Axis::X, Length::mm(x));
+  position.set(Axis::Y, Length::mm(y));
+  position.set(Axis::Z, Length::mm(z));
+  return position;
+}
+
+class LineWriterTest : public testing::Test {
+ protected:
+  void make(const BoardInfo& board) {
+    writer = LineWriter(board);
+    writer.begin({});
+  }
+  LineWriterTest() { make(board_of()); }
+  Lines rapid(double x, double y, double z) {
+    text = {};
+    refusal = writer.rapid({{}, point(x, y, z)}, text);
+    return text.lines;
+  }
+  Lines line(double x, double y, double z, Feed feed, bool rests = false) {
+    text = {};
+    refusal = writer.line({{}, point(x, y, z), feed, rests}, text);
+    return text.lines;
+  }
+  Lines line(double x, double y, double z, double feed) {
+    return line(x, y, z, Feed::per_minute(Length::mm(feed)));
+  }
+  Lines arc(double x, double y, double z, double i, double j, double sweep,
+            Turn turn = Turn::Counterclockwise, Plane plane = Plane::XY) {
+    text = {};
+    refusal = writer.arc({.origin = {},
+                          .to = point(x, y, z),
+                          .center_first = Length::mm(i),
+                          .center_second = Length::mm(j),
+                          .plane = plane,
+                          .turn = turn,
+                          .sweep = Angle::degrees(sweep),
+                          .feed = Feed::per_minute(Length::mm(600))},
+                         text);
+    return text.lines;
+  }
+  LineWriter writer{BoardInfo{}};
+  MotionText text;
+  std::optional<Refusal> refusal;
+};
+
+TEST_F(LineWriterTest, WritesWhatChanges) {
+  EXPECT_EQ(rapid(1, 0, -2.5), Lines{"G0X1Z-2.5"});
+  EXPECT_EQ(line(1, 3, -2.5, 300), Lines{"G1Y3F300"});
+  EXPECT_EQ(line(1.25, 3, -2.5, 300), Lines{"G1X1.25"}) << "the feed is in force";
+  EXPECT_EQ(line(2, 3, -2.5, 250.5), Lines{"G1X2F250.5"});
+  EXPECT_NEAR(text.seconds, 0.75 / 250.5 * 60, 1e-9);
+}
+
+TEST_F(LineWriterTest, HasTheDecimalsOfTheBoardsSteps) {
+  EXPECT_EQ(rapid(0.12344, 0, 0), Lines{"G0X0.1234"});
+  make(board_of(80));
+  EXPECT_EQ(rapid(0.12344, 0, 0), Lines{"G0X0.123"});
+}
+
+TEST_F(LineWriterTest, WritesNoLineForLessThanAStepAndLosesNothing) {
+  for (int i = 1; i <= 3; ++i) EXPECT_EQ(line(i * 0.0001, 0, 0, 300), Lines{});
+  EXPECT_EQ(line(0.0006, 0, 0, 300), Lines{"G1X0.0006F300"});
+}
+
+TEST_F(LineWriterTest, LetsTheAxesRestByADwellOfNoTime) {
+  EXPECT_EQ(line(1, 0, 0, Feed::per_minute(Length::mm(100)), true), (Lines{"G1X1F100", "G4P0"}));
+}
+
+TEST_F(LineWriterTest, TurnsInverseTimeIntoFeedPerMinute) {
+  EXPECT_EQ(line(30, 40, 0, Feed::inverse_time(4)), Lines{"G1X30Y40F200"});
+}
+
+TEST_F(LineWriterTest, ScalesTheFeedWhereTheBoardAddsDegreesToMillimeters) {
+  make(board_of(1000, 4));
+  Position to = point(3, 0, 0);
+  to.set(Axis::A, Angle::degrees(4));
+  refusal = writer.line({{}, to, Feed::per_minute(Length::mm(300))}, text);
+  EXPECT_EQ(text.lines, Lines{"G1X3A4F500"}) << "3 mm of 5 units";
+}
+
+TEST_F(LineWriterTest, WritesArcsByTheirCenterInEveryPlane) {
+  EXPECT_EQ(arc(10, 10, 0, 0, 10, 90), Lines{"G17G3X10Y10I0J10F600"});
+  make(board_of());
+  EXPECT_EQ(arc(10, 0, 10, 0, 10, 90, Turn::Counterclockwise, Plane::ZX),
+            Lines{"G18G3X10Z10K0I10F600"});
+  make(board_of());
+  EXPECT_EQ(arc(0, 10, 10, 0, 10, 90, Turn::Counterclockwise, Plane::YZ),
+            Lines{"G19G3Y10Z10J0K10F600"});
+}
+
+TEST_F(LineWriterTest, SplitsWhatIsMoreThanHalfACircle) {
+  (void)rapid(10, 0, 0);
+  EXPECT_EQ(arc(10, 0, 0, 0, 0, 360, Turn::Clockwise),
+            (Lines{"G17G2X-10Y0I-10J0F600", "G17G2X10Y0I10J0"}));
+  EXPECT_EQ(arc(10, 0, 4, 0, 0, 720).size(), 4U) << "a helix of two revolutions";
+  EXPECT_EQ(text.lines.back(), "G17G3X10Z4Y0I10J0");
+}
+
+TEST_F(LineWriterTest, MakesNoCircleOfAnArcWithoutLength) {
+  (void)rapid(10, 0, 0);
+  EXPECT_EQ(arc(10, 0.0005, 0, 0, 0, 0.003), Lines{"G1Y0.0005F600"});
+}
+
+TEST_F(LineWriterTest, WritesASpiralAsChords) {
+  (void)rapid(10, 0, 0);
+  const Lines lines = arc(0, 12, 0, 0, 0, 90);
+  EXPECT_GT(lines.size(), 20U);
+  for (const std::string& chord : lines) EXPECT_TRUE(chord.starts_with("G1X")) << chord;
+  EXPECT_EQ(writer.at()[1], 12);
+}
+
+TEST_F(LineWriterTest, RefusesWhatTheBoardCannotDo) {
+  (void)line(1, 0, 0, Feed::per_revolution(Length::mm(0.1)));
+  EXPECT_EQ(refusal->text, "this machine cannot feed per revolution");
+  (void)line(1, 0, 0, 0);
+  EXPECT_EQ(refusal->id, "MCH0003");
+  Position to;
+  to.set(Axis::B, Angle::degrees(4));
+  refusal = writer.rapid({{}, to}, text);
+  EXPECT_EQ(refusal->text, "the board has no B axis");
+  (void)rapid(std::nan(""), 0, 0);
+  EXPECT_EQ(refusal->id, "MCH0006");
+  std::string words;
+  refusal =
+      writer.spindle({{}, interpreter::SpindleState::Clockwise, 0, Length::mm(100), {}}, words);
+  EXPECT_EQ(refusal->text, "this machine cannot keep a constant surface speed");
+  refusal = writer.spindle({{}, interpreter::SpindleState::Clockwise, 6000, {}, {}}, words);
+  EXPECT_EQ(refusal->text, "spindle speed 6000 is above the board's 5000 rpm ($30)");
+  Lines lines;
+  refusal = writer.coolant({{}, false, true}, lines);
+  EXPECT_EQ(refusal->text, "this machine cannot switch mist coolant");
+}
+
+TEST_F(LineWriterTest, KeepsToTheTravelWhereSoftLimitsAreInForce) {
+  EXPECT_EQ(rapid(500, 0, 0), Lines{"G0X500"}) << "no soft limits";
+  BoardInfo board = board_of();
+  board.take(SettingReply{20, 1});
+  make(board);
+  EXPECT_EQ(rapid(-200, 0, 0), Lines{"G0X-200"});
+  (void)rapid(-200, 1, 0);
+  EXPECT_EQ(refusal->text, "Y 1.000 is outside the board's travel of -200 to 0 ($20, $131)");
+  (void)arc(-200, -100, 0, -200, -50, 180, Turn::Counterclockwise);
+  EXPECT_TRUE(refusal) << "the arc bulges beyond the travel";
+}
+
+TEST_F(LineWriterTest, SwitchesSpindleAndCoolant) {
+  std::string words;
+  EXPECT_FALSE(
+      writer.spindle({{}, interpreter::SpindleState::Counterclockwise, 1200, {}, {}}, words));
+  EXPECT_EQ(words, "M4S1200");
+  Lines lines;
+  EXPECT_FALSE(writer.coolant({{}, true, false}, lines));
+  EXPECT_EQ(lines, Lines{"M8"});
+  lines.clear();
+  EXPECT_FALSE(writer.coolant({{}, false, false}, lines));
+  EXPECT_EQ(lines, Lines{"M9"});
+}
+
+TEST_F(LineWriterTest, UsesAWorkOffsetThatIsZero) {
+  EXPECT_EQ(writer.preamble(), (Lines{"G21G90G94G17G91.1G49G55", "G92.1M5M9"}));
+}
+
+TEST(BoardInfoTest, NamesWhatMakesABoardUnfit) {
+  const auto reason = [](BoardInfo board) {
+    const auto fit = board.check();
+    return fit ? std::string() : fit.error().what;
+  };
+  EXPECT_EQ(reason(board_of()), "");
+  BoardInfo board = board_of();
+  board.take(Greeting{"0.9j", false});
+  EXPECT_NE(reason(board).find("Grbl 0.9j"), std::string::npos);
+  board = board_of();
+  board.take(SettingReply{32, 1});
+  EXPECT_NE(reason(board).find("laser mode"), std::string::npos);
+  board = board_of();
+  board.take(BuildReply{"V", 15, 128});
+  EXPECT_NE(reason(board).find("set $10 to 3"), std::string::npos);
+  board = board_of();
+  board.take(OffsetReply{"G55", {{0, 0, 7}, 3}});
+  EXPECT_NE(reason(board).find("none of the board's work offsets"), std::string::npos);
+  board = board_of();
+  board.take(BuildReply{"VN", 15, 64});
+  EXPECT_NE(reason(board).find("64 bytes"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dripline::machine::grbl

@@ -1,0 +1,185 @@
+#include "tests/unit/gateway/machine/grbl/grbl_shop.hpp"
+
+/// A board that restarts, stalls, floods or lies: an alarm with a reason, nothing in motion that
+/// nobody commanded, and silence until the operator resets.
+namespace dripline::machine::grbl::test {
+namespace {
+
+class GrblMisbehavior : public testing::Test {
+ protected:
+  void run(int blocks = 40) {
+    shop.begin();
+    for (int i = 1; i <= blocks; ++i) shop.program.line(i * 2, 0, 1200);
+    shop.program.end();
+    ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 5; }));
+  }
+  /// Alarmed for this reason, and quiet from then on.
+  void expect_alarm(const std::string& reason, double within = 10) {
+    ASSERT_TRUE(shop.pass_until_over(within)) << reason;
+    EXPECT_EQ(shop.machine.state(), MachineState::Alarmed);
+    EXPECT_NE(shop.alarm().find(reason), std::string::npos) << shop.alarm();
+    shop.pass(5);  // until the board is held and reset
+    const std::size_t received = shop.board.received();
+    const double traveled = shop.board.traveled();
+    shop.pass(20);
+    EXPECT_EQ(shop.board.received(), received) << "nothing is sent after an alarm";
+    EXPECT_EQ(shop.board.traveled(), traveled);
+    EXPECT_LE(shop.recorder.blocks.size(), shop.board.done.size() + silent_blocks);
+    EXPECT_FALSE(shop.machine.check_begin(shop.machine.status().position));
+  }
+  void reset_by_operator() {
+    shop.machine.set_panel({.emergency_stop = true});
+    shop.pass(1);
+    shop.machine.set_panel({});
+    shop.pass(3);
+  }
+  GrblShop shop;
+  std::size_t silent_blocks = 0;
+};
+
+TEST_F(GrblMisbehavior, AnErrorOfTheBoardNamesTheLine) {
+  run();
+  shop.board.refuses_line = 1;
+  expect_alarm(
+      "GRB0002 error 20 of the board, the firmware does not know a command of the line: N");
+  reset_by_operator();
+  EXPECT_TRUE(shop.machine.check_begin(shop.machine.status().position));
+}
+
+TEST_F(GrblMisbehavior, AnAlarmOfTheBoardIsNamed) {
+  run();
+  shop.board.raise_alarm(1);
+  expect_alarm("GRB0001 alarm 1 of the board, a limit switch was hit");
+  reset_by_operator();
+  EXPECT_EQ(shop.machine.check_begin({}).error().what,
+            "the board is in alarm: home the axes ($H), or unlock it ($X)");
+}
+
+TEST_F(GrblMisbehavior, ARestartInTheMidst) {
+  run();
+  shop.board.restart();
+  expect_alarm("GRB0004 the board has restarted by itself");
+  EXPECT_EQ(shop.board.position()[0], 0) << "lines that were on their way are not executed";
+}
+
+TEST_F(GrblMisbehavior, SilenceIsAHoldThatTheOperatorEnds) {
+  run(400);
+  shop.is_cut = true;
+  shop.pass(4);
+  shop.is_cut = false;
+  shop.pass(1);
+  EXPECT_EQ(shop.machine.state(), MachineState::Held);
+  EXPECT_FALSE(shop.board.is_moving());
+  EXPECT_TRUE(shop.machine.resume());
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed);
+}
+
+TEST_F(GrblMisbehavior, SilenceThatLastsIsAnAlarm) {
+  run(400);
+  shop.is_cut = true;
+  expect_alarm("GRB0005 the board does not report its state: the position is unknown");
+}
+
+TEST_F(GrblMisbehavior, ALostLine) {
+  run(400);
+  shop.machine.line_lost("/dev/ttyUSB0: no such device");
+  expect_alarm("GRB0005 /dev/ttyUSB0: no such device: the position is unknown");
+  EXPECT_FALSE(shop.machine.may_open()) << "opening a port resets many boards";
+}
+
+TEST_F(GrblMisbehavior, LinesThatWereLost) {
+  run();
+  shop.board.swallows_lines = true;
+  shop.pass(1);
+  expect_alarm("GRB0006 the board is at rest and has not answered a line", 60);
+}
+
+TEST_F(GrblMisbehavior, LinesWhoseEndIsNeverReported) {
+  run(6);
+  shop.board.leaked_blocks = 3;
+  expect_alarm("GRB0006 the board is at rest and its reports do not show", 120);
+}
+
+TEST_F(GrblMisbehavior, ABoardThatReportsRunAndStands) {
+  run();
+  shop.board.is_stuck = true;
+  silent_blocks = 1;  // the planner's reports go on until it is seen that the axes do not
+  expect_alarm("GRB0006 the board reports Run and does not move", 60);
+}
+
+TEST_F(GrblMisbehavior, AnAnswerTooMany) {
+  run(3);
+  for (int i = 0; i < 4; ++i) shop.board.say("ok");
+  expect_alarm("GRB0007 the board answers a line that it was never sent");
+}
+
+TEST_F(GrblMisbehavior, AReportOfALineThatWasNeverSent) {
+  run();
+  shop.board.say("<Run|MPos:1.000,0.000,0.000|Ln:4711|FS:100,0>");
+  expect_alarm("GRB0007 the board reports line 4711, which it was never sent");
+}
+
+TEST_F(GrblMisbehavior, Garbage) {
+  run();
+  for (int i = 0; i < 4; ++i) shop.board.say("<Run|MPos:1.0,x>");
+  expect_alarm("GRB0007 4 lines of the board are none of its protocol");
+}
+
+TEST_F(GrblMisbehavior, AFlood) {
+  run();
+  for (int i = 0; i < 3000; ++i) shop.board.say("[MSG:all work and no play makes a dull board]");
+  expect_alarm("GRB0007 the board floods the line");
+}
+
+TEST_F(GrblMisbehavior, AxesThatAreNotWhereTheyWereSent) {
+  shop.board.drifts = 0.05;
+  shop.begin();
+  shop.program.line(3, 0, 1200);
+  shop.program.output("A");
+  shop.program.end();
+  expect_alarm("GRB0003 X is at 3.050, the program has it at 3.000", 20);
+}
+
+TEST_F(GrblMisbehavior, CheckModeInTheMidst) {
+  shop.begin();
+  shop.program.line(3, 0, 1200);
+  shop.program.stop();
+  ASSERT_TRUE(shop.pass_until([&] { return shop.machine.state() == MachineState::ProgramStop; }));
+  shop.board.enter_check_mode();
+  silent_blocks = 1;  // the stop
+  expect_alarm("GRB0008 the board is in state Check");
+}
+
+TEST_F(GrblMisbehavior, ABoardThatDoesNotAnswerItsReset) {
+  run();
+  shop.machine.abort();
+  shop.board.ignores_reset = true;
+  expect_alarm("GRB0005 the board does not answer a reset", 60);
+}
+
+TEST(GrblConnect, StopsABoardThatMovesWithoutAProgram) {
+  GrblShop shop;
+  shop.board.receive("G1X100F600\n");
+  shop.pass(1);
+  ASSERT_TRUE(shop.board.is_moving());
+  shop.machine.line_lost("unplugged");
+  shop.machine.line_opened();
+  shop.pass(2);
+  EXPECT_FALSE(shop.board.is_moving());
+  EXPECT_LT(shop.board.position()[0], 20);
+  EXPECT_TRUE(shop.machine.check_begin(shop.machine.status().position)) << "the position is kept";
+}
+
+TEST(GrblConnect, ASilentBoardIsNoMachine) {
+  GrblShop shop;
+  shop.machine.line_lost("unplugged");
+  EXPECT_EQ(shop.machine.check_begin({}).error().what, "unplugged");
+  shop.board.is_mute = true;
+  shop.machine.line_opened();
+  shop.pass(7);
+  EXPECT_EQ(shop.machine.reopen_reason(), "the board does not answer");
+}
+
+}  // namespace
+}  // namespace dripline::machine::grbl::test

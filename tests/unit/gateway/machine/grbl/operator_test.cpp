@@ -1,0 +1,217 @@
+#include "tests/unit/gateway/machine/grbl/grbl_shop.hpp"
+
+namespace dripline::machine::grbl::test {
+namespace {
+
+class GrblOperator : public testing::Test {
+ protected:
+  void run(int blocks = 40) {
+    shop.begin();
+    for (int i = 1; i <= blocks; ++i) shop.program.line(i * 2, 0, 1200);
+    shop.program.end();
+    ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 5; }));
+  }
+  void set(OperatorPanel panel) { shop.machine.set_panel(panel); }
+  double moved_in(double seconds) {
+    const double before = shop.board.traveled();
+    shop.pass(seconds);
+    return shop.board.traveled() - before;
+  }
+  GrblShop shop;
+};
+
+TEST_F(GrblOperator, HoldStopsAndResumeContinues) {
+  run();
+  shop.machine.hold();
+  EXPECT_EQ(shop.machine.state(), MachineState::Held);
+  shop.pass(0.5);
+  EXPECT_FALSE(shop.machine.is_moving());
+  EXPECT_EQ(moved_in(5), 0);
+  EXPECT_TRUE(shop.machine.resume());
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed);
+  EXPECT_EQ(shop.recorder.blocks.size(), 41U);
+  EXPECT_NEAR(shop.x(), 80, 1e-3);
+}
+
+TEST_F(GrblOperator, AResumeRightAfterAHoldIsNotLost) {
+  run();
+  shop.machine.hold();
+  EXPECT_TRUE(shop.machine.resume());
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed);
+}
+
+TEST_F(GrblOperator, RepeatsAHoldThatWasLost) {
+  run();
+  shop.is_cut = true;
+  shop.machine.hold();
+  shop.pass(0.05);
+  shop.is_cut = false;
+  shop.pass(1);
+  EXPECT_EQ(moved_in(2), 0);
+}
+
+TEST_F(GrblOperator, TheBoardsOwnHoldNeedsTheOperatorToo) {
+  run();
+  shop.board.press_hold();
+  shop.pass(1);
+  EXPECT_EQ(shop.machine.state(), MachineState::Held);
+  EXPECT_EQ(moved_in(5), 0) << "never resumed by itself";
+  EXPECT_TRUE(shop.machine.resume());
+  EXPECT_TRUE(shop.pass_until_over());
+}
+
+TEST_F(GrblOperator, AbortKeepsThePosition) {
+  run();
+  shop.machine.abort();
+  ASSERT_TRUE(shop.pass_until_over(5));
+  EXPECT_EQ(shop.machine.state(), MachineState::Aborted);
+  EXPECT_TRUE(shop.has("aborted"));
+  shop.pass(1);
+  EXPECT_EQ(moved_in(5), 0);
+  EXPECT_NEAR(shop.x(), shop.board.position()[0], 1e-3);
+  EXPECT_TRUE(shop.machine.check_begin(shop.machine.status().position)) << "no alarm of the board";
+  EXPECT_LE(shop.recorder.blocks.size(), shop.board.done.size());
+}
+
+TEST_F(GrblOperator, EmergencyStopEndsTheProgramWhenItIsReleased) {
+  run();
+  set({.emergency_stop = true});
+  EXPECT_EQ(shop.machine.state(), MachineState::EmergencyStop);
+  shop.pass(1);
+  EXPECT_EQ(moved_in(5), 0);
+  EXPECT_FALSE(shop.has("aborted"));
+  EXPECT_FALSE(shop.machine.resume());
+  set({});
+  shop.pass(0.1);
+  EXPECT_TRUE(shop.has("aborted"));
+}
+
+TEST_F(GrblOperator, OverridesReachTheBoard) {
+  run();
+  set({.feed_override = 0.37, .rapid_override = 0.6, .spindle_override = 1.25});
+  shop.pass(0.1);
+  EXPECT_EQ(shop.board.feed_override(), 37);
+  EXPECT_EQ(shop.board.rapid_override(), 50) << "never faster than asked";
+  EXPECT_EQ(shop.board.spindle_override(), 125);
+  EXPECT_NEAR(moved_in(1), 20 * 0.37, 0.5);
+}
+
+TEST_F(GrblOperator, RepeatsAnOverrideThatWasLost) {
+  run();
+  shop.is_cut = true;
+  set({.feed_override = 0.5});
+  shop.pass(0.05);
+  shop.is_cut = false;
+  EXPECT_TRUE(shop.pass_until([&] { return shop.board.feed_override() == 50; }, 3));
+}
+
+TEST_F(GrblOperator, AFeedOverrideOfZeroHoldsUntilItIsRaised) {
+  run();
+  set({.feed_override = 0.04});
+  EXPECT_EQ(shop.machine.panel().feed_override, 0);
+  shop.pass(0.5);
+  EXPECT_EQ(moved_in(3), 0);
+  EXPECT_FALSE(shop.machine.resume());
+  set({.feed_override = 0.5});
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
+}
+
+TEST_F(GrblOperator, SingleBlockStopsAfterEveryBlock) {
+  set({.single_block = true});
+  shop.begin();
+  for (int i = 1; i <= 3; ++i) shop.program.line(i, 0, 1200);
+  shop.program.end();
+  for (std::size_t i = 1; i <= 3; ++i) {
+    ASSERT_TRUE(
+        shop.pass_until([&] { return shop.machine.state() == MachineState::SingleBlock; }, 5));
+    EXPECT_EQ(shop.recorder.blocks.size(), i);
+    EXPECT_EQ(moved_in(1), 0);
+    EXPECT_NEAR(shop.x(), static_cast<double>(i), 1e-3);
+    EXPECT_TRUE(shop.machine.resume());
+  }
+  EXPECT_TRUE(shop.pass_until_over());
+}
+
+TEST_F(GrblOperator, AProgramStopWaitsForResume) {
+  shop.begin();
+  shop.program.line(1, 0, 1200);
+  shop.program.stop();
+  shop.program.line(2, 0, 1200);
+  shop.program.end();
+  ASSERT_TRUE(shop.pass_until([&] { return shop.machine.state() == MachineState::ProgramStop; }));
+  EXPECT_EQ(moved_in(2), 0);
+  EXPECT_TRUE(shop.machine.resume());
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed);
+}
+
+TEST_F(GrblOperator, AnOpenDoorHoldsAndItsClosingStartsNothing) {
+  run();
+  shop.board.open_door();
+  shop.pass(1);
+  EXPECT_EQ(shop.machine.state(), MachineState::Held);
+  EXPECT_FALSE(shop.machine.resume()) << "the door is open";
+  shop.board.close_door();
+  EXPECT_EQ(moved_in(3), 0);
+  EXPECT_TRUE(shop.machine.resume());
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed);
+}
+
+TEST(GrblReference, HomesALockedBoardInItsOwnTime) {
+  GrblShop shop({.is_locked = true, .start = {12, 0, 0, 0}});
+  EXPECT_TRUE(shop.machine.home());
+  shop.pass(6);
+  EXPECT_EQ(shop.machine.reopen_reason(), "") << "it reports nothing while it homes";
+  EXPECT_FALSE(shop.machine.home()) << "it is at it";
+  shop.pass(3);
+  EXPECT_TRUE(shop.machine.check_begin({}));
+}
+
+TEST(GrblReference, UnlocksABoardOnlyOnCommand) {
+  GrblShop shop({.is_locked = true});
+  shop.pass(30);
+  EXPECT_FALSE(shop.machine.check_begin({}));
+  EXPECT_TRUE(shop.machine.unlock());
+  shop.pass(1);
+  EXPECT_TRUE(shop.machine.check_begin({}));
+}
+
+TEST(GrblReference, TheEmergencyStopEndsHoming) {
+  GrblShop shop({.is_locked = true});
+  EXPECT_TRUE(shop.machine.home());
+  shop.pass(1);
+  shop.machine.set_panel({.emergency_stop = true});
+  shop.pass(2);
+  EXPECT_NE(shop.board.real_time.find('\x18'), std::string::npos);
+  EXPECT_FALSE(shop.machine.home()) << "while it is pressed";
+  shop.machine.set_panel({});
+  shop.pass(1);
+  EXPECT_FALSE(shop.machine.check_begin({})) << "not homed";
+  EXPECT_TRUE(shop.machine.home());
+}
+
+TEST_F(GrblOperator, NeitherHomesNorUnlocksDuringAProgram) {
+  run();
+  EXPECT_FALSE(shop.machine.home());
+  EXPECT_FALSE(shop.machine.unlock());
+}
+
+TEST_F(GrblOperator, NothingBeginsWithoutTheOwnersLeave) {
+  shop.begin();
+  shop.program.line(5, 0, 1200);
+  shop.is_polled = false;
+  for (int i = 0; i < 100; ++i) {
+    (void)shop.machine.poll(Seconds{0.01}, 0);
+    shop.pass(0.01);
+  }
+  EXPECT_EQ(shop.board.traveled(), 0);
+  shop.is_polled = true;
+  EXPECT_TRUE(shop.pass_until([&] { return shop.x() > 4.9; }));
+}
+
+}  // namespace
+}  // namespace dripline::machine::grbl::test
