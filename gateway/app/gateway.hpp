@@ -75,6 +75,7 @@ class Gateway {
   Reply carry_out(const PanelCommand& command);
   Reply cycle_start();
   Reply discard_memory();
+  Reply reference_axes(bool is_homing);
 
   dds::Status status() const;
   void announce();

@@ -205,6 +205,9 @@ Reply Gateway::carry_out(const PanelCommand& command) {
     case Verb::RapidOverride:
     case Verb::SpindleOverride:
       return panel_.set_override(command_of(command));
+    case Verb::Home:
+    case Verb::Unlock:
+      return reference_axes(command.verb == Verb::Home);
     case Verb::DiscardMemory:
       return discard_memory();
     default:
@@ -232,6 +235,16 @@ Reply Gateway::cycle_start() {
   if (!consent_.is_awaited()) return resume();
   if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStopIsPressed));
   loop_.cycle_start();
+  return {};
+}
+
+/// Only at the machine: whoever moves its axes must see them.
+Reply Gateway::reference_axes(bool is_homing) {
+  if (run_.session) return refuse(fmt::format("run {} is active", run_.session->run().run));
+  if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStopIsPressed));
+  const auto done = is_homing ? machine_->home() : machine_->unlock();
+  if (!done) return refuse(done.error().what);
+  recorder_.note_at_panel(machine_->status().origin, is_homing ? "home" : "unlock");
   return {};
 }
 

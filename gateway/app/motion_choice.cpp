@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "gateway/machine/grbl/board_link.hpp"
+#include "gateway/machine/grbl/grbl_machine.hpp"
 #include "gateway/machine/simulated_machine.hpp"
 
 namespace dripline::gateway {
@@ -17,26 +19,65 @@ machine::MachineLimits limits_of(const interpreter::Dialect& control) {
   return limits;
 }
 
-Result<machine::MotionFactory> simulated(const interpreter::Dialect& control,
-                                         const interpreter::Workpiece& workpiece) {
-  return [limits = limits_of(control), workpiece](machine::ExecutionSink& sink) {
-    return std::make_unique<machine::SimulatedMachine>(limits, workpiece, sink);
+/// What `--motion NAME:ADDRESS` consists of.
+struct MotionWords {
+  std::string_view name, address;
+};
+MotionWords words_of(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return {text, {}};
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+struct MotionTask {
+  const interpreter::Dialect& control;
+  const interpreter::Workpiece& workpiece;
+  std::string_view address;
+};
+
+Result<machine::MotionFactory> simulated(const MotionTask& task) {
+  return
+      [limits = limits_of(task.control), workpiece = task.workpiece](machine::ExecutionSink& sink) {
+        return std::make_unique<machine::SimulatedMachine>(limits, workpiece, sink);
+      };
+}
+
+/// The connection begins with the machine, and is kept by it.
+Result<machine::MotionFactory> grbl(const MotionTask& task) {
+  return [address = std::string(task.address)](machine::ExecutionSink& sink) {
+    auto machine = std::make_unique<machine::grbl::GrblMachine>(
+        machine::grbl::GrblMachine::Parts{.sink = sink, .clock = std::make_shared<SystemClock>()});
+    machine->connect(address);
+    return machine;
   };
 }
 
+Result<void> needs_no_address(std::string_view address) {
+  if (address.empty()) return {};
+  return fail(Errc::Syntax, "motion simulated has no address, '{}' was given", address);
+}
+
+Result<void> check_board_address(std::string_view address) {
+  const auto parsed = machine::grbl::parse_board_address(address);
+  if (parsed) return {};
+  return fail(parsed.error().code, "motion grbl: {}", parsed.error().what);
+}
+
 struct MotionRow {
-  std::string_view name;
-  Result<machine::MotionFactory> (*make)(const interpreter::Dialect&,
-                                         const interpreter::Workpiece&);
+  std::string_view name, form;
+  Result<void> (*check)(std::string_view address);
+  Result<machine::MotionFactory> (*make)(const MotionTask&);
 };
 constexpr std::array kRows{
-    MotionRow{"simulated", simulated},
+    MotionRow{"simulated", "simulated", needs_no_address, simulated},
+    MotionRow{"grbl", "grbl:ADDRESS", check_board_address, grbl},
 };
 
-Result<const MotionRow*> find_row(std::string_view name) {
-  const auto* row = std::ranges::find(kRows, name, &MotionRow::name);
+Result<const MotionRow*> find_row(std::string_view text) {
+  const auto* row = std::ranges::find(kRows, words_of(text).name, &MotionRow::name);
   if (row == kRows.end())
-    return fail(Errc::NotFound, "motion '{}' is not known: {}", name, motion_names());
+    return fail(Errc::NotFound, "motion '{}' is not known: {}", text, motion_names());
+  if (const auto good = row->check(words_of(text).address); !good) return fail(good.error());
   return row;
 }
 
@@ -46,9 +87,13 @@ std::string motion_names() {
   std::string names;
   for (const MotionRow& row : kRows) {
     if (!names.empty()) names += ", ";
-    names += row.name;
+    names += row.form;
   }
   return names;
+}
+
+bool is_real_motion(std::string_view name) {
+  return words_of(name).name != kRows.front().name;
 }
 
 Result<void> check_motion(std::string_view name) {
@@ -62,7 +107,7 @@ Result<machine::MotionFactory> make_motion(std::string_view name,
                                            const interpreter::Workpiece& workpiece) {
   const auto row = find_row(name);
   if (!row) return fail(row.error());
-  return (*row)->make(control, workpiece);
+  return (*row)->make({control, workpiece, words_of(name).address});
 }
 
 }  // namespace dripline::gateway

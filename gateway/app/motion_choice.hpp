@@ -8,9 +8,11 @@
 
 namespace dripline::gateway {
 
-/// The back ends of `--motion NAME`, separated by commas.
+/// The back ends of `--motion`, separated by commas: "simulated, grbl:ADDRESS".
 std::string motion_names();
-/// Errors: NotFound, naming the back ends that are known.
+/// It moves more than numbers: somebody can be hurt.
+bool is_real_motion(std::string_view name);
+/// Errors: NotFound, naming the back ends that are known; Syntax, LimitExceeded (the address).
 Result<void> check_motion(std::string_view name);
 /// The back end `name` of a machine with this control. Probes meet the workpiece, if it is
 /// simulated. Errors: those of check_motion.

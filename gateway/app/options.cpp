@@ -118,8 +118,12 @@ constexpr std::array kRows{
     OptionRow{"lease-ms", "NUMBER", "ms", "",
               "Consider the server disconnected after this much silence",
               number_value<100, 600'000, kNetwork, &Network::lease_ms>()},
-    OptionRow{"motion", "NAME", "", "simulated", "Back end that moves the machine: simulated",
-              set_by(Written::Text, set_motion)},
+    OptionRow{
+        "motion", "NAME", "", "simulated",
+        "Back end that moves the machine: simulated; grbl:ADDRESS, a board of the Grbl 1.1 "
+        "class at a device, tcp://host:port or rfc2217://host:port, with ,BAUD where it is not "
+        "115200",
+        set_by(Written::Text, set_motion)},
     OptionRow{"speed", "FACTOR", "", "1x", "Speed of the simulated machine: 1x, 100x, max",
               set_by(Written::TextOrNumber, set_speed)},
     OptionRow{
@@ -153,7 +157,7 @@ constexpr std::array kRows{
               "Request this program from the host; next: request the next one after each run "
               "(always so on a HEIDENHAIN line)",
               set_by(Written::Text, set_line<&LineOptions::request>)},
-    OptionRow{"unattended", "yes|no", "", "yes; with --line no",
+    OptionRow{"unattended", "yes|no", "", "yes; no with --line or a real --motion",
               "Whether the network alone may start the machine; no: its operator gives the remote "
               "enable, or cycle start, at its panel (dncgw panel --help)",
               yes_no_value<&Options::unattended>()},
@@ -245,7 +249,8 @@ Result<void> complete(GatewayOptions& options) {
     return fail(Errc::Syntax,
                 "--server none needs --line ADDRESS: programs must come from somewhere");
   }
-  options.is_unattended = options.unattended.value_or(!options.line.has_value());
+  const bool can_hurt = options.line.has_value() || is_real_motion(options.motion);
+  options.is_unattended = options.unattended.value_or(!can_hurt);
   if (options.has_server) {
     if (auto safe = dds::check_exposure(options.network); !safe) return safe;
   }

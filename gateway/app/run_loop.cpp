@@ -29,6 +29,11 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin) const {
     interpreter::use_control_data(*std::move(data), setup);
   }
   setup.switches.block_skip = parts_.machine.panel().block_skip;
+  // Axes that nothing places begin where they are, unless the setup names a start to compare with.
+  if (!parts_.machine.capabilities().places_axes && setup.start == interpreter::Position{}) {
+    setup.start = parts_.machine.status().position;
+    setup.start.unmark_all();
+  }
   const StartArgument& from = origin.from;
   if (from.place.empty()) return setup;
   setup.control.set("start_at", {from.place, 0});

@@ -47,6 +47,9 @@ constexpr std::array kRows{
     VerbRow{"spindle-override PERCENT", Verb::SpindleOverride, Takes::Percent,
             "set the spindle override"},
     VerbRow{"handwheel CLICKS", Verb::Handwheel, Takes::Count, "turn it, in handwheel mode"},
+    VerbRow{"home", Verb::Home, Takes::Nothing, "move the axes to their reference points"},
+    VerbRow{"unlock", Verb::Unlock, Takes::Nothing,
+            "accept the position of a locked machine without homing"},
     VerbRow{"discard-memory", Verb::DiscardMemory, Takes::Nothing,
             "discard the retained memory (variables, offsets), e.g. when it is damaged"},
 };

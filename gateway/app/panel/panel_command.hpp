@@ -25,6 +25,8 @@ struct PanelCommand {
     RapidOverride,
     SpindleOverride,
     Handwheel,      ///< value: clicks
+    Home,           ///< the axes, while no program runs
+    Unlock,         ///< without homing
     DiscardMemory,  ///< the next program begins with what the setup gives
   };
   Verb verb = Verb::Status;

@@ -59,7 +59,14 @@ TEST_F(MotionBackendTest, AnswersTheProgramsQuestionsForAnInput) {
   EXPECT_EQ(fixture.lines(), std::vector<std::string>{"high"});
 }
 
+TEST_F(MotionBackendTest, BeginsWhereTheAxesAreWithoutAStartInTheSetup) {
+  ASSERT_EQ(run("X7\nEND\n").outcome, RunOutcome::Completed);
+  EXPECT_EQ(run("X9\nEND\n").outcome, RunOutcome::Completed);
+}
+
 TEST_F(MotionBackendTest, RefusesASetupThatDisagreesWithTheMachine) {
+  fixture.setup.start.set(interpreter::Axis::X, Length::mm(0));
+  fixture.restart_gateway();
   ASSERT_EQ(run("X7\nEND\n").outcome, RunOutcome::Completed);
   const auto second = fixture.start("O1");
   EXPECT_FALSE(second.accepted);
@@ -91,7 +98,32 @@ TEST_F(MotionBackendTest, HoldsResumesAndAborts) {
 
 TEST(MotionChoice, NamesTheBackEndsItKnows) {
   EXPECT_TRUE(check_motion("simulated"));
-  EXPECT_EQ(check_motion("real").error().what, "motion 'real' is not known: simulated");
+  EXPECT_TRUE(check_motion("grbl:/dev/ttyACM0"));
+  EXPECT_TRUE(check_motion("grbl:tcp://board:23"));
+  EXPECT_TRUE(check_motion("grbl:/dev/ttyUSB0,57600"));
+  EXPECT_EQ(check_motion("real").error().what,
+            "motion 'real' is not known: simulated, grbl:ADDRESS");
+}
+
+TEST(MotionChoice, RefusesAnAddressThatIsNone) {
+  EXPECT_EQ(check_motion("grbl").error().code, Errc::Syntax);
+  EXPECT_EQ(check_motion("grbl:board").error().code, Errc::Syntax);
+  EXPECT_EQ(check_motion("grbl:/dev/ttyUSB0,fast").error().code, Errc::Syntax);
+  EXPECT_EQ(check_motion("simulated:/dev/ttyUSB0").error().code, Errc::Syntax);
+}
+
+TEST(MotionChoice, ARealMachineIsAttendedUnlessItsOptionsSayOtherwise) {
+  EXPECT_FALSE(is_real_motion("simulated"));
+  EXPECT_TRUE(is_real_motion("grbl:/dev/ttyACM0"));
+  GatewayOptions options;
+  options.machine = "mill-1";
+  options.control = "fanuc";
+  options.state = "/tmp/none";
+  ASSERT_TRUE(complete(options));
+  EXPECT_TRUE(options.is_unattended);
+  options.motion = "grbl:/dev/ttyACM0";
+  ASSERT_TRUE(complete(options));
+  EXPECT_FALSE(options.is_unattended);
 }
 
 TEST(MotionChoice, RefusesAnotherSpeedForAMachineInRealTime) {

@@ -1,0 +1,237 @@
+// A gateway that drives a board of the Grbl class: real programs on both sides of a pseudo
+// terminal.
+#include <gtest/gtest.h>
+#include <random>
+#include <thread>
+
+#include "tests/integration/system.hpp"
+#include "tests/support/dialect_programs.hpp"
+#include "tests/support/grbl_board_port.hpp"
+
+namespace dripline::integration {
+namespace {
+
+using test_support::BlockEnds;
+using test_support::eventually;
+using test_support::GrblBoard;
+using test_support::GrblBoardPort;
+
+/// One block, one line, one move: `blocks` of 1 mm.
+std::string straight_program(int blocks) {
+  std::string text = "G21 G90 G94 F3000\n";
+  for (int i = 1; i <= blocks; ++i) text += "G1 X" + std::to_string(i) + "\n";
+  return text + "M2\n";
+}
+
+class GrblSystem : public testing::Test {
+ protected:
+  void start(const std::string& control = "rs274ngc", GrblBoard::Options options = {}) {
+    constexpr double kSpeed = 20;  // the board's time
+    board.emplace(std::move(options), kSpeed);
+    system.emplace(System::Options{
+        .speed = "1x",
+        .server_arguments = {},
+        .gateway_arguments = {"--motion", "grbl:" + board->path(), "--unattended", "yes"},
+        .control = control});
+    system->start_server();
+    system->start_gateway();
+    system->wait_connected();
+  }
+  /// The board needs a moment to be identified.
+  std::string start_run(const std::string& program) {
+    std::string id;
+    EXPECT_TRUE(eventually([&] {
+      const auto reply =
+          system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", program}});
+      refusal = reply.body;
+      id = reply.status == 201 ? reply.json().value("id", "") : "";
+      return !id.empty();
+    })) << refusal;
+    return id;
+  }
+  void command(const std::string& id, const char* action) {
+    const auto reply =
+        system->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
+    EXPECT_EQ(reply.status, 200) << reply.body;
+  }
+  test_support::Finished panel(std::vector<std::string> words) {
+    std::vector<std::string> command{program_path("dncgw"), "panel", "--state",
+                                     system->folder() / "gateway" / "lathe-1"};
+    command.insert(command.end(), words.begin(), words.end());
+    return test_support::run_to_end(std::move(command), system->folder() / "panel.out");
+  }
+  void press_emergency_stop(bool is_pressed) {
+    const auto finished = panel({"emergency-stop", is_pressed ? "on" : "off"});
+    EXPECT_EQ(finished.status, 0) << finished.output;
+  }
+  double traveled() {
+    return board->with([](GrblBoard& peer) { return peer.traveled(); });
+  }
+  /// The axes stay where they are for a while.
+  bool rests() {
+    const double before = traveled();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // of 6 s on the board
+    return traveled() == before;
+  }
+  std::size_t done() {
+    return board->with([](GrblBoard& peer) { return peer.done.size(); });
+  }
+
+  std::optional<GrblBoardPort> board;
+  std::optional<System> system;
+  std::string refusal;
+};
+
+class GrblDialects : public GrblSystem, public testing::WithParamInterface<std::size_t> {};
+
+TEST_P(GrblDialects, PassTheEndOfEveryBlockOfTheSimulatedMachine) {
+  const auto& program = test_support::dialect_programs()[GetParam()];
+  const BlockEnds expected = test_support::simulated_ends(program);
+  start(std::string(program.control));
+  system->push(std::string(program.name), std::string(program.text));
+  const std::string id = start_run(std::string(program.name));
+  nlohmann::json run;
+  ASSERT_TRUE(eventually(
+      [&] {
+        run = system->run(id);
+        const auto machine = system->rest().get("/api/v1/machines/lathe-1").json();
+        if (machine["status"].value("execution", "") == "PROGRAM_STOPPED")
+          (void)system->rest().post("/api/v1/runs/" + id + "/commands", {{"action", "resume"}});
+        return run.value("state", "") == "completed" || run.value("state", "") == "alarmed";
+      },
+      std::chrono::seconds(60)))
+      << run.dump();
+  EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
+  EXPECT_EQ(run.value("executed", std::uint64_t{0}), expected.rbegin()->first);
+  const auto points = board->with([](GrblBoard& peer) { return peer.done; });
+  auto at = points.begin();
+  GrblBoard::Point last{};
+  const auto is_same = [](const auto& a, const auto& b) {
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (std::fabs(a[i] - b[i]) > 0.001) return false;
+    return true;
+  };
+  for (const auto& [block, end] : expected) {
+    if (is_same(end, last)) continue;
+    at = std::find_if(at, points.end(),
+                      [&, &point = end](const auto& done) { return is_same(done.at, point); });
+    ASSERT_NE(at, points.end()) << "the axes did not pass the end of block " << block;
+    last = end;
+    ++at;
+  }
+  EXPECT_EQ(at, points.end());
+  EXPECT_FALSE(board->with([](GrblBoard& peer) { return peer.has_overrun; }));
+}
+
+INSTANTIATE_TEST_SUITE_P(, GrblDialects, testing::Range<std::size_t>(0, 6), [](const auto& i) {
+  std::string name(test_support::dialect_programs()[i.param].control);
+  std::erase(name, '-');
+  return name;
+});
+
+TEST_F(GrblSystem, HoldsResumesAndAborts) {
+  start();
+  system->push("path", straight_program(2000));
+  const std::string id = start_run("path");
+  ASSERT_TRUE(eventually([&] { return system->run(id).value("executed", 0u) > 20; }));
+  command(id, "hold");
+  const auto execution = [&] {
+    return system->rest().get("/api/v1/machines/lathe-1").json()["status"].value("execution", "");
+  };
+  EXPECT_TRUE(eventually([&] { return execution() == "FEED_HOLD"; })) << execution();
+  EXPECT_TRUE(eventually([&] { return rests(); }));
+  const auto held_at = traveled();
+  command(id, "resume");
+  EXPECT_TRUE(eventually([&] { return traveled() > held_at + 20; }));
+  command(id, "abort");
+  const auto run = system->wait_ended(id);
+  EXPECT_EQ(run.value("state", ""), "aborted") << run.dump();
+  EXPECT_TRUE(rests());
+  EXPECT_LE(run.value("executed", std::size_t{0}), done() + 1) << "the first block does not move";
+  const auto second = start_run("path");  // the position is kept: no homing
+  EXPECT_TRUE(eventually([&] { return system->run(second).value("executed", 0u) > 2; }));
+}
+
+TEST_F(GrblSystem, APulledCableIsAnAlarmAndTheOperatorsResetEndsIt) {
+  start();
+  system->push("path", straight_program(2000));
+  const std::string id = start_run("path");
+  ASSERT_TRUE(eventually([&] { return system->run(id).value("executed", 0u) > 20; }));
+  board->unplug();
+  const auto run = system->wait_ended(id);
+  EXPECT_EQ(run.value("state", ""), "alarmed") << run.dump();
+  EXPECT_NE(run.value("reason", "").find("GRB0005"), std::string::npos) << run.dump();
+  EXPECT_NE(run.value("reason", "").find("the position is unknown"), std::string::npos);
+  board->plug_in();
+  const auto reply =
+      system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "path"}});
+  EXPECT_NE(reply.status, 201) << "nothing starts before the operator resets";
+  EXPECT_TRUE(eventually([&] { return rests(); })) << "the board has emptied its buffers";
+  press_emergency_stop(true);
+  press_emergency_stop(false);
+  const auto second = start_run("path");
+  EXPECT_TRUE(eventually([&] { return system->run(second).value("executed", 0u) > 2; }));
+}
+
+TEST_F(GrblSystem, ALockedBoardIsHomedAtThePanel) {
+  start("rs274ngc", {.is_locked = true});
+  system->push("path", straight_program(50));
+  const auto start_reply = [&] {
+    return system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "path"}}).body;
+  };
+  EXPECT_TRUE(eventually([&] { return start_reply().find("home the axes") != std::string::npos; }))
+      << start_reply();
+  const auto homed = panel({"home"});
+  EXPECT_EQ(homed.status, 0) << homed.output;
+  EXPECT_EQ(system->wait_ended(start_run("path")).value("state", ""), "completed");
+}
+
+TEST_F(GrblSystem, ABoardThatIsResetInTheMidstIsAnAlarm) {
+  start();
+  system->push("path", straight_program(2000));
+  const std::string id = start_run("path");
+  ASSERT_TRUE(eventually([&] { return system->run(id).value("executed", 0u) > 20; }));
+  board->with([](GrblBoard& peer) { peer.restart(); });
+  const auto run = system->wait_ended(id);
+  EXPECT_NE(run.value("reason", "").find("GRB0004"), std::string::npos) << run.dump();
+  EXPECT_TRUE(rests());
+}
+
+/// A gateway that is killed leaves a board that does what it was sent and no more, and the next one
+/// knows a block for executed only if the axes have done it.
+TEST_F(GrblSystem, KillsLoseNothingAndClaimNothing) {
+  start();
+  system->push("path", straight_program(4000));
+  std::mt19937 random(20'261'123);
+  for (int kill = 0; kill < 8; ++kill) {
+    board->with([](GrblBoard& peer) { peer.done.clear(); });
+    const std::string id = start_run("path");
+    ASSERT_TRUE(eventually([&] { return done() > 1; })) << kill;
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(std::uniform_int_distribution<>(0, 400)(random)));
+    system->gateway().kill();
+    ASSERT_TRUE(eventually([&] { return rests(); })) << "the buffers of the board run out";
+    const std::size_t truth = done();
+    system->start_gateway();
+    system->wait_connected();
+    const auto run = system->wait_ended(id);
+    EXPECT_EQ(run.value("state", ""), "interrupted") << run.dump();
+    EXPECT_LE(run.value("executed", std::size_t{0}), truth + 1) << run.dump();
+    EXPECT_EQ(done(), truth) << "nothing moves by itself";
+  }
+}
+
+TEST_F(GrblSystem, AStoppedGatewayHoldsTheBoard) {
+  start();
+  system->push("path", straight_program(4000));
+  const std::string id = start_run("path");
+  ASSERT_TRUE(eventually([&] { return done() > 20; }));
+  system->gateway().signal(SIGTERM);
+  EXPECT_EQ(system->gateway().wait(std::chrono::seconds(10)), 0);
+  EXPECT_TRUE(rests());
+  EXPECT_NE(board->with([](GrblBoard& peer) { return peer.real_time; }).find('!'),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace dripline::integration
