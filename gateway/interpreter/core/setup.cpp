@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "gateway/interpreter/core/impl/setup_table.hpp"
+#include "gateway/interpreter/core/machine_data.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -191,6 +192,36 @@ void read_probe(Table& probe, Workpiece& workpiece) {
   read_profile(probe, workpiece);
 }
 
+/// `rate` and the ends of the travel are lengths, or degrees.
+void read_machine_axis(Table& table, Axis axis, MachineData::AxisData& data) {
+  const auto read = [&](std::string_view key, std::optional<double>& out) {
+    if (!table.has(key)) return;
+    double value = 0;
+    table.number(key, value);
+    out = is_rotary(axis) ? value : table.reading().length(value).mm();
+  };
+  read("min", data.min);
+  read("max", data.max);
+  read("rate", data.max_rate);
+  if (data.min.has_value() != data.max.has_value())
+    return table.complain(data.min ? "min" : "max", "the travel has both ends, min and max");
+  if (data.min && !(*data.min < *data.max)) return table.complain("min", "is not below max");
+  if (data.max_rate && !(*data.max_rate > 0)) table.complain("rate", "expected a number above 0");
+}
+
+void read_machine(Table& table, MachineData& machine) {
+  for (const Axis axis : kEveryAxis) {
+    const char name = letter(axis);
+    table.table(std::string_view(&name, 1), {"min", "max", "rate"}, [&](Table& its) {
+      read_machine_axis(its, axis, machine.axes[static_cast<std::size_t>(axis)].emplace());
+    });
+  }
+  if (table.has("max_rpm")) table.number("max_rpm", machine.max_rpm.emplace());
+  if (machine.max_rpm && !(*machine.max_rpm > 0))
+    table.complain("max_rpm", "expected a number above 0");
+  if (table.has("homing")) table.flag("homing", machine.homing.emplace());
+}
+
 OptionValue read_option(Reading& reading, const std::string& key, const toml::node& node) {
   OptionValue option;
   option.line = node.source().begin.line;
@@ -229,7 +260,7 @@ void read_control(Table& file, Setup& setup) {
   });
 }
 
-void read_file(Table& file, Setup& setup) {
+void read_file(Table& file, Setup& setup, MachineData& machine) {
   read_units(file);
   if (file.has("units")) setup.units = file.reading().units;
   file.table("start", {"X", "Y", "Z", "A", "B", "C", "U", "V", "W"},
@@ -248,6 +279,8 @@ void read_file(Table& file, Setup& setup) {
               [&](Table& variable) { read_variable(variable, setup.variables); });
   file.table("probe", {"surface", "cylinder", "profile"},
              [&](Table& probe) { read_probe(probe, setup.workpiece); });
+  file.table("machine", {"X", "Y", "Z", "A", "B", "C", "U", "V", "W", "max_rpm", "homing"},
+             [&](Table& table) { read_machine(table, machine); });
   read_control(file, setup);
   file.table("library", {"path"}, [&](Table& library) {
     std::string path;
@@ -256,9 +289,14 @@ void read_file(Table& file, Setup& setup) {
   });
 }
 
+struct File {
+  Setup setup;
+  MachineData machine;
+};
+
 /// `keys`: those the file may have at its top.
-Result<Setup> parse(std::string_view text, Units units,
-                    std::initializer_list<std::string_view> keys) {
+Result<File> parse(std::string_view text, Units units,
+                   std::initializer_list<std::string_view> keys) {
   if (text.size() > kMaxSetupBytes) {
     return fail(Errc::LimitExceeded, "a setup file of {} bytes; at most {} are read", text.size(),
                 kMaxSetupBytes);
@@ -270,23 +308,41 @@ Result<Setup> parse(std::string_view text, Units units,
     return fail(Errc::Syntax, "line {}: {}", error.source().begin.line, error.description());
   }
   Reading reading{units, std::nullopt};
-  Setup setup;
+  File read;
   Table file(reading, parsed, "", keys);
-  read_file(file, setup);
+  read_file(file, read.setup, read.machine);
   if (reading.error) return fail(*reading.error);
-  return setup;
+  return read;
+}
+
+}  // namespace
+
+namespace {
+
+Result<File> parse_file(std::string_view text, Units units) {
+  return parse(text, units,
+               {"start", "position", "units", "switches", "date_time", "answers", "tool", "offset",
+                "variable", "probe", "machine", "control", "library"});
 }
 
 }  // namespace
 
 Result<Setup> parse_setup(std::string_view text, Units units) {
-  return parse(text, units,
-               {"start", "position", "units", "switches", "date_time", "answers", "tool", "offset",
-                "variable", "probe", "control", "library"});
+  auto file = parse_file(text, units);
+  if (!file) return fail(file.error());
+  return std::move(file->setup);
+}
+
+Result<MachineData> parse_machine_data(std::string_view text, Units units) {
+  const auto file = parse_file(text, units);
+  if (!file) return fail(file.error());
+  return file->machine;
 }
 
 Result<Setup> parse_control_data(std::string_view text, Units units) {
-  return parse(text, units, {"units", "tool", "offset", "variable", "control"});
+  auto file = parse(text, units, {"units", "tool", "offset", "variable", "control"});
+  if (!file) return fail(file.error());
+  return std::move(file->setup);
 }
 
 void use_control_data(Setup data, Setup& setup) {

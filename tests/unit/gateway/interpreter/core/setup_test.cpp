@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "gateway/interpreter/core/machine_data.hpp"
+
 namespace dripline::interpreter {
 namespace {
 
@@ -30,6 +32,37 @@ TEST(Setup, AnEmptyFileIsADefaultSetup) {
   EXPECT_FALSE(setup.date_time);
   EXPECT_TRUE(setup.workpiece.empty());
   EXPECT_TRUE(setup.control.empty());
+}
+
+TEST(Setup, TheMachineIsReadInTheUnitsOfTheFile) {
+  const auto parsed = parse_machine_data(R"(
+units = "in"
+[machine]
+X = { min = -10.0, max = 0, rate = 100 }
+C = { min = -180.0, max = 180.0 }
+max_rpm = 12000
+homing = true
+)");
+  ASSERT_TRUE(parsed) << parsed.error().what;
+  const MachineData& machine = *parsed;
+  ASSERT_TRUE(machine.axes[0]);
+  EXPECT_DOUBLE_EQ(*machine.axes[0]->min, -254);
+  EXPECT_DOUBLE_EQ(*machine.axes[0]->max_rate, 2540);
+  EXPECT_FALSE(machine.axes[1]);
+  EXPECT_DOUBLE_EQ(*machine.axes[5]->max, 180) << "degrees";
+  EXPECT_EQ(machine.max_rpm, 12000);
+  EXPECT_EQ(machine.homing, true);
+  EXPECT_FALSE(parse_machine_data("")->homing);
+  EXPECT_FALSE(parse_machine_data("[machine]\nX = 3"));
+}
+
+TEST(Setup, AMachineThatCannotBeIsAnError) {
+  EXPECT_THAT(problem("[machine]\nX = { min = 0.0 }"),
+              HasSubstr("machine.X.min: the travel has both"));
+  EXPECT_THAT(problem("[machine]\nX = { min = 5, max = 5 }"), HasSubstr("is not below max"));
+  EXPECT_THAT(problem("[machine]\nX = { rate = 0 }"), HasSubstr("expected a number above 0"));
+  EXPECT_THAT(problem("[machine]\nmax_rpm = -1"), HasSubstr("machine.max_rpm"));
+  EXPECT_THAT(problem("[machine]\nQ = { rate = 1 }"), HasSubstr("machine.Q: is not a key"));
 }
 
 TEST(Setup, EveryKeyOfASetupFileIsRead) {
