@@ -72,15 +72,22 @@ Result<std::string> read_text(const std::filesystem::path& path) {
   return std::move(text).str();
 }
 
-Result<interpreter::Setup> read_setup(const GatewayOptions& options,
-                                      const interpreter::Dialect& dialect) {
-  if (!options.setup) return interpreter::Setup{};
+/// The setup file: what the control knows, and what the machine is.
+struct SetupFile {
+  interpreter::Setup setup;
+  interpreter::MachineData machine;
+};
+
+Result<SetupFile> read_setup(const GatewayOptions& options, const interpreter::Dialect& dialect) {
+  if (!options.setup) return SetupFile{};
   const auto text = read_text(*options.setup);
   if (!text) return fail(text.error());
   auto setup = interpreter::parse_setup(*text, dialect.units);
   if (!setup)
     return fail(setup.error().code, "{}: {}", options.setup->string(), setup.error().what);
-  return setup;
+  const auto machine = interpreter::parse_machine_data(*text, dialect.units);
+  if (!machine) return fail(machine.error());
+  return SetupFile{*std::move(setup), *machine};
 }
 
 std::uint64_t new_session() {
@@ -146,10 +153,11 @@ Result<void> run(const GatewayOptions& options) {
   if (auto files = process::require_open_files(process::kGatewayFiles); !files) return files;
   const auto dialect = interpreter::find_dialect(options.control);
   if (!dialect) return fail(dialect.error());
-  auto setup = read_setup(options, **dialect);
-  if (!setup) return fail(setup.error());
+  auto file = read_setup(options, **dialect);
+  if (!file) return fail(file.error());
+  interpreter::Setup* setup = &file->setup;
   if (auto fits = check_line(options, *setup); !fits) return fits;
-  auto motion = make_motion(options.motion, **dialect, setup->workpiece);
+  auto motion = make_motion(options.motion, **dialect, {file->machine, setup->workpiece});
   if (!motion) return fail(motion.error());
   auto folder = StateFolder::open(options.state);
   if (!folder) return fail(folder.error());

@@ -10,12 +10,23 @@
 namespace dripline::gateway {
 namespace {
 
-machine::MachineLimits limits_of(const interpreter::Dialect& control) {
+machine::MachineLimits limits_of(const interpreter::Dialect& control,
+                                 const interpreter::MachineData& stated) {
   const bool is_lathe = control.machine == interpreter::MachineKind::Lathe;
   auto limits = is_lathe ? machine::MachineLimits::lathe() : machine::MachineLimits::mill();
   limits.waits_at_tool_change = control.waits_at_tool_change;
   if (control.feed_override_switch.fastest)
     limits.fastest_feed_per_minute = control.feed_override_switch.fastest->mm();
+  if (stated.max_rpm) limits.spindle.max_rpm = *stated.max_rpm;
+  for (std::size_t i = 0; i < stated.axes.size(); ++i) {
+    if (!stated.axes[i]) continue;
+    if (!limits.axes[i]) limits.axes[i].emplace();
+    machine::AxisLimits& axis = *limits.axes[i];
+    axis.min = stated.axes[i]->min.value_or(axis.min);
+    axis.max = stated.axes[i]->max.value_or(axis.max);
+    if (!stated.axes[i]->max_rate) continue;
+    axis.rapid_per_minute = axis.feed_per_minute = *stated.axes[i]->max_rate;
+  }
   return limits;
 }
 
@@ -31,22 +42,23 @@ MotionWords words_of(std::string_view text) {
 
 struct MotionTask {
   const interpreter::Dialect& control;
-  const interpreter::Workpiece& workpiece;
+  const MotionSetup& setup;
   std::string_view address;
 };
 
 Result<machine::MotionFactory> simulated(const MotionTask& task) {
-  return
-      [limits = limits_of(task.control), workpiece = task.workpiece](machine::ExecutionSink& sink) {
-        return std::make_unique<machine::SimulatedMachine>(limits, workpiece, sink);
-      };
+  const auto limits = limits_of(task.control, task.setup.machine);
+  return [limits, workpiece = task.setup.workpiece](machine::ExecutionSink& sink) {
+    return std::make_unique<machine::SimulatedMachine>(limits, workpiece, sink);
+  };
 }
 
 /// The connection begins with the machine, and is kept by it.
 Result<machine::MotionFactory> grbl(const MotionTask& task) {
-  return [address = std::string(task.address)](machine::ExecutionSink& sink) {
-    auto machine = std::make_unique<machine::grbl::GrblMachine>(
-        machine::grbl::GrblMachine::Parts{.sink = sink, .clock = std::make_shared<SystemClock>()});
+  return [address = std::string(task.address),
+          stated = task.setup.machine](machine::ExecutionSink& sink) {
+    auto machine = std::make_unique<machine::grbl::GrblMachine>(machine::grbl::GrblMachine::Parts{
+        .sink = sink, .clock = std::make_shared<SystemClock>(), .machine = stated});
     machine->connect(address);
     return machine;
   };
@@ -104,10 +116,10 @@ Result<void> check_motion(std::string_view name) {
 
 Result<machine::MotionFactory> make_motion(std::string_view name,
                                            const interpreter::Dialect& control,
-                                           const interpreter::Workpiece& workpiece) {
+                                           const MotionSetup& setup) {
   const auto row = find_row(name);
   if (!row) return fail(row.error());
-  return (*row)->make({control, workpiece, words_of(name).address});
+  return (*row)->make({control, setup, words_of(name).address});
 }
 
 }  // namespace dripline::gateway

@@ -4,6 +4,7 @@
 
 #include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/geometry/workpiece.hpp"
+#include "gateway/interpreter/core/machine_data.hpp"
 #include "gateway/machine/motion_backend.hpp"
 
 namespace dripline::gateway {
@@ -14,10 +15,16 @@ std::string motion_names();
 bool is_real_motion(std::string_view name);
 /// Errors: NotFound, naming the back ends that are known; Syntax, LimitExceeded (the address).
 Result<void> check_motion(std::string_view name);
-/// The back end `name` of a machine with this control. Probes meet the workpiece, if it is
-/// simulated. Errors: those of check_motion.
+/// What the setup file states of the machine and what its probes meet.
+struct MotionSetup {
+  interpreter::MachineData machine = {};
+  interpreter::Workpiece workpiece = {};
+};
+/// The back end `name` of a machine with this control. A real machine is compared with what is
+/// stated of it, a simulated one has these limits, and its probes meet the workpiece. Errors: those
+/// of check_motion.
 Result<machine::MotionFactory> make_motion(std::string_view name,
                                            const interpreter::Dialect& control,
-                                           const interpreter::Workpiece& workpiece);
+                                           const MotionSetup& setup);
 
 }  // namespace dripline::gateway

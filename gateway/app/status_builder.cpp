@@ -191,6 +191,10 @@ void StatusBuilder::fill_execution(dds::Status& status, const LinkState& links) 
             ? links.line_fault
             : fmt::format("the server does not command this gateway: {}", links.refused_by_server);
   }
+  // What the machine itself lacks is said also after a run: nothing begins before it is there.
+  if (!parts_.run.is_active() && !status.emergency_stop) {
+    if (const std::string notice = parts_.machine.notice(); !notice.empty()) message = notice;
+  }
   status.message = valid_text(message, kMaxReason);
 }
 
@@ -220,6 +224,7 @@ Execution StatusBuilder::execution_of_run(std::string& message, const LinkState&
   if (state == MachineState::ProgramStop || state == MachineState::OptionalStop)
     message = parts_.recorder.notice();
   if (state == MachineState::SingleBlock) message = "single block";
+  if (state == MachineState::Held) message = parts_.machine.notice();
   if (state == MachineState::Running && parts_.machine.panel().handwheel)
     message = "driven by the handwheel";
   return execution_of(state);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 
 #include "gateway/machine/execution_sink.hpp"
 #include "gateway/machine/machine_status.hpp"
@@ -103,6 +104,8 @@ class MotionBackend {
   }
 
   // -- what it does now -----------------------------------------------------------------------
+  /// Why no program can begin or continue, for the operator; empty: no reason of the machine's.
+  virtual std::string notice() const { return {}; }
   virtual MachineState state() const = 0;
   /// Distinguishes slowing down from standstill in Held, or after `abort`.
   virtual bool is_moving() const = 0;

@@ -28,13 +28,14 @@ class GrblBoard {
     bool is_grbl_hal = false;
     bool is_locked = false;  ///< homing is required
     bool has_mist = true;
+    bool is_zero_at_low_end = false;  ///< the build sets the zero where it homes
     std::size_t axes = 3;
     double steps = 1000, max_rate = 12'000;  ///< per mm; mm/min
     Point start{};
     std::optional<double> surface_z = {};  ///< where the probe meets the part
     double brake_seconds = 0.03;
     double homing_seconds = 8;                 ///< without a report
-    std::map<int, std::string> settings = {};  ///< replace or add: {32, "1"}
+    std::map<int, std::string> settings = {};  ///< replace or add: {32, "1"}; {13, "none"}
   };
   GrblBoard() : GrblBoard(Options{}) {}
   explicit GrblBoard(Options options);
@@ -71,12 +72,16 @@ class GrblBoard {
   void close_door() { is_door_open_ = false; }
   void enter_check_mode() { state_ = State::Check; }
   bool ignores_reset = false;
-  bool is_mute = false;         ///< answers nothing
-  bool is_stuck = false;        ///< reports Run, the axes stand
-  bool swallows_lines = false;  ///< lines are lost on their way
-  int leaked_blocks = 0;        ///< of the planner, reported as in use
-  double drifts = 0;            ///< mm that X is beside what it was sent to
-  int refuses_line = 0;         ///< the n-th line from now is answered by error 20
+  bool is_mute = false;          ///< answers nothing
+  bool is_stuck = false;         ///< reports Run, the axes stand
+  bool swallows_lines = false;   ///< lines are lost on their way
+  int leaked_blocks = 0;         ///< of the planner, reported as in use
+  double drifts = 0;             ///< mm that X is beside what it was sent to
+  int refuses_line = 0;          ///< the n-th line from now is answered by error 20
+  int names_lines_ahead = 0;     ///< reports a line that has not come to its turn
+  bool forgets_axes = false;     ///< reports and contacts have X alone
+  double contact_is_off = 0;     ///< mm in X, of what is reported
+  bool is_probe_closed = false;  ///< before the probe move
 
  private:
   enum class State { Idle, Run, Hold, Alarm, Door, Check };
@@ -104,6 +109,7 @@ class GrblBoard {
   std::size_t first_in_planner() const;
   std::size_t planned() const { return moves_.size() - first_in_planner(); }
   std::string words_of(const Point& point) const;
+  bool reports_inches() const { return settings_.contains(13) && settings_.at(13) == "1"; }
   void add_line(const Point& to, double rate, bool is_rapid, std::uint32_t number);
   int add_arc(const Words& words, const Point& to, bool is_clockwise);
   Point target_of(const Words& words) const;

@@ -6,6 +6,16 @@
 
 namespace dripline::test_support {
 
+GrblBoard::Options example_board() {
+  GrblBoard::Options options;
+  options.max_rate = 3000;
+  options.is_locked = true;
+  options.homing_seconds = 3;
+  options.is_zero_at_low_end = true;
+  options.settings = {{20, "1"}, {23, "7"}, {131, "200.000"}, {132, "80.000"}};
+  return options;
+}
+
 GrblBoardPort::GrblBoardPort(GrblBoard::Options options, double speed)
     : board_(std::move(options)), speed_(speed) {
   start();

@@ -10,6 +10,9 @@
 
 namespace dripline::test_support {
 
+/// The board of deploy/examples/grbl: it must be homed.
+GrblBoard::Options example_board();
+
 /// A board at the end of a pseudo terminal, in real time times `speed`, on a thread of its own.
 class GrblBoardPort {
  public:

@@ -7,6 +7,7 @@ namespace dripline::machine::grbl {
 namespace {
 
 constexpr std::size_t kLeastWindow = 80;  ///< a line of the longest form must fit
+constexpr std::size_t kMaxWindow = 4096;
 
 bool is_zero(const AxisValues& offset) {
   return std::all_of(offset.value.begin(), offset.value.begin() + offset.count,
@@ -40,7 +41,19 @@ std::size_t BoardInfo::axes() const {
 }
 
 std::size_t BoardInfo::window() const {
-  return build_ && build_->bytes > 1 ? static_cast<std::size_t>(build_->bytes) - 1 : 0;
+  if (!build_ || build_->bytes <= 1) return 0;
+  return std::min(static_cast<std::size_t>(build_->bytes) - 1, kMaxWindow);
+}
+
+std::uint32_t BoardInfo::line_numbers() const {
+  constexpr std::size_t kShortestLine = 5;  // N1G0Y1 has no shorter form that moves
+  constexpr std::size_t kMostBlocks = 10'000;
+  const auto blocks =
+      std::min(static_cast<std::size_t>(std::max(planner_blocks(), 0)), kMostBlocks);
+  const std::size_t held = blocks + window() / kShortestLine + 2;
+  for (const std::uint32_t numbers : {99U, 999U, 9'999U})
+    if (numbers > 2 * held) return numbers;
+  return 99'999;
 }
 
 int BoardInfo::decimals() const {
@@ -80,6 +93,20 @@ Coordinates BoardInfo::in_mm(const AxisValues& values) const {
   return point;
 }
 
+/// A setting that got lost on the line must not be taken for 0: $13 is the unit of the reports.
+Result<void> BoardInfo::check_settings() const {
+  const auto require = [this](int number) -> Result<void> {
+    if (settings_.contains(number)) return {};
+    return fail(Errc::Unsupported, "the board does not state its setting ${}", number);
+  };
+  for (const int number : {10, 13, 20, 22, 30})
+    if (auto known = require(number); !known) return known;
+  for (std::size_t i = 0; i < axes(); ++i)
+    for (const int first : {110, 120, 130})
+      if (auto known = require(first + static_cast<int>(i)); !known) return known;
+  return {};
+}
+
 Result<void> BoardInfo::check() const {
   if (!is_grbl_hal_ && !version_.starts_with("1.1"))
     return fail(Errc::Unsupported, "the firmware is Grbl {}, this back end needs 1.1 or grblHAL",
@@ -92,6 +119,7 @@ Result<void> BoardInfo::check() const {
   if (axes() < 2)
     return fail(Errc::Unsupported, "the board states {} axes ($100 ...), at least 2 are needed",
                 axes());
+  if (auto complete = check_settings(); !complete) return complete;
   for (std::size_t i = 0; i < axes(); ++i) {
     if (!(steps(i) > 0 && max_rate(i) > 0 && acceleration(i) > 0))
       return fail(Errc::Unsupported,

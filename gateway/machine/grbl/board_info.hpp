@@ -35,10 +35,17 @@ class BoardInfo {
     return setting(120, axis);
   }  ///< per second squared
   double max_rpm() const { return setting_or(30, 0); }
+  /// A lower speed is raised to it by the board.
+  double min_rpm() const { return setting_or(31, 0); }
+  /// It has reference points ($22).
+  bool homes() const { return (static_cast<unsigned>(setting_or(22, 0)) & 1U) != 0; }
   bool has_mist() const { return has_letter('M'); }
   bool has_line_numbers() const { return has_letter('N'); }
   int planner_blocks() const { return build_ ? build_->blocks : 0; }
-  /// Bytes that may be unanswered: one less than the receive buffer, which some builds need.
+  /// N words from 1 to this are enough to tell the lines apart that the board may hold.
+  std::uint32_t line_numbers() const;
+  /// Bytes that may be unanswered: one less than the receive buffer, which some builds need. What
+  /// is in it nobody can take back, so that of a large buffer only a part is used.
   std::size_t window() const;
   /// The longest line that the firmware reads, its end not counted.
   std::size_t line_limit() const { return is_grbl_hal_ ? 250 : 78; }
@@ -59,6 +66,7 @@ class BoardInfo {
   Coordinates in_mm(const AxisValues& values) const;
 
  private:
+  Result<void> check_settings() const;
   double setting_or(int number, double otherwise) const;
   double setting(int first, std::size_t axis) const {
     return setting_or(first + static_cast<int>(axis), 0);

@@ -21,34 +21,46 @@ namespace {
 constexpr auto kOpenLimit = 2000ms;
 constexpr auto kReopenAfter = 1000ms;
 constexpr int kTickMs = 5;
+constexpr int kReadsPerTurn = 16;  ///< a board that floods the line must not delay a hold
+constexpr auto kLastWords = 500ms;
 
-/// One open line with what is still to be written.
+/// One open line with what is still to be written. Real-time bytes overtake lines.
 class Wire {
  public:
   explicit Wire(std::unique_ptr<serial::Channel> channel) : channel_(std::move(channel)) {}
   int descriptor() const { return channel_->descriptor(); }
-  bool has_pending() const { return !pending_.empty(); }
+  bool has_pending() const { return !real_time_.empty() || !lines_.empty(); }
+  bool has_real_time() const { return !real_time_.empty(); }
 
   /// Errors: Io, the line is gone.
   Result<void> exchange(GrblMachine& machine) {
     std::array<std::byte, 1024> room;
-    std::string output;
-    for (;;) {
+    for (int i = 0; i < kReadsPerTurn; ++i) {
       const auto got = channel_->read(room);
       if (!got) return fail(got.error());
-      output += machine.exchange(std::span(room).first(got->bytes));
+      take(machine.exchange(std::span(room).first(got->bytes)));
       if (got->bytes == 0 && !got->fault) break;
     }
-    pending_ += output;
-    const auto taken = channel_->write(std::as_bytes(std::span(pending_)));
-    if (!taken) return fail(taken.error());
-    pending_.erase(0, *taken);
-    return {};
+    if (auto done = write(real_time_); !done || !real_time_.empty()) return done;
+    return write(lines_);
   }
 
  private:
+  void take(const BoardOutput& output) {
+    if (output.drops_lines) lines_.clear();
+    real_time_ += output.real_time;
+    lines_ += output.lines;
+  }
+  Result<void> write(std::string& bytes) {
+    if (bytes.empty()) return {};
+    const auto taken = channel_->write(std::as_bytes(std::span(bytes)));
+    if (!taken) return fail(taken.error());
+    bytes.erase(0, *taken);
+    return {};
+  }
+
   std::unique_ptr<serial::Channel> channel_;
-  std::string pending_;
+  std::string real_time_, lines_;
 };
 
 }  // namespace
@@ -125,9 +137,13 @@ void BoardLink::run() {
     }
   }
   // What the board has must not go on without its gateway: a feed hold is the last thing it hears.
-  if (wire) {
-    machine_.line_closing();
-    (void)wire->exchange(machine_);
+  if (!wire) return;
+  machine_.line_closing();
+  const auto limit = std::chrono::steady_clock::now() + kLastWords;
+  while (wire->exchange(machine_) && wire->has_real_time() &&
+         std::chrono::steady_clock::now() < limit) {
+    pollfd entry{wire->descriptor(), POLLOUT, 0};
+    (void)::poll(&entry, 1, kTickMs);
   }
 }
 

@@ -1,12 +1,7 @@
 #include "gateway/machine/grbl/board_session.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <utility>
-
-#include "gateway/machine/grbl/codes.hpp"
-#include "protocol/base/utf8.hpp"
 
 namespace dripline::machine::grbl {
 
@@ -14,45 +9,7 @@ using std::chrono::milliseconds;
 
 namespace {
 
-constexpr char kAskStatus = '?', kFeedHold = '!', kCycleStart = '~', kSoftReset = '\x18';
 constexpr milliseconds kAskAgain{500};
-constexpr std::array<std::string_view, 3> kIdentification{"$I", "$$", "$#"};
-
-bool rests(const StatusReport& report) {
-  switch (report.state) {
-    case BoardState::Run:
-    case BoardState::Jog:
-    case BoardState::Home:
-      return false;
-    case BoardState::Hold:
-      return report.substate.value_or(0) == 0;
-    case BoardState::Door:  // 2: braking, 3: leaving
-      return report.substate.value_or(0) < 2;
-    default:
-      return true;
-  }
-}
-
-/// The commands of one kind of override; the board knows steps of 10 and 1 around 100 %.
-struct OverrideBytes {
-  char full, more_10, less_10, more_1, less_1;
-};
-constexpr OverrideBytes kFeedBytes{'\x90', '\x91', '\x92', '\x93', '\x94'};
-constexpr OverrideBytes kSpindleBytes{'\x99', '\x9A', '\x9B', '\x9C', '\x9D'};
-
-void append_override(const OverrideBytes& bytes, int percent, std::string& to) {
-  to += bytes.full;
-  const int change = percent - 100;
-  const auto tens = static_cast<std::size_t>(std::abs(change) / 10);
-  const auto ones = static_cast<std::size_t>(std::abs(change) % 10);
-  to.append(tens, change > 0 ? bytes.more_10 : bytes.less_10);
-  to.append(ones, change > 0 ? bytes.more_1 : bytes.less_1);
-}
-
-char rapid_byte(int percent) {
-  if (percent >= 100) return '\x95';
-  return percent >= 50 ? '\x96' : '\x97';
-}
 
 }  // namespace
 
@@ -60,12 +17,13 @@ char rapid_byte(int percent) {
 
 void BoardSession::opened(SteadyTime now) {
   wants_reopen_ = false;
+  stop_ = Stop::None;
   phase_ = Phase::Waking;
-  trouble_ = "the board has not answered yet";
+  not_ready_ = "the board has not answered yet";
   phase_began_ = now;
   next_poll_ = now;
   splitter_.reset();
-  output_.clear();
+  drop_output();
   unanswered_poll_.reset();
 }
 
@@ -74,8 +32,8 @@ void BoardSession::lost(const std::string& reason) {
   phase_ = Phase::Closed;
   stop_ = Stop::None;
   wants_reopen_ = false;
-  output_.clear();
-  trouble_ = reason;
+  drop_output();
+  not_ready_ = reason;
   if (!was_ready) return;
   report_.reset();
   drop_lines();
@@ -90,7 +48,9 @@ void BoardSession::drop_lines() {
   is_held_ = is_resuming_ = hold_is_sent_ = false;
   resting_since_.reset();
   homing_limit_.reset();
-  sent_overrides_ = {};  // as after a start
+  overrides_.reset();
+  work_offset_.reset();
+  has_position_ = false;
   longest_ = {};
 }
 
@@ -107,7 +67,7 @@ void BoardSession::receive(std::span<const std::byte> bytes, SteadyTime now) {
 }
 
 void BoardSession::give_up(std::string reason) {
-  trouble_ = std::move(reason);
+  not_ready_ = std::move(reason);
   wants_reopen_ = true;
 }
 
@@ -139,7 +99,7 @@ void BoardSession::tick(SteadyTime now) {
   if (phase_ != Phase::Ready) return;
   watch_silence(now);
   watch_answers(now);
-  if (stop_ == Stop::None && sent_overrides_ != wanted_overrides_) send_overrides();
+  if (stop_ == Stop::None) output_.real_time += overrides_.take_bytes();
 }
 
 /// Silence is a hold first, then an alarm; without a program the line is opened again.
@@ -158,242 +118,20 @@ void BoardSession::watch_silence(SteadyTime now) {
   }
 }
 
-/// A board at rest that owes an answer has lost a line, or its answer.
+/// A board at rest that owes an answer has lost a line, or its answer. Only time in which it
+/// reports counts: silence is another fault.
 void BoardSession::watch_answers(SteadyTime now) {
   const bool owes_answer = counter_.unanswered_lines() > 0;
   const bool owes = (owes_answer || !tracker_.is_empty()) && report_ &&
                     report_->state == BoardState::Idle && stop_ == Stop::None;
   if (!owes) return resting_since_.reset();
   if (!resting_since_) resting_since_ = now;
-  if (now - *resting_since_ <= limits_.answer + longest_) return;
+  if (reported_at_ - *resting_since_ <= limits_.answer + longest_) return;
   raise("GRB0006",
         owes_answer
             ? "the board is at rest and has not answered a line: it was lost on its way"
             : "the board is at rest and its reports do not show that the last line is executed",
         now);
-}
-
-// -- replies -------------------------------------------------------------------------------------
-
-void BoardSession::on(const OkReply&, SteadyTime now) {
-  if (phase_ == Phase::Identifying) {
-    ++identified_;
-    return identify_next(now);
-  }
-  if (phase_ != Phase::Ready) return;
-  std::string line;
-  if (counter_.answered(line)) {
-    resting_since_.reset();
-    end_homing(now);
-    if (line.front() != '$') tracker_.answered();
-    if (counter_.unanswered_lines() == 0) {
-      longest_ = {};
-      next_poll_ = std::min(next_poll_, now + milliseconds(5));  // the report that shows it is done
-    }
-  } else if (is_active_) {
-    raise("GRB0007", "the board answers a line that it was never sent", now);
-  }
-}
-
-void BoardSession::on(const ErrorReply& error, SteadyTime now) {
-  if (phase_ == Phase::Identifying)
-    return give_up(fmt::format("the board refuses {}: error {}, {}", kIdentification[identified_],
-                               error.code, error_text(error.code)));
-  if (phase_ != Phase::Ready) return;
-  std::string line;
-  const bool is_known = counter_.answered(line);
-  end_homing(now);
-  if (!is_active_) return;
-  if (is_known) line.pop_back();
-  raise("GRB0002",
-        fmt::format("error {} of the board, {}{}", error.code, error_text(error.code),
-                    is_known ? ": " + line : ""),
-        now);
-}
-
-/// The silence of homing is over.
-void BoardSession::end_homing(SteadyTime now) {
-  if (!homing_limit_) return;
-  homing_limit_.reset();
-  unanswered_poll_.reset();
-  report_.reset();  // what was reported before it is old
-  next_poll_ = now;
-}
-
-void BoardSession::on(const AlarmReply& alarm, SteadyTime now) {
-  if (phase_ != Phase::Ready || stop_ != Stop::None) return;
-  end_homing(now);
-  if (is_active_)
-    raise("GRB0001", fmt::format("alarm {} of the board, {}", alarm.code, alarm_text(alarm.code)),
-          now);
-}
-
-void BoardSession::on(const Greeting& greeting, SteadyTime now) {
-  const bool is_expected = phase_ == Phase::Resetting || phase_ == Phase::Waking;
-  const Stop stop = std::exchange(stop_, Stop::None);
-  const bool was_ready = phase_ == Phase::Ready;
-  if (phase_ == Phase::Silent) return;
-  drop_lines();
-  ++resets_;
-  report_.reset();
-  unanswered_poll_.reset();
-  info_.take(greeting);
-  if (!is_expected && was_ready && is_active_) {
-    // Lines that are still on their way would be executed by a board that has lost its position.
-    fault_ = BoardFault{"GRB0004", "the board has restarted by itself: the position is unknown"};
-    stop_ = Stop::Fault;
-    return reset_board(now);
-  }
-  if (stop == Stop::Fault) {
-    phase_ = Phase::Silent;
-    trouble_ = fault_ ? fault_->text : "the board was stopped";
-    return;
-  }
-  phase_began_ = now;
-  if (stop == Stop::Abort || stop == Stop::Emergency) {
-    phase_ = Phase::Ready;  // the same board with the same settings
-    next_poll_ = now;
-    return;
-  }
-  info_ = {};
-  info_.take(greeting);
-  phase_ = Phase::Identifying;
-  trouble_ = "the board is being identified";
-  identified_ = 0;
-  identify_next(now);
-}
-
-void BoardSession::identify_next(SteadyTime now) {
-  if (identified_ < kIdentification.size()) {
-    output_ += std::string(kIdentification[identified_]) + "\n";
-    return;
-  }
-  phase_ = Phase::Ready;
-  counter_.set_window(info_.window());
-  tracker_.set_capacity(std::nullopt);
-  const auto fit = info_.check();
-  trouble_ = fit ? std::string() : fit.error().what;
-  next_poll_ = now;
-}
-
-void BoardSession::on(const GarbageReply& garbage, SteadyTime now) {
-  if (phase_ != Phase::Ready || !is_active_ || stop_ != Stop::None) return;
-  if (++garbage_ > limits_.garbage)
-    raise("GRB0007",
-          fmt::format("{} lines of the board are none of its protocol, the last: '{}'", garbage_,
-                      one_line(garbage.text)),
-          now);
-}
-
-void BoardSession::on(const StatusReport& report, SteadyTime now) {
-  unanswered_poll_.reset();
-  if (phase_ == Phase::Silent || phase_ == Phase::Resetting || phase_ == Phase::Identifying) return;
-  const bool is_first = !report_;
-  report_ = report;
-  take_position(report);
-  if (phase_ == Phase::Waking) {
-    // A board that moves without its program is stopped, never left to itself.
-    if (stop_ == Stop::None && rests(report))
-      stop_ = Stop::Wake;
-    else if (stop_ == Stop::None)
-      begin_stop(Stop::Wake, limits_.brake, now);
-  }
-  if (stop_ != Stop::None) {
-    if (rests(report)) reset_board(now);
-    return;
-  }
-  if (phase_ != Phase::Ready) return;
-  if (report.state == BoardState::Idle && tracker_.is_empty() && report.buffers)
-    tracker_.set_capacity(report.buffers->free_blocks);
-  if (is_first) moved_to_ = position_, moved_at_ = now;
-  watch_state(report, now);
-  if (stop_ != Stop::None) return;
-  if (!tracker_.reported(report, now) && is_active_)
-    return raise("GRB0007",
-                 fmt::format("the board reports line {}, which it was never sent", *report.line),
-                 now);
-  watch_motion(report, now);
-  correct_overrides(report);
-}
-
-void BoardSession::take_position(const StatusReport& report) {
-  if (report.work_offset) work_offset_ = *report.work_offset;
-  if (report.machine_position) {
-    position_ = info_.in_mm(*report.machine_position);
-  } else if (report.work_position) {
-    AxisValues values = *report.work_position;
-    for (std::size_t i = 0; i < values.count; ++i) values.value[i] += work_offset_.value[i];
-    position_ = info_.in_mm(values);
-  }
-}
-
-void BoardSession::watch_state(const StatusReport& report, SteadyTime now) {
-  const BoardState state = report.state;
-  if (state == BoardState::Hold || state == BoardState::Door) {
-    if (door_is_open()) is_resuming_ = false;  // closing the door must not start the axes
-    if (is_resuming_ && rests(report)) {
-      real_time(kCycleStart);
-      cycle_start_is_sent_ = true;
-    }
-    is_held_ = true;  // also what the board's own button or door has held
-    hold_is_sent_ = false;
-    return;
-  }
-  // A report that was made before the hold arrived does not end it.
-  if (is_resuming_ && (cycle_start_is_sent_ || !hold_is_sent_)) is_resuming_ = is_held_ = false;
-  if (!is_active_) {
-    is_held_ = false;
-    return;
-  }
-  switch (state) {
-    case BoardState::Idle:
-    case BoardState::Run:
-      // The hold has not arrived: a character was lost.
-      if (is_held_ && !hold_is_sent_) {
-        real_time(kFeedHold);
-        hold_is_sent_ = true;
-      } else {
-        hold_is_sent_ = false;
-      }
-      return;
-    case BoardState::Alarm:
-      return raise("GRB0001", "the board is in alarm", now);
-    default:
-      return raise("GRB0008",
-                   fmt::format("the board is in state {}, which no program of ours causes",
-                               to_string(state)),
-                   now);
-  }
-}
-
-void BoardSession::watch_motion(const StatusReport& report, SteadyTime now) {
-  if (position_ != moved_to_ || report.state != BoardState::Run) {
-    moved_to_ = position_;
-    moved_at_ = now;
-  } else if (is_active_ && now - moved_at_ > limits_.stall) {
-    raise("GRB0006", "the board reports Run and does not move", now);
-  }
-}
-
-void BoardSession::correct_overrides(const StatusReport& report) {
-  if (!report.overrides) return;
-  const OverridePercent now{report.overrides->feed, report.overrides->rapid,
-                            report.overrides->spindle};
-  // A report that was made before our bytes arrived is no difference.
-  if (now != sent_overrides_ && ++override_waits_ < 3) return;
-  override_waits_ = 0;
-  sent_overrides_ = now;
-}
-
-void BoardSession::send_overrides() {
-  override_waits_ = 0;
-  if (sent_overrides_.feed != wanted_overrides_.feed)
-    append_override(kFeedBytes, wanted_overrides_.feed, output_);
-  if (sent_overrides_.rapid != wanted_overrides_.rapid)
-    output_ += rapid_byte(wanted_overrides_.rapid);
-  if (sent_overrides_.spindle != wanted_overrides_.spindle)
-    append_override(kSpindleBytes, wanted_overrides_.spindle, output_);
-  sent_overrides_ = wanted_overrides_;
 }
 
 // -- the program ---------------------------------------------------------------------------------
@@ -407,17 +145,23 @@ Result<void> BoardSession::check_ready() const {
   if (fault_)
     return fail(Errc::Busy, "{}: press and release the emergency stop, which resets the board",
                 fault_->text);
-  if (phase_ != Phase::Ready || !trouble_.empty()) return fail(Errc::Busy, "{}", trouble_);
-  if (!report_) return fail(Errc::Busy, "the board has not reported its state yet");
+  if (phase_ != Phase::Ready || !not_ready_.empty()) return fail(Errc::Busy, "{}", not_ready_);
+  if (!report_ || !has_position_)
+    return fail(Errc::Busy, "the board has not reported its state yet");
   switch (report_->state) {
     case BoardState::Idle:
       return {};
     case BoardState::Alarm:
-      return fail(Errc::Busy, "the board is in alarm: home the axes ($H), or unlock it ($X)");
+      return fail(Errc::Busy, "the board is in alarm{}: home the axes ($H), or unlock it ($X)",
+                  last_alarm_);
     case BoardState::Check:
       return fail(Errc::Busy, "the board is in check mode ($C): nothing would move");
     case BoardState::Door:
       return fail(Errc::Busy, "the safety door is open");
+    case BoardState::Hold:
+      return fail(Errc::Busy,
+                  "the board is held: press its cycle start, or press and release the emergency "
+                  "stop");
     default:
       return fail(Errc::Busy, "the board is in state {}, not Idle", to_string(report_->state));
   }
@@ -425,20 +169,23 @@ Result<void> BoardSession::check_ready() const {
 
 bool BoardSession::may_send(std::size_t bytes) const {
   return phase_ == Phase::Ready && stop_ == Stop::None && !fault_ && !is_held_ &&
-         trouble_.empty() && !wants_reopen_ && counter_.fits(bytes);
+         not_ready_.empty() && !wants_reopen_ && counter_.fits(bytes);
 }
 
 std::uint64_t BoardSession::send(const std::string& text, bool moves, milliseconds longest) {
   const std::uint64_t serial = tracker_.sent(moves);
-  std::string line = fmt::format("N{}{}\n", ExecutionTracker::number_of(serial), text);
-  output_ += line;
+  // A build without line numbers reads them and does nothing with them.
+  std::string line = info_.has_line_numbers()
+                         ? fmt::format("N{}{}\n", tracker_.number_of(serial), text)
+                         : text + "\n";
+  output_.lines += line;
   counter_.sent(std::move(line));
   longest_ = std::max(longest_, longest);
   return serial;
 }
 
 void BoardSession::send_system(const std::string& text) {
-  output_ += text + "\n";
+  output_.lines += text + "\n";
   counter_.sent(text + "\n");
 }
 
@@ -476,7 +223,9 @@ bool BoardSession::resume(SteadyTime now) {
 
 Result<void> BoardSession::reference(bool is_homing, SteadyTime now) {
   if (fault_ || is_active_) return fail(Errc::Busy, "a program or a fault of the board is active");
-  if (phase_ != Phase::Ready || !trouble_.empty()) return fail(Errc::Busy, "{}", trouble_);
+  if (phase_ != Phase::Ready || !not_ready_.empty()) return fail(Errc::Busy, "{}", not_ready_);
+  if (is_homing && !info_.homes())
+    return fail(Errc::Unsupported, "the board does not home ($22=0): unlock it where the axes are");
   const bool is_at_rest =
       report_ && (report_->state == BoardState::Idle || report_->state == BoardState::Alarm);
   if (!is_at_rest || stop_ != Stop::None || counter_.unanswered_lines() > 0)
@@ -490,20 +239,38 @@ void BoardSession::begin_stop(Stop stop, milliseconds brake, SteadyTime now) {
   stop_ = stop;
   stop_limit_ = now + brake;
   is_resuming_ = false;
-  output_.clear();
+  drop_output();
   real_time(kFeedHold);
   next_poll_ = now;
 }
 
 void BoardSession::stop(bool is_emergency, SteadyTime now) {
-  const bool is_known = phase_ == Phase::Ready;
-  if (!is_known || stop_ == Stop::Fault) return;
-  begin_stop(is_emergency ? Stop::Emergency : Stop::Abort,
-             is_emergency ? limits_.emergency_brake : limits_.brake, now);
+  if (!is_emergency) {
+    if (phase_ == Phase::Ready && stop_ != Stop::Fault) begin_stop(Stop::Abort, limits_.brake, now);
+    return;
+  }
+  const auto brake = limits_.emergency_brake;
+  switch (phase_) {
+    case Phase::Ready:
+      if (stop_ != Stop::Fault) return begin_stop(Stop::Emergency, brake, now);
+      real_time(kFeedHold);
+      stop_limit_ = std::min(stop_limit_, now + brake);
+      return;
+    case Phase::Waking:  // what it does is not known yet
+      return begin_stop(Stop::Wake, brake, now);
+    case Phase::Silent:  // it was reset, but may not have obeyed
+      real_time(kFeedHold);
+      real_time(kSoftReset);
+      return;
+    case Phase::Closed:
+    case Phase::Resetting:
+    case Phase::Identifying:  // it has just been reset
+      return;
+  }
 }
 
 void BoardSession::reset_board(SteadyTime now) {
-  output_.clear();  // lines that have not left must not reach a board that was reset
+  drop_output();  // lines that have not left must not reach a board that was reset
   real_time(kSoftReset);
   splitter_.reset();
   phase_ = Phase::Resetting;
@@ -520,7 +287,7 @@ void BoardSession::restart(SteadyTime now) {
 }
 
 bool BoardSession::is_moving() const {
-  return phase_ == Phase::Ready && report_ && !rests(*report_);
+  return phase_ == Phase::Ready && report_ && !report_->rests();
 }
 
 }  // namespace dripline::machine::grbl

@@ -7,6 +7,7 @@
 #include "gateway/machine/grbl/board_info.hpp"
 #include "gateway/machine/grbl/character_counter.hpp"
 #include "gateway/machine/grbl/execution_tracker.hpp"
+#include "gateway/machine/grbl/override_sender.hpp"
 #include "protocol/base/clock.hpp"
 
 namespace dripline::machine::grbl {
@@ -17,10 +18,11 @@ struct BoardFault {
   std::string text;
 };
 
-/// Percent, as the board's override commands reach them.
-struct OverridePercent {
-  int feed = 100, rapid = 100, spindle = 100;
-  friend bool operator==(const OverridePercent&, const OverridePercent&) = default;
+/// What the line must carry.
+struct BoardOutput {
+  bool drops_lines = false;  ///< first: lines that have not left yet must never leave
+  std::string real_time;     ///< next: overtakes the lines that have not left
+  std::string lines;
 };
 
 /// Times after which the board is not what it was.
@@ -33,7 +35,7 @@ struct SessionLimits {
   std::chrono::milliseconds brake{10'000};                       ///< from a feed hold to rest
   std::chrono::milliseconds emergency_brake{500};
   std::chrono::milliseconds homing{180'000};  ///< most boards report nothing meanwhile
-  std::size_t bytes_per_second = 64 * 1024;
+  std::size_t bytes_per_second = 256 * 1024;
   int garbage = 3;  ///< lines that are none, in one program
 };
 
@@ -52,8 +54,8 @@ class BoardSession {
   void lost(const std::string& reason);
   void receive(std::span<const std::byte> bytes, SteadyTime now);
   void tick(SteadyTime now);
-  /// What must be written, in order. Bounded by the board's buffer and a few real-time bytes.
-  std::string take_output() { return std::exchange(output_, {}); }
+  /// Bounded by the board's buffer and a few real-time bytes.
+  BoardOutput take_output() { return std::exchange(output_, {}); }
   /// The board is silent or gives no sense: the line should be opened again.
   bool wants_reopen() const { return wants_reopen_; }
   /// Not after a fault: opening a port resets many boards.
@@ -62,9 +64,11 @@ class BoardSession {
   // -- the program --------------------------------------------------------------------------------
   /// A program begins or ends: only then a misbehavior of the board is a fault.
   void set_active(bool is_active);
+  bool is_active() const { return is_active_; }
   /// Identified, fit for programs, at rest and without a fault. Errors: Busy, with the reason.
   Result<void> check_ready() const;
   bool is_ready() const { return phase_ == Phase::Ready; }
+  bool is_open() const { return phase_ != Phase::Closed; }
   /// A line can be sent now.
   bool may_send(std::size_t bytes) const;
   /// Sends a line without N word and end; returns its serial number. `longest`: how long the board
@@ -90,7 +94,7 @@ class BoardSession {
   /// False: the board cannot continue (a door is open).
   bool resume(SteadyTime now);
   bool is_held() const { return is_held_; }
-  void set_overrides(const OverridePercent& percent) { wanted_overrides_ = percent; }
+  void set_overrides(const OverridePercent& percent) { overrides_.want(percent); }
   /// Feed hold, then a soft reset at rest: the position is kept. Ends with `is_stopped`.
   void stop(bool is_emergency, SteadyTime now);
   bool is_stopping() const { return stop_ != Stop::None; }
@@ -107,8 +111,8 @@ class BoardSession {
   /// In machine coordinates.
   const Coordinates& position() const { return position_; }
   bool is_moving() const;
-  OverridePercent overrides() const { return sent_overrides_; }
-  const std::string& trouble() const { return trouble_; }
+  /// Why the board is not ready; empty: it is.
+  const std::string& not_ready() const { return not_ready_; }
 
  private:
   enum class Phase : std::uint8_t { Closed, Waking, Resetting, Identifying, Ready, Silent };
@@ -122,23 +126,23 @@ class BoardSession {
   void on(const SettingReply& setting, SteadyTime) { info_.take(setting); }
   void on(const BuildReply& build, SteadyTime) { info_.take(build); }
   void on(const OffsetReply& offset, SteadyTime) { info_.take(offset); }
-  void on(const ProbeReply& probe, SteadyTime) { probe_ = probe; }
+  void on(const ProbeReply& probe, SteadyTime now);
   void on(const ModesReply& modes, SteadyTime) { modes_ = modes; }
   void on(const NoticeReply&, SteadyTime) {}
   void on(const UnusedReply&, SteadyTime) {}
   void on(const GarbageReply& garbage, SteadyTime now);
 
-  void real_time(char byte) { output_ += byte; }
+  void real_time(char byte) { output_.real_time += byte; }
+  void drop_output() { output_ = {.drops_lines = true, .real_time = {}, .lines = {}}; }
   void identify_next(SteadyTime now);
   void begin_stop(Stop stop, std::chrono::milliseconds brake, SteadyTime now);
   void reset_board(SteadyTime now);
   void drop_lines();
   void end_homing(SteadyTime now);
+  bool has_every_axis(const StatusReport& report) const;
   void take_position(const StatusReport& report);
   void watch_state(const StatusReport& report, SteadyTime now);
   void watch_motion(const StatusReport& report, SteadyTime now);
-  void correct_overrides(const StatusReport& report);
-  void send_overrides();
   void ask(SteadyTime now);
   void watch_silence(SteadyTime now);
   void watch_answers(SteadyTime now);
@@ -151,24 +155,27 @@ class BoardSession {
   LineSplitter splitter_;
   CharacterCounter counter_;
   ExecutionTracker tracker_;
-  std::string output_;
+  OverrideSender overrides_;
+  BoardOutput output_;
 
   std::optional<StatusReport> report_;
   Coordinates position_{};
-  AxisValues work_offset_;
+  bool has_position_ = false;
+  std::optional<AxisValues> work_offset_;
   std::optional<ModesReply> modes_;
   std::optional<ProbeReply> probe_;
   std::optional<BoardFault> fault_;
-  std::string trouble_ = "the board is not connected";  ///< why it is not Ready
+  std::string last_alarm_;  ///< its number and text, for the operator
+  std::string not_ready_ = "the board is not connected";
   std::uint64_t resets_ = 0;
 
   bool is_active_ = false, is_held_ = false, is_resuming_ = false;
   bool hold_is_sent_ = false, cycle_start_is_sent_ = false, wants_reopen_ = false;
   std::size_t identified_ = 0;  ///< commands of the identification that are answered
-  int garbage_ = 0, override_waits_ = 0;
-  OverridePercent wanted_overrides_, sent_overrides_;
+  int garbage_ = 0;
 
-  SteadyTime phase_began_{}, next_poll_{}, asked_at_{}, stop_limit_{}, second_began_{}, moved_at_{};
+  SteadyTime phase_began_{}, next_poll_{}, asked_at_{}, stop_limit_{}, reported_at_{},
+      second_began_{}, moved_at_{};
   std::optional<SteadyTime> unanswered_poll_, resting_since_, homing_limit_;
   std::chrono::milliseconds longest_{};
   std::size_t bytes_in_second_ = 0;

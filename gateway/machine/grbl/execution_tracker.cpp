@@ -24,7 +24,7 @@ std::uint64_t ExecutionTracker::shown_by_line(std::uint32_t number, bool& is_kno
   is_known = true;
   for (std::uint64_t serial = executed_ + 1; serial <= sent_; ++serial)
     if (number_of(serial) == number) return serial - 1;
-  is_known = number >= 1 && number <= std::min<std::uint64_t>(sent_, kNumbers);
+  is_known = number >= 1 && number <= std::min<std::uint64_t>(sent_, numbers_);
   return executed_;
 }
 
@@ -64,7 +64,8 @@ void ExecutionTracker::on_rest(const StatusReport& report) {
 bool ExecutionTracker::reported(const StatusReport& report, SteadyTime now) {
   bool is_known = true;
   const std::uint64_t by_line = report.line ? shown_by_line(*report.line, is_known) : executed_;
-  if (!is_known) return false;
+  // A line has been answered when the next one is planned.
+  if (!is_known || by_line > answered_) return false;
   if (report.line) has_seen_number_ = true;
   if (report.state == BoardState::Idle) {
     on_rest(report);

@@ -11,7 +11,8 @@ namespace dripline::machine::grbl {
 /// Which lines the board has executed, by its status reports. An `ok` shows that a line was parsed,
 /// never that it was executed. Pure.
 ///
-/// Lines have serial numbers from 1; the N word is the serial number modulo kNumbers.
+/// Lines have serial numbers from 1; their N words begin again after the last of `numbers`, which
+/// are more than a board ever holds lines: every byte is time on the line.
 ///
 /// Three reports show execution:
 /// - `Ln:` names the planner's block: every line before it has left the planner;
@@ -22,15 +23,15 @@ namespace dripline::machine::grbl {
 /// lines are shown by Idle alone.
 class ExecutionTracker {
  public:
-  static constexpr std::uint32_t kNumbers = 99'999;
   static constexpr std::chrono::milliseconds kAhead{150};
 
   /// The serial number of the next line.
   std::uint64_t sent(bool moves);
   void answered();
-  /// False: the report names a line that was never sent.
+  /// False: the report names a line that was never sent, or that the board has not come to yet.
   [[nodiscard]] bool reported(const StatusReport& report, SteadyTime now);
 
+  void set_numbers(std::uint32_t count) { numbers_ = count; }
   /// Free blocks of an empty planner, as reported at rest; unknown: absent.
   void set_capacity(std::optional<int> blocks) { capacity_ = blocks; }
   std::uint64_t sent() const { return sent_; }
@@ -38,8 +39,8 @@ class ExecutionTracker {
   bool is_empty() const { return executed_ == sent_; }
   /// The board has dropped what it had, executed or not: the count stays, the rest is forgotten.
   void drop();
-  static std::uint32_t number_of(std::uint64_t serial) {
-    return static_cast<std::uint32_t>((serial - 1) % kNumbers + 1);
+  std::uint32_t number_of(std::uint64_t serial) const {
+    return static_cast<std::uint32_t>((serial - 1) % numbers_ + 1);
   }
 
  private:
@@ -48,6 +49,7 @@ class ExecutionTracker {
   std::uint64_t shown_by_buffers(int free_blocks) const;
   void on_rest(const StatusReport& report);
 
+  std::uint32_t numbers_ = 99'999;
   std::uint64_t sent_ = 0, answered_ = 0, executed_ = 0;
   std::deque<bool> moves_;  ///< of the lines after `executed_`
   struct Shown {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gateway/machine/grbl/board_link.hpp"
+#include "gateway/machine/grbl/machine_check.hpp"
 
 namespace dripline::machine::grbl {
 
@@ -14,18 +15,10 @@ using interpreter::Position;
 
 namespace {
 
-constexpr std::chrono::seconds kCommandTime{30};  ///< a spindle may run up with its answer pending
-
 Coordinates coordinates_of(const Position& position) {
   Coordinates point{};
   for (std::size_t i = 0; i < kMaxAxes; ++i) point[i] = position.raw(static_cast<Axis>(i));
   return point;
-}
-
-Position position_of(const Coordinates& point, std::size_t axes) {
-  Position position;
-  for (std::size_t i = 0; i < axes; ++i) position.set_raw(static_cast<Axis>(i), point[i]);
-  return position;
 }
 
 double known_feed(double factor) {
@@ -46,9 +39,16 @@ int percent(double factor) {
 
 }  // namespace
 
+Position position_of(const Coordinates& point, std::size_t axes) {
+  Position position;
+  for (std::size_t i = 0; i < axes; ++i) position.set_raw(static_cast<Axis>(i), point[i]);
+  return position;
+}
+
 GrblMachine::GrblMachine(Parts parts)
     : sink_(parts.sink),
       clock_(std::move(parts.clock)),
+      stated_(std::move(parts.machine)),
       builder_(LineWriter(BoardInfo{})),
       capabilities_{.axes = {},
                     .arcs = true,
@@ -92,7 +92,7 @@ void GrblMachine::line_closing() {
   if (session_.is_ready() && !session_.is_empty()) session_.hold(clock_->steady_now());
 }
 
-std::string GrblMachine::exchange(std::span<const std::byte> bytes) {
+BoardOutput GrblMachine::exchange(std::span<const std::byte> bytes) {
   const Lock lock(mutex_);
   const SteadyTime now = clock_->steady_now();
   if (!bytes.empty()) session_.receive(bytes, now);
@@ -103,15 +103,13 @@ std::string GrblMachine::exchange(std::span<const std::byte> bytes) {
 
 std::string GrblMachine::reopen_reason() const {
   const Lock lock(mutex_);
-  return session_.wants_reopen() ? session_.trouble() : std::string();
+  return session_.wants_reopen() ? session_.not_ready() : std::string();
 }
 
 bool GrblMachine::may_open() const {
   const Lock lock(mutex_);
   return session_.may_open();
 }
-
-// -- sending -------------------------------------------------------------------------------------
 
 bool GrblMachine::is_over() const {
   return stop_ == MachineState::Completed || stop_ == MachineState::Alarmed ||
@@ -123,358 +121,11 @@ bool GrblMachine::may_begin() const {
          !is_override_hold_ && !session_.is_held() && !session_.fault();
 }
 
-/// Sends the motion that may be sent, up to the first action that must wait for it.
-void GrblMachine::pump() {
-  if (!is_released_ || !may_begin() || !prepare()) return;
-  for (; next_ < queue_.size(); ++next_) {
-    Action& action = queue_[next_];
-    if (is_single_block_ && action.origin.block != queue_.front().origin.block) return;
-    if (std::holds_alternative<BlockEnd>(action.body)) continue;
-    auto* motion = std::get_if<Motion>(&action.body);
-    if (motion == nullptr) return;
-    for (; motion->sent < motion->lines.size(); ++motion->sent) {
-      const std::string& line = motion->lines[motion->sent];
-      if (!session_.may_send(line.size() + LineWriter::kAdded)) return;
-      const bool moves = !line.starts_with("G4");
-      motion->last_serial = session_.send(line, moves);
-    }
-    expected_ = motion->end;
-  }
-}
-
-/// The modes that all lines rely on are set and read back before the first line of a program.
-bool GrblMachine::prepare() {
-  const LineWriter& writer = builder_.writer();
-  const bool is_current = preamble_resets_ == session_.resets();
-  if (preamble_ == Preamble::Done && is_current) return true;
-  if (preamble_ == Preamble::None || !is_current) {
-    if (!session_.is_empty() || !session_.may_send(80) || !check_position(expected_)) return false;
-    for (const std::string& line : writer.preamble()) session_.send(line, false);
-    session_.drop_modes();
-    preamble_ = Preamble::Sent;
-    preamble_resets_ = session_.resets();
-    return false;
-  }
-  if (!session_.is_empty() || !session_.may_send(8)) return false;
-  if (preamble_ == Preamble::Sent) {
-    session_.send_system("$G");
-    preamble_ = Preamble::Asked;
-    return false;
-  }
-  const auto& modes = session_.modes();
-  for (const std::string& word : writer.preamble_words()) {
-    if (modes && std::ranges::find(modes->words, word) != modes->words.end()) continue;
-    session_.raise("GRB0007", fmt::format("the board does not take the mode {}", word),
-                   clock_->steady_now());
-    return false;
-  }
-  preamble_ = Preamble::Done;
-  return true;
-}
-
-/// With nothing in motion the axes must be where the program has sent them.
-bool GrblMachine::check_position(const Coordinates& expected) {
-  const BoardInfo& board = session_.board();
-  const auto& report = session_.report();
-  if (!report || report->state != BoardState::Idle) return false;
-  for (std::size_t i = 0; i < board.axes(); ++i) {
-    if (std::fabs(session_.position()[i] - expected[i]) <= board.tolerance(i)) continue;
-    session_.raise(
-        "GRB0003",
-        fmt::format("{} is at {:.3f}, the program has it at {:.3f}: the board does not do "
-                    "what it was sent",
-                    letter_of(i), session_.position()[i], expected[i]),
-        clock_->steady_now());
-    return false;
-  }
-  return true;
-}
-
-// -- delivering ----------------------------------------------------------------------------------
-
-void GrblMachine::take_made() {
-  for (Action& action : builder_.take()) {
-    queued_seconds_ += action.seconds;
-    queue_.push_back(std::move(action));
-  }
-}
-
-Seconds GrblMachine::poll(Seconds, std::size_t max_actions) {
-  {
-    Lock lock(mutex_);
-    take_made();
-    is_allowed_ = max_actions > 0;
-    session_.set_active(!is_over());
-    while (deliver(lock)) {
-    }
-    pump();
-    session_.set_active(!is_over());
-  }
-  wake();
-  return Seconds{0};
-}
-
-/// False: nothing more can be delivered now.
-bool GrblMachine::deliver(Lock& lock) {
-  if (is_over()) return false;
-  if (const auto& fault = session_.fault()) {
-    const Origin origin = origin_;
-    deliver_alarm(lock, {origin, {.id = fault->id, .text = fault->text, .line = origin.line}});
-    return false;
-  }
-  if (is_aborting_) return end_abort(lock);
-  return !queue_.empty() && deliver_front(lock);
-}
-
-bool GrblMachine::deliver_front(Lock& lock) {
-  Action& action = queue_.front();
-  if (std::holds_alternative<BlockEnd>(action.body)) {
-    origin_ = action.origin;
-    return finish_front(lock);
-  }
-  if (std::holds_alternative<Motion>(action.body)) return deliver_motion(lock);
-  if (!may_begin() || !session_.is_empty()) return false;
-  is_released_ = false;
-  origin_ = action.origin;
-  if (std::holds_alternative<BoardCommand>(action.body)) return deliver_command(lock);
-  if (std::holds_alternative<ProbeMove>(action.body)) return deliver_probe(lock);
-  if (std::holds_alternative<TextEvent>(action.body)) return deliver_text(lock);
-  if (const auto* inhibit = std::get_if<interpreter::OverrideInhibit>(&action.body)) {
-    inhibit_ = *inhibit;
-    apply_overrides();
-    return finish_front(lock);
-  }
-  if (const auto* alarm = std::get_if<AlarmEvent>(&action.body)) {
-    deliver_alarm(lock, {origin_, alarm->diagnostic});
-    return false;
-  }
-  return deliver_stop(lock);
-}
-
-/// The last moment to write what was reported before the motion. False: it was announced before.
-bool GrblMachine::start_front(Lock& lock) {
-  if (std::exchange(has_started_, true)) return false;
-  const Origin origin = origin_;
-  lock.unlock();
-  sink_.on_motion_starts(origin);
-  lock.lock();
-  return true;
-}
-
-bool GrblMachine::deliver_motion(Lock& lock) {
-  Action& action = queue_.front();
-  auto& motion = std::get<Motion>(action.body);
-  origin_ = action.origin;
-  shown_.motion = motion.kind;
-  if (!is_released_) {
-    if (!may_begin()) return false;
-    if (start_front(lock)) return true;  // meanwhile a fault may have come
-    is_released_ = true;
-    pump();
-  }
-  const bool is_executed =
-      motion.sent == motion.lines.size() && session_.tracker().executed() >= motion.last_serial;
-  if (!is_executed) return false;
-  if (session_.is_empty() && next_ <= 1 && session_.report() &&
-      session_.report()->state == BoardState::Idle && !check_position(motion.end))
-    return true;  // to the fault
-  return finish_front(lock);
-}
-
-bool GrblMachine::deliver_command(Lock& lock) {
-  if (start_front(lock)) return true;
-  if (!prepare()) return false;
-  auto& command = std::get<BoardCommand>(queue_.front().body);
-  const auto* dwell = std::get_if<interpreter::Dwell>(&command.event);
-  if (!command.is_sent) {
-    for (const std::string& line : command.lines) {
-      const auto time = dwell ? std::chrono::milliseconds(std::llround(dwell->seconds * 1000))
-                              : std::chrono::milliseconds(kCommandTime);
-      session_.send(line, false, time);
-    }
-    command.is_sent = true;
-    return false;
-  }
-  const auto event = command.event;
-  if (const auto* spindle = std::get_if<interpreter::Spindle>(&event)) {
-    shown_.spindle = *spindle;
-    lock.unlock();
-    sink_.on_spindle(*spindle);
-    lock.lock();
-  } else if (const auto* coolant = std::get_if<interpreter::Coolant>(&event)) {
-    shown_.flood = coolant->flood;
-    shown_.mist = coolant->mist;
-    lock.unlock();
-    sink_.on_coolant(*coolant);
-    lock.lock();
-  }
-  return finish_front(lock);
-}
-
-/// The move ends at the contact, as programs take it: the board brakes past it, and is moved back.
-bool GrblMachine::deliver_probe(Lock& lock) {
-  if (start_front(lock)) return true;
-  if (!prepare()) return false;
-  auto& move = std::get<ProbeMove>(queue_.front().body);
-  if (!move.is_sent && !move.text.lines.empty()) {
-    session_.drop_probe();
-    session_.send(move.text.lines.front(), true);
-    move.is_sent = true;
-    return false;
-  }
-  LineWriter& writer = builder_.writer();
-  const auto& reply = session_.probe();
-  if (move.is_sent && !reply) {
-    session_.raise("GRB0007", "the probe move has ended without a result", clock_->steady_now());
-    return true;
-  }
-  const bool tripped = move.is_sent && reply->tripped;
-  const Coordinates end = tripped ? session_.board().in_mm(reply->at) : move.text.end;
-  if (tripped && !move.is_returning) {
-    move.is_returning = true;
-    writer.move_to(session_.position());
-    MotionText text;
-    const auto refusal = writer.line({.origin = origin_,
-                                      .to = position_of(end, session_.board().axes()),
-                                      .feed = move.probe.feed},
-                                     text);
-    if (!refusal && !text.lines.empty()) {
-      session_.send(text.lines.front(), true);
-      return false;
-    }
-  }
-  writer.move_to(end);
-  expected_ = end;
-  if (!check_position(end)) return session_.fault().has_value();
-  interpreter::Probe probe = move.probe;
-  interpreter::Position at = probe.to;
-  for (std::size_t i = 0; i < session_.board().axes(); ++i)
-    if (at.has(static_cast<Axis>(i))) at.set_raw(static_cast<Axis>(i), end[i]);
-  probe.result = interpreter::ProbeResult{tripped, at};
-  (void)finish_front(lock);
-  lock.unlock();
-  sink_.on_probed(probe);
-  lock.lock();
-  return true;
-}
-
-bool GrblMachine::deliver_text(Lock& lock) {
-  const TextEvent text = std::get<TextEvent>(queue_.front().body);
-  const Origin origin = origin_;
-  lock.unlock();
-  switch (text.kind) {
-    case TextEvent::Kind::Output:
-      sink_.on_output({origin, text.device, text.text});
-      break;
-    case TextEvent::Kind::Open:
-      sink_.on_open({origin, text.device, std::nullopt});
-      break;
-    case TextEvent::Kind::OpenNamed:
-      sink_.on_open({origin, text.device, text.text});
-      break;
-    case TextEvent::Kind::Close:
-      sink_.on_close({origin, text.device});
-      break;
-    case TextEvent::Kind::Message:
-      sink_.on_message({origin, text.text});
-      break;
-    case TextEvent::Kind::Warning:
-      sink_.on_warning({origin, {text.id, text.text, text.line, text.column}});
-      break;
-  }
-  lock.lock();
-  return finish_front(lock);
-}
-
-/// Tool changes, stops and the end.
-bool GrblMachine::deliver_stop(Lock& lock) {
-  const Action action = queue_.front();
-  if (const auto* tool = std::get_if<interpreter::ToolChange>(&action.body)) {
-    shown_.next_tool.reset();
-    (tool->is_preselection ? shown_.next_tool : shown_.tool) = tool->number;
-    if (tool->offset) shown_.tool_offset = tool->offset;
-    lock.unlock();
-    sink_.on_tool(*tool);
-    lock.lock();
-  } else if (const auto* stop = std::get_if<interpreter::Stop>(&action.body)) {
-    const bool is_optional = stop->kind == interpreter::StopKind::Optional;
-    if (!is_optional || panel_.optional_stop) {
-      stopped_at_ = stop->kind;
-      stop_ = is_optional ? MachineState::OptionalStop : MachineState::ProgramStop;
-      lock.unlock();
-      sink_.on_stop(*stop);
-      lock.lock();
-    }
-  } else if (const auto* end = std::get_if<interpreter::End>(&action.body)) {
-    // The end of the last block comes first, so that the counter is complete.
-    if (queue_.size() > 1 && !action.ends_block) {
-      queue_.front().ends_block = queue_[1].ends_block;
-      queue_.erase(queue_.begin() + 1);
-    }
-    (void)finish_front(lock);
-    stop_ = MachineState::Completed;
-    lock.unlock();
-    sink_.on_end(*end);
-    lock.lock();
-    return false;
-  }
-  return finish_front(lock);
-}
-
-bool GrblMachine::finish_front(Lock& lock) {
-  const Action& action = queue_.front();
-  const Origin origin = action.origin;
-  const bool ends_block = action.ends_block;
-  const bool may_stop = action.may_stop_after;
-  queued_seconds_ = queue_.size() == 1 ? 0 : std::max(0.0, queued_seconds_ - action.seconds);
-  queue_.pop_front();
-  if (next_ > 0) --next_;
-  has_started_ = false;
-  if (!ends_block) return true;
-  executed_ = origin.block;
-  origin_ = origin;
-  if (is_single_block_ && may_stop && session_.is_empty() && stop_ == MachineState::Idle)
-    stop_ = MachineState::SingleBlock;
-  lock.unlock();
-  sink_.on_block_executed(origin);
-  lock.lock();
-  return true;
-}
-
-void GrblMachine::discard() {
-  queue_.clear();
-  next_ = 0;
-  queued_seconds_ = 0;
-  is_released_ = has_started_ = false;
-  (void)builder_.take();
-  builder_.close();
-}
-
-void GrblMachine::deliver_alarm(Lock& lock, interpreter::Alarm alarm) {
-  discard();
-  stop_ = MachineState::Alarmed;
-  lock.unlock();
-  sink_.on_alarm(alarm);
-  lock.lock();
-}
-
-/// True never: the program is over, or the board still brakes.
-bool GrblMachine::end_abort(Lock& lock) {
-  if (is_emergency_ || session_.is_stopping() || (session_.is_ready() && !session_.report()))
-    return false;
-  is_aborting_ = false;
-  discard();
-  stop_ = MachineState::Aborted;
-  lock.unlock();
-  sink_.on_aborted();
-  lock.lock();
-  return false;
-}
-
 // -- the owner's side ----------------------------------------------------------------------------
 
 const MotionCapabilities& GrblMachine::capabilities() const {
   const Lock lock(mutex_);
+  capabilities_.axes.reset();
   for (std::size_t i = 0; i < session_.board().axes(); ++i) capabilities_.axes.set(i);
   return capabilities_;
 }
@@ -483,6 +134,7 @@ Result<void> GrblMachine::check_begin(const Position& at) const {
   const Lock lock(mutex_);
   if (auto ready = session_.check_ready(); !ready) return ready;
   const BoardInfo& board = session_.board();
+  if (auto same = check_machine(stated_, board); !same) return same;
   for (std::size_t i = 0; i < interpreter::kAxisCount; ++i) {
     const auto axis = static_cast<Axis>(i);
     const double wanted = at.raw(axis);
@@ -511,7 +163,7 @@ void GrblMachine::begin(const Position& at) {
   preamble_ = Preamble::None;
   inhibit_ = {};
   apply_overrides();
-  is_allowed_ = is_override_hold_ = false;
+  is_allowed_ = is_board_held_by_override_ = false;
   is_aborting_ = is_emergency_;
   stop_ = MachineState::Idle;
   shown_ = {};
@@ -522,7 +174,10 @@ void GrblMachine::begin(const Position& at) {
 
 bool GrblMachine::has_room() const {
   const Lock lock(mutex_);
-  return queue_.size() + builder_.size() < kMaxActions;
+  // Blocks of a tenth of a millisecond are executed by the thousand before a report shows it.
+  constexpr std::size_t kMaxUnreported = 8 * kMaxActions;
+  const std::size_t made = queue_.size() + builder_.size();
+  return made - next_ < kMaxActions && made < kMaxUnreported;
 }
 
 bool GrblMachine::drained() const {
@@ -560,21 +215,44 @@ void GrblMachine::set_panel(const OperatorPanel& panel) {
     } else if (was_emergency && !is_emergency_ && session_.fault()) {
       session_.restart(now);
     }
-    const bool is_zero = panel_.feed_override == 0 || panel_.rapid_override == 0;
-    if (is_zero && !is_override_hold_) {
-      is_override_hold_ = true;
-      if (!is_over()) session_.hold(now);
-    } else if (!is_zero && is_override_hold_) {
-      is_override_hold_ = false;
-      (void)session_.resume(now);
-    }
+    hold_by_override(now);
   }
+  if (panel_.emergency_stop) report_off();
   wake();
+}
+
+/// Raising the override ends its own hold, never one that the operator or the board has begun.
+void GrblMachine::hold_by_override(SteadyTime now) {
+  const bool was_zero =
+      std::exchange(is_override_hold_, panel_.feed_override == 0 || panel_.rapid_override == 0);
+  if (is_override_hold_ && !was_zero && session_.is_active() && !session_.is_held()) {
+    session_.hold(now);
+    is_board_held_by_override_ = true;
+  } else if (!is_override_hold_ && std::exchange(is_board_held_by_override_, false)) {
+    (void)session_.resume(now);
+  }
+}
+
+/// A board that is reset switches spindle and coolant off; one that is not there may not.
+void GrblMachine::report_off() {
+  interpreter::Spindle off;
+  bool had_spindle = false, had_coolant = false;
+  {
+    const Lock lock(mutex_);
+    if (!session_.is_open()) return;
+    off.origin = origin_;
+    had_spindle = std::exchange(shown_.spindle, off).state != interpreter::SpindleState::Off;
+    had_coolant = std::exchange(shown_.flood, false);
+    had_coolant |= std::exchange(shown_.mist, false);
+  }
+  if (had_spindle) sink_.on_spindle(off);
+  if (had_coolant) sink_.on_coolant({off.origin, false, false});
 }
 
 void GrblMachine::hold() {
   {
     const Lock lock(mutex_);
+    is_board_held_by_override_ = false;
     if (!is_over() && !is_aborting_) session_.hold(clock_->steady_now());
   }
   wake();
@@ -616,6 +294,14 @@ Result<void> GrblMachine::unlock() {
   const Lock lock(mutex_);
   if (is_emergency_) return fail(Errc::Busy, "the emergency stop is pressed");
   return session_.reference(false, clock_->steady_now());
+}
+
+std::string GrblMachine::notice() const {
+  const Lock lock(mutex_);
+  if (session_.door_is_open()) return "the safety door is open";
+  if (session_.is_held()) return {};
+  const auto ready = session_.check_ready();
+  return ready || current_state() == MachineState::Running ? std::string() : ready.error().what;
 }
 
 MachineState GrblMachine::current_state() const {

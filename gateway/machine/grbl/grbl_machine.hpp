@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "gateway/interpreter/core/machine_data.hpp"
 #include "gateway/machine/grbl/board_session.hpp"
 #include "gateway/machine/grbl/motion_queue.hpp"
 #include "gateway/machine/motion_backend.hpp"
@@ -24,6 +25,7 @@ class GrblMachine final : public MotionBackend {
   struct Parts {
     ExecutionSink& sink;
     std::shared_ptr<const Clock> clock;
+    interpreter::MachineData machine = {};  ///< what the setup states; the board must agree
     SessionLimits limits = {};
   };
   explicit GrblMachine(Parts parts);
@@ -36,7 +38,7 @@ class GrblMachine final : public MotionBackend {
   void line_opened();
   void line_lost(const std::string& reason);
   /// Takes what came; returns what must be written. To be called at least every 10 ms.
-  std::string exchange(std::span<const std::byte> bytes);
+  BoardOutput exchange(std::span<const std::byte> bytes);
   /// The line is about to be closed in the midst of a program: the board is held.
   void line_closing();
   /// Why the line should be opened again; empty: it should not.
@@ -45,7 +47,8 @@ class GrblMachine final : public MotionBackend {
 
   // -- the owner's side ---------------------------------------------------------------------------
   const MotionCapabilities& capabilities() const override;
-  /// Errors: Busy (no board, an alarm), Conflict (the axes are elsewhere), Unsupported.
+  /// Errors: Busy (no board, an alarm), Conflict (the board is another machine than the setup
+  /// states, the axes are elsewhere), Unsupported.
   Result<void> check_begin(const interpreter::Position& at) const override;
   void begin(const interpreter::Position& at) override;
   interpreter::EventSink& events() override { return builder_; }
@@ -69,11 +72,12 @@ class GrblMachine final : public MotionBackend {
   Result<void> home() override;    ///< $H
   Result<void> unlock() override;  ///< $X
 
+  std::string notice() const override;
   MachineState state() const override;
   bool is_moving() const override;
   MachineStatus status() const override;
 
-  static constexpr std::size_t kMaxActions = 1024;
+  static constexpr std::size_t kMaxActions = 1024;  ///< that are not sent yet
 
  private:
   using Lock = std::unique_lock<std::mutex>;
@@ -98,11 +102,14 @@ class GrblMachine final : public MotionBackend {
   void discard();
   void take_made();
   void apply_overrides();
+  void hold_by_override(SteadyTime now);
+  void report_off();
   MachineState current_state() const;
   void wake();
 
   ExecutionSink& sink_;
   const std::shared_ptr<const Clock> clock_;
+  const interpreter::MachineData stated_;
   QueueBuilder builder_;  ///< owner's thread only
   OperatorPanel panel_;   ///< owner's thread only
   mutable MotionCapabilities capabilities_;
@@ -119,7 +126,8 @@ class GrblMachine final : public MotionBackend {
   bool has_started_ = false;  ///< the front action was announced to the sink
   bool is_allowed_ = false;   ///< the owner lets actions begin
   bool is_single_block_ = false, is_emergency_ = false, is_aborting_ = false;
-  bool is_override_hold_ = false;
+  bool is_override_hold_ = false;           ///< an override is 0: nothing begins
+  bool is_board_held_by_override_ = false;  ///< and by nothing else
   interpreter::OverrideInhibit inhibit_;
   MachineState stop_ = MachineState::Idle;
   interpreter::StopKind stopped_at_{};
@@ -130,5 +138,8 @@ class GrblMachine final : public MotionBackend {
 
   std::unique_ptr<BoardLink> link_;  ///< last: its thread ends first
 };
+
+/// Marks the first `axes` axes.
+interpreter::Position position_of(const Coordinates& point, std::size_t axes);
 
 }  // namespace dripline::machine::grbl

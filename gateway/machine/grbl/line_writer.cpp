@@ -283,6 +283,10 @@ std::optional<Refusal> LineWriter::spindle(const interpreter::Spindle& event,
     return Refusal{"GRB0010",
                    fmt::format("spindle speed {:.6g} is above the board's {:.6g} rpm ($30)", rpm,
                                board_.max_rpm())};
+  if (rpm > 0 && rpm < board_.min_rpm())
+    return Refusal{"GRB0010",
+                   fmt::format("spindle speed {:.6g} is below the board's {:.6g} rpm ($31)", rpm,
+                               board_.min_rpm())};
   line =
       fmt::format("{}S{}", event.state == SpindleState::Clockwise ? "M3" : "M4", trimmed(rpm, 1));
   return std::nullopt;

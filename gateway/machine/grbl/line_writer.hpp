@@ -55,7 +55,7 @@ class LineWriter {
   /// The words of the preamble that `$G` must name.
   std::vector<std::string> preamble_words() const;
 
-  /// Bytes that the sender adds: "N99999" and the line's end.
+  /// Bytes that the sender adds at most: "N99999" and the line's end.
   static constexpr std::size_t kAdded = 7;
 
  private:

@@ -12,6 +12,9 @@ void QueueBuilder::begin(LineWriter writer, const Coordinates& at) {
   writer_.begin(at);
   made_.clear();
   inhibit_ = {};
+  spindle_ = {};
+  tool_.reset();
+  wants_tool_ = has_stopped_ = false;
   is_closed_ = false;
 }
 
@@ -41,22 +44,48 @@ void QueueBuilder::add_motion(const Origin& origin, MotionKind kind, MotionText 
   action->body = Motion{.lines = std::move(text.lines), .end = text.end, .kind = kind};
 }
 
+/// The last moment to change a tool. False: nothing is taken.
+bool QueueBuilder::begin_motion(const Origin& origin) {
+  if (is_closed_) return false;
+  stop_for_tool(origin);
+  has_stopped_ = false;
+  return true;
+}
+
+void QueueBuilder::want_tool() {
+  wants_tool_ = !has_stopped_;
+}
+
+void QueueBuilder::stop_for_tool(const Origin& origin) {
+  if (!std::exchange(wants_tool_, false) || is_closed_) return;
+  const interpreter::Spindle before = spindle_;
+  if (before.state != interpreter::SpindleState::Off) {
+    interpreter::Spindle off;
+    off.origin = origin;
+    add_spindle(off);
+  }
+  if (Action* action = add(origin))
+    action->body = interpreter::Stop{origin, interpreter::StopKind::ToolChange};
+  has_stopped_ = true;
+  if (before.state != interpreter::SpindleState::Off) add_spindle(before);
+}
+
 void QueueBuilder::on_rapid(const interpreter::Rapid& event) {
-  if (is_closed_) return;
+  if (!begin_motion(event.origin)) return;
   MotionText text;
   auto refusal = writer_.rapid(event, text);
   add_motion(event.origin, MotionKind::Rapid, std::move(text), std::move(refusal));
 }
 
 void QueueBuilder::on_line(const interpreter::Line& event) {
-  if (is_closed_) return;
+  if (!begin_motion(event.origin)) return;
   MotionText text;
   auto refusal = writer_.line(event, text);
   add_motion(event.origin, MotionKind::Line, std::move(text), std::move(refusal));
 }
 
 void QueueBuilder::on_arc(const interpreter::Arc& event) {
-  if (is_closed_) return;
+  if (!begin_motion(event.origin)) return;
   MotionText text;
   auto refusal = writer_.arc(event, text);
   const bool is_clockwise = event.turn == interpreter::Turn::Clockwise;
@@ -81,8 +110,19 @@ void QueueBuilder::on_dwell(const interpreter::Dwell& event) {
 }
 
 void QueueBuilder::on_spindle(const interpreter::Spindle& event) {
+  if (wants_tool_ && event.state != interpreter::SpindleState::Off) {
+    interpreter::Spindle off;
+    off.origin = event.origin;
+    if (spindle_.state != interpreter::SpindleState::Off) add_spindle(off);
+    stop_for_tool(event.origin);
+  }
+  add_spindle(event);
+}
+
+void QueueBuilder::add_spindle(const interpreter::Spindle& event) {
   std::string line;
   if (auto refusal = writer_.spindle(event, line)) return refuse(event.origin, *std::move(refusal));
+  spindle_ = event;
   if (Action* action = add(event.origin)) action->body = BoardCommand{{std::move(line)}, event};
 }
 
@@ -95,10 +135,18 @@ void QueueBuilder::on_coolant(const interpreter::Coolant& event) {
 
 void QueueBuilder::on_tool(const interpreter::ToolChange& event) {
   if (Action* action = add(event.origin)) action->body = event;
+  if (event.is_preselection || tool_ == event.number) return;
+  tool_ = event.number;
+  if (event.number != 0) want_tool();
 }
 
 /// A clamp or a chuck that is not switched is no detail.
 void QueueBuilder::on_miscellaneous(const interpreter::Miscellaneous& event) {
+  constexpr int kToolChange = 6;
+  if (event.code == kToolChange) {
+    if (Action* action = add(event.origin)) action->body = event;
+    return want_tool();
+  }
   refuse(event.origin, {"MCH0008", fmt::format("this machine cannot do M{}", event.code)});
 }
 
@@ -108,6 +156,9 @@ void QueueBuilder::on_pin(const interpreter::PinChange& event) {
 }
 
 void QueueBuilder::on_stop(const interpreter::Stop& event) {
+  const bool is_for_tool = event.kind == interpreter::StopKind::ToolChange;
+  if (is_for_tool && has_stopped_) return;  // for this tool
+  if (is_for_tool) wants_tool_ = false, has_stopped_ = true;
   if (Action* action = add(event.origin)) action->body = event;
 }
 
@@ -166,7 +217,7 @@ void QueueBuilder::on_alarm(const interpreter::Alarm& event) {
 }
 
 void QueueBuilder::begin_probe(const interpreter::Probe& probe) {
-  if (is_closed_) return;
+  if (!begin_motion(probe.origin)) return;
   ProbeMove move{.probe = probe, .text = {}};
   move.probe.result.reset();
   if (auto refusal = writer_.probe(probe, move.text))
@@ -178,6 +229,7 @@ void QueueBuilder::begin_probe(const interpreter::Probe& probe) {
 
 void QueueBuilder::on_block_end(const Origin& origin) {
   if (is_closed_) return;
+  stop_for_tool(origin);
   if (!made_.empty() && !made_.back().ends_block && made_.back().origin.block == origin.block) {
     made_.back().ends_block = true;
     made_.back().origin = origin;

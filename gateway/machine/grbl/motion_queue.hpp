@@ -51,12 +51,17 @@ struct Action {
   bool may_stop_after = true;  ///< single block is not inhibited
   double seconds = 0;          ///< at 100 % override
   std::variant<BlockEnd, Motion, BoardCommand, ProbeMove, TextEvent, interpreter::ToolChange,
-               interpreter::Stop, interpreter::OverrideInhibit, interpreter::End, AlarmEvent>
+               interpreter::Miscellaneous, interpreter::Stop, interpreter::OverrideInhibit,
+               interpreter::End, AlarmEvent>
       body;
 };
 
 /// Makes actions of the interpreter's events, on the owner's thread. What the board cannot do
 /// becomes an alarm in its place; after it nothing is taken.
+///
+/// The board changes no tools: a tool change for which the program itself does not wait gets a
+/// stop, before the next motion and at the latest at the end of its block, with the spindle
+/// switched off meanwhile.
 class QueueBuilder final : public interpreter::EventSink {
  public:
   explicit QueueBuilder(LineWriter writer) : writer_(std::move(writer)) {}
@@ -95,10 +100,18 @@ class QueueBuilder final : public interpreter::EventSink {
   void add_motion(const interpreter::Origin& origin, MotionKind kind, MotionText text,
                   std::optional<Refusal> refusal);
   void add_text(const interpreter::Origin& origin, TextEvent text);
+  void want_tool();
+  void stop_for_tool(const interpreter::Origin& origin);
+  bool begin_motion(const interpreter::Origin& origin);
+  void add_spindle(const interpreter::Spindle& event);
 
   LineWriter writer_;
   std::deque<Action> made_;
   interpreter::OverrideInhibit inhibit_;
+  interpreter::Spindle spindle_;  ///< as commanded last
+  std::optional<int> tool_;       ///< that the program has changed to
+  bool wants_tool_ = false;       ///< the operator must change it before the axes move
+  bool has_stopped_ = false;      ///< since the last motion: there was time for it
   bool is_closed_ = false;
 };
 

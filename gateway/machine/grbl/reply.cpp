@@ -190,6 +190,21 @@ Reply parse_greeting(std::string_view text) {
 
 }  // namespace
 
+bool StatusReport::rests() const {
+  switch (state) {
+    case BoardState::Run:
+    case BoardState::Jog:
+    case BoardState::Home:
+      return false;
+    case BoardState::Hold:
+      return substate.value_or(0) == 0;
+    case BoardState::Door:  // 2: braking, 3: leaving
+      return substate.value_or(0) < 2;
+    default:
+      return true;
+  }
+}
+
 std::string_view to_string(BoardState state) {
   return std::ranges::find(kStates, state, &std::pair<std::string_view, BoardState>::second)->first;
 }

@@ -37,6 +37,9 @@ enum class BoardState : std::uint8_t {
 };
 std::string_view to_string(BoardState state);
 
+/// Single bytes that a board acts on at once, outside of its lines.
+inline constexpr char kAskStatus = '?', kFeedHold = '!', kCycleStart = '~', kSoftReset = '\x18';
+
 struct OkReply {};
 struct ErrorReply {
   int code = 0;
@@ -67,6 +70,8 @@ struct StatusReport {
   std::optional<double> feed, spindle;
   std::optional<Overrides> overrides;
   std::string pins;  ///< letters of the input pins that are active
+
+  bool rests() const;  ///< no axis moves, and none is about to
 };
 struct SettingReply {
   int number = 0;

@@ -58,7 +58,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     session.receive(bytes.subspan(i, std::min<std::size_t>(16, size - i)),
                     now += std::chrono::milliseconds(50));
     session.tick(now);
-    sent += session.take_output();
+    const BoardOutput output = session.take_output();
+    sent += output.real_time + output.lines;
   }
   require(sent.find('G') == std::string::npos && sent.find('~') == std::string::npos);
   require(sent.size() <= 64 + 128 * size);

@@ -48,7 +48,9 @@ void GatewayFixture::restart_gateway() {
       .journal = process_->journal,
       .execution_probe = process_->execution_probe,
       .clock = clock,
-      .make_motion = motion ? motion : make_motion("simulated", control_, setup.workpiece).value(),
+      .make_motion =
+          motion ? motion
+                 : make_motion("simulated", control_, {.workpiece = setup.workpiece}).value(),
       .session = static_cast<std::uint64_t>(++sessions_)};
   gateway = std::make_unique<Gateway>(std::move(parts));
   if (const auto done = gateway->recover(); !done) throw std::runtime_error(done.error().what);

@@ -178,6 +178,18 @@ TEST(GrblMachine, ReportsAProbeWithoutContact) {
   EXPECT_NEAR(shop.z(), -4, 1e-3);
 }
 
+TEST(GrblMachine, NamesTheAlarmOfAProbeThatIsClosedBeforeItsMove) {
+  GrblShop shop;
+  shop.board.is_probe_closed = true;
+  shop.begin();
+  shop.machine.begin_probe(probe_to(shop, -4));
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.alarm(),
+            "GRB0001 alarm 4 of the board, the probe was not in its rest state when the probe move "
+            "began");
+  EXPECT_TRUE(shop.recorder.probes.empty());
+}
+
 TEST(GrblMachine, BoundsItsReadAhead) {
   GrblShop shop;
   shop.begin();
@@ -187,7 +199,13 @@ TEST(GrblMachine, BoundsItsReadAhead) {
   EXPECT_EQ(blocks, GrblMachine::kMaxActions);
   shop.pass(0.02);
   EXPECT_GT(shop.machine.buffered().count(), 0.9);
-  EXPECT_FALSE(shop.machine.has_room());
+  shop.board.is_stuck = true;  // takes lines, and executes none
+  for (int i = 0; i < 2000; ++i) {
+    for (; shop.machine.has_room() && blocks < 50'000; ++blocks)
+      shop.program.line(static_cast<double>(blocks + 1) * 0.01, 0, 600);
+    shop.pass(0.002);
+  }
+  EXPECT_LT(blocks, GrblMachine::kMaxActions + 200) << "what the board has, and no more";
 }
 
 TEST(GrblMachine, StartsASecondProgramWhereTheFirstHasEnded) {

@@ -19,9 +19,10 @@ using test_support::GrblBoard;
 /// every millisecond, the owner polls every ten.
 class GrblShop {
  public:
-  explicit GrblShop(GrblBoard::Options options = {}, SessionLimits limits = {})
+  explicit GrblShop(GrblBoard::Options options = {}, SessionLimits limits = {},
+                    interpreter::MachineData stated = {})
       : board(std::move(options)),
-        machine({.sink = recorder, .clock = clock, .limits = limits}),
+        machine({.sink = recorder, .clock = clock, .machine = stated, .limits = limits}),
         program(machine.events()) {
     machine.line_opened();
     pass(1);
@@ -76,8 +77,8 @@ class GrblShop {
     clock->advance(std::chrono::milliseconds(1));
     board.pass(0.001);
     const std::string in = is_cut ? std::string() : board.take_output();
-    const std::string out = machine.exchange(std::as_bytes(std::span(in)));
-    if (!is_cut) board.receive(out);
+    const BoardOutput out = machine.exchange(std::as_bytes(std::span(in)));
+    if (!is_cut) board.receive(out.real_time + out.lines);
     if (++steps_ % 10 == 0 && is_polled) (void)machine.poll(Seconds{0.01}, 512);
     // No report is ahead of the axes.
     EXPECT_LE(machine.status().executed, true_block_limit()) << "claimed before it was done";

@@ -23,6 +23,7 @@ BoardInfo board_of(double steps = 1000, std::size_t axes = 3) {
     board.take(SettingReply{130 + n, 200});
   }
   board.take(SettingReply{10, 1});
+  for (const int number : {13, 20, 22}) board.take(SettingReply{number, 0});
   board.take(SettingReply{30, 5000});
   board.take(OffsetReply{"G54", {{1, 0, 0}, 3}});
   board.take(OffsetReply{"G55", {{0, 0, 0}, 3}});
@@ -193,6 +194,16 @@ TEST_F(LineWriterTest, UsesAWorkOffsetThatIsZero) {
   EXPECT_EQ(writer.preamble(), (Lines{"G21G90G94G17G91.1G49G55", "G92.1M5M9"}));
 }
 
+TEST(BoardInfoTest, NeedsNoMoreLineNumbersThanTheBoardHoldsLines) {
+  BoardInfo board = board_of();
+  EXPECT_EQ(board.line_numbers(), 99U);
+  board.take(BuildReply{"VN", 100, 1024});
+  EXPECT_EQ(board.line_numbers(), 999U);
+  board.take(BuildReply{"VN", 1'000'000'000, 1'000'000'000});
+  EXPECT_EQ(board.line_numbers(), 99'999U);
+  EXPECT_EQ(board.window(), 4096U) << "of a large buffer only a part is used";
+}
+
 TEST(BoardInfoTest, NamesWhatMakesABoardUnfit) {
   const auto reason = [](BoardInfo board) {
     const auto fit = board.check();
@@ -211,6 +222,14 @@ TEST(BoardInfoTest, NamesWhatMakesABoardUnfit) {
   board = board_of();
   board.take(OffsetReply{"G55", {{0, 0, 7}, 3}});
   EXPECT_NE(reason(board).find("none of the board's work offsets"), std::string::npos);
+  EXPECT_EQ(reason([] {
+              BoardInfo silent;
+              silent.take(Greeting{"1.1f", false});
+              silent.take(BuildReply{"VN", 15, 128});
+              for (const int number : {100, 101}) silent.take(SettingReply{number, 80});
+              return silent;
+            }()),
+            "the board does not state its setting $10");
   board = board_of();
   board.take(BuildReply{"VN", 15, 64});
   EXPECT_NE(reason(board).find("64 bytes"), std::string::npos);

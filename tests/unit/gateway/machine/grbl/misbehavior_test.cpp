@@ -51,8 +51,10 @@ TEST_F(GrblMisbehavior, AnAlarmOfTheBoardIsNamed) {
   shop.board.raise_alarm(1);
   expect_alarm("GRB0001 alarm 1 of the board, a limit switch was hit");
   reset_by_operator();
-  EXPECT_EQ(shop.machine.check_begin({}).error().what,
-            "the board is in alarm: home the axes ($H), or unlock it ($X)");
+  EXPECT_EQ(
+      shop.machine.check_begin({}).error().what,
+      "the board is in alarm 1 (a limit switch was hit: the position is lost, home the axes): "
+      "home the axes ($H), or unlock it ($X)");
 }
 
 TEST_F(GrblMisbehavior, ARestartInTheMidst) {
@@ -79,6 +81,27 @@ TEST_F(GrblMisbehavior, SilenceThatLastsIsAnAlarm) {
   run(400);
   shop.is_cut = true;
   expect_alarm("GRB0005 the board does not report its state: the position is unknown");
+}
+
+/// A slow board that says nothing while it thinks is held, and continues where the operator lets
+/// it.
+TEST_F(GrblMisbehavior, SilenceAtRestIsNoLostLine) {
+  shop.begin();
+  shop.program.line(3, 0, 1200);
+  shop.program.stop();
+  shop.program.line(30, 0, 1200);
+  shop.program.end();
+  ASSERT_TRUE(shop.pass_until([&] { return shop.machine.state() == MachineState::ProgramStop; }));
+  shop.board.is_mute = true;
+  EXPECT_TRUE(shop.machine.resume());
+  shop.pass(4.5);
+  shop.board.is_mute = false;
+  EXPECT_EQ(shop.alarm(), "");
+  EXPECT_EQ(shop.machine.state(), MachineState::Held);
+  shop.pass(1);
+  EXPECT_TRUE(shop.machine.resume());
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
 }
 
 TEST_F(GrblMisbehavior, ALostLine) {
@@ -117,7 +140,36 @@ TEST_F(GrblMisbehavior, AnAnswerTooMany) {
 TEST_F(GrblMisbehavior, AReportOfALineThatWasNeverSent) {
   run();
   shop.board.say("<Run|MPos:1.000,0.000,0.000|Ln:4711|FS:100,0>");
-  expect_alarm("GRB0007 the board reports line 4711, which it was never sent");
+  expect_alarm("GRB0007 the board reports line 4711, which it was not sent");
+}
+
+TEST_F(GrblMisbehavior, AReportOfALineThatHasNotComeToItsTurn) {
+  shop.board.names_lines_ahead = 18;  // beyond the planner
+  shop.begin();
+  shop.program.line(20, 0, 1200);
+  for (int i = 1; i <= 40; ++i) shop.program.line(20 + i * 2, 0, 1200);
+  expect_alarm("GRB0007 the board reports line");
+}
+
+TEST_F(GrblMisbehavior, APositionWithoutAllAxes) {
+  run();
+  shop.board.forgets_axes = true;
+  expect_alarm("GRB0007 4 lines of the board are none of its protocol");
+}
+
+TEST_F(GrblMisbehavior, AContactThatIsNotOnTheProbesPath) {
+  interpreter::Probe probe;
+  probe.origin = {.block = 1, .line = 1};
+  probe.from = Program::at(0, 0);
+  probe.to = Program::at(0, -10);
+  probe.feed = Feed::per_minute(Length::mm(300));
+  GrblShop other({.surface_z = -3});
+  other.board.contact_is_off = 40;
+  other.begin();
+  other.machine.begin_probe(probe);
+  ASSERT_TRUE(other.pass_until_over(20));
+  EXPECT_NE(other.alarm().find("not on the probe's path"), std::string::npos) << other.alarm();
+  EXPECT_EQ(other.board.position()[0], 0) << "the axes are not sent there";
 }
 
 TEST_F(GrblMisbehavior, Garbage) {
@@ -128,7 +180,7 @@ TEST_F(GrblMisbehavior, Garbage) {
 
 TEST_F(GrblMisbehavior, AFlood) {
   run();
-  for (int i = 0; i < 3000; ++i) shop.board.say("[MSG:all work and no play makes a dull board]");
+  for (int i = 0; i < 8000; ++i) shop.board.say("[MSG:all work and no play makes a dull board]");
   expect_alarm("GRB0007 the board floods the line");
 }
 
@@ -156,6 +208,26 @@ TEST_F(GrblMisbehavior, ABoardThatDoesNotAnswerItsReset) {
   shop.machine.abort();
   shop.board.ignores_reset = true;
   expect_alarm("GRB0005 the board does not answer a reset", 60);
+  const auto resets = std::ranges::count(shop.board.real_time, '\x18');
+  shop.machine.set_panel({.emergency_stop = true});
+  shop.pass(0.1);
+  EXPECT_GT(std::ranges::count(shop.board.real_time, '\x18'), resets)
+      << "the emergency stop is sent also to a board that has obeyed none";
+}
+
+TEST_F(GrblMisbehavior, AnEmergencyStopDuringTheStopOfAFaultIsNotSlower) {
+  run();
+  shop.is_cut = true;
+  ASSERT_TRUE(shop.pass_until_over(10));
+  shop.pass(2.9);  // the stop of the fault is about to end
+  shop.is_cut = false;
+  shop.machine.set_panel({.emergency_stop = true});
+  shop.pass(0.6);
+  EXPECT_FALSE(shop.board.is_moving());
+  shop.machine.set_panel({});
+  shop.pass(9);
+  EXPECT_TRUE(shop.pass_until([&] { return shop.machine.notice().empty(); }, 10))
+      << shop.machine.notice();
 }
 
 TEST(GrblConnect, StopsABoardThatMovesWithoutAProgram) {

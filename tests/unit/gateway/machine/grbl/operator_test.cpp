@@ -119,6 +119,48 @@ TEST_F(GrblOperator, AFeedOverrideOfZeroHoldsUntilItIsRaised) {
   EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
 }
 
+TEST_F(GrblOperator, RaisingTheOverrideEndsNoHoldOfTheOperator) {
+  run();
+  set({.feed_override = 0});
+  shop.pass(0.5);
+  shop.machine.hold();
+  set({.feed_override = 1});
+  EXPECT_EQ(moved_in(3), 0) << "held first by the override, then by the operator";
+  EXPECT_EQ(shop.machine.state(), MachineState::Held);
+  EXPECT_TRUE(shop.machine.resume());
+  shop.pass(1);
+  shop.machine.hold();
+  shop.pass(0.5);
+  set({.rapid_override = 0});
+  set({.rapid_override = 1});
+  EXPECT_EQ(moved_in(3), 0) << "held by the operator before";
+  EXPECT_TRUE(shop.machine.resume());
+  EXPECT_GT(moved_in(1), 1);
+}
+
+TEST_F(GrblOperator, AProgramBeginsNothingAtAnOverrideOfZero) {
+  set({.feed_override = 0});
+  shop.begin();
+  shop.program.line(5, 0, 1200);
+  shop.program.end();
+  EXPECT_EQ(moved_in(3), 0);
+  set({.feed_override = 1});
+  ASSERT_TRUE(shop.pass_until_over(10));
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
+}
+
+TEST_F(GrblOperator, TheEmergencyStopReportsSpindleAndCoolantOff) {
+  shop.begin();
+  shop.program.spindle(1200);
+  for (int i = 1; i <= 9; ++i) shop.program.line(i * 5, 0, 1200);
+  ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 5; }));
+  set({.emergency_stop = true});
+  EXPECT_EQ(shop.machine.status().spindle.state, interpreter::SpindleState::Off);
+  EXPECT_EQ(std::ranges::count(shop.recorder.lines, "spindle"), 2);
+  shop.pass(1);
+  EXPECT_FALSE(shop.board.is_spindle_on());
+}
+
 TEST_F(GrblOperator, SingleBlockStopsAfterEveryBlock) {
   set({.single_block = true});
   shop.begin();
@@ -169,6 +211,21 @@ TEST(GrblReference, HomesALockedBoardInItsOwnTime) {
   EXPECT_FALSE(shop.machine.home()) << "it is at it";
   shop.pass(3);
   EXPECT_TRUE(shop.machine.check_begin({}));
+}
+
+TEST(GrblReference, DoesNotHomeABoardWithoutReferencePoints) {
+  GrblShop shop;
+  EXPECT_EQ(shop.machine.home().error().code, Errc::Unsupported);
+}
+
+TEST(GrblReference, NamesTheAlarmThatKeepsTheBoardFromStarting) {
+  GrblShop shop;
+  EXPECT_EQ(shop.machine.notice(), "");
+  shop.board.raise_alarm(9);
+  shop.pass(1);
+  EXPECT_EQ(shop.machine.notice(),
+            "the board is in alarm 9 (homing failed: no limit switch was found): home the axes "
+            "($H), or unlock it ($X)");
 }
 
 TEST(GrblReference, UnlocksABoardOnlyOnCommand) {

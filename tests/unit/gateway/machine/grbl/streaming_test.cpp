@@ -130,15 +130,17 @@ TEST_F(Tracker, RefusesALineThatWasNeverSent) {
 }
 
 TEST_F(Tracker, CountsOnWhereTheNumbersBeginAgain) {
-  EXPECT_EQ(ExecutionTracker::number_of(ExecutionTracker::kNumbers), ExecutionTracker::kNumbers);
-  EXPECT_EQ(ExecutionTracker::number_of(ExecutionTracker::kNumbers + 1), 1U);
-  for (std::uint32_t i = 0; i < ExecutionTracker::kNumbers - 1; ++i) {
+  constexpr std::uint32_t kNumbers = 99;
+  tracker.set_numbers(kNumbers);
+  EXPECT_EQ(tracker.number_of(kNumbers), kNumbers);
+  EXPECT_EQ(tracker.number_of(kNumbers + 1), 1U);
+  for (std::uint32_t i = 0; i < kNumbers - 1; ++i) {
     send(1, 1);
-    if (i % 8 == 7) (void)see(report(BoardState::Run, ExecutionTracker::number_of(tracker.sent())));
+    if (i % 8 == 7) (void)see(report(BoardState::Run, tracker.number_of(tracker.sent())));
   }
   (void)see(report(BoardState::Idle));
   ASSERT_TRUE(tracker.is_empty());
-  send(3, 3);  // 99999, 1, 2
+  send(3, 3);  // 99, 1, 2
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(see(report(BoardState::Run, 2)));
   EXPECT_EQ(tracker.sent() - tracker.executed(), 1U);
 }
