@@ -1,12 +1,11 @@
 // A gateway that drives a board of the Grbl class: real programs on both sides of a pseudo
 // terminal.
 #include <gtest/gtest.h>
-#include <random>
-#include <thread>
+#include <fstream>
+#include <sstream>
 
-#include "tests/integration/system.hpp"
+#include "tests/integration/grbl_system.hpp"
 #include "tests/support/dialect_programs.hpp"
-#include "tests/support/grbl_board_port.hpp"
 
 namespace dripline::integration {
 namespace {
@@ -14,73 +13,6 @@ namespace {
 using test_support::BlockEnds;
 using test_support::eventually;
 using test_support::GrblBoard;
-using test_support::GrblBoardPort;
-
-/// One block, one line, one move: `blocks` of 1 mm.
-std::string straight_program(int blocks) {
-  std::string text = "G21 G90 G94 F3000\n";
-  for (int i = 1; i <= blocks; ++i) text += "G1 X" + std::to_string(i) + "\n";
-  return text + "M2\n";
-}
-
-class GrblSystem : public testing::Test {
- protected:
-  void start(const std::string& control = "rs274ngc", GrblBoard::Options options = {}) {
-    constexpr double kSpeed = 20;  // the board's time
-    board.emplace(std::move(options), kSpeed);
-    system.emplace(System::Options{
-        .speed = "1x",
-        .server_arguments = {},
-        .gateway_arguments = {"--motion", "grbl:" + board->path(), "--unattended", "yes"},
-        .control = control});
-    system->start_server();
-    system->start_gateway();
-    system->wait_connected();
-  }
-  /// The board needs a moment to be identified.
-  std::string start_run(const std::string& program) {
-    std::string id;
-    EXPECT_TRUE(eventually([&] {
-      const auto reply =
-          system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", program}});
-      refusal = reply.body;
-      id = reply.status == 201 ? reply.json().value("id", "") : "";
-      return !id.empty();
-    })) << refusal;
-    return id;
-  }
-  void command(const std::string& id, const char* action) {
-    const auto reply =
-        system->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
-    EXPECT_EQ(reply.status, 200) << reply.body;
-  }
-  test_support::Finished panel(std::vector<std::string> words) {
-    std::vector<std::string> command{program_path("dncgw"), "panel", "--state",
-                                     system->folder() / "gateway" / "lathe-1"};
-    command.insert(command.end(), words.begin(), words.end());
-    return test_support::run_to_end(std::move(command), system->folder() / "panel.out");
-  }
-  void press_emergency_stop(bool is_pressed) {
-    const auto finished = panel({"emergency-stop", is_pressed ? "on" : "off"});
-    EXPECT_EQ(finished.status, 0) << finished.output;
-  }
-  double traveled() {
-    return board->with([](GrblBoard& peer) { return peer.traveled(); });
-  }
-  /// The axes stay where they are for a while.
-  bool rests() {
-    const double before = traveled();
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // of 6 s on the board
-    return traveled() == before;
-  }
-  std::size_t done() {
-    return board->with([](GrblBoard& peer) { return peer.done.size(); });
-  }
-
-  std::optional<GrblBoardPort> board;
-  std::optional<System> system;
-  std::string refusal;
-};
 
 class GrblDialects : public GrblSystem, public testing::WithParamInterface<std::size_t> {};
 
@@ -128,6 +60,32 @@ INSTANTIATE_TEST_SUITE_P(, GrblDialects, testing::Range<std::size_t>(0, 6), [](c
   std::erase(name, '-');
   return name;
 });
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// deploy/examples/grbl, with the board that its README starts.
+TEST_F(GrblSystem, TheExampleRunsOnTheBoardOfItsReadme) {
+  const std::string folder = "deploy/examples/grbl/";
+  start("fanuc", test_support::example_board(), 20, {"--setup", folder + "setup.toml"});
+  system->push("O0104", text_of(folder + "plate.nc"));
+  ASSERT_TRUE(eventually([&] { return panel({"home"}).status == 0; }));
+  const std::string id = start_run("O0104");
+  const auto execution = [&] {
+    return system->rest().get("/api/v1/machines/lathe-1").json()["status"].value("execution", "");
+  };
+  ASSERT_TRUE(eventually([&] { return execution() == "PROGRAM_STOPPED"; })) << "the tool change";
+  command(id, "resume");
+  const auto run = system->wait_ended(id);
+  EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
+  const auto at = board->with([](GrblBoard& peer) { return peer.position(); });
+  EXPECT_NEAR(at[0], 40, 1e-3) << "the zero of the part";
+  EXPECT_NEAR(at[2], 30, 1e-3);
+}
 
 TEST_F(GrblSystem, HoldsResumesAndAborts) {
   start();
@@ -195,30 +153,6 @@ TEST_F(GrblSystem, ABoardThatIsResetInTheMidstIsAnAlarm) {
   const auto run = system->wait_ended(id);
   EXPECT_NE(run.value("reason", "").find("GRB0004"), std::string::npos) << run.dump();
   EXPECT_TRUE(rests());
-}
-
-/// A gateway that is killed leaves a board that does what it was sent and no more, and the next one
-/// knows a block for executed only if the axes have done it.
-TEST_F(GrblSystem, KillsLoseNothingAndClaimNothing) {
-  start();
-  system->push("path", straight_program(4000));
-  std::mt19937 random(20'261'123);
-  for (int kill = 0; kill < 8; ++kill) {
-    board->with([](GrblBoard& peer) { peer.done.clear(); });
-    const std::string id = start_run("path");
-    ASSERT_TRUE(eventually([&] { return done() > 1; })) << kill;
-    std::this_thread::sleep_for(
-        std::chrono::milliseconds(std::uniform_int_distribution<>(0, 400)(random)));
-    system->gateway().kill();
-    ASSERT_TRUE(eventually([&] { return rests(); })) << "the buffers of the board run out";
-    const std::size_t truth = done();
-    system->start_gateway();
-    system->wait_connected();
-    const auto run = system->wait_ended(id);
-    EXPECT_EQ(run.value("state", ""), "interrupted") << run.dump();
-    EXPECT_LE(run.value("executed", std::size_t{0}), truth + 1) << run.dump();
-    EXPECT_EQ(done(), truth) << "nothing moves by itself";
-  }
 }
 
 TEST_F(GrblSystem, AStoppedGatewayHoldsTheBoard) {
