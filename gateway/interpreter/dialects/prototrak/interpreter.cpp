@@ -70,7 +70,9 @@ ProtoTrakInterpreter::ProtoTrakInterpreter(ControlOptions options, const Positio
     : options_(options),
       reader_(source, kLineRules),
       sink_(sink),
-      executor_(options_, program_, sink, start) {}
+      executor_(options_, program_, sink, start),
+      begun_(executor_.state()),
+      begun_path_(executor_.path().state()) {}
 
 const Origin& ProtoTrakInterpreter::origin() const {
   return phase_ == Phase::Receiving || executor_.origin().block == 0 ? received_at_
@@ -186,6 +188,8 @@ Result<void> ProtoTrakInterpreter::restore(const Snapshot& snapshot) {
   reader(kept);
   if (!reader.is_complete() || !is_plausible(kept)) return snapshot.damage();
   if (kept.phase == static_cast<std::uint8_t>(Phase::Receiving)) {
+    if (auto reset = executor_.restore(begun_, begun_path_); !reset) return reset;
+    program_ = {};
     receiver_ = Receiver();
     reader_.drop_window();
     reader_.seek(TextPlace{});

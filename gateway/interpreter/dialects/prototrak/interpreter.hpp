@@ -37,6 +37,9 @@ class ProtoTrakInterpreter final : public Interpreter {
   Receiver receiver_;
   StoredProgram program_;
   Executor executor_;
+  // What a snapshot of the start restores.
+  const ExecutionState begun_;
+  const std::vector<std::byte> begun_path_;
   Phase phase_ = Phase::Receiving;
   Origin received_at_;
   Question question_;  ///< this control asks nothing
