@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "protocol/base/digest.hpp"
 #include "protocol/dds/message.hpp"
 #include "protocol/process/log.hpp"
 
@@ -128,6 +129,12 @@ std::vector<std::string> ControlMemory::report() const {
         fmt::format("{{\"part\":{},\"parts\":{},\"cells\":{{{}}}}}", i + 1, parts.size(), parts[i]);
   }
   return parts;
+}
+
+std::string ControlMemory::digest() const {
+  Sha256 hash;
+  for (const std::string& part : report()) hash.update(part);
+  return hash.digest().hex();
 }
 
 }  // namespace dripline::gateway

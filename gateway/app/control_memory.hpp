@@ -44,6 +44,8 @@ class ControlMemory {
   /// Everything kept for good, as JSON of at most kMaxRecordText bytes each: {"part", "parts",
   /// "cells": {name: [number, what the setup gave]}}, null for a vacant one.
   std::vector<std::string> report() const;
+  /// SHA-256 of the same: two memories with one digest hold the same.
+  std::string digest() const;
   /// Whether anything has changed since this was asked last.
   bool take_change() { return std::exchange(has_changed_, false); }
 

@@ -8,8 +8,7 @@ namespace dripline::gateway {
 
 using dds::RecordKind;
 
-void ExecutionRecorder::begin(const report::ActiveRun& run,
-                              std::function<FeedProgress()> feed_progress) {
+void ExecutionRecorder::begin(const report::ActiveRun& run, ProgressOf feed_progress) {
   run_ = run.run;
   feed_progress_ = std::move(feed_progress);
   reached_ = counted_ = {};
@@ -26,8 +25,14 @@ void ExecutionRecorder::begin(const report::ActiveRun& run,
               dds::encode(dds::RunStartText{run.program, run.revision, run.control})});
 }
 
+void ExecutionRecorder::continue_after(const interpreter::Origin& origin) {
+  const FeedProgress now = feed_progress_(origin.block);
+  reached_ = {now.sent,        now.accepted,  origin.block, origin.line,
+              origin.sequence, origin.offset, now.path};
+}
+
 void ExecutionRecorder::end(dds::RunEndText end) {
-  const FeedProgress now = feed_progress_();
+  const FeedProgress now = feed_progress_(reached_.executed);
   reached_.sent = now.sent;
   reached_.accepted = now.accepted;
   append_end(std::move(end));
@@ -86,9 +91,9 @@ void ExecutionRecorder::count() {
 }
 
 void ExecutionRecorder::on_block_executed(const interpreter::Origin& origin) {
-  const FeedProgress feed_progress = feed_progress_();
-  reached_ = {feed_progress.sent, feed_progress.accepted, origin.block,
-              origin.line,        origin.sequence,        origin.offset};
+  const FeedProgress feed_progress = feed_progress_(origin.block);
+  reached_ = {feed_progress.sent, feed_progress.accepted, origin.block,      origin.line,
+              origin.sequence,    origin.offset,          feed_progress.path};
   is_between_blocks_ = true;
   if (!parts_.outbox.has_staged_records()) {
     parts_.execution_probe.begin(reached_.executed, outputs_);
@@ -176,6 +181,10 @@ void ExecutionRecorder::note_emergency_stop(const interpreter::Origin& origin) {
 
 void ExecutionRecorder::note_memory(const std::string& text) {
   append(reached_origin(), {RecordKind::Message, kMemoryDevice, text});
+}
+
+void ExecutionRecorder::note_restart(const std::string& text) {
+  append(reached_origin(), {RecordKind::Message, kRestartDevice, text});
 }
 
 void ExecutionRecorder::note_at_panel(const interpreter::Origin& origin, const std::string& text) {

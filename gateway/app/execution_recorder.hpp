@@ -31,12 +31,16 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   };
   explicit ExecutionRecorder(const Parts& parts) : parts_(parts) {}
 
-  /// The other two counters, read when a block is executed.
+  /// The other two counters, and the hash of the path up to that block, read when a block is
+  /// executed.
   struct FeedProgress {
-    std::uint64_t sent = 0, accepted = 0;
+    std::uint64_t sent = 0, accepted = 0, path = 0;
   };
+  using ProgressOf = std::function<FeedProgress(std::uint64_t block)>;
   /// A new run; its RunStarted record is staged, not committed.
-  void begin(const report::ActiveRun& run, std::function<FeedProgress()> feed_progress);
+  void begin(const report::ActiveRun& run, ProgressOf feed_progress);
+  /// The run continues another after this block; to be committed.
+  void continue_after(const interpreter::Origin& origin);
   /// Stages the run's end; its counters and place are filled in here. To be followed by `commit`
   /// until that succeeds; then `finish`.
   void end(dds::RunEndText end);
@@ -52,6 +56,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   /// At a block's end (records of half a block are not yet committed).
   bool is_between_blocks() const { return is_between_blocks_; }
   const report::Progress& executed() const { return counted_; }
+  /// By the machine; some of it may wait for the disk.
+  const report::Progress& reached() const { return reached_; }
 
   /// The probe that has ended since the last call.
   std::optional<interpreter::Probe> take_probed() { return std::exchange(probed_, std::nullopt); }
@@ -85,6 +91,9 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   /// The memory of the control, JSON: a message with a device name of its own.
   void note_memory(const std::string& text);
   static constexpr const char* kMemoryDevice = "memory";
+  /// What a restart has rebuilt, JSON, likewise.
+  void note_restart(const std::string& text);
+  static constexpr const char* kRestartDevice = "restart";
 
   static constexpr std::size_t kMaxBatch = 256;
 
@@ -100,7 +109,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
 
   Parts parts_;
   std::string run_;
-  std::function<FeedProgress()> feed_progress_;
+  ProgressOf feed_progress_;
   report::Progress reached_;  ///< by the machine
   report::Progress counted_;  ///< in journal and outbox
   std::uint64_t outputs_ = 0;

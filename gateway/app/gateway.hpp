@@ -25,6 +25,7 @@ class Gateway {
     const GatewayOptions& options;
     const interpreter::Dialect& dialect;
     interpreter::Setup setup;
+    std::string setup_digest = {};  ///< SHA-256 of its text; empty: none
     dds::GatewayEndpoint& endpoint;
     report::Outbox& outbox;
     report::RunJournal& journal;

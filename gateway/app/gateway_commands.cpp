@@ -133,7 +133,7 @@ Reply Gateway::start(const dds::Command& command) {
       });
   const auto done =
       loop_.begin({command.run, command.program, command.revision, command.control, command.size},
-                  std::move(feed), {command.id, command.setup, *std::move(from)});
+                  std::move(feed), {command.id, command.setup, *std::move(from), command.argument});
   return done ? Reply{} : refuse(done.error().what);
 }
 
@@ -234,6 +234,7 @@ Reply Gateway::carry_out(const PanelCommand& command) {
 Reply Gateway::cycle_start() {
   if (!consent_.is_awaited()) return resume();
   if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStopIsPressed));
+  if (loop_.is_rebuilding()) return refuse(std::string(kIsRebuilding));
   loop_.cycle_start();
   return {};
 }

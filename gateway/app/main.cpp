@@ -90,6 +90,12 @@ Result<SetupFile> read_setup(const GatewayOptions& options, const interpreter::D
   return SetupFile{*std::move(setup), *machine};
 }
 
+/// A restart under another setup is refused.
+std::string digest_of_setup(const GatewayOptions& options) {
+  const auto text = options.setup ? read_text(*options.setup) : Result<std::string>(std::string());
+  return text && !text->empty() ? sha256(*text).hex() : std::string();
+}
+
 std::uint64_t new_session() {
   return random_number() | 1;  // never zero
 }
@@ -187,6 +193,7 @@ Result<void> run(const GatewayOptions& options) {
   Gateway gateway({.options = options,
                    .dialect = **dialect,
                    .setup = std::move(*setup),
+                   .setup_digest = digest_of_setup(options),
                    .endpoint = **endpoint,
                    .outbox = *outbox,
                    .journal = *journal,

@@ -55,6 +55,8 @@ struct GatewayOptions {
   std::optional<bool> unattended;
   bool is_unattended = true;
   std::chrono::seconds cycle_start_wait{1800};  ///< then a run without cycle start ends
+  /// Between two checkpoints of a run, for restarts; no option of its own.
+  std::chrono::milliseconds checkpoint_interval{5000};
 };
 
 using OptionRow = process::SettingRow<GatewayOptions>;

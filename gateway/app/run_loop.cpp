@@ -17,11 +17,14 @@ constexpr std::size_t kActionsPerRound = 512;
 constexpr int kMaxRounds = 4096;  ///< bounds a slice even if the clock does not advance
 constexpr milliseconds kCommitRetry{500};
 constexpr milliseconds kSyncInterval{1000};
+constexpr std::uint64_t kCheckpointBlocks = 1'000'000;  ///< between two checkpoints at most
 
 }  // namespace
 
-/// The setup of this gateway with the server's tools, offsets and variables in their place.
-Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin) const {
+/// The setup of this gateway with the server's tools, offsets and variables in their place. That of
+/// a restart is the one under which its run began.
+Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
+                                             const std::optional<RestartPlan>& restart) const {
   interpreter::Setup setup = parts_.setup;
   if (!origin.setup.empty()) {
     auto data = interpreter::parse_control_data(origin.setup, parts_.dialect.units);
@@ -31,10 +34,13 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin) const {
   setup.switches.block_skip = parts_.machine.panel().block_skip;
   // Axes that nothing places begin where they are, unless the setup names a start to compare with.
   if (!parts_.machine.capabilities().places_axes && setup.start == interpreter::Position{}) {
-    setup.start = parts_.machine.status().position;
+    setup.start = restart ? restart->conditions.begun_at : parts_.machine.status().position;
     setup.start.unmark_all();
   }
-  const StartArgument& from = origin.from;
+  const auto begun = restart ? parse_start_argument(restart->conditions.start)
+                             : Result<StartArgument>(origin.from);
+  if (!begun) return fail(begun.error());
+  const StartArgument& from = *begun;
   if (from.place.empty()) return setup;
   setup.control.set("start_at", {from.place, 0});
   if (from.pass) setup.control.set("start_pass", {std::int64_t{*from.pass}, 0});
@@ -42,16 +48,21 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin) const {
     const bool is_former = from.memory == StartMemory::Begin;
     setup.control.set("start_memory", {std::string(is_former ? "begin" : "now"), 0});
   }
-  setup.position = parts_.machine.status().position;
+  setup.position = restart ? restart->conditions.begun_at : parts_.machine.status().position;
   return setup;
 }
 
 Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
                             const StartOrigin& origin) {
   if (parts_.machine.panel().emergency_stop) return fail(Errc::Busy, "{}", kEmergencyStop);
-  const auto setup = setup_of(origin);
+  auto restart = plan_of(run, origin);
+  if (!restart) return fail(restart.error());
+  const bool is_restart = restart->has_value();
+  const auto setup = setup_of(origin, *restart);
   if (!setup) return fail(setup.error());
-  const interpreter::Position at = setup->position.value_or(setup->start);
+  const interpreter::Position at =
+      is_restart ? parts_.machine.status().position : setup->position.value_or(setup->start);
+  Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
   if (auto done = parts_.machine.check_begin(at); !done) return done;
   auto session =
       RunSession::make({.run = run,
@@ -60,14 +71,17 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
                         .recorder = parts_.recorder,
                         .clock = parts_.clock,
                         .memory = parts_.memory,
-                        .begins_with_former_memory = origin.from.memory == StartMemory::Begin},
+                        .begins_with_former_memory = origin.from.memory == StartMemory::Begin,
+                        .checkpoints = parts_.keeps_checkpoints ? &parts_.outbox : nullptr,
+                        .restart = *std::move(restart),
+                        .is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe},
                        parts_.dialect, *setup);
   if (!session) {
     const bool is_memory =
         session.error().code == Errc::Corrupt || session.error().code == Errc::NotFound;
     return fail(session.error().code, "{}{}", is_memory ? "" : "setup: ", session.error().what);
   }
-  if (auto done = stage_start(run, origin, **session); !done) return done;
+  if (auto done = stage_start(run, origin, std::move(conditions), **session); !done) return done;
 
   parts_.journal.begin(run.run);
   parts_.on_begin(*setup);
@@ -77,19 +91,36 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   parts_.run.last_message.clear();
   parts_.run.was_emergency_stopped = false;
   last_step_ = parts_.clock.steady_now();
-  parts_.consent.await(last_step_ + parts_.options.cycle_start_wait);
+  last_state_ = MachineState::Idle;
+  next_sync_ = last_step_;
+  next_checkpoint_ = last_step_ + parts_.options.checkpoint_interval;
+  const SteadyTime deadline = last_step_ + parts_.options.cycle_start_wait;
+  if (is_restart) {
+    parts_.consent.await_confirmation(deadline);
+  } else {
+    parts_.consent.await(deadline);
+  }
   return {};
 }
 
 /// Puts the start on disk: from here on the run exists, and ends exactly once.
 Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigin& origin,
-                                  RunSession& session) {
+                                  Conditions conditions, RunSession& session) {
   parts_.outbox.discard();
   parts_.memory.stage();
-  if (origin.from.place.empty()) parts_.memory.stage_beginning(run.revision);
-  parts_.recorder.begin(run, [&session] {
-    return ExecutionRecorder::FeedProgress{session.feed().sent(), session.accepted()};
+  if (origin.from.place.empty() && !origin.from.restart)
+    parts_.memory.stage_beginning(run.revision);
+  parts_.recorder.begin(run, [&session](std::uint64_t block) {
+    return ExecutionRecorder::FeedProgress{session.feed().sent(), session.accepted(),
+                                           session.path_at(block)};
   });
+  if (parts_.keeps_checkpoints) {
+    parts_.outbox.checkpoints().stage_run({run,
+                                           encode(std::move(conditions)),
+                                           {},
+                                           origin.from.restart ? origin.from.restart->run : ""});
+    session.want_checkpoint();
+  }
   parts_.commands.stage_start(run.run, origin.command);
   const auto done = parts_.outbox.commit();
   if (done) return {};
@@ -122,10 +153,11 @@ void RunLoop::run_slice(SteadyTime now) {
     if (!run_round(seconds, now + kSlice)) break;
   }
   commit_reports();
+  checkpoint_at_stop(now);
   check_end();
+  if (now >= next_sync_ || now >= next_checkpoint_) keep_state(now);
   if (now < next_sync_) return;
   next_sync_ = now + kSyncInterval;
-  keep_memory();
   if (const auto done = parts_.journal.sync(); !done)
     process::log_warning("{} {}", done.error().what, parts_.run.label());
 }
@@ -147,6 +179,8 @@ bool RunLoop::run_round(double& machine_seconds, SteadyTime deadline) {
 bool RunLoop::wait_for_cycle_start(SteadyTime now) {
   if (!parts_.consent.is_awaited()) return false;
   (void)parts_.machine.poll(machine::Seconds{0}, 0);
+  if (is_rebuilding()) rebuild(now);
+  if (!parts_.run.is_active()) return true;
   commit_reports();
   if (parts_.consent.is_overdue(now)) {
     end(dds::RunOutcome::Aborted, fmt::format("no cycle start at the machine within {} s",
@@ -165,12 +199,18 @@ void RunLoop::cycle_start() {
 }
 
 /// What executed blocks have changed in the control's memory is written with the next reports, or
-/// by itself: a kill loses the changes of the last kSyncInterval.
-void RunLoop::keep_memory() {
+/// by itself: a kill loses the changes of the last kSyncInterval. Checkpoints likewise.
+void RunLoop::keep_state(SteadyTime now) {
   if (!parts_.run.is_active()) return;
-  parts_.run.session->keep_memory(parts_.machine.status().executed);
-  if (!parts_.memory.has_unstaged()) return;
-  parts_.memory.stage();
+  RunSession& session = *parts_.run.session;
+  if (now >= next_checkpoint_ || session.blocks_since_checkpoint() >= kCheckpointBlocks) {
+    next_checkpoint_ = now + parts_.options.checkpoint_interval;
+    session.want_checkpoint();
+  }
+  session.keep_memory(parts_.machine.status().executed);
+  const bool has_memory = parts_.memory.has_unstaged();
+  if (has_memory) parts_.memory.stage();
+  if (!has_memory && !parts_.outbox.checkpoints().is_staged()) return;
   const bool may_commit = !parts_.outbox.has_staged_records() &&
                           parts_.recorder.is_between_blocks() && parts_.recorder.fault().empty();
   if (may_commit) (void)parts_.recorder.commit();
@@ -238,6 +278,7 @@ void RunLoop::end(dds::RunOutcome outcome, const std::string& reason) {
       is_completed ? dds::Execution::ProgramCompleted : dds::Execution::Stopped;
   parts_.run.last_message = text.reason;
   report_memory();
+  stage_ending(is_completed);
   parts_.recorder.end(std::move(text));
   parts_.consent.end_wait();
   parts_.run.is_ending = true;
@@ -303,6 +344,11 @@ Result<void> RunLoop::recover() {
   parts_.run.last_execution = dds::Execution::Stopped;
   parts_.run.last_message =
       fmt::format("run {} was interrupted at block {}", run->run, progress.executed);
+  RunEnding ending;
+  ending.executed = progress;
+  ending.time_us = parts_.clock.now().time_since_epoch().count();
+  ending.memory = parts_.memory.digest();
+  parts_.outbox.checkpoints().stage_ending(run->run, encode(std::move(ending)));
   const bool has_memory = !parts_.outbox.memory().cells().empty() && parts_.memory.fault().empty();
   parts_.recorder.end_interrupted(run->run, progress,
                                   has_memory ? parts_.memory.report() : std::vector<std::string>());

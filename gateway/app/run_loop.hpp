@@ -18,6 +18,7 @@ struct StartOrigin {
   std::string command;      ///< its command, to be answered; empty: none
   std::string setup;        ///< what the server knows of tools, offsets and variables, TOML
   StartArgument from = {};  ///< where it begins; without a place at the beginning
+  std::string argument;     ///< the same, as it was given
 };
 
 /// A run from its beginning to its end: steps the interpreter, lets the machine move, puts reports
@@ -28,6 +29,8 @@ class RunLoop {
     const GatewayOptions& options;
     const interpreter::Dialect& dialect;
     const interpreter::Setup& setup;
+    const std::string& setup_digest;  ///< SHA-256 of the setup's text; empty: none
+    bool keeps_checkpoints = true;    ///< programs from a line cannot be read again
     const Clock& clock;
     report::Outbox& outbox;
     report::RunJournal& journal;
@@ -55,6 +58,10 @@ class RunLoop {
   void step(SteadyTime now);
   /// Begins a run that waits for cycle start at the machine.
   void cycle_start();
+  /// A restart looks through its program; nothing moves yet.
+  bool is_rebuilding() const {
+    return parts_.run.is_active() && parts_.run.session->is_rebuilding();
+  }
   /// A hold is the operator's from here on: records on disk again do not end it.
   void keep_hold() { is_held_by_fault_ = false; }
   /// Ends the run, if any, as interrupted. Errors: those of the outbox; then the next start does
@@ -70,25 +77,37 @@ class RunLoop {
   static constexpr std::chrono::milliseconds kLongestStep{100};  ///< real time never jumps by more
 
  private:
-  Result<interpreter::Setup> setup_of(const StartOrigin& origin) const;
+  Result<interpreter::Setup> setup_of(const StartOrigin& origin,
+                                      const std::optional<RestartPlan>& restart) const;
+  Conditions conditions_of(const StartOrigin& origin) const;
+  Result<std::optional<RestartPlan>> plan_of(const report::ActiveRun& run,
+                                             const StartOrigin& origin) const;
   Result<void> stage_start(const report::ActiveRun& run, const StartOrigin& origin,
-                           RunSession& session);
+                           Conditions conditions, RunSession& session);
   void run_slice(SteadyTime now);
   bool run_round(double& machine_seconds, SteadyTime deadline);
   bool wait_for_cycle_start(SteadyTime now);
   bool wait_out_fault(SteadyTime now);
   void commit_reports();
-  void keep_memory();
+  void keep_state(SteadyTime now);
+  void checkpoint_at_stop(SteadyTime now);
+  void rebuild(SteadyTime now);
+  void show_restart();
   void report_memory();
+  void stage_ending(bool is_completed);
   void check_end();
   void end(dds::RunOutcome outcome, const std::string& reason);
   void try_to_finish(SteadyTime now);
 
   Parts parts_;
   bool is_held_by_fault_ = false;
-  SteadyTime last_step_{}, next_commit_{}, next_sync_{};
+  SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_checkpoint_{};
+  machine::MachineState last_state_{};
+  std::uint64_t rebuild_rounds_ = 0;
 };
 
+inline constexpr std::string_view kIsRebuilding =
+    "the restart still looks through the program: cycle start when it reports what it will do";
 inline constexpr std::string_view kEmergencyStop =
     "the emergency stop is pressed: release it first (switch emergency_stop off)";
 

@@ -31,13 +31,15 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   interpreter::Setup given = setup;
   given.answers.clear();
   const auto make = [&](const interpreter::Setup& its_setup) {
-    return dialect.make(its_setup, session->feed(), session->events_);
+    return dialect.make(its_setup, session->feed(), session->tracker_);
   };
   auto made = make(given);
   if (!made) return fail(made.error());
   session->interpreter_ = std::move(*made);
   if (auto done = session->give_memory(make, given); !done) return fail(done.error());
   session->note_modes();
+  if (!session->parts_.restart) return session;
+  if (auto begun = session->begin_rebuild(); !begun) return fail(begun.error());
   return session;
 }
 
@@ -75,20 +77,31 @@ Result<void> RunSession::give_memory(const Make& make, const interpreter::Setup&
 RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
     : parts_(std::move(parts)),
       setup_(setup),
-      events_(parts_.machine.capabilities(), parts_.machine.events()) {}
+      events_(parts_.machine.capabilities(), parts_.machine.events()),
+      tracker_(events_) {
+  if (parts_.checkpoints != nullptr)
+    checkpoints_.emplace(parts_.run.run, *parts_.checkpoints, parts_.clock);
+}
 
 std::size_t RunSession::fill(std::size_t max_blocks) {
   waits_ = Waits::ForMachine;
-  if (is_over_) return 0;
+  if (is_over_ || is_rebuilding()) return 0;
   if (has_question_ && !resolve_question()) return 0;
   drop_modes();
   std::size_t blocks = 0;
   while (blocks < max_blocks && parts_.machine.has_room()) {
-    switch (interpreter_->step(1)) {
+    const std::uint64_t before = interpreter_->blocks();
+    const StepState step = interpreter_->step(1);
+    // A step that ends no block ends somewhere inside of one.
+    const std::uint64_t now = interpreter_->blocks();
+    is_at_boundary_ = step == StepState::Ran && now != before;
+    switch (step) {
       case StepState::Ran:
         ++blocks;
         note_modes();
         note_memory();
+        if (is_at_boundary_ && (wants_checkpoint_ || now >= next_early_checkpoint_))
+          take_checkpoint();
         break;
       case StepState::NeedsText:
         waits_ = Waits::ForText;
@@ -217,8 +230,10 @@ bool RunSession::machine_rests() const {
 /// operator, is asked.
 bool RunSession::give(const interpreter::Answer& answer) {
   const auto taken = interpreter_->answer(answer);
-  if (taken) has_question_ = false;
-  return taken.has_value();
+  if (!taken) return false;
+  has_question_ = false;
+  if (checkpoints_) checkpoints_->note_answer(answer);
+  return true;
 }
 
 std::string RunSession::prompt() const {
@@ -229,13 +244,16 @@ std::string RunSession::prompt() const {
 
 Result<void> RunSession::answer(const std::string& text) {
   if (waits_ != Waits::ForOperator) return fail(Errc::Busy, "the program has asked nothing");
-  const auto taken = interpreter_->answer(interpreter::PromptAnswer{text});
-  if (taken) has_question_ = false;
-  return taken;
+  const interpreter::PromptAnswer given{text};
+  const auto taken = interpreter_->answer(given);
+  if (!taken) return taken;
+  has_question_ = false;
+  if (checkpoints_) checkpoints_->note_answer(given);
+  return {};
 }
 
 void RunSession::size_feed(std::optional<double> speed_factor) {
-  if (!speed_factor) return feed().set_consumption(std::nullopt);
+  if (!speed_factor || is_rebuilding()) return feed().set_consumption(std::nullopt);
   const double seconds = parts_.machine.buffered().count() / *speed_factor;
   const interpreter::Origin& ahead = interpreter_->origin();
   const interpreter::Origin at = parts_.machine.status().origin;

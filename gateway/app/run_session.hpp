@@ -9,6 +9,8 @@
 
 #include "gateway/app/control_memory.hpp"
 #include "gateway/app/execution_recorder.hpp"
+#include "gateway/app/restart/checkpoint_keeper.hpp"
+#include "gateway/app/restart/rebuild.hpp"
 #include "gateway/feed/line_feed.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "gateway/machine/capability_filter.hpp"
@@ -30,6 +32,9 @@ class RunSession {
     /// The program gets the control's memory of the last beginning of its revision; a difference
     /// takes effect when the first block is executed.
     bool begins_with_former_memory = false;
+    report::Outbox* checkpoints = nullptr;  ///< where they are kept; null: none are, nor a restart
+    std::optional<RestartPlan> restart = {};
+    bool is_lathe = false;
   };
   /// Errors: those of Dialect::make. The machine is unchanged then.
   static Result<std::unique_ptr<RunSession>> make(Parts parts, const interpreter::Dialect& dialect,
@@ -57,6 +62,20 @@ class RunSession {
   const std::optional<interpreter::CoordinateFrame>& frame_at(std::uint64_t block) const;
   /// Passes the changes of the blocks up to `executed` to the control's memory.
   void keep_memory(std::uint64_t executed);
+  /// The hash of the path when `block` ended.
+  std::uint64_t path_at(std::uint64_t block) const { return tracker_.path_at(block); }
+
+  std::uint64_t blocks_since_checkpoint() const {
+    return checkpoints_ ? accepted() - checkpoints_->last_block() : 0;
+  }
+  /// Stages a checkpoint now, or at the end of the block in hand.
+  void want_checkpoint();
+  /// A restart that has not come to its place yet: `rebuild` continues it, `fill` does nothing.
+  bool is_rebuilding() const { return rebuild_ && rebuild_->state() != Rebuild::State::Ready; }
+  Rebuild::State rebuild();
+  /// The restart; null: the run is none.
+  const Rebuild* restart() const { return rebuild_.get(); }
+
   /// Sizes the feed by the rate at which the program's bytes are used up, as far as it is known.
   void size_feed(std::optional<double> speed_factor);
 
@@ -67,6 +86,10 @@ class RunSession {
   Result<void> give_memory(const Make& make, const interpreter::Setup& setup);
   /// True: the interpreter can continue.
   bool resolve_question();
+  void take_checkpoint();
+  Result<void> begin_rebuild();
+  void end_rebuild();
+  void keep_inherited(const Rebuild& rebuild);
   bool resolve(const interpreter::ProbeQuestion& question);
   bool resolve(const interpreter::PromptQuestion& question);
   bool resolve(const interpreter::InputQuestion& question);
@@ -81,7 +104,13 @@ class RunSession {
   Parts parts_;
   interpreter::Setup setup_;  ///< its answers are given here, not by the interpreter
   std::size_t next_answer_ = 0;
-  machine::CapabilityFilter events_;  ///< from the interpreter to the machine
+  machine::CapabilityFilter events_;  ///< from the tracker to the machine
+  EventTracker tracker_;              ///< from the interpreter
+  std::optional<CheckpointKeeper> checkpoints_;
+  bool wants_checkpoint_ = false, is_at_boundary_ = true;
+  /// A short program is read to its end at once: its first checkpoints come at doubled distances.
+  std::uint64_t next_early_checkpoint_ = kFirstCheckpoint;
+  static constexpr std::uint64_t kFirstCheckpoint = 4, kLastEarlyCheckpoint = 65'536;
   std::unique_ptr<interpreter::Interpreter> interpreter_;
   interpreter::RetainedMemory* retained_ =
       nullptr;  ///< of the interpreter; null: its control keeps nothing
@@ -104,6 +133,7 @@ class RunSession {
     std::optional<interpreter::CoordinateFrame> frame;
   };
   std::deque<Frame> frames_;  ///< likewise
+  std::unique_ptr<Rebuild> rebuild_;
   bool is_over_ = false, has_question_ = false, is_probing_ = false;
 };
 

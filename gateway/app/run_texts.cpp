@@ -1,5 +1,6 @@
 #include "gateway/app/run_texts.hpp"
 
+#include <fmt/format.h>
 #include <array>
 #include <map>
 
@@ -38,6 +39,14 @@ std::string_view to_text(interpreter::StopKind kind) {
   constexpr std::array<std::string_view, 4> kTexts{"program stop", "optional stop", "tool change",
                                                    "operator stop"};
   return kTexts[static_cast<std::size_t>(kind)];
+}
+
+std::string work_system_text(const interpreter::ActiveModes& modes) {
+  if (modes.work_system == 0) return {};
+  std::string text = fmt::format("G{}", modes.work_system / 10);
+  if (modes.work_system % 10 != 0) text += fmt::format(".{}", modes.work_system % 10);
+  if (modes.work_page != 0) text += fmt::format(" P{}", modes.work_page);
+  return text;
 }
 
 std::string valid_text(std::string_view bytes, std::size_t max_bytes) {

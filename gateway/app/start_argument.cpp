@@ -31,10 +31,33 @@ Result<void> read_choice(std::string_view word, StartArgument& start) {
   return {};
 }
 
+constexpr std::string_view kRestart = "restart=";
+constexpr std::string_view kAt = "at=";
+
+Result<RestartArgument> parse_restart(std::string_view text) {
+  RestartArgument restart;
+  restart.run = take_word(text).substr(kRestart.size());
+  if (restart.run.empty()) return fail(Errc::Syntax, "a restart without a run");
+  if (text.empty()) return restart;
+  const std::string_view at = take_word(text);
+  if (!at.starts_with(kAt) || !text.empty())
+    return fail(Errc::Syntax, "a restart with '{}', expected at=PLACE alone", at);
+  auto place = parse_restart_place(at.substr(kAt.size()));
+  if (!place) return fail(place.error());
+  restart.at = *std::move(place);
+  return restart;
+}
+
 }  // namespace
 
 Result<StartArgument> parse_start_argument(std::string_view text) {
   StartArgument start;
+  if (text.starts_with(kRestart)) {
+    auto restart = parse_restart(text);
+    if (!restart) return fail(restart.error());
+    start.restart = *std::move(restart);
+    return start;
+  }
   start.place = take_word(text);
   while (!text.empty()) {
     if (auto read = read_choice(take_word(text), start); !read) return fail(read.error());

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/app/restart/restart_argument.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::gateway {
@@ -17,12 +18,13 @@ enum class StartMemory : std::uint8_t {
   Now,    ///< as it is
 };
 
-/// Where a run begins, as its start command states: "N120", "N120 pass=3 memory=begin"; empty:
-/// at the first block.
+/// Where a run begins, as its start command states: "N120", "N120 pass=3 memory=begin",
+/// "restart=RUN at=executed"; empty: at the first block.
 struct StartArgument {
   std::string place;  ///< for the dialect to read
   std::optional<std::uint32_t> pass;
   StartMemory memory = StartMemory::Ask;
+  std::optional<RestartArgument> restart = {};  ///< then there is nothing else
   friend bool operator==(const StartArgument&, const StartArgument&) = default;
 };
 /// Errors: Syntax (an unknown word; nothing is started then).

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "gateway/app/run_texts.hpp"
 #include "protocol/base/utf8.hpp"
 
 namespace dripline::gateway {
@@ -40,15 +41,6 @@ static_assert(static_cast<int>(dds::CompensationSide::Right) ==
 dds::FeedUnit unit_of(Feed feed) {
   if (feed.per() == Feed::Per::Move) return dds::FeedUnit::InverseTime;
   return feed.per() == Feed::Per::Minute ? dds::FeedUnit::PerMinute : dds::FeedUnit::PerRevolution;
-}
-
-/// "G54", "G59.3", "G54.1 P7"
-std::string work_system_text(const interpreter::ActiveModes& modes) {
-  if (modes.work_system == 0) return {};
-  std::string text = fmt::format("G{}", modes.work_system / 10);
-  if (modes.work_system % 10 != 0) text += fmt::format(".{}", modes.work_system % 10);
-  if (modes.work_page != 0) text += fmt::format(" P{}", modes.work_page);
-  return text;
 }
 
 /// The interpreter's modes of the block that is executed.
@@ -202,6 +194,11 @@ Execution StatusBuilder::execution_of_run(std::string& message, const LinkState&
   const MachineState state = parts_.machine.state();
   const RunSession& session = *parts_.run.session;
   message.clear();
+  if (session.is_rebuilding()) {
+    message = fmt::format("restart: looking through the program, block {}",
+                          session.restart()->block());
+    return Execution::Waiting;
+  }
   if (parts_.consent.is_awaited()) {
     message = kAwaitsCycleStart;
     return Execution::Waiting;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gateway/feed/chunk_cache.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
@@ -26,6 +27,10 @@ class ProgramFeed : public interpreter::ProgramSource {
   virtual void ask_again() {}
   /// The rate at which the text is used up; nullopt: as fast as possible.
   virtual void set_consumption(std::optional<double> /*bytes_per_second*/) {}
+
+  /// The names that `find` was asked for, in the order of their indices from 1. A feed of the same
+  /// run that is asked for them in this order gives the same indices.
+  virtual std::vector<std::string> called_programs() const { return {}; }
 
   /// The *sent* counter: bytes of the main program received without a gap from its beginning.
   virtual std::uint64_t sent() const = 0;

@@ -92,6 +92,12 @@ interpreter::ProgramLookup PullFeed::find(std::string_view name) {
   return {State::NotYet, index};
 }
 
+std::vector<std::string> PullFeed::called_programs() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i < programs_.size(); ++i) names.push_back(programs_[i].name);
+  return names;
+}
+
 void PullFeed::on_data(const dds::BlockData& data, SteadyTime now) {
   if (data.session != run_.session || data.run != run_.run || data.machine != run_.machine) return;
   const auto index = program_of(data);

@@ -51,6 +51,7 @@ class PullFeed final : public ProgramFeed {
   interpreter::TextWindow fetch(interpreter::ProgramIndex program, std::uint64_t offset,
                                 std::size_t min_bytes) override;
   interpreter::ProgramLookup find(std::string_view name) override;
+  std::vector<std::string> called_programs() const override;
 
   void on_data(const dds::BlockData& data, SteadyTime now) override;
   void poll(SteadyTime now) override;

@@ -65,15 +65,15 @@ Result<void> Outbox::create() {
 Result<void> Outbox::load_run() {
   auto query = database_.prepare(
       "SELECT run, program, revision, control, size, sent, accepted, executed, line, sequence, "
-      "offset FROM active_run");
+      "offset, path FROM active_run");
   if (!query) return fail(query.error());
   const auto row = query->step();
   if (!row) return fail(row.error());
   if (!*row) return memory_.load(database_);
   committed_run_ =
       ActiveRun{query->text(0), query->text(1), query->text(2), query->text(3), query->number(4)};
-  committed_progress_ = {query->number(5), query->number(6),  query->number(7),
-                         query->number(8), query->integer(9), query->number(10)};
+  committed_progress_ = {query->number(5),  query->number(6),  query->number(7), query->number(8),
+                         query->integer(9), query->number(10), query->number(11)};
   progress_ = committed_progress_;
   return memory_.load(database_);
 }
@@ -104,11 +104,12 @@ void Outbox::discard() {
   staged_.clear();
   staged_results_.clear();
   memory_.discard();
+  checkpoints_.discard();
 }
 
 Result<void> Outbox::commit() {
   const bool has_change = !staged_.empty() || !staged_results_.empty() || memory_.is_staged() ||
-                          run_change_ != RunChange::None;
+                          checkpoints_.is_staged() || run_change_ != RunChange::None;
   if (!has_change) return {};
   auto transaction = sqlite::Transaction::begin(database_);
   if (!transaction) return fail(transaction.error());
@@ -124,6 +125,7 @@ Result<void> Outbox::commit() {
   staged_.clear();
   staged_results_.clear();
   memory_.apply();
+  checkpoints_.discard();
   return {};
 }
 
@@ -132,6 +134,7 @@ Result<void> Outbox::write_all() {
   if (const auto done = write_run(); !done) return done;
   if (const auto done = write_command_results(); !done) return done;
   if (const auto done = memory_.write(database_); !done) return done;
+  if (const auto done = checkpoints_.write(database_); !done) return done;
   return delete_acknowledged();
 }
 
@@ -155,11 +158,12 @@ Result<void> Outbox::write_run() {
   if (!begins && !committed_run_) return {};
   const ActiveRun& run = begins ? staged_run_ : *committed_run_;
   auto replace = database_.prepare(
-      "INSERT OR REPLACE INTO active_run VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)");
+      "INSERT OR REPLACE INTO active_run VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, "
+      "?12)");
   if (!replace) return fail(replace.error());
   replace->bind(run.run, run.program, run.revision, run.control, run.size, progress_.sent,
                 progress_.accepted, progress_.executed, progress_.line, progress_.sequence,
-                progress_.offset);
+                progress_.offset, progress_.path);
   return replace->run();
 }
 

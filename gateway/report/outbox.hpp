@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/report/checkpoint_store.hpp"
 #include "gateway/report/kept_memory.hpp"
 #include "gateway/report/progress.hpp"
 #include "protocol/base/result.hpp"
@@ -19,10 +20,10 @@ struct OutboxOptions {
 };
 
 /// What this gateway must not lose: records that the server has not acknowledged, the active run,
-/// the answers to commands and the control's memory. Changes are staged in memory and written by
-/// `commit` in one transaction that survives a power cut; until then they are not in force. A
-/// commit that fails changes nothing and keeps what was staged, so it can be tried again. One
-/// thread.
+/// the answers to commands, the control's memory and what restarts need. Changes are staged in
+/// memory and written by `commit` in one transaction that survives a power cut; until then they are
+/// not in force. A commit that fails changes nothing and keeps what was staged, so it can be tried
+/// again. One thread.
 class Outbox {
  public:
   /// Creates the file with a new epoch when there is none. Errors: Io, Corrupt, Unsupported.
@@ -48,11 +49,17 @@ class Outbox {
   /// What the control keeps; staged and committed together with the rest.
   KeptMemory& memory() { return memory_; }
   const KeptMemory& memory() const { return memory_; }
+  /// What restarts need; likewise.
+  CheckpointStore& checkpoints() { return checkpoints_; }
+  /// For what the checkpoint store reads.
+  storage::sqlite::Database& database() { return database_; }
 
   /// Drops what was staged since the last commit.
   void discard();
 
-  bool has_staged_records() const { return !staged_.empty(); }
+  /// Records, or answers to the interpreter: the block that they belong to is not executed before
+  /// they are committed.
+  bool has_staged_records() const { return !staged_.empty() || checkpoints_.has_staged_answers(); }
   std::size_t staged_records() const { return staged_.size(); }
   /// Errors: Io ("disk full" among them), Busy, Corrupt.
   Result<void> commit();
@@ -107,6 +114,7 @@ class Outbox {
   std::vector<dds::Record> staged_;
   std::vector<StagedResult> staged_results_;
   KeptMemory memory_;
+  CheckpointStore checkpoints_;
   RunChange run_change_ = RunChange::None;
   ActiveRun staged_run_;
   Progress progress_;

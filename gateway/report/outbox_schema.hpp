@@ -73,6 +73,34 @@ INSERT INTO memory_state VALUES (1, '', '', '');
 )sql"},
                                               storage::sqlite::Migration{4, "commands", R"sql(
 ALTER TABLE order_result RENAME TO command_result;
+)sql"},
+                                              storage::sqlite::Migration{5, "checkpoints", R"sql(
+-- What a restart in the middle of a run begins with; the bytes are sealed by their writer.
+CREATE TABLE checkpoint_run (
+  position   INTEGER PRIMARY KEY AUTOINCREMENT, -- the oldest are dropped
+  run        TEXT NOT NULL UNIQUE,
+  program    TEXT NOT NULL,
+  revision   TEXT NOT NULL,    -- SHA-256
+  control    TEXT NOT NULL,
+  size       INTEGER NOT NULL, -- bytes
+  conditions BLOB NOT NULL,    -- what it is interpreted under
+  ending     BLOB NOT NULL     -- how far it came; empty: it has not ended
+) STRICT;
+CREATE TABLE checkpoint (
+  run      TEXT NOT NULL REFERENCES checkpoint_run (run) ON DELETE CASCADE,
+  block    INTEGER NOT NULL, -- interpreted
+  executed INTEGER NOT NULL, -- blocks, at that time
+  time_us  INTEGER NOT NULL, -- UTC
+  bytes    BLOB NOT NULL,
+  PRIMARY KEY (run, block)
+) STRICT;
+CREATE TABLE checkpoint_answer (
+  run    TEXT NOT NULL REFERENCES checkpoint_run (run) ON DELETE CASCADE,
+  number INTEGER NOT NULL, -- 1, 2, 3 ... of the run
+  bytes  BLOB NOT NULL,
+  PRIMARY KEY (run, number)
+) STRICT;
+ALTER TABLE active_run ADD COLUMN path INTEGER NOT NULL DEFAULT 0; -- hash of what was executed
 )sql"}};
 
 }  // namespace dripline::report

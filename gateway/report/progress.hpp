@@ -13,6 +13,8 @@ struct Progress {
   std::uint64_t line = 0;
   std::int64_t sequence = -1;
   std::uint64_t offset = 0;
+  std::uint64_t path = 0;  ///< hash of everything that was sent to the machine up to that block; 0:
+                           ///< not known
   friend bool operator==(const Progress&, const Progress&) = default;
 };
 

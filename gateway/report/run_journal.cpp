@@ -24,6 +24,7 @@ enum Place : std::size_t {
   kOffset,
   kGeneration,  ///< 1, 2, 3 ...; an empty file has none
   kChecksum,
+  kPath,  ///< 0 in a file of a version without it
 };
 
 /// Detects words of two different generations in one slot, not malice.
@@ -34,6 +35,7 @@ std::uint64_t checksum_of(const Slot& slot) {
     sum = (sum ^ slot[i]) * 0xff51afd7ed558ccdULL;
     sum ^= sum >> 32;
   }
+  if (slot[kPath] != 0) sum = (sum ^ slot[kPath]) * 0xff51afd7ed558ccdULL;
   return sum;
 }
 
@@ -93,7 +95,7 @@ std::optional<RunJournal::Entry> RunJournal::read() const {
   const Slot& slot = *newest;
   return Entry{run,
                {slot[kSent], slot[kAccepted], slot[kExecuted], slot[kLine],
-                static_cast<std::int64_t>(slot[kSequence]), slot[kOffset]}};
+                static_cast<std::int64_t>(slot[kSequence]), slot[kOffset], slot[kPath]}};
 }
 
 void RunJournal::begin(std::string_view run) {
@@ -123,6 +125,7 @@ void RunJournal::store() {
   next[kLine] = progress_.line;
   next[kSequence] = static_cast<std::uint64_t>(progress_.sequence);
   next[kOffset] = progress_.offset;
+  next[kPath] = progress_.path;
   next[kGeneration] = ++generation_;
   next[kChecksum] = checksum_of(next);
   // The other slot holds the entry before; no store of this one may be reordered across it.

@@ -29,6 +29,8 @@ class Consent {
   void await(SteadyTime deadline) {
     deadline_ = is_given() ? std::nullopt : std::optional(deadline);
   }
+  /// A restart: even an unattended machine waits for it to be confirmed.
+  void await_confirmation(SteadyTime deadline) { deadline_ = deadline; }
   bool is_awaited() const { return deadline_.has_value(); }
   bool is_overdue(SteadyTime now) const { return deadline_ && now >= *deadline_; }
   /// Cycle start was given, or the run is over.

@@ -34,9 +34,17 @@ GatewayFixture::GatewayFixture(const interpreter::Dialect& control, interpreter:
 
 GatewayFixture::~GatewayFixture() = default;
 
-void GatewayFixture::restart_gateway() {
+void GatewayFixture::close_gateway() {
   gateway.reset();
   process_.reset();
+}
+
+void GatewayFixture::set_checkpoint_interval(std::chrono::milliseconds interval) {
+  options_.checkpoint_interval = interval;
+}
+
+void GatewayFixture::restart_gateway() {
+  close_gateway();
   process_ = std::make_unique<Process>(folder_.path(), outbox_bytes);
   requests_.clear();
   Gateway::Parts parts{
@@ -170,15 +178,27 @@ Result<void> GatewayFixture::write(const dds::BlockRequest& message) {
   return {};
 }
 
-std::string GatewayFixture::text_of(const dds::BlockRequest& request) const {
+std::optional<std::string> GatewayFixture::text_of(const dds::BlockRequest& request) const {
   const auto found = programs.find(request.program.empty() ? program_ : request.program);
-  return found == programs.end() ? std::string() : found->second;
+  if (found != programs.end()) return found->second;
+  return loader ? loader(request.program) : std::nullopt;
 }
 
 void GatewayFixture::serve() {
   if (!is_up) return;
   for (const dds::BlockRequest& request : std::exchange(requests_, {})) {
-    const std::string text = text_of(request);
+    const auto found = text_of(request);
+    if (!found) {
+      dds::BlockData none;
+      none.machine = request.machine;
+      none.session = request.session;
+      none.run = request.run;
+      none.program = request.program;
+      none.status = dds::BlockStatus::NoSuchProgram;
+      gateway->receive(none, clock.steady);
+      continue;
+    }
+    const std::string& text = *found;
     std::size_t at = request.offset;
     const std::size_t end = std::min<std::size_t>(text.size(), at + request.length);
     while (at < end) {
@@ -197,7 +217,7 @@ void GatewayFixture::serve() {
       gateway->receive(data, clock.steady);
     }
   }
-  if (!records.empty())
+  if (acknowledges && !records.empty())
     gateway->receive(dds::RecordAck{"lathe-1", records.back().epoch, records.back().number},
                      clock.steady);
 }

@@ -9,6 +9,7 @@
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/app/motion_choice.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::gateway {
@@ -38,6 +39,9 @@ class GatewayFixture : public dds::GatewayEndpoint {
 
   /// A new process on the same disk, as after a kill (what was not committed is gone).
   void restart_gateway();
+  /// As after a kill, without a new one: so another process can have the disk.
+  void close_gateway();
+  void set_checkpoint_interval(std::chrono::milliseconds interval);
   void connect(bool is_up);
   /// People may be at the machine: from the next gateway on, it asks for their consent.
   void make_attended();
@@ -68,8 +72,10 @@ class GatewayFixture : public dds::GatewayEndpoint {
   dds::Rejected rejected() const override { return {}; }
 
   TestClock clock;
-  bool is_up = true, serves_text = true;
+  bool is_up = true, serves_text = true, acknowledges = true;
   std::map<std::string, std::string> programs;
+  /// For called programs that are not among these; empty: there are no others.
+  interpreter::MemorySource::Loader loader;
   std::vector<dds::Record> records;  ///< stored once each, in order
   std::vector<dds::Announce> announced;
   std::optional<dds::Status> status;
@@ -84,7 +90,7 @@ class GatewayFixture : public dds::GatewayEndpoint {
  private:
   struct Process;
   void serve();
-  std::string text_of(const dds::BlockRequest& request) const;
+  std::optional<std::string> text_of(const dds::BlockRequest& request) const;
 
   test_support::TemporaryFolder folder_;
   const interpreter::Dialect& control_;

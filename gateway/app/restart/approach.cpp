@@ -1,0 +1,84 @@
+#include "gateway/app/restart/approach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dripline::gateway {
+
+using interpreter::Axis;
+using interpreter::kAllAxes;
+using interpreter::Position;
+
+namespace {
+
+constexpr double kSame = 1e-9;  ///< millimeters or degrees
+
+Position along(Axis axis, double value) {
+  Position position;
+  position.set_raw(axis, value);
+  return position;
+}
+
+}  // namespace
+
+/// A feed per revolution needs a spindle that turns; a feed per move is of that move alone.
+Feed Approach::plunge_feed() const {
+  const bool is_usable = feed &&
+                         (feed->per() == Feed::Per::Minute ||
+                          (feed->per() == Feed::Per::Revolution && spindle_turns)) &&
+                         feed->length() > Length::mm(0);
+  return is_usable ? *feed : Feed::per_minute(Length::mm(kPlungeFeedPerMinute));
+}
+
+Approach::Plan Approach::plan() const {
+  Plan plan;
+  const bool has_tool_axis = to.has(tool_axis);
+  const double now = from.raw(tool_axis);
+  const double target = has_tool_axis ? to.raw(tool_axis) : now;
+  plan.clearance = std::max(now, target);
+  if (highest.has(tool_axis)) plan.clearance = std::max(plan.clearance, highest.raw(tool_axis));
+  Position others;
+  bool is_elsewhere = false;
+  for (const Axis axis : kAllAxes) {
+    if (axis == tool_axis || !to.has(axis)) continue;
+    others.set_raw(axis, to.raw(axis));
+    is_elsewhere |= std::fabs(to.raw(axis) - from.raw(axis)) > kSame;
+  }
+  const bool is_there = !is_elsewhere && std::fabs(target - now) <= kSame;
+  if (is_there) return plan;
+  if (has_tool_axis && plan.clearance - now > kSame)
+    plan.before.push_back({along(tool_axis, plan.clearance), {}});
+  if (is_elsewhere) plan.before.push_back({others, {}});
+  if (!has_tool_axis || plan.clearance - target <= kSame) return plan;
+  if (!is_lathe && plan.clearance - target > kPlunge)
+    plan.after.push_back({along(tool_axis, target + kPlunge), {}});
+  plan.after.push_back({along(tool_axis, target), plunge_feed()});
+  return plan;
+}
+
+void write_approach(const Approach::Plan& plan, const DeliveredState& state,
+                    const interpreter::Origin& origin, interpreter::EventSink& out) {
+  const auto move = [&](const ApproachMove& one) {
+    if (one.feed) return out.on_line({origin, one.to, *one.feed, true});
+    out.on_rapid({origin, one.to, true});
+  };
+  if (state.tool) out.on_tool({origin, *state.tool, false, state.tool_offset, state.tool_shape});
+  if (state.next_tool) out.on_tool({origin, *state.next_tool, true, {}, {}});
+  for (const ApproachMove& one : plan.before) move(one);
+  if (state.spindle.state != interpreter::SpindleState::Off) {
+    interpreter::Spindle spindle = state.spindle;
+    spindle.origin = origin;
+    out.on_spindle(spindle);
+  }
+  if (state.flood || state.mist) out.on_coolant({origin, state.flood, state.mist});
+  for (const ApproachMove& one : plan.after) move(one);
+  interpreter::OverrideInhibit inhibit = state.inhibit;
+  const bool is_inhibited = inhibit.feed_override || inhibit.spindle_override ||
+                            inhibit.single_block ||
+                            inhibit.hold != interpreter::FeedHoldInhibit::AtOnce;
+  if (!is_inhibited) return;
+  inhibit.origin = origin;
+  out.on_override_inhibit(inhibit);
+}
+
+}  // namespace dripline::gateway

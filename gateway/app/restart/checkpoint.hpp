@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/app/restart/delivered_state.hpp"
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/report/checkpoint_store.hpp"
+#include "protocol/base/clock.hpp"
+
+/// What is kept of a run for a restart. Every one of these is sealed by a SHA-256 at its end: bytes
+/// that differ in any place from what was written are Corrupt, and start nothing. They are those of
+/// this machine and of `kFormat`. Errors of decoding: Corrupt, Unsupported (another format).
+namespace dripline::gateway {
+
+/// A state between two blocks.
+struct Checkpoint {
+  std::uint64_t block = 0;    ///< interpreted
+  report::Progress executed;  ///< by the machine, at that time
+  std::int64_t time_us = 0;   ///< UTC
+  interpreter::Snapshot snapshot;
+  DeliveredState delivered;
+  interpreter::Position machine;      ///< where the axes were at that time
+  std::uint64_t answers = 0;          ///< given to the interpreter by then
+  std::uint64_t prompts = 0;          ///< of these, to the operator's questions
+  std::vector<std::string> programs;  ///< that were called by then, in their order
+};
+report::Bytes encode(Checkpoint checkpoint);
+Result<Checkpoint> decode_checkpoint(const report::Bytes& bytes);
+/// For tests: any bytes with the seal of a checkpoint.
+report::Bytes sealed_checkpoint(report::Bytes content);
+
+/// What decides, besides its text, how a program is interpreted.
+struct Conditions {
+  std::string server_setup;   ///< SHA-256 of its text; empty: the server gave none
+  std::string gateway_setup;  ///< likewise of the gateway's own
+  bool block_skip = false;
+  std::string start;  ///< the place that its start named ("N120 pass=3"); empty: the first block
+  interpreter::Position begun_at;  ///< where the machine was then
+  friend bool operator==(const Conditions&, const Conditions&) = default;
+};
+report::Bytes encode(Conditions conditions);
+Result<Conditions> decode_conditions(const report::Bytes& bytes);
+
+/// How far a run came.
+struct RunEnding {
+  report::Progress executed;
+  std::int64_t time_us = 0;
+  bool is_completed = false;
+  /// Where the axes came to rest; absent after a kill, when it is not known.
+  std::optional<interpreter::Position> stopped_at;
+  std::string memory;  ///< digest of what the control had kept
+};
+report::Bytes encode(RunEnding ending);
+Result<RunEnding> decode_ending(const report::Bytes& bytes);
+
+/// An answer that the interpreter was given.
+report::Bytes encode(interpreter::Answer answer);
+Result<interpreter::Answer> decode_answer(const report::Bytes& bytes);
+
+}  // namespace dripline::gateway

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "gateway/app/restart/delivered_state.hpp"
+#include "gateway/interpreter/stages/event_filter.hpp"
+
+namespace dripline::gateway {
+
+/// Between the interpreter and the machine: keeps what the machine was given, with the hash of the
+/// path for each block, and holds back everything up to a block while a restart looks through the
+/// program. One thread.
+class EventTracker final : public interpreter::EventGate {
+ public:
+  explicit EventTracker(interpreter::EventSink& out)
+      : EventGate(out), paths_(std::make_unique<Paths>()) {}
+
+  const DeliveredState& delivered() const { return state_; }
+  /// The hash of the path when `block` ended; 0: not known any more.
+  std::uint64_t path_at(std::uint64_t block) const {
+    const PathOfBlock& one = (*paths_)[block % kPaths];
+    return one.block == block ? one.path : 0;
+  }
+
+  /// From `state` on, nothing passes until the block `last` has ended; then `on_open` is called,
+  /// with the sink that follows. Without `on_open` nothing passes at all.
+  using OnOpen = std::function<void(interpreter::EventSink& out)>;
+  void close(DeliveredState state, std::uint64_t last, OnOpen on_open);
+  /// At once: nothing was executed before.
+  void open_now();
+  bool is_closed() const { return is_closed_; }
+
+  /// What is searched for while the gate is closed: the last block up to `until` that ends with
+  /// this line or N number of the main program, or that changes to this tool.
+  struct Wanted {
+    std::optional<std::uint64_t> line;
+    std::optional<std::int64_t> sequence;
+    std::optional<int> tool;
+    std::uint64_t until = 0;
+  };
+  void search(const Wanted& wanted) { wanted_ = wanted, found_ = 0; }
+  /// 0: none.
+  std::uint64_t found() const { return found_; }
+
+  /// An alarm that came while the gate was closed.
+  const std::optional<interpreter::Diagnostic>& alarm() const { return alarm_; }
+
+  /// Of one block, after the gate has opened: its moves' length along the path, and how much of it
+  /// is left from `at`; no `left` when `at` is not on it.
+  void measure(std::uint64_t block, const interpreter::Position& at);
+  struct Measured {
+    std::uint64_t block = 0, line = 0;
+    std::int64_t sequence = interpreter::Origin::kNone;
+    double length = 0;  ///< millimeters
+    std::optional<double> left;
+    bool has_ended = false;
+  };
+  const Measured& measured() const { return measured_; }
+
+  void on_rapid(const interpreter::Rapid& event) override;
+  void on_line(const interpreter::Line& event) override;
+  void on_arc(const interpreter::Arc& event) override;
+  void on_thread(const interpreter::Thread& event) override;
+  void on_dwell(const interpreter::Dwell& event) override;
+  void on_spindle(const interpreter::Spindle& event) override;
+  void on_coolant(const interpreter::Coolant& event) override;
+  void on_tool(const interpreter::ToolChange& event) override;
+  void on_miscellaneous(const interpreter::Miscellaneous& event) override;
+  void on_pin(const interpreter::PinChange& event) override;
+  void on_override_inhibit(const interpreter::OverrideInhibit& event) override;
+  void on_alarm(const interpreter::Alarm& event) override;
+  void on_block_end(const interpreter::Origin& origin) override;
+
+ private:
+  bool is_open() const override { return !is_closed_; }
+  void add(double value);
+  void add(std::uint64_t bits);
+  void move_to(const interpreter::Position& to);
+  void measure_move(const interpreter::Origin& origin, const interpreter::Position& to,
+                    double length);
+  void note_code(int code);
+  void note_found(const interpreter::Origin& origin);
+
+  /// As many blocks as a machine queues at most, and more.
+  static constexpr std::size_t kPaths = 32'768;
+  struct PathOfBlock {
+    std::uint64_t block = 0, path = 0;
+  };
+  using Paths = std::array<PathOfBlock, kPaths>;
+
+  DeliveredState state_;
+  std::unique_ptr<Paths> paths_;
+  bool is_closed_ = false;
+  std::uint64_t last_ = 0;
+  OnOpen on_open_;
+  std::optional<Wanted> wanted_;
+  std::uint64_t found_ = 0;
+  std::optional<interpreter::Diagnostic> alarm_;
+  std::uint64_t measured_block_ = 0;  ///< 0: none
+  interpreter::Position measured_from_;
+  Measured measured_;
+};
+
+}  // namespace dripline::gateway

@@ -1,0 +1,125 @@
+#include "gateway/app/restart/restart_plan.hpp"
+
+#include <algorithm>
+
+namespace dripline::gateway {
+
+using report::CheckpointStore;
+
+namespace {
+
+using Kind = RestartPlace::Kind;
+
+std::string switch_text(bool is_on) {
+  return is_on ? "on" : "off";
+}
+
+/// What has changed since the run, in one text; empty: nothing.
+std::string changes(const report::ActiveRun& original, const Conditions& then,
+                    const RunEnding& ending, const PresentState& now) {
+  std::string text;
+  const auto add = [&text](std::string_view what) {
+    if (!text.empty()) text += "; ";
+    text += what;
+  };
+  if (original.control != now.control)
+    add(fmt::format("the control was {}, it is {}", original.control, now.control));
+  if (original.revision != now.revision || original.size != now.size) {
+    add(fmt::format("the program's content was {}, it is {}", original.revision.substr(0, 12),
+                    now.revision.substr(0, 12)));
+  }
+  if (then.server_setup != now.conditions.server_setup) add("the machine's setup on the server");
+  if (then.gateway_setup != now.conditions.gateway_setup) add("the gateway's setup file");
+  if (then.block_skip != now.conditions.block_skip) {
+    add(fmt::format("the switch block_skip was {}, it is {}", switch_text(then.block_skip),
+                    switch_text(now.conditions.block_skip)));
+  }
+  if (ending.memory != now.memory) add("the control's memory (variables, offsets)");
+  return text;
+}
+
+Result<void> check_place(const RestartPlan& plan) {
+  const auto target = plan.known_target();
+  const std::uint64_t executed = plan.ending.executed.executed;
+  if (plan.at.kind == Kind::Block && plan.at.number == 0)
+    return fail(Errc::LimitExceeded, "block=0: blocks are counted from 1");
+  if (target && *target > executed) {
+    return fail(Errc::LimitExceeded,
+                "{}: run {} has executed {} blocks; it continues at {} at most", plan.at.text,
+                plan.original.run, executed, executed + 1);
+  }
+  if (plan.at.kind == Kind::Time && plan.checkpoints.front().time > plan.at.time) {
+    return fail(Errc::LimitExceeded, "{}: run {} began at {}", plan.at.text, plan.original.run,
+                to_iso8601(plan.checkpoints.front().time));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> RestartPlan::known_target() const {
+  if (at.kind == Kind::Executed) return ending.executed.executed;
+  if (at.kind == Kind::Block) return at.number - 1;
+  if (at.kind != Kind::Time) return std::nullopt;
+  if (UtcTime(std::chrono::microseconds(ending.time_us)) <= at.time)
+    return ending.executed.executed;
+  std::uint64_t executed = 0;
+  for (const report::StoredCheckpoint& one : checkpoints) {
+    if (one.time <= at.time) executed = std::max(executed, one.executed);
+  }
+  return executed;
+}
+
+std::size_t RestartPlan::nearest(std::uint64_t block) const {
+  const auto after =
+      std::upper_bound(checkpoints.begin(), checkpoints.end(), block,
+                       [](std::uint64_t wanted, const auto& one) { return wanted < one.block; });
+  return after == checkpoints.begin() ? 0
+                                      : static_cast<std::size_t>(after - checkpoints.begin()) - 1;
+}
+
+Result<Checkpoint> read_checkpoint(storage::sqlite::Database& database, const std::string& run,
+                                   std::uint64_t block) {
+  const auto stored = CheckpointStore::read(database, run, block);
+  if (!stored) return fail(stored.error());
+  auto checkpoint = decode_checkpoint(stored->bytes);
+  if (checkpoint && checkpoint->block == block) return checkpoint;
+  return fail(Errc::Corrupt, "the checkpoint of run {} at block {}: {}", run, block,
+              checkpoint ? "it is another block's" : checkpoint.error().what);
+}
+
+Result<RestartPlan> plan_restart(storage::sqlite::Database& database,
+                                 const RestartArgument& argument, const PresentState& present) {
+  const auto stored = CheckpointStore::find(database, argument.run);
+  if (!stored) {
+    if (stored.error().code != Errc::NotFound) return fail(stored.error());
+    return fail(Errc::NotFound, "{}: this machine keeps those of its last {} runs",
+                stored.error().what, CheckpointStore::kKeptRuns);
+  }
+  if (stored->ending.empty()) return fail(Errc::Conflict, "run {} has not ended", argument.run);
+  RestartPlan plan;
+  plan.original = stored->run;
+  plan.at = argument.at;
+  auto conditions = decode_conditions(stored->conditions);
+  if (!conditions) return fail(conditions.error());
+  plan.conditions = *std::move(conditions);
+  auto ending = decode_ending(stored->ending);
+  if (!ending) return fail(ending.error());
+  plan.ending = *std::move(ending);
+  if (plan.ending.is_completed) {
+    return fail(Errc::Conflict, "run {} was completed: there is nothing left to continue",
+                argument.run);
+  }
+  const std::string changed = changes(plan.original, plan.conditions, plan.ending, present);
+  if (!changed.empty())
+    return fail(Errc::Conflict, "changed since run {}: {}", argument.run, changed);
+  auto checkpoints = CheckpointStore::list(database, argument.run);
+  if (!checkpoints) return fail(checkpoints.error());
+  plan.checkpoints = *std::move(checkpoints);
+  if (plan.checkpoints.empty())
+    return fail(Errc::NotFound, "no checkpoints of run {} are kept", argument.run);
+  if (auto good = check_place(plan); !good) return fail(good.error());
+  return plan;
+}
+
+}  // namespace dripline::gateway

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gateway/app/restart/checkpoint.hpp"
+#include "gateway/app/restart/restart_argument.hpp"
+
+namespace dripline::gateway {
+
+/// What is in force now; a restart is refused where it is not what the run was executed under.
+struct PresentState {
+  std::string machine, program, revision, control;
+  std::uint64_t size = 0;
+  Conditions conditions;  ///< of a start at the first block
+  std::string memory;     ///< digest of what the control keeps
+};
+
+/// A restart that can begin: the run that was cut off, and its checkpoints.
+struct RestartPlan {
+  report::ActiveRun original;
+  RestartPlace at;
+  Conditions conditions;
+  RunEnding ending;
+  std::vector<report::StoredCheckpoint> checkpoints;  ///< ascending, without their bytes
+
+  /// The last block that is not executed again, where that is known before looking.
+  std::optional<std::uint64_t> known_target() const;
+  /// Index of the newest checkpoint at or before the block.
+  std::size_t nearest(std::uint64_t block) const;
+};
+
+/// Errors: NotFound (no checkpoints of the run), Conflict (it has not ended, was completed, or is
+/// of another revision, setup or memory: named), LimitExceeded (the place is after the block
+/// executed last), Corrupt.
+Result<RestartPlan> plan_restart(storage::sqlite::Database& database,
+                                 const RestartArgument& argument, const PresentState& present);
+
+/// Reads one checkpoint of the run and checks that it is whole. Errors: Corrupt, NotFound.
+Result<Checkpoint> read_checkpoint(storage::sqlite::Database& database, const std::string& run,
+                                   std::uint64_t block);
+
+}  // namespace dripline::gateway

@@ -1,0 +1,89 @@
+#include "gateway/app/run_loop.hpp"
+
+#include <utility>
+
+#include "protocol/process/log.hpp"
+
+/// The checkpoints of runs, and their restarts.
+namespace dripline::gateway {
+
+using machine::MachineState;
+
+Conditions RunLoop::conditions_of(const StartOrigin& origin) const {
+  Conditions conditions;
+  if (!origin.setup.empty()) conditions.server_setup = sha256(origin.setup).hex();
+  conditions.gateway_setup = parts_.setup_digest;
+  conditions.block_skip = parts_.machine.panel().block_skip;
+  conditions.begun_at = parts_.machine.status().position;
+  if (!origin.from.place.empty()) conditions.start = origin.argument;
+  return conditions;
+}
+
+/// Nothing: the start is no restart.
+Result<std::optional<RestartPlan>> RunLoop::plan_of(const report::ActiveRun& run,
+                                                    const StartOrigin& origin) const {
+  if (!origin.from.restart) return std::optional<RestartPlan>();
+  auto plan = plan_restart(parts_.outbox.database(), *origin.from.restart,
+                           {.machine = parts_.options.machine,
+                            .program = run.program,
+                            .revision = run.revision,
+                            .control = run.control,
+                            .size = run.size,
+                            .conditions = conditions_of(origin),
+                            .memory = parts_.memory.digest()});
+  if (!plan) return fail(plan.error().code, "restart: {}", plan.error().what);
+  return std::optional(*std::move(plan));
+}
+
+/// At a stop the state goes to disk at once.
+void RunLoop::checkpoint_at_stop(SteadyTime now) {
+  const MachineState state = parts_.machine.state();
+  if (std::exchange(last_state_, state) == state || !parts_.run.is_active()) return;
+  const bool is_stop = state == MachineState::Held || state == MachineState::ProgramStop ||
+                       state == MachineState::OptionalStop || state == MachineState::SingleBlock;
+  if (!is_stop) return;
+  parts_.run.session->want_checkpoint();
+  next_sync_ = now;
+}
+
+/// A piece of the look-through, or its end.
+void RunLoop::rebuild(SteadyTime now) {
+  RunSession& session = *parts_.run.session;
+  auto state = Rebuild::State::Working;
+  while (state == Rebuild::State::Working && parts_.clock.steady_now() < now + kSlice) {
+    session.feed().poll(now);
+    state = session.rebuild();
+    if (parts_.clock.steady_now() == now && ++rebuild_rounds_ % 64 == 0) break;
+  }
+  if (state == Rebuild::State::Ready) show_restart();
+  if (state == Rebuild::State::Failed)
+    end(dds::RunOutcome::Aborted, fmt::format("restart: {}", session.restart()->fault()));
+}
+
+/// The operator sees it before cycle start.
+void RunLoop::show_restart() {
+  RunSession& session = *parts_.run.session;
+  const RestartReport& report = session.restart()->report();
+  process::log_info("restart of run {} after block {}: state {}, path {} {}", report.original.run,
+                    report.after.block, report.state_equal_at ? "equal" : "without a record",
+                    report.is_path_equal ? "equal" : "without a record", parts_.run.label());
+  parts_.recorder.continue_after(report.after);
+  parts_.recorder.note_restart(to_json(report));
+  session.size_feed(parts_.options.speed.factor);
+}
+
+/// Before the record of the run's end, and in the same transaction.
+void RunLoop::stage_ending(bool is_completed) {
+  if (!parts_.keeps_checkpoints) return;
+  RunSession& session = *parts_.run.session;
+  if (!is_completed) session.want_checkpoint();
+  RunEnding ending;
+  ending.executed = parts_.recorder.reached();
+  ending.time_us = parts_.clock.now().time_since_epoch().count();
+  ending.is_completed = is_completed;
+  ending.stopped_at = parts_.machine.status().position;
+  ending.memory = parts_.memory.digest();
+  parts_.outbox.checkpoints().stage_ending(session.run().run, encode(std::move(ending)));
+}
+
+}  // namespace dripline::gateway

@@ -1,0 +1,78 @@
+#include "gateway/app/run_session.hpp"
+
+#include <algorithm>
+
+/// The checkpoints of a run, and its restart.
+namespace dripline::gateway {
+
+using interpreter::StepState;
+
+void RunSession::want_checkpoint() {
+  if (!checkpoints_ || is_over_ || is_rebuilding()) return;
+  wants_checkpoint_ = true;
+  if (is_at_boundary_) take_checkpoint();
+}
+
+void RunSession::take_checkpoint() {
+  wants_checkpoint_ = false;
+  if (!checkpoints_) return;
+  while (next_early_checkpoint_ <= interpreter_->blocks()) next_early_checkpoint_ *= 2;
+  if (next_early_checkpoint_ > kLastEarlyCheckpoint) next_early_checkpoint_ = UINT64_MAX;
+  checkpoints_->take({.interpreter = *interpreter_,
+                      .delivered = tracker_.delivered(),
+                      .feed = feed(),
+                      .executed = parts_.recorder.executed(),
+                      .machine = parts_.machine.status().position});
+}
+
+Result<void> RunSession::begin_rebuild() {
+  if (parts_.checkpoints == nullptr)
+    return fail(Errc::Unsupported, "a restart: this gateway keeps no checkpoints");
+  rebuild_ =
+      std::make_unique<Rebuild>(Rebuild::Parts{.plan = *std::exchange(parts_.restart, std::nullopt),
+                                               .interpreter = *interpreter_,
+                                               .tracker = tracker_,
+                                               .feed = feed(),
+                                               .database = parts_.checkpoints->database(),
+                                               .machine = parts_.machine,
+                                               .is_lathe = parts_.is_lathe});
+  if (rebuild_->state() == Rebuild::State::Failed)
+    return fail(Errc::Corrupt, "{}", rebuild_->fault());
+  return {};
+}
+
+Rebuild::State RunSession::rebuild() {
+  const Rebuild::State state = rebuild_->work();
+  if (state == Rebuild::State::Ready) end_rebuild();
+  return state;
+}
+
+/// What the interpreter has come to is the run's from here on.
+void RunSession::end_rebuild() {
+  is_at_boundary_ = false;
+  next_early_checkpoint_ = interpreter_->blocks() + kFirstCheckpoint;
+  has_question_ = rebuild_->last_step() == StepState::NeedsAnswer;
+  is_over_ =
+      rebuild_->last_step() == StepState::Ended || rebuild_->last_step() == StepState::Alarmed;
+  keep_inherited(*rebuild_);
+  next_answer_ = std::min<std::size_t>(setup_.answers.size(), rebuild_->answers().prompts);
+  modes_.clear();
+  frames_.clear();
+  note_modes();
+  // What the skipped blocks have changed was executed, though a kill may have kept it from the
+  // disk.
+  note_memory();
+}
+
+/// The run can be restarted itself, before it has a checkpoint of its own.
+void RunSession::keep_inherited(const Rebuild& rebuild) {
+  report::Outbox& outbox = *parts_.checkpoints;
+  auto stored = report::CheckpointStore::read(outbox.database(), rebuild.original_run(),
+                                              rebuild.report().checkpoint);
+  if (stored) outbox.checkpoints().stage(parts_.run.run, *std::move(stored));
+  for (const auto& answer : rebuild.answers_given())
+    outbox.checkpoints().stage_answer(parts_.run.run, answer.number, answer.bytes);
+  checkpoints_.emplace(parts_.run.run, outbox, parts_.clock, rebuild.answers());
+}
+
+}  // namespace dripline::gateway

@@ -1,0 +1,106 @@
+// Every golden program of every control, cut off at some moment and restarted: the path before and
+// after is the path of an undisturbed run. Every third program once; with DRIPLINE_RESTARTS all of
+// them, so often.
+#include <gtest/gtest.h>
+#include <cstdlib>
+#include <random>
+
+#include "tests/golden/golden_case.hpp"
+#include "tests/unit/gateway/app/restart/restart_fixture.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+using interpreter::GoldenCase;
+
+constexpr const char* kSpeed = "300x";
+
+int restarts() {
+  const char* wanted = std::getenv("DRIPLINE_RESTARTS");
+  return wanted != nullptr ? std::atoi(wanted) : 1;
+}
+
+class RestartOfGolden : public testing::TestWithParam<std::string> {
+ protected:
+  struct Whole {
+    RestartFixture::Path path;
+    dds::RunEndText end;
+    std::size_t turns = 0;
+  };
+  std::unique_ptr<RestartFixture> shop() const {
+    const auto control = interpreter::find_dialect(golden.control).value();
+    auto made = std::make_unique<RestartFixture>(*control, setup_of(golden, *control), kSpeed);
+    made->loader = loader_of(golden);
+    made->set_checkpoint_interval(std::chrono::milliseconds(200));
+    made->push("P", golden.program());
+    made->restart_gateway();
+    made->path.clear();
+    return made;
+  }
+  /// Nothing: this program is not run by a gateway.
+  std::optional<Whole> run_whole() const {
+    const auto undisturbed = shop();
+    if (!undisturbed->start_program("P").accepted) return std::nullopt;
+    if (!undisturbed->run_on(20'000)) return std::nullopt;
+    return Whole{undisturbed->path, undisturbed->last_end(), undisturbed->turns()};
+  }
+  void cut_off_and_restart(const Whole& whole, std::size_t turns) {
+    const auto cut = shop();
+    ASSERT_TRUE(cut->start_program("P").accepted);
+    const std::string run = cut->last_run();
+    if (cut->run_on(turns)) return;  // it was too late
+    cut->restart_gateway();
+    ASSERT_TRUE(cut->run_until([&] { return cut->count(dds::RecordKind::RunEnded) == 1; }));
+    const std::uint64_t executed = cut->last_end().executed;
+    cut->path.clear();
+    const auto report = cut->begin_restart("P", run);
+    ASSERT_TRUE(report.is_object())
+        << cut->start_answer.reason << cut->last_end().reason << " after block " << executed;
+    EXPECT_EQ(report["after"]["block"], executed);
+    if (executed > 0) {
+      EXPECT_EQ(report["proof"]["path"], "equal");
+    }
+    states += report["proof"]["state"] == "equal";
+    ASSERT_TRUE(cut->cycle_start());
+    ASSERT_TRUE(cut->run_on());
+    EXPECT_EQ(cut->last_end().outcome, whole.end.outcome) << cut->last_end().reason;
+    EXPECT_EQ(difference(whole.path, cut->path, executed), "") << "after block " << executed;
+    ++done;
+  }
+
+  GoldenCase golden;
+  int done = 0, states = 0;
+};
+
+TEST_P(RestartOfGolden, CutsThePathOfAnUndisturbedRun) {
+  std::mt19937 random{20261123};
+  const bool takes_all = std::getenv("DRIPLINE_RESTARTS") != nullptr;
+  int number = 0;
+  for (const auto& name : interpreter::golden_names(GetParam())) {
+    if (number++ % 3 != 0 && !takes_all) continue;
+    golden = interpreter::read_golden_case(name.control, name.name);
+    SCOPED_TRACE(name.control + "/" + name.name);
+    const auto whole = run_whole();
+    if (!whole || whole->turns < 2) continue;
+    for (int i = 0; i < restarts() && !HasFatalFailure(); ++i) {
+      cut_off_and_restart(*whole,
+                          std::uniform_int_distribution<std::size_t>(1, whole->turns - 1)(random));
+    }
+  }
+  RecordProperty("restarts", done);
+  RecordProperty("states_compared", states);
+  std::printf("%s: %d restarts, %d with a state to compare\n", GetParam().c_str(), done, states);
+  EXPECT_GT(done, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(, RestartOfGolden,
+                         testing::Values("centurion", "fanuc", "prototrak-plus", "rs274ngc",
+                                         "tektronix-1704", "tnc155"),
+                         [](const auto& i) {
+                           std::string name = i.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace dripline::gateway

@@ -1,0 +1,194 @@
+// Where a restart continues, what it refuses, and what the operator sees.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gateway/interpreter/core/dialects.hpp"
+#include "tests/unit/gateway/app/restart/restart_fixture.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kProgram =
+    "O0540\nT1 M06\nG90 G00 X0 Y0 Z50.\nM03 S900\nM08\n#500=7\n#1=1\nN10 WHILE[#1LE6]DO1\nN20 G01 "
+    "X[#1*10] F600\nN30 Y10.\nM98 P0561\n#1=#1+1\nEND1\nN40 T2 M06\nN50 G01 Z-5.\nX0\nM00\nN60 "
+    "Y0\nN70 "
+    "X90.\nM30\nO0561\nG91 Z-1.\nZ1.\nG90 M99\n";
+
+class Restart : public testing::Test {
+ protected:
+  Restart() : shop(interpreter::kFanucDialect, {}, "20x") {
+    shop.set_checkpoint_interval(std::chrono::milliseconds(200));
+    shop.push("P", kProgram);
+    shop.restart_gateway();
+  }
+  /// Up to the stop before N60, where it is aborted.
+  void abort_at_stop() {
+    ASSERT_TRUE(shop.start_program("P").accepted);
+    run = shop.last_run();
+    ASSERT_TRUE(shop.run_until(
+        [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
+    ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+    ASSERT_TRUE(shop.run_on());
+    ASSERT_EQ(shop.last_end().outcome, dds::RunOutcome::Aborted);
+  }
+  nlohmann::json restart(const std::string& at = "executed") {
+    shop.path.clear();
+    return shop.begin_restart("P", run, at);
+  }
+  /// Aborts the restart that was only looked at.
+  void leave() {
+    ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+    ASSERT_TRUE(shop.run_on());
+  }
+
+  RestartFixture shop;
+  std::string run;
+};
+
+TEST_F(Restart, ShowsWhatItWillDoBeforeItMoves) {
+  abort_at_stop();
+  shop.restart_gateway();  // the simulated axes are at their start again
+  const auto report = restart();
+  ASSERT_TRUE(report.is_object()) << shop.start_answer.reason;
+  EXPECT_EQ(report["restart_of"], run);
+  EXPECT_EQ(report["switched_on"]["spindle"], "cw");
+  EXPECT_EQ(report["switched_on"]["rpm"], 900);
+  EXPECT_EQ(report["switched_on"]["flood"], true);
+  EXPECT_EQ(report["tool"]["number"], 2);
+  EXPECT_EQ(report["continues_at"]["Z"], -5);
+  EXPECT_EQ(report["continues_at"]["Y"], 10);
+  EXPECT_EQ(report["approach"][0]["to"]["Z"], 50) << "over the highest place of the program";
+  EXPECT_EQ(report["next"]["n"], 60);
+  EXPECT_EQ(report["next"]["length_mm"], 10);
+  EXPECT_EQ(report["proof"]["path"], "equal");
+  const auto position = shop.status->position;
+  (void)shop.run_until([] { return false; });  // a minute
+  EXPECT_EQ(shop.status->position, position) << "nothing moves before cycle start";
+  EXPECT_EQ(shop.status->waits_for, dds::WaitsFor::CycleStart);
+  EXPECT_EQ(shop.status->modes->spindle, dds::SpindleState::Off);
+  ASSERT_TRUE(shop.cycle_start());
+  ASSERT_TRUE(shop.run_on());
+  EXPECT_EQ(shop.last_end().outcome, dds::RunOutcome::Completed) << shop.last_end().reason;
+}
+
+TEST_F(Restart, ContinuesWhereItWasExecutedLast) {
+  abort_at_stop();
+  for (const auto& [at, n] : {std::pair{"N30", 30}, {"N50", 50}, {"N20", 20}, {"L10", 30}}) {
+    const auto report = restart(at);
+    ASSERT_TRUE(report.is_object()) << at << shop.start_answer.reason << shop.last_end().reason;
+    EXPECT_EQ(report["next"]["n"], n) << at;
+    if (std::string_view(at) == "N30") {
+      EXPECT_EQ(report["continues_at"]["X"], 60) << "of the last pass of the loop";
+    }
+    leave();
+  }
+}
+
+TEST_F(Restart, ContinuesAtAToolChange) {
+  abort_at_stop();
+  const auto report = restart("T2");
+  ASSERT_TRUE(report.is_object()) << shop.start_answer.reason << shop.last_end().reason;
+  EXPECT_EQ(report["tool"]["number"], 1) << "the change itself is executed again";
+  EXPECT_EQ(report["next"]["n"], 40);
+}
+
+TEST_F(Restart, ContinuesInASubprogramOfAnEarlierPass) {
+  abort_at_stop();
+  const auto whole = shop.path;
+  const std::uint64_t executed = shop.last_end().executed;
+  const auto report = restart("block=30");
+  ASSERT_TRUE(report.is_object()) << shop.start_answer.reason << shop.last_end().reason;
+  EXPECT_EQ(report["after"]["block"], 29);
+  EXPECT_EQ(report["cut_off_at"], executed);
+  EXPECT_EQ(report["proof"]["state"], "equal");
+  ASSERT_TRUE(shop.cycle_start());
+  ASSERT_TRUE(shop.run_on());
+  EXPECT_EQ(shop.last_end().outcome, dds::RunOutcome::Completed);
+}
+
+TEST_F(Restart, ARestartCanBeRestarted) {
+  abort_at_stop();
+  ASSERT_TRUE(restart("N50").is_object());
+  const std::string second = shop.last_run();
+  shop.restart_gateway();  // killed before its cycle start
+  ASSERT_TRUE(shop.run_until([&] { return shop.count(dds::RecordKind::RunEnded) == 2; }));
+  shop.path.clear();
+  const auto report = shop.begin_restart("P", second);
+  ASSERT_TRUE(report.is_object()) << shop.start_answer.reason << shop.last_end().reason;
+  EXPECT_EQ(report["next"]["n"], 50);
+}
+
+TEST_F(Restart, RefusesWhatItCannotContinue) {
+  abort_at_stop();
+  const auto refusal = [&](const std::string& at) {
+    EXPECT_TRUE(restart(at).is_null()) << at;
+    return shop.start_answer.accepted ? shop.last_end().reason : shop.start_answer.reason;
+  };
+  EXPECT_THAT(refusal("block=100000"), HasSubstr("blocks; it continues at"));
+  EXPECT_THAT(refusal("N70"), HasSubstr("N70 is not among the"));
+  EXPECT_THAT(refusal("T9"), HasSubstr("T9 is not among the"));
+  EXPECT_THAT(refusal("time=2001-01-01T00:00:00Z"), HasSubstr("began at"));
+  EXPECT_THAT(refusal("nowhere"), HasSubstr("names no place"));
+  run = "run-99";
+  EXPECT_THAT(refusal("executed"), HasSubstr("no checkpoints of run run-99"));
+}
+
+TEST_F(Restart, IsRefusedForACompletedRun) {
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  run = shop.last_run();
+  ASSERT_TRUE(shop.run_on());
+  ASSERT_EQ(shop.last_end().outcome, dds::RunOutcome::Completed) << shop.last_end().reason;
+  EXPECT_TRUE(restart().is_null());
+  EXPECT_THAT(shop.start_answer.reason, HasSubstr("was completed"));
+}
+
+TEST_F(Restart, IsRefusedWithTheNameOfWhatHasChanged) {
+  abort_at_stop();
+  dds::Command start = shop.start_command("P");
+  start.argument = "restart=" + run;
+  start.setup = "[[tool]]\nnumber = 1\nradius = 4.0\n";
+  EXPECT_THAT(shop.send(start).reason, HasSubstr("the machine's setup on the server"));
+
+  shop.push("P", kProgram + "\n");
+  EXPECT_TRUE(restart().is_null());
+  EXPECT_THAT(shop.start_answer.reason, HasSubstr("the program's content was"));
+  shop.push("P", kProgram);
+
+  dds::Command skip = shop.command(dds::CommandAction::Switch);
+  skip.argument = "block_skip";
+  skip.value = 1;
+  ASSERT_TRUE(shop.send(skip).accepted);
+  EXPECT_TRUE(restart().is_null());
+  EXPECT_THAT(shop.start_answer.reason, HasSubstr("the switch block_skip was off, it is on"));
+  skip = shop.command(dds::CommandAction::Switch);
+  skip.argument = "block_skip";
+  ASSERT_TRUE(shop.send(skip).accepted);
+
+  shop.push("OTHER", "O1\n#500=8\nM30\n");
+  ASSERT_TRUE(shop.start_program("OTHER").accepted);
+  ASSERT_TRUE(shop.run_on());
+  EXPECT_TRUE(restart().is_null());
+  EXPECT_THAT(shop.start_answer.reason, HasSubstr("the control's memory"));
+}
+
+TEST_F(Restart, NothingStartsFromADamagedCheckpoint) {
+  abort_at_stop();
+  shop.close_gateway();
+  {
+    auto database = storage::sqlite::Database::open(shop.folder() / "outbox.sqlite").value();
+    ASSERT_TRUE(database.execute(
+        "UPDATE checkpoint SET bytes = CAST(substr(bytes, 1, 40) || x'7f' || substr(bytes, 42) AS "
+        "BLOB)"));
+  }
+  shop.restart_gateway();
+  EXPECT_TRUE(restart().is_null());
+  const std::string why =
+      shop.start_answer.accepted ? shop.last_end().reason : shop.start_answer.reason;
+  EXPECT_THAT(why, HasSubstr("is not as it was written"));
+  EXPECT_TRUE(shop.path.empty()) << "nothing was given to the machine";
+}
+
+}  // namespace
+}  // namespace dripline::gateway
