@@ -289,6 +289,11 @@ Reply<Run> Client::start_run(const RunRequest& request) {
   return fetch<Run>(with_method("POST", path_of("runs")), dumped(json));
 }
 
+Reply<Run> Client::restart_run(std::string_view run, std::string_view at) {
+  return fetch<Run>(with_method("POST", path_of("runs", run) + "/restart"),
+                    dumped(Json{{"at", at}}));
+}
+
 Reply<std::vector<Run>> Client::runs(const RunQuery& query) {
   std::string path = with_page(path_of("runs"), query.page);
   path = with_query(std::move(path), "machine", query.machine);

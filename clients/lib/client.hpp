@@ -145,6 +145,8 @@ class Client {
   Reply<std::vector<Memory>> memories(std::string_view machine, std::string_view run, Page page);
 
   Reply<Run> start_run(const RunRequest& request);
+  /// `at`: executed, block=1234, L7, N120, T3, time=2026-11-23T15:04:05Z.
+  Reply<Run> restart_run(std::string_view run, std::string_view at);
   Reply<std::vector<Run>> runs(const RunQuery& query);
   Reply<Run> run(std::string_view id);
   Reply<void> command(std::string_view run, const CommandRequest& request);

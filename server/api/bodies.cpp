@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxName = 256;  ///< longer ones are refused before they are checked
 constexpr std::size_t kMaxStartPoint = 24;
+constexpr std::size_t kMaxRestartPlace = 48;
 constexpr std::uint64_t kMaxPass = 1'000'000;
 constexpr std::size_t kMaxArgument = 255;  ///< of the command's member in the IDL
 
@@ -166,6 +167,22 @@ Result<machines::StartRequest> decode_start(std::string_view body) {
   start.from = *point;
   start.from.pass = pass;
   return start;
+}
+
+Result<std::string> decode_restart(std::string_view body) {
+  auto object = JsonObject::parse(body.empty() ? "{}" : body);
+  if (!object) return fail(object.error());
+  const std::string at = object->optional_text("at", kMaxRestartPlace).value_or("executed");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  constexpr std::string_view kAllowed =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789=:.-";
+  if (at.empty() || at.find_first_not_of(kAllowed) != std::string::npos) {
+    return fail(Errc::Syntax,
+                "at is '{}'; expected executed, block=1234, L7, N120, T3 or "
+                "time=2026-11-23T15:04:05Z",
+                at);
+  }
+  return at;
 }
 
 Result<machines::CommandRequest> decode_command(std::string_view body) {

@@ -34,6 +34,8 @@ Result<std::string> decode_rename(std::string_view body);
 
 /// The author is left empty.
 Result<machines::StartRequest> decode_start(std::string_view body);
+/// Where a run is to continue: {"at"?}.
+Result<std::string> decode_restart(std::string_view body);
 
 /// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
 Result<machines::CommandRequest> decode_command(std::string_view body);

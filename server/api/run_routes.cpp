@@ -98,6 +98,27 @@ Response start_run(Services& services, const Request& request) {
   return json_response(201, run_json(*run));
 }
 
+Response restart_run(Services& services, const Request& request) {
+  const auto at = decode_restart(request.body);
+  if (!at) return error_response(at.error());
+  const auto original = services.runs.run(request.parameter("id"));
+  if (!original) return error_response(original.error());
+  machines::StartRequest start;
+  start.machine = original->machine;
+  start.program = original->program;
+  start.revision = original->revision;
+  start.author = request.who;
+  start.restart = {original->id, *at};
+  const auto run = services.machines.start(start);
+  if (!run) return error_response(run.error());
+  services.audit.write(
+      {.who = request.who,
+       .action = "run.restart",
+       .subject = run->id,
+       .detail = fmt::format("run {} at {} on {}", original->id, *at, run->machine)});
+  return json_response(201, run_json(*run));
+}
+
 Result<storage::RunFilter> read_filter(QueryReader& query) {
   storage::RunFilter filter;
   filter.machine = query.text("machine");
@@ -163,6 +184,7 @@ void add_run_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/runs", with(services, start_run), Waits::ForMachine);
   router.add("GET", "/api/v1/runs", with(services, list_runs));
   router.add("GET", "/api/v1/runs/{id}", with(services, show_run));
+  router.add("POST", "/api/v1/runs/{id}/restart", with(services, restart_run), Waits::ForMachine);
   router.add("POST", "/api/v1/runs/{id}/commands", with(services, command_run), Waits::ForMachine);
   router.add("GET", "/api/v1/runs/{id}/records", with(services, list_records));
 }

@@ -54,6 +54,14 @@ enum class StartMemory : std::uint8_t {
   Now,    ///< as it is: the skipped part applies again
 };
 
+/// A run that was cut off and is to continue: the gateway rebuilds the state from its checkpoints.
+struct RestartRequest {
+  std::string run;
+  /// executed, block=1234, L7 (line), N120, T3 (tool), time=2026-11-23T15:04:05Z; the gateway reads
+  /// it.
+  std::string at = "executed";
+};
+
 struct StartRequest {
   std::string machine;
   std::string program;
@@ -62,6 +70,7 @@ struct StartRequest {
   StartPoint from = {};
   StartHead head = StartHead::Ask;
   StartMemory memory = StartMemory::Ask;
+  std::optional<RestartRequest> restart = {};  ///< then nothing of the three before
 };
 
 struct CommandRequest {

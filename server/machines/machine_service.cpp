@@ -196,6 +196,34 @@ Result<std::optional<storage::SetupRevision>> MachineService::setup_of(const sto
   return fail(setup.error());
 }
 
+/// What the gateway cannot see: a newer revision or setup on the server is not silently passed
+/// over.
+Result<void> MachineService::check_restart(const StartRequest& request, const storage::Run& run) {
+  if (!request.restart) return {};
+  const auto original = store_.runs.find(request.restart->run);
+  if (!original) return fail(original.error());
+  const std::string_view state = storage::to_string(original->state);
+  const bool was_cut_off = original->state == storage::RunState::Aborted ||
+                           original->state == storage::RunState::Alarmed ||
+                           original->state == storage::RunState::Interrupted;
+  if (!was_cut_off)
+    return fail(Errc::Conflict, "run {} was not cut off: it is {}", original->id, state);
+  const auto latest = store_.programs.revision(run.program, std::nullopt);
+  if (!latest) return fail(latest.error());
+  if (latest->number != original->revision) {
+    return fail(Errc::Conflict,
+                "program '{}' has revision {} since run {}, which is of revision {}: start it with "
+                "--from, or make the old content the latest again",
+                run.program, latest->number, original->id, original->revision);
+  }
+  if (run.setup == original->setup) return {};
+  const auto text = [](const std::optional<std::uint64_t>& number) {
+    return number ? fmt::format("version {}", *number) : std::string("none");
+  };
+  return fail(Errc::Conflict, "the setup of machine '{}' is {}, run {} had {}", run.machine,
+              text(run.setup), original->id, text(original->setup));
+}
+
 Result<storage::Run> MachineService::start(const StartRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
@@ -217,6 +245,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   const auto setup = setup_of(*run);
   if (!setup) return fail(setup.error());
   if (*setup) run->setup = (*setup)->number;
+  if (auto same = check_restart(request, *run); !same) return fail(same.error());
   // It may have announced itself just now, and a run needs its machine in the store.
   if (auto saved = store_.machines.save(view->machine); !saved) return fail(saved.error());
   if (auto created = store_.runs.create(*run); !created) return fail(created.error());

@@ -76,6 +76,7 @@ class MachineService final : public MachineControl {
   Result<MachineView> connected_machine(const std::string& name) const;
   Result<storage::Run> make_run(const StartRequest& request, const MachineView& view);
   Result<std::optional<storage::SetupRevision>> setup_of(const storage::Run& run);
+  Result<void> check_restart(const StartRequest& request, const storage::Run& run);
   Result<storage::Run> conclude_start(const storage::Run& run, const Result<void>& outcome);
 
   const storage::Store& store_;

@@ -44,6 +44,8 @@ std::string start_text(const StartPoint& point) {
 }
 
 std::string start_argument(const StartRequest& request) {
+  if (request.restart)
+    return fmt::format("restart={} at={}", request.restart->run, request.restart->at);
   std::string text = start_text(request.from);
   if (text.empty()) return text;
   if (request.from.pass) text += fmt::format(" pass={}", *request.from.pass);

@@ -11,7 +11,8 @@ namespace dripline::machines {
 Result<StartPoint> parse_start_point(std::string_view text);
 /// As a gateway takes it: one of the above; empty for the program's beginning.
 std::string start_text(const StartPoint& point);
-/// The same, with the other options of the start: "N120 pass=3 memory=begin".
+/// The same, with the other options of the start: "N120 pass=3 memory=begin"; or "restart=RUN
+/// at=executed".
 std::string start_argument(const StartRequest& request);
 
 }  // namespace dripline::machines

@@ -192,6 +192,12 @@ Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
 }
 
 Result<SendJob> LineRuns::job(const storage::Run& run, const machines::StartRequest& request) {
+  if (request.restart) {
+    return fail(Errc::Unsupported,
+                "machine '{}' is on a serial line: a restart there is a start "
+                "with from and head",
+                run.machine);
+  }
   if (request.from.pass || request.memory != machines::StartMemory::Ask) {
     return fail(Errc::Unsupported,
                 "pass and memory: only a gateway executes the skipped part; machine '{}' is on "

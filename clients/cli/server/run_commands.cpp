@@ -4,6 +4,7 @@
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/server/run_follower.hpp"
+#include "clients/cli/server/run_restart.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -168,6 +169,7 @@ void add_run_commands(Command app, Context& context) {
   auto group = app.add_subcommand("run", "Run programs on machines");
   group.require_subcommand(1);
   add_start(group, context);
+  add_run_restart_command(group, context);
   add_list(group, context);
 
   auto shown = std::make_shared<std::string>();

@@ -23,7 +23,8 @@ constexpr auto kGiveUpAfter = 60s;
 
 /// Texts the operator must see even when the next status replaces them.
 bool is_for_people(const client::Record& record) {
-  if (record.device == "memory") return false;  // for dnc memory
+  // For dnc memory and dnc run restart.
+  if (record.device == "memory" || record.device == "restart") return false;
   return record.kind == "message" || record.kind == "stop" || record.kind == "warning" ||
          record.kind == "alarm";
 }
