@@ -2,6 +2,7 @@
 // time; peak memory; records a second. Prints one JSON object per figure. `--bytes N` makes the
 // program smaller for a quick look.
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -77,6 +78,38 @@ TEST_F(Bench, AVeryLargeProgram) {
   figure("blocks executed", run.value("executed", 0.0), "blocks");
   figure("peak memory dncd", static_cast<double>(system.server().peak_memory()) / kMebi, "MiB");
   figure("peak memory dncgw", static_cast<double>(system.gateway().peak_memory()) / kMebi, "MiB");
+}
+
+/// Cut off at 90 %: how long until the operator sees what a restart will do, and how much memory
+/// that takes.
+TEST_F(Bench, ARestartOfAVeryLargeProgram) {
+  const auto file = system.folder() / "large.nc";
+  std::uint64_t blocks = 0;
+  {
+    std::ofstream out(file, std::ios::binary);
+    dripline::test_support::write_contour_of_size(wanted_bytes, [&](std::string_view text) {
+      blocks += static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
+      out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    });
+  }
+  dnc({"program", "push", file, "--name", "O0200", "--control", "centurion"});
+  const std::string id = system.start_run("O0200");
+  EXPECT_TRUE(
+      eventually([&] { return system.execution_probe().blocks_done > blocks / 10 * 9; }, kLimit));
+  system.gateway().kill();
+  system.start_gateway();
+  system.wait_connected();
+  const auto cut = system.wait_ended(id);
+  figure("cut off after", cut.value("executed", 0.0), "blocks");
+  figure("restart where it was cut off", dnc({"run", "restart", id}), "s");
+  dnc({"run", "abort", "latest"});
+  const std::uint64_t place = std::min<std::uint64_t>(10'000'000, blocks / 2);
+  figure("restart place", static_cast<double>(place), "blocks");
+  figure("restart at that place",
+         dnc({"run", "restart", id, "--at", "block=" + std::to_string(place)}), "s");
+  figure("peak memory dncgw in restarts",
+         static_cast<double>(system.gateway().peak_memory()) / kMebi, "MiB");
+  dnc({"run", "abort", "latest"});
 }
 
 TEST_F(Bench, RecordsFromTheGatewayToCommittedRows) {
