@@ -1,0 +1,236 @@
+"""Status and commands of a running LinuxCNC, as JSON lines on stdin and stdout.
+
+A gateway starts it (helper_link.cpp): python3 -c TEXT INI. It is a program of its own because LinuxCNC's interface is a module for
+Python, and because that module may block for seconds. It holds no state of the program. When stdin ends, the gateway is gone: what
+it has started is aborted.
+"""
+import json
+import os
+import select
+import sys
+import time
+
+STATUS_PERIOD = 0.008  # while something changes
+STILL_PERIOD = 0.1  # else: shows that the helper is alive
+COMMAND_WAIT = 2.0
+
+
+def say(message):
+    sys.stdout.write(json.dumps(message, separators=(",", ":")) + "\n")
+    sys.stdout.flush()
+
+
+def give_up(text):
+    say({"fatal": text})
+    sys.exit(1)
+
+
+try:
+    import linuxcnc
+except ImportError as error:
+    give_up("the module linuxcnc is missing: %s" % error)
+
+
+def process_named(name):
+    """LinuxCNC allows one in a system; several are told apart by nothing."""
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open("/proc/%s/comm" % pid, encoding="utf-8") as comm:
+                if comm.read().strip() == name[:15]:
+                    return int(pid)
+        except OSError:
+            continue
+    return None
+
+
+class Machine:
+    def __init__(self, ini_path):
+        if not os.path.isfile(ini_path):
+            give_up("%s is no file" % ini_path)
+        self.ini_path = os.path.realpath(ini_path)
+        self.ini = linuxcnc.ini(self.ini_path)
+        folder = os.path.dirname(self.ini_path)
+        nml = self.ini.find("EMC", "NML_FILE")
+        if nml:
+            linuxcnc.nmlfile = os.path.join(folder, nml)
+        task = os.path.basename(self.ini.find("TASK", "TASK") or "milltask")
+        pid = process_named(task)
+        if pid is None:
+            give_up("LinuxCNC is not running here: there is no process %s" % task)
+        realtime = process_named("rtapi_app")
+        self.lives = [os.pidfd_open(number) for number in (pid, realtime) if number is not None]
+        try:
+            self.stat = linuxcnc.stat()
+            self.command = linuxcnc.command()
+            self.errors = linuxcnc.error_channel()
+            self.wait_for_status()
+        except linuxcnc.error as error:
+            give_up("LinuxCNC does not answer: %s" % error)
+        if os.path.realpath(self.stat.ini_filename) != self.ini_path:
+            give_up("LinuxCNC runs %s, not %s" % (self.stat.ini_filename, self.ini_path))
+        self.has_program = False
+
+    def wait_for_status(self):
+        end = time.monotonic() + 5
+        while time.monotonic() < end:
+            self.stat.poll()
+            if self.stat.ini_filename and self.stat.axis_mask:
+                return
+            time.sleep(0.02)
+        give_up("LinuxCNC has not started completely")
+
+    def number(self, section, key):
+        try:
+            return float(self.ini.find(section, key))
+        except (TypeError, ValueError):
+            return 0.0
+
+    def introduce(self):
+        s = self.stat
+        say({
+            "hello": 1,
+            "version": linuxcnc.version,
+            "units": s.linear_units,
+            "axes": s.axis_mask,
+            "limits": [[a["min_position_limit"], a["max_position_limit"]] for a in s.axis[:9]],
+            "velocity": [self.number("AXIS_" + letter, "MAX_VELOCITY") for letter in "XYZABCUVW"],
+            "rpm": self.number("SPINDLE_0", "MAX_FORWARD_VELOCITY"),
+            "read_ahead": int(self.number("TASK", "INTERP_MAX_LEN") or 1000),
+        })
+
+    def status(self):
+        s = self.stat
+        joints = s.joints
+        return {
+            "state": s.task_state,
+            "mode": s.task_mode,
+            "interp": s.interp_state,
+            "exec": s.exec_state,
+            "read": s.read_line,
+            "motion": s.motion_id,
+            "queue": s.queue,
+            "inpos": bool(s.inpos),
+            "paused": bool(s.paused or s.interp_state == linuxcnc.INTERP_PAUSED),
+            "homed": all(s.homed[:joints]),
+            "homing": any(j["homing"] for j in s.joint[:joints]),
+            "at": list(s.position),
+            "actual": list(s.actual_position),
+            "velocity": s.current_vel,
+            "offset": any(s.g92_offset) or any(s.g5x_offset) or any(s.tool_offset) or s.rotation_xy != 0,
+            "system": s.g5x_index,
+            "tool": s.tool_in_spindle,
+            "spindle": s.spindle[0]["speed"] if s.spindle[0]["enabled"] else 0.0,
+            "tripped": bool(s.probe_tripped),
+            "probing": bool(s.probing),
+            "probed": list(s.probed_position),
+            "inputs": sum(1 << i for i, value in enumerate(s.din[:32]) if value),
+            "echo": s.echo_serial_number,
+        }
+
+    def to_mode(self, mode):
+        self.stat.poll()
+        if self.stat.task_mode != mode:
+            self.command.mode(mode)
+            self.command.wait_complete(COMMAND_WAIT)
+
+    def do(self, order):
+        c = self.command
+        what = order["do"]
+        if what == "run":
+            self.to_mode(linuxcnc.MODE_AUTO)
+            self.has_program = True
+            c.set_optional_stop(False)
+            c.set_block_delete(False)
+            c.program_open(order["file"])
+            c.wait_complete(COMMAND_WAIT)
+            c.auto(linuxcnc.AUTO_RUN, 0)
+        elif what == "pause":
+            c.auto(linuxcnc.AUTO_PAUSE)
+        elif what == "resume":
+            c.auto(linuxcnc.AUTO_RESUME)
+        elif what == "abort":
+            c.abort()
+            self.has_program = False
+        elif what == "override":
+            c.feedrate(order["feed"])
+            c.rapidrate(order["rapid"])
+            c.spindleoverride(order["spindle"])
+        elif what == "emergency":
+            c.state(linuxcnc.STATE_ESTOP)
+            self.has_program = False
+        elif what == "reset":
+            c.state(linuxcnc.STATE_ESTOP_RESET)
+            c.wait_complete(COMMAND_WAIT)
+        elif what == "on":
+            c.state(linuxcnc.STATE_ON)
+            c.wait_complete(COMMAND_WAIT)
+        elif what == "home":
+            c.state(linuxcnc.STATE_ON)
+            c.wait_complete(COMMAND_WAIT)
+            self.to_mode(linuxcnc.MODE_MANUAL)
+            c.teleop_enable(0)
+            c.wait_complete(COMMAND_WAIT)
+            c.home(-1)
+        else:
+            return "unknown command " + what
+        return ""
+
+    def leave(self):
+        if self.has_program:
+            self.command.abort()
+        os._exit(0)  # stdout may be gone: nothing to flush
+
+
+def read_orders(machine, buffer):
+    try:
+        data = os.read(0, 65536)
+    except OSError:
+        data = b""
+    if not data:
+        machine.leave()
+    *lines, rest = (buffer + data).split(b"\n")
+    for line in lines:
+        order = json.loads(line)
+        try:
+            problem = machine.do(order)
+        except (linuxcnc.error, KeyError, ValueError) as error:
+            problem = str(error) or "refused"
+        machine.stat.poll()
+        say({"done": order["n"], "problem": problem, "echo": machine.command.serial})
+    return rest
+
+
+def serve(machine):
+    buffer, last, last_said = b"", None, 0.0
+    while True:
+        ready, _, _ = select.select([0, *machine.lives], [], [], STATUS_PERIOD)
+        if any(life in ready for life in machine.lives):
+            give_up("LinuxCNC has ended")
+        if 0 in ready:
+            buffer, last = read_orders(machine, buffer), None  # what a command has done is reported
+        machine.stat.poll()
+        for _ in range(20):
+            message = machine.errors.poll()
+            if not message:
+                break
+            say({"message": message[0], "text": message[1]})
+        status, now = machine.status(), time.monotonic()
+        if status != last or now - last_said >= STILL_PERIOD:
+            say({"status": status})
+            last, last_said = status, now
+
+
+def main():
+    machine = None
+    try:
+        machine = Machine(sys.argv[1])
+        machine.introduce()
+        say({"status": machine.status()})  # before any command changes it
+        serve(machine)
+    except OSError:  # the gateway is gone
+        if machine is not None:
+            machine.leave()
+        os._exit(1)
+
+
+main()

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "gateway/machine/streamed/text_rules.hpp"
+
+namespace dripline::machine::streamed {
+
+/// An arc of a program as lines of text describe it. Pure.
+struct ArcPath {
+  std::size_t first = 0, second = 1;  ///< axes of the plane
+  double center_first = 0, center_second = 0;
+  double start_radius = 0, end_radius = 0;
+  double start = 0;  ///< radians
+  double sweep = 0;  ///< radians, counterclockwise positive
+  Coordinates from{}, to{};
+
+  double length() const;
+  /// `part` from 0 to 1 of the way; the axes outside the plane move evenly with the angle.
+  Coordinates at(double part) const;
+};
+
+/// The direction is the one that meets the end, as for the simulated machine; the event's decides
+/// where both do.
+ArcPath arc_path(const Coordinates& from, const Coordinates& to, const interpreter::Arc& arc);
+
+/// The ends of pieces of at most half a circle: an end point that rounding has moved past the start
+/// must not make a whole circle of nothing, or nothing of a whole circle.
+std::vector<Coordinates> half_circles(const ArcPath& path);
+/// The ends of chords that leave the path by at most `deviation` (mm).
+std::vector<Coordinates> chords(const ArcPath& path, double deviation);
+
+/// The points of the path where an axis of the plane is farthest out; not its ends.
+std::vector<Coordinates> extremes(const ArcPath& path);
+
+}  // namespace dripline::machine::streamed

@@ -1,0 +1,367 @@
+// What the device has executed becomes calls of the sink, action by action.
+#include <cmath>
+#include <utility>
+
+#include "gateway/machine/streamed/streamed_machine.hpp"
+
+namespace dripline::machine::streamed {
+
+using interpreter::Origin;
+
+namespace {
+
+constexpr std::chrono::seconds kCommandTime{30};  ///< a spindle may run up meanwhile
+
+}  // namespace
+
+/// The sink is called without the mutex: a hold must not wait for a disk.
+template <class Call>
+void StreamedMachine::tell(Lock& lock, const Call& call) {
+  lock.unlock();
+  call(sink_);
+  lock.lock();
+}
+
+bool StreamedMachine::is_over() const {
+  return stop_ == MachineState::Completed || stop_ == MachineState::Alarmed ||
+         stop_ == MachineState::Aborted;
+}
+
+bool StreamedMachine::may_begin() const {
+  return stop_ == MachineState::Idle && is_allowed_ && !is_aborting_ && !is_emergency_ &&
+         !is_override_hold_ && !device_.is_held() && !device_.fault();
+}
+
+void StreamedMachine::pump(const Lock&) {
+  if (!is_released_ || !may_begin()) return;
+  if (!has_begun_ && !check_position(expected_)) return;
+  has_begun_ = true;
+  if (!device_.prepare(now())) return;
+  for (; next_ < queue_.size(); ++next_) {
+    Action& action = queue_[next_];
+    const bool must_wait = is_single_block_ && action.origin.block != queue_.front().origin.block;
+    if (!must_wait && std::holds_alternative<BlockEnd>(action.body)) continue;
+    auto* motion = std::get_if<Motion>(&action.body);
+    if (must_wait || motion == nullptr) return device_.await_execution();
+    for (; motion->sent < motion->lines.size(); ++motion->sent) {
+      const std::string& line = motion->lines[motion->sent];
+      if (!device_.may_send(line.size())) return;
+      motion->last_serial = device_.send(line, !line.starts_with("G4"), {});
+    }
+    expected_ = motion->end;
+  }
+}
+
+/// With nothing in motion the axes must be where the program has sent them.
+bool StreamedMachine::check_position(const Coordinates& expected) {
+  if (!device_.is_at_rest()) return false;
+  const TextRules rules = device_.rules();
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    if (!rules.has(i)) continue;
+    const double is_at = device_.position()[i];
+    if (std::fabs(is_at - expected[i]) <= rules.axes[i]->tolerance) continue;
+    device_.raise("MCH0009",
+                  fmt::format("{} is at {:.3f}, the program has it at {:.3f}: the machine does not "
+                              "do what it was sent",
+                              letter_of(i), is_at, expected[i]),
+                  now());
+    return false;
+  }
+  return true;
+}
+
+void StreamedMachine::take_made() {
+  for (Action& action : builder_.take()) {
+    queued_seconds_ += action.seconds;
+    queue_.push_back(std::move(action));
+  }
+}
+
+Seconds StreamedMachine::poll(Seconds, std::size_t max_actions) {
+  {
+    Lock lock(mutex_);
+    take_made();
+    is_allowed_ = max_actions > 0;
+    device_.set_active(!is_over(), now());
+    while (deliver(lock)) {
+    }
+    pump(lock);
+    device_.set_active(!is_over(), now());
+  }
+  wake();
+  return Seconds{0};
+}
+
+/// False: nothing more can be delivered now.
+bool StreamedMachine::deliver(Lock& lock) {
+  if (is_over()) return false;
+  const auto& fault = device_.fault();
+  if (fault || is_aborting_) {
+    if (deliver_executed(lock)) return true;
+    if (device_.is_stopping()) return false;  // it still reports how far it comes
+  }
+  if (fault) {
+    const Origin origin = origin_;
+    deliver_alarm(lock, {origin, {.id = fault->id, .text = fault->text, .line = origin.line}});
+    return false;
+  }
+  if (is_aborting_) {
+    end_abort(lock);
+    return false;
+  }
+  return !queue_.empty() && deliver_front(lock);
+}
+
+/// What was executed before the device has stopped.
+bool StreamedMachine::deliver_executed(Lock& lock) {
+  if (queue_.empty()) return false;
+  const auto* motion = std::get_if<Motion>(&queue_.front().body);
+  const bool is_executed = motion != nullptr && motion->sent == motion->lines.size() &&
+                           motion->last_serial > 0 && device_.executed() >= motion->last_serial;
+  const bool is_end = is_released_ && std::holds_alternative<BlockEnd>(queue_.front().body);
+  return (is_executed || is_end) && finish_front(lock);
+}
+
+bool StreamedMachine::deliver_front(Lock& lock) {
+  Action& action = queue_.front();
+  if (std::holds_alternative<BlockEnd>(action.body)) {
+    origin_ = action.origin;
+    return finish_front(lock);
+  }
+  if (std::holds_alternative<Motion>(action.body)) return deliver_motion(lock);
+  if (!may_begin()) return false;
+  if (!device_.is_empty()) {
+    device_.await_execution();
+    return false;
+  }
+  is_released_ = false;
+  origin_ = action.origin;
+  if (std::holds_alternative<Command>(action.body)) return deliver_command(lock);
+  if (std::holds_alternative<ProbeMove>(action.body)) return deliver_probe(lock);
+  if (std::holds_alternative<TextEvent>(action.body)) return deliver_text(lock);
+  if (const auto* inhibit = std::get_if<interpreter::OverrideInhibit>(&action.body)) {
+    inhibit_ = *inhibit;
+    apply_overrides();
+    return finish_front(lock);
+  }
+  if (const auto* alarm = std::get_if<AlarmEvent>(&action.body)) {
+    deliver_alarm(lock, {origin_, alarm->diagnostic});
+    return false;
+  }
+  return deliver_stop(lock);
+}
+
+/// The last moment to write what was reported before the motion. False: it was announced before.
+bool StreamedMachine::start_front(Lock& lock) {
+  if (std::exchange(has_started_, true)) return false;
+  const Origin origin = origin_;
+  tell(lock, [&](ExecutionSink& sink) { sink.on_motion_starts(origin); });
+  return true;
+}
+
+bool StreamedMachine::deliver_motion(Lock& lock) {
+  Action& action = queue_.front();
+  auto& motion = std::get<Motion>(action.body);
+  origin_ = action.origin;
+  shown_.motion = motion.kind;
+  if (!is_released_) {
+    if (!may_begin()) return false;
+    if (start_front(lock)) return true;  // meanwhile a fault may have come
+    is_released_ = true;
+    pump(lock);
+  }
+  const bool is_executed =
+      motion.sent == motion.lines.size() && device_.executed() >= motion.last_serial;
+  if (!is_executed) return false;
+  if (device_.is_empty() && next_ <= 1 && device_.is_at_rest() && !check_position(motion.end))
+    return true;  // to the fault
+  return finish_front(lock);
+}
+
+bool StreamedMachine::deliver_command(Lock& lock) {
+  auto& command = std::get<Command>(queue_.front().body);
+  if (!command.lines.empty() && !command.is_sent) {
+    if (start_front(lock)) return true;
+    if (!has_begun_ && !check_position(expected_)) return device_.fault().has_value();
+    has_begun_ = true;
+    if (!device_.prepare(now())) return false;
+    const auto* dwell = std::get_if<interpreter::Dwell>(&command.event);
+    for (const std::string& line : command.lines) {
+      if (!device_.may_send(line.size())) return false;
+      const auto time = dwell ? std::chrono::milliseconds(std::llround(dwell->seconds * 1000))
+                              : std::chrono::milliseconds(kCommandTime);
+      device_.send(line, false, time);
+    }
+    device_.await_execution();
+    command.is_sent = true;
+    return false;
+  }
+  const Command done = command;
+  report(lock, done);
+  return finish_front(lock);
+}
+
+void StreamedMachine::report(Lock& lock, const Command& command) {
+  if (const auto* spindle = std::get_if<interpreter::Spindle>(&command.event)) {
+    shown_.spindle = *spindle;
+    tell(lock, [&](ExecutionSink& sink) { sink.on_spindle(*spindle); });
+  } else if (const auto* coolant = std::get_if<interpreter::Coolant>(&command.event)) {
+    shown_.flood = coolant->flood;
+    shown_.mist = coolant->mist;
+    tell(lock, [&](ExecutionSink& sink) { sink.on_coolant(*coolant); });
+  } else if (const auto* tool = std::get_if<interpreter::ToolChange>(&command.event)) {
+    shown_.next_tool.reset();
+    (tool->is_preselection ? shown_.next_tool : shown_.tool) = tool->number;
+    if (tool->offset) shown_.tool_offset = tool->offset;
+    tell(lock, [&](ExecutionSink& sink) { sink.on_tool(*tool); });
+  } else if (const auto* code = std::get_if<interpreter::Miscellaneous>(&command.event)) {
+    tell(lock, [&](ExecutionSink& sink) { sink.on_miscellaneous(*code); });
+  } else if (const auto* pin = std::get_if<interpreter::PinChange>(&command.event)) {
+    tell(lock, [&](ExecutionSink& sink) { sink.on_pin(*pin); });
+  }
+}
+
+/// The move ends at the contact, as programs take it: the device brakes past it, and is moved back.
+bool StreamedMachine::deliver_probe(Lock& lock) {
+  if (start_front(lock)) return true;
+  auto& move = std::get<ProbeMove>(queue_.front().body);
+  if (!has_begun_ && !check_position(expected_)) return device_.fault().has_value();
+  has_begun_ = true;
+  if (!device_.prepare(now())) return false;
+  if (!move.is_sent && !move.text.lines.empty()) {
+    const std::string& line = move.text.lines.front();
+    if (!device_.may_send(line.size())) return false;
+    device_.drop_probe();
+    device_.send(line, true, {});
+    device_.await_execution();
+    move.is_sent = true;
+    return false;
+  }
+  if (!device_.is_at_rest()) return false;
+  MotionWriter& writer = builder_.motion();
+  const auto probed = device_.probe();
+  if (move.is_sent && !probed) {
+    device_.raise("MCH0009", "the probe move has ended without a result", now());
+    return true;
+  }
+  const bool tripped = move.is_sent && probed->tripped;
+  const Coordinates end = tripped ? probed->at : move.text.end;
+  if (tripped && !move.is_returning) {
+    writer.move_to(device_.position());
+    MotionText text;
+    const auto refusal = writer.line(
+        {.origin = origin_, .to = position_of(end, writer.rules()), .feed = move.probe.feed}, text);
+    move.is_returning = true;
+    if (!refusal && !text.lines.empty()) {
+      for (const std::string& line : text.lines) device_.send(line, true, {});
+      device_.await_execution();
+      return false;
+    }
+  }
+  writer.move_to(end);
+  expected_ = end;
+  if (!check_position(end)) return device_.fault().has_value();
+  interpreter::Probe probe = move.probe;
+  interpreter::Position at = probe.to;
+  for (std::size_t i = 0; i < kMaxAxes; ++i)
+    if (const auto axis = static_cast<interpreter::Axis>(i); at.has(axis)) at.set_raw(axis, end[i]);
+  probe.result = interpreter::ProbeResult{tripped, at};
+  (void)finish_front(lock);
+  tell(lock, [&](ExecutionSink& sink) { sink.on_probed(probe); });
+  return true;
+}
+
+bool StreamedMachine::deliver_text(Lock& lock) {
+  const TextEvent text = std::get<TextEvent>(queue_.front().body);
+  const Origin origin = origin_;
+  tell(lock, [&](ExecutionSink& sink) {
+    switch (text.kind) {
+      case TextEvent::Kind::Output:
+        return sink.on_output({origin, text.device, text.text});
+      case TextEvent::Kind::Open:
+        return sink.on_open({origin, text.device, std::nullopt});
+      case TextEvent::Kind::OpenNamed:
+        return sink.on_open({origin, text.device, text.text});
+      case TextEvent::Kind::Close:
+        return sink.on_close({origin, text.device});
+      case TextEvent::Kind::Message:
+        return sink.on_message({origin, text.text});
+      case TextEvent::Kind::Warning:
+        return sink.on_warning({origin, {text.id, text.text, text.line, text.column}});
+    }
+  });
+  return finish_front(lock);
+}
+
+/// Stops and the end.
+bool StreamedMachine::deliver_stop(Lock& lock) {
+  const Action action = queue_.front();
+  if (const auto* stop = std::get_if<interpreter::Stop>(&action.body)) {
+    const bool is_optional = stop->kind == interpreter::StopKind::Optional;
+    if (!is_optional || panel_.optional_stop) {
+      stopped_at_ = stop->kind;
+      stop_ = is_optional ? MachineState::OptionalStop : MachineState::ProgramStop;
+      tell(lock, [&](ExecutionSink& sink) { sink.on_stop(*stop); });
+    }
+  } else if (const auto* end = std::get_if<interpreter::End>(&action.body)) {
+    // The end of the last block comes first, so that the counter is complete.
+    if (queue_.size() > 1 && !action.ends_block) {
+      queue_.front().ends_block = queue_[1].ends_block;
+      queue_.erase(queue_.begin() + 1);
+    }
+    (void)finish_front(lock);
+    stop_ = MachineState::Completed;
+    tell(lock, [&](ExecutionSink& sink) { sink.on_end(*end); });
+    return false;
+  }
+  return finish_front(lock);
+}
+
+bool StreamedMachine::finish_front(Lock& lock) {
+  const Action& action = queue_.front();
+  const Origin origin = action.origin;
+  const bool ends_block = action.ends_block;
+  const bool may_stop = action.may_stop_after;
+  queued_seconds_ = queue_.size() == 1 ? 0 : std::max(0.0, queued_seconds_ - action.seconds);
+  queue_.pop_front();
+  if (next_ > 0) --next_;
+  has_started_ = false;
+  if (!ends_block) return true;
+  executed_ = origin.block;
+  origin_ = origin;
+  if (is_single_block_ && may_stop && device_.is_empty() && stop_ == MachineState::Idle)
+    stop_ = MachineState::SingleBlock;
+  tell(lock, [&](ExecutionSink& sink) { sink.on_block_executed(origin); });
+  return true;
+}
+
+void StreamedMachine::discard() {
+  queue_.clear();
+  next_ = 0;
+  queued_seconds_ = 0;
+  is_released_ = has_started_ = false;
+  (void)builder_.take();
+  builder_.close();
+}
+
+void StreamedMachine::deliver_alarm(Lock& lock, interpreter::Alarm alarm) {
+  discard();
+  stop_ = MachineState::Alarmed;
+  lock.unlock();
+  report_off();
+  sink_.on_alarm(alarm);
+  lock.lock();
+}
+
+void StreamedMachine::end_abort(Lock& lock) {
+  if (is_emergency_) return;
+  is_aborting_ = false;
+  discard();
+  stop_ = MachineState::Aborted;
+  lock.unlock();
+  report_off();
+  sink_.on_aborted();
+  lock.lock();
+}
+
+}  // namespace dripline::machine::streamed

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "gateway/machine/operator_panel.hpp"
+#include "gateway/machine/streamed/text_rules.hpp"
+#include "protocol/base/clock.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::machine::streamed {
+
+/// Why a program cannot continue; ids as in the device's README.
+struct DeviceFault {
+  std::string_view id;  ///< static storage
+  std::string text;
+};
+
+/// How a probe move has ended.
+struct ProbeEnd {
+  bool tripped = false;
+  Coordinates at{};  ///< where it tripped
+};
+
+/// A controller that executes lines of text in their order: the conversation with it, as a state
+/// machine without a thread. StreamedMachine owns the program; this owns the link.
+///
+/// Nothing that moves is ever sent by itself: motion comes by `send`, and leaves a hold only by
+/// `resume`. After a fault the device is stopped, which drops what it had, and then nothing is sent
+/// until `restart`. All functions are called under StreamedMachine's mutex.
+class Device {
+ public:
+  virtual ~Device() = default;
+
+  // -- the program --------------------------------------------------------------------------------
+  /// Of the device that is connected now.
+  virtual TextRules rules() const = 0;
+  /// A program can begin: identified, referenced, at rest, without a fault. Errors: Busy, Conflict,
+  /// Unsupported, with the reason.
+  virtual Result<void> check_ready() const = 0;
+  /// A program begins or is over: only meanwhile a misbehavior of the device is a fault.
+  virtual void set_active(bool is_active, SteadyTime now) = 0;
+  /// Brings the modes about that all lines rely on, once for a program. False: not yet.
+  virtual bool prepare(SteadyTime now) = 0;
+  virtual bool may_send(std::size_t bytes) const = 0;
+  /// Sends a line; returns its serial number. `longest`: how long the device may be at rest with
+  /// it.
+  virtual std::uint64_t send(const std::string& line, bool moves,
+                             std::chrono::milliseconds longest) = 0;
+  /// Nothing follows before what was sent is executed. Repeated calls do nothing.
+  virtual void await_execution() = 0;
+  /// Of the last line that is executed, as the device's own reports show.
+  virtual std::uint64_t executed() const = 0;
+  /// Everything that was sent is executed.
+  virtual bool is_empty() const = 0;
+  /// A report made since shows the axes at rest: `position` can be compared.
+  virtual bool is_at_rest() const = 0;
+  /// In machine coordinates.
+  virtual const Coordinates& position() const = 0;
+  virtual void drop_probe() = 0;
+  virtual std::optional<ProbeEnd> probe() const = 0;
+  virtual void raise(std::string_view id, std::string text, SteadyTime now) = 0;
+  virtual const std::optional<DeviceFault>& fault() const = 0;
+
+  // -- the operator -------------------------------------------------------------------------------
+  virtual void hold(SteadyTime now) = 0;
+  /// False: the device cannot continue.
+  virtual bool resume(SteadyTime now) = 0;
+  virtual bool is_held() const = 0;
+  /// Decelerates and drops what was sent. Ends when `is_stopping` does.
+  virtual void stop(bool is_emergency, SteadyTime now) = 0;
+  virtual bool is_stopping() const = 0;
+  /// The emergency stop was released: ends a fault.
+  virtual void restart(SteadyTime now) = 0;
+  /// The nearest overrides that the device has.
+  virtual OperatorPanel known(OperatorPanel panel) const = 0;
+  /// Of feed, rapid and spindle, as factors.
+  virtual void set_overrides(const OperatorPanel& panel) = 0;
+  virtual Result<void> home(SteadyTime now) = 0;
+  virtual Result<void> unlock(SteadyTime now) = 0;
+
+  virtual bool is_connected() const = 0;
+
+  // -- what it does -------------------------------------------------------------------------------
+  virtual bool is_moving() const = 0;
+  virtual double feed_per_minute() const = 0;
+  virtual double spindle_rpm() const = 0;  ///< without a sign
+  virtual bool input(int pin) const = 0;
+};
+
+}  // namespace dripline::machine::streamed

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "gateway/interpreter/core/machine_data.hpp"
+#include "gateway/machine/streamed/text_rules.hpp"
+
+namespace dripline::machine::streamed {
+
+/// Whether the device is the machine that the setup states. A device that is checked here is homed
+/// before every program. Errors: Conflict (the first difference, with both values).
+Result<void> check_machine(const interpreter::MachineData& stated, const TextRules& rules);
+
+}  // namespace dripline::machine::streamed

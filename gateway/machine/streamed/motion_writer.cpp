@@ -1,0 +1,289 @@
+#include "gateway/machine/streamed/motion_writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gateway/machine/streamed/arc_path.hpp"
+
+namespace dripline::machine::streamed {
+
+using interpreter::Axis;
+
+namespace {
+
+/// Devices refuse an arc whose radii differ by more than this (and by more than a thousandth).
+constexpr double kMaxRadiusChange = 0.004;
+/// Shorter arcs are written as lines: their ends are too close for the angle between them.
+constexpr double kShortestArc = 0.005;
+constexpr double kChordDeviation = 0.002;
+constexpr std::size_t kMaxPieces = 4096;  ///< of one arc
+
+double distance(const Coordinates& from, const Coordinates& to) {
+  double square = 0;
+  for (std::size_t i = 0; i < kMaxAxes; ++i) square += (to[i] - from[i]) * (to[i] - from[i]);
+  return std::sqrt(square);
+}
+
+/// The length that a program's feed is for: that of the linear axes, if any moves.
+double program_distance(const Coordinates& from, const Coordinates& to) {
+  double linear = 0, rotary = 0;
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    const double change = to[i] - from[i];
+    (interpreter::is_rotary(static_cast<Axis>(i)) ? rotary : linear) += change * change;
+  }
+  return std::sqrt(linear > 0 ? linear : rotary);
+}
+
+bool is_finite(const Coordinates& point) {
+  return std::all_of(point.begin(), point.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Without trailing zeros and a minus before nothing: every byte is time on the line.
+std::string trimmed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+}  // namespace
+
+interpreter::Position position_of(const Coordinates& point, const TextRules& rules) {
+  interpreter::Position position;
+  for (std::size_t i = 0; i < kMaxAxes; ++i)
+    if (rules.has(i)) position.set_raw(static_cast<Axis>(i), point[i]);
+  return position;
+}
+
+Coordinates coordinates_of(const interpreter::Position& position) {
+  Coordinates point{};
+  for (std::size_t i = 0; i < kMaxAxes; ++i) point[i] = position.raw(static_cast<Axis>(i));
+  return point;
+}
+
+void MotionWriter::begin(const Coordinates& at) {
+  at_ = at;
+  feed_.clear();
+  rests_.reset();
+}
+
+std::string MotionWriter::number(double value) const {
+  return trimmed(value, rules_.decimals);
+}
+
+/// Of the number as it is written.
+std::int64_t MotionWriter::step(std::size_t axis, double value) const {
+  const double scale = std::pow(10, rules_.decimals);
+  return std::llround(std::round(value * scale) / scale * rules_.axes[axis]->steps);
+}
+
+bool MotionWriter::is_same_step(const Coordinates& a, const Coordinates& b) const {
+  for (std::size_t i = 0; i < kMaxAxes; ++i)
+    if (rules_.has(i) && step(i, a[i]) != step(i, b[i])) return false;
+  return true;
+}
+
+/// Every axis that changes. What was written before is what the device believes, digit for digit.
+std::string MotionWriter::axis_words(const Coordinates& to) const {
+  std::string words;
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    if (!rules_.has(i)) continue;
+    const std::string text = number(to[i]);
+    if (text != number(at_[i])) words += letter_of(i) + text;
+  }
+  return words;
+}
+
+std::optional<Refusal> MotionWriter::target_of(const interpreter::Position& to,
+                                               Coordinates& target) const {
+  target = at_;
+  for (const Axis axis : interpreter::kAllAxes) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double value = to.raw(axis);
+    if (!to.has(axis) || (!rules_.has(i) && value == at_[i])) continue;
+    if (!rules_.has(i))
+      return Refusal{"MCH0002",
+                     fmt::format("the machine has no {} axis", interpreter::letter(axis))};
+    target[i] = value;
+  }
+  if (!is_finite(target)) return Refusal{"MCH0006", "a move without a finite length"};
+  return check_travel(target);
+}
+
+/// Where soft limits are in force the device would stop in the middle of the program instead.
+std::optional<Refusal> MotionWriter::check_travel(const Coordinates& target) const {
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    if (!rules_.has(i) || !rules_.axes[i]->travel || target[i] == at_[i]) continue;
+    const TextRules::Range travel = *rules_.axes[i]->travel;
+    const double slack = rules_.axes[i]->tolerance;
+    if (target[i] >= travel.low - slack && target[i] <= travel.high + slack) continue;
+    return Refusal{"MCH0001", fmt::format("{} {:.3f} is outside the machine's travel of {} to {}{}",
+                                          letter_of(i), target[i], travel.low, travel.high,
+                                          rules_.travel_setting)};
+  }
+  return std::nullopt;
+}
+
+/// `length`: of the program's path.
+std::optional<Refusal> MotionWriter::feed_of(Feed feed, const Coordinates& to, double length,
+                                             double& per_minute) const {
+  if (feed.per() == Feed::Per::Revolution)
+    return Refusal{"MCH0008", "this machine cannot feed per revolution"};
+  const double device_length = rules_.feeds_all_axes ? std::max(length, distance(at_, to)) : length;
+  per_minute = feed.length().mm();
+  if (feed.per() == Feed::Per::Move)
+    per_minute = feed.moves_per_minute() * device_length;
+  else if (length > 0)
+    per_minute *= device_length / length;
+  if (!(per_minute >= 0.001)) return Refusal{"MCH0003", "the feed is zero"};
+  if (!std::isfinite(per_minute)) return Refusal{"MCH0006", "the feed is not finite"};
+  per_minute = std::min(per_minute, 99'999.0);  // beyond what any axis does
+  return std::nullopt;
+}
+
+double MotionWriter::seconds_of(const Coordinates& to, std::optional<double> feed) const {
+  const double length = rules_.feeds_all_axes ? distance(at_, to) : program_distance(at_, to);
+  double minutes = feed ? length / *feed : 0;
+  for (std::size_t i = 0; i < kMaxAxes; ++i)
+    if (rules_.has(i))
+      minutes = std::max(minutes, std::fabs(to[i] - at_[i]) / rules_.axes[i]->max_rate);
+  return minutes * 60;
+}
+
+std::optional<Refusal> MotionWriter::append(std::string line, MotionText& text) const {
+  if (line.size() > rules_.line_limit)
+    return Refusal{"MCH0005", fmt::format("a line of {} characters, the machine reads {}: {}",
+                                          line.size(), rules_.line_limit, line)};
+  text.lines.push_back(std::move(line));
+  return std::nullopt;
+}
+
+/// The word of the mode, where it changes.
+std::string MotionWriter::stop_mode(bool rests) {
+  if (!rules_.has_stop_mode || rests_ == rests) return {};
+  rests_ = rests;
+  return rests ? "G61.1" : "G61";
+}
+
+/// A dwell of no time lets the axes come to rest on a device that has no exact stop.
+void MotionWriter::append_rest(bool rests, MotionText& text) const {
+  if (rests && !rules_.has_stop_mode && !text.lines.empty()) text.lines.push_back(dwell(0));
+}
+
+std::optional<Refusal> MotionWriter::straight(const Motion& motion, const Coordinates& to,
+                                              MotionText& text) {
+  text.end = to;
+  if (is_same_step(at_, to)) return std::nullopt;  // it is not lost: the next target is absolute
+  const std::string words = axis_words(to);
+  if (words.empty()) return std::nullopt;
+  std::string line = stop_mode(motion.rests) + std::string(motion.code) + words;
+  if (motion.feed) {
+    std::string feed_text = trimmed(*motion.feed, 3);
+    if (feed_text != feed_) line += "F" + feed_text;
+    feed_ = std::move(feed_text);
+  }
+  if (auto refusal = append(std::move(line), text)) return refusal;
+  text.seconds += seconds_of(to, motion.feed);
+  at_ = to;
+  return std::nullopt;
+}
+
+std::optional<Refusal> MotionWriter::rapid(const interpreter::Rapid& event, MotionText& text) {
+  Coordinates to;
+  if (auto refusal = target_of(event.to, to)) return refusal;
+  return straight({"G0", std::nullopt, event.rests}, to, text);
+}
+
+std::optional<Refusal> MotionWriter::line(const interpreter::Line& event, MotionText& text) {
+  Coordinates to;
+  if (auto refusal = target_of(event.to, to)) return refusal;
+  text.end = to;
+  if (is_same_step(at_, to)) return std::nullopt;
+  double feed = 0;
+  if (auto refusal = feed_of(event.feed, to, program_distance(at_, to), feed)) return refusal;
+  if (auto refusal = straight({"G1", feed, event.rests}, to, text)) return refusal;
+  append_rest(event.rests, text);
+  return std::nullopt;
+}
+
+std::optional<Refusal> MotionWriter::arc_line(const interpreter::Arc& event, const Coordinates& end,
+                                              double feed, MotionText& text) {
+  static constexpr std::array<char, 3> kOffsets{'I', 'J', 'K'};
+  static constexpr std::array<std::string_view, 3> kPlanes{"G17", "G18", "G19"};
+  const ArcPath path = arc_path(at_, end, event);
+  std::string words = axis_words(end);
+  // Both words of the plane, also where one does not change: an arc needs one at least.
+  for (const std::size_t axis : {path.first, path.second})
+    if (words.find(letter_of(axis)) == std::string::npos)
+      words += letter_of(axis) + number(end[axis]);
+  std::string line = fmt::format("{}{}G{}{}", stop_mode(event.rests),
+                                 kPlanes[static_cast<std::size_t>(event.plane)],
+                                 event.turn == interpreter::Turn::Counterclockwise ? 3 : 2, words);
+  for (const std::size_t axis : {path.first, path.second}) {
+    const double center = axis == path.first ? path.center_first : path.center_second;
+    line += kOffsets[axis] + number(center - at_[axis]);
+  }
+  std::string feed_text = trimmed(feed, 3);
+  if (feed_text != feed_) line += "F" + feed_text;
+  if (auto refusal = append(std::move(line), text)) return refusal;
+  feed_ = std::move(feed_text);
+  at_ = end;
+  return std::nullopt;
+}
+
+std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionText& text) {
+  Coordinates to;
+  if (auto refusal = target_of(event.to, to)) return refusal;
+  const ArcPath path = arc_path(at_, to, event);
+  const double length = path.length();
+  if (!(path.start_radius > 0 && length > 0 && std::isfinite(length)))
+    return Refusal{"MCH0006", "the arc has no radius or no length"};
+  for (const std::size_t axis : {path.first, path.second})
+    if (!rules_.has(axis))
+      return Refusal{"MCH0002", fmt::format("the machine has no {} axis", letter_of(axis))};
+  for (const Coordinates& extreme : extremes(path))
+    if (auto refusal = check_travel(extreme)) return refusal;
+  double feed = 0;
+  if (auto refusal = feed_of(event.feed, at_, length, feed)) return refusal;
+  bool has_rotary = false;
+  for (std::size_t i = 3; i < kMaxAxes; ++i) has_rotary |= to[i] != at_[i];
+  const bool is_spiral = std::fabs(path.end_radius - path.start_radius) > kMaxRadiusChange;
+  const bool is_arc = !is_spiral && !has_rotary && length >= kShortestArc;
+  interpreter::Arc turned = event;  // in the direction of the path
+  turned.turn = path.sweep > 0 ? interpreter::Turn::Counterclockwise : interpreter::Turn::Clockwise;
+  const auto ends = is_arc ? half_circles(path) : chords(path, kChordDeviation);
+  if (ends.size() > kMaxPieces)
+    return Refusal{"MCH0005", fmt::format("an arc of {} pieces, the machine gets at most {}",
+                                          ends.size(), kMaxPieces)};
+  for (const Coordinates& end : ends) {
+    turned.rests = event.rests && &end == &ends.back();
+    auto refusal = is_arc ? arc_line(turned, end, feed, text)
+                          : straight({"G1", feed, turned.rests}, end, text);
+    if (refusal) return refusal;
+  }
+  text.end = to;
+  text.seconds = length / feed * 60;
+  append_rest(event.rests, text);
+  return std::nullopt;
+}
+
+std::optional<Refusal> MotionWriter::probe(const interpreter::Probe& event, MotionText& text) {
+  Coordinates to;
+  if (auto refusal = target_of(event.to, to)) return refusal;
+  text.end = to;
+  if (is_same_step(at_, to)) return std::nullopt;
+  double feed = 0;
+  if (auto refusal = feed_of(event.feed, to, program_distance(at_, to), feed)) return refusal;
+  const bool is_contact = event.until == interpreter::ProbeUntil::Contact;
+  const std::string code = is_contact ? "G38.3" : "G38.5";
+  text.seconds = seconds_of(to, feed);
+  feed_ = trimmed(feed, 3);
+  return append(code + axis_words(to) + "F" + feed_, text);
+}
+
+std::string MotionWriter::dwell(double seconds) {
+  return "G4P" + trimmed(seconds, 3);
+}
+
+}  // namespace dripline::machine::streamed

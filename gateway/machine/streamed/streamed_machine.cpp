@@ -1,0 +1,239 @@
+#include "gateway/machine/streamed/streamed_machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gateway/machine/streamed/machine_check.hpp"
+
+namespace dripline::machine::streamed {
+
+using interpreter::Axis;
+using interpreter::Position;
+
+StreamedMachine::StreamedMachine(Parts parts, Device& device)
+    : sink_(parts.sink),
+      clock_(std::move(parts.clock)),
+      stated_(std::move(parts.machine)),
+      builder_(std::move(parts.commands)),
+      capabilities_(parts.capabilities),
+      device_(device) {}
+
+StreamedMachine::~StreamedMachine() = default;
+
+const MotionCapabilities& StreamedMachine::capabilities() const {
+  const Lock lock(mutex_);
+  const TextRules rules = device_.rules();
+  for (std::size_t i = 0; i < kMaxAxes; ++i) capabilities_.axes.set(i, rules.has(i));
+  return capabilities_;
+}
+
+Result<void> StreamedMachine::check_begin(const Position& at) const {
+  const Lock lock(mutex_);
+  if (auto ready = device_.check_ready(); !ready) return ready;
+  const TextRules rules = device_.rules();
+  if (auto same = check_machine(stated_, rules); !same) return same;
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    const double wanted = at.raw(static_cast<Axis>(i));
+    if (!rules.has(i)) {
+      if (wanted == 0) continue;
+      return fail(Errc::Conflict, "the setup begins at {} {}, the machine has no such axis",
+                  letter_of(i), wanted);
+    }
+    const double is_at = device_.position()[i];
+    if (std::fabs(is_at - wanted) <= rules.axes[i]->tolerance) continue;
+    return fail(Errc::Conflict, "{} is at {:.3f}, the setup begins at {:.3f}", letter_of(i), is_at,
+                wanted);
+  }
+  return {};
+}
+
+void StreamedMachine::begin(const Position& at) {
+  const Lock lock(mutex_);
+  discard();
+  // From where the axes are: the setup is within the tolerance of it.
+  expected_ = coordinates_of(at);
+  builder_.begin(device_.rules(), expected_);
+  inhibit_ = {};
+  apply_overrides();
+  has_begun_ = is_allowed_ = is_held_by_override_ = false;
+  is_override_hold_ = panel_.feed_override == 0 || panel_.rapid_override == 0;
+  is_aborting_ = is_emergency_;
+  stop_ = MachineState::Idle;
+  shown_ = {};
+  origin_ = {};
+  executed_ = 0;
+  device_.set_active(false, now());
+}
+
+bool StreamedMachine::has_room() const {
+  const Lock lock(mutex_);
+  return queue_.size() + builder_.size() < kMaxActions;
+}
+
+bool StreamedMachine::input(int pin) const {
+  const Lock lock(mutex_);
+  return device_.input(pin);
+}
+
+bool StreamedMachine::drained() const {
+  const Lock lock(mutex_);
+  return queue_.empty() && builder_.size() == 0 && device_.is_empty();
+}
+
+Seconds StreamedMachine::buffered() const {
+  const Lock lock(mutex_);
+  return Seconds{queued_seconds_};
+}
+
+void StreamedMachine::apply_overrides() {
+  OperatorPanel panel = panel_;
+  if (inhibit_.feed_override) panel.feed_override = 1;
+  if (inhibit_.spindle_override) panel.spindle_override = 1;
+  device_.set_overrides(panel);
+}
+
+void StreamedMachine::set_panel(const OperatorPanel& panel) {
+  {
+    const Lock lock(mutex_);
+    const bool was_emergency = panel_.emergency_stop;
+    panel_ = device_.known(panel.clamped());
+    panel_.handwheel = false;
+    is_single_block_ = panel_.single_block;
+    is_emergency_ = panel_.emergency_stop;
+    apply_overrides();
+    if (is_emergency_ && !was_emergency) {
+      if (!is_over()) is_aborting_ = true;
+      device_.stop(true, now());
+    } else if (was_emergency && !is_emergency_) {
+      device_.restart(now());
+    }
+    hold_by_override();
+  }
+  if (panel_.emergency_stop) report_off();
+  wake();
+}
+
+/// A hold of the operator's outlives that of an override.
+void StreamedMachine::hold_by_override() {
+  const bool was_zero =
+      std::exchange(is_override_hold_, panel_.feed_override == 0 || panel_.rapid_override == 0);
+  if (is_override_hold_ && !was_zero && !is_over() && !device_.is_held()) {
+    device_.hold(now());
+    is_held_by_override_ = true;
+  } else if (!is_override_hold_ && std::exchange(is_held_by_override_, false)) {
+    (void)device_.resume(now());
+  }
+}
+
+/// A device that was stopped has switched spindle and coolant off; one that is not there may not.
+void StreamedMachine::report_off() {
+  interpreter::Spindle off;
+  bool had_spindle = false, had_coolant = false;
+  {
+    const Lock lock(mutex_);
+    if (!device_.is_connected()) return;
+    off.origin = origin_;
+    had_spindle = std::exchange(shown_.spindle, off).state != interpreter::SpindleState::Off;
+    had_coolant = std::exchange(shown_.flood, false);
+    had_coolant |= std::exchange(shown_.mist, false);
+  }
+  if (had_spindle) sink_.on_spindle(off);
+  if (had_coolant) sink_.on_coolant({off.origin, false, false});
+}
+
+void StreamedMachine::hold() {
+  {
+    const Lock lock(mutex_);
+    is_held_by_override_ = false;
+    if (!is_over() && !is_aborting_) device_.hold(now());
+  }
+  wake();
+}
+
+bool StreamedMachine::resume() {
+  bool has_resumed = false;
+  {
+    const Lock lock(mutex_);
+    if (is_emergency_ || is_aborting_ || is_over() || is_override_hold_) return false;
+    if (device_.is_held()) {
+      has_resumed = device_.resume(now());
+    } else if (stop_ != MachineState::Idle) {
+      stop_ = MachineState::Idle;
+      has_resumed = true;
+    }
+  }
+  wake();
+  return has_resumed;
+}
+
+void StreamedMachine::abort() {
+  {
+    const Lock lock(mutex_);
+    if (is_over() || is_aborting_) return;
+    is_aborting_ = true;
+    device_.stop(false, now());
+  }
+  wake();
+}
+
+Result<void> StreamedMachine::home() {
+  const Lock lock(mutex_);
+  if (is_emergency_) return fail(Errc::Busy, "the emergency stop is pressed");
+  return device_.home(now());
+}
+
+Result<void> StreamedMachine::unlock() {
+  const Lock lock(mutex_);
+  if (is_emergency_) return fail(Errc::Busy, "the emergency stop is pressed");
+  return device_.unlock(now());
+}
+
+std::string StreamedMachine::notice() const {
+  const Lock lock(mutex_);
+  if (device_.is_held() || current_state() == MachineState::Running) return {};
+  const auto ready = device_.check_ready();
+  return ready ? std::string() : ready.error().what;
+}
+
+MachineState StreamedMachine::current_state() const {
+  if (is_over()) return stop_;
+  if (is_emergency_) return MachineState::EmergencyStop;
+  if (device_.is_held() || is_aborting_) return MachineState::Held;
+  if (stop_ != MachineState::Idle) return stop_;
+  const bool is_busy = !queue_.empty() || device_.is_moving() || !device_.is_empty();
+  return is_busy ? MachineState::Running : MachineState::Idle;
+}
+
+MachineState StreamedMachine::state() const {
+  const Lock lock(mutex_);
+  return current_state();
+}
+
+bool StreamedMachine::is_moving() const {
+  const Lock lock(mutex_);
+  return device_.is_moving() || device_.is_stopping();
+}
+
+MachineStatus StreamedMachine::status() const {
+  const Lock lock(mutex_);
+  const TextRules rules = device_.rules();
+  MachineStatus status = shown_;
+  status.state = current_state();
+  status.position = position_of(device_.position(), rules);
+  status.target = status.position;
+  if (!queue_.empty())
+    if (const auto* motion = std::get_if<Motion>(&queue_.front().body))
+      status.target = position_of(motion->end, rules);
+  if (device_.is_moving()) status.feed_per_minute = device_.feed_per_minute();
+  const bool is_reversed = shown_.spindle.state == interpreter::SpindleState::Counterclockwise;
+  status.spindle_rpm = is_reversed ? -device_.spindle_rpm() : device_.spindle_rpm();
+  status.origin = origin_;
+  status.executed = executed_;
+  status.buffered = Seconds{queued_seconds_};
+  status.queued = queue_.size();
+  status.stopped_at = stopped_at_;
+  return status;
+}
+
+}  // namespace dripline::machine::streamed

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "gateway/interpreter/core/event.hpp"
+
+namespace dripline::machine::streamed {
+
+inline constexpr std::size_t kMaxAxes = interpreter::kAxisCount;
+
+/// A point of the device by axis number: millimeters or, for A, B and C, degrees.
+using Coordinates = std::array<double, kMaxAxes>;
+
+/// Why an event cannot become lines: an alarm in its place.
+struct Refusal {
+  std::string_view id;  ///< static storage
+  std::string text;
+};
+
+/// What a device can do and how it reads motion, as far as its text depends on it. Value type.
+struct TextRules {
+  struct Range {
+    double low = 0, high = 0;
+  };
+  struct AxisRules {
+    double steps = 1'000;         ///< per mm or degree: less than one of them is no motion
+    double max_rate = 10'000;     ///< per minute, for the time that a move takes
+    double tolerance = 0.001;     ///< where an axis that was sent to a value may be found
+    std::optional<Range> travel;  ///< in machine coordinates, where it is known
+  };
+  std::array<std::optional<AxisRules>, kMaxAxes> axes;  ///< absent: no such axis
+  int decimals = 3;
+  std::size_t line_limit = 250;  ///< characters without the line's end
+  /// A feed is the speed of all axes together, degrees as millimeters; false: that of the linear
+  /// axes where one moves.
+  bool feeds_all_axes = false;
+  /// G61.1 and G61 before the move; false: a dwell of no time after it.
+  bool has_stop_mode = false;
+  std::string_view travel_setting = "";  ///< where the travel is set, for the operator
+  std::optional<double> max_rpm;         ///< of the spindle, where it is known
+
+  bool has(std::size_t axis) const { return axis < kMaxAxes && axes[axis].has_value(); }
+};
+
+/// "X", "A"
+inline char letter_of(std::size_t axis) {
+  return interpreter::letter(static_cast<interpreter::Axis>(axis));
+}
+/// Marks the axes that the device has.
+interpreter::Position position_of(const Coordinates& point, const TextRules& rules);
+Coordinates coordinates_of(const interpreter::Position& position);
+
+}  // namespace dripline::machine::streamed

@@ -1,0 +1,68 @@
+#include "gateway/machine/linuxcnc/command_writer.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dripline::machine::linuxcnc {
+namespace {
+
+using interpreter::SpindleState;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(LinuxCncCommands, ATurningSpindleIsTurnedOnAgainAfterAToolChange) {
+  LinuxCncCommands writer;
+  streamed::CommandWriter::Lines lines;
+  EXPECT_FALSE(writer.spindle({{}, SpindleState::Counterclockwise, 1200, {}, {}}, lines));
+  EXPECT_THAT(lines, ElementsAre("M4S1200.000"));
+  lines.clear();
+  EXPECT_FALSE(writer.tool({.origin = {}, .number = 3, .offset = {}}, lines));
+  EXPECT_THAT(lines, ElementsAre("T3", "M6", "M4S1200.000"));
+  lines.clear();
+  EXPECT_FALSE(writer.spindle({}, lines));
+  EXPECT_FALSE(writer.tool({.origin = {}, .number = 4, .offset = {}}, lines));
+  EXPECT_THAT(lines, ElementsAre("M5", "T4", "M6"));
+  lines.clear();
+  EXPECT_FALSE(
+      writer.tool({.origin = {}, .number = 5, .is_preselection = true, .offset = {}}, lines));
+  EXPECT_THAT(lines, ElementsAre("T5"));
+}
+
+TEST(LinuxCncCommands, CoolantIsSwitchedAsAWhole) {
+  LinuxCncCommands writer;
+  streamed::CommandWriter::Lines lines;
+  EXPECT_FALSE(writer.coolant({{}, true, true}, lines));
+  EXPECT_THAT(lines, ElementsAre("M7", "M8"));
+  lines.clear();
+  EXPECT_FALSE(writer.coolant({{}, true, false}, lines));
+  EXPECT_THAT(lines, ElementsAre("M9", "M8"));
+}
+
+TEST(LinuxCncCommands, OutputsAndFunctionsOfTheBuilder) {
+  LinuxCncCommands writer;
+  streamed::CommandWriter::Lines lines;
+  EXPECT_FALSE(writer.pin({{}, {}, 2, true, 150.0}, lines));
+  EXPECT_THAT(lines, ElementsAre("M64P2", "G4P0.150", "M65P2"));
+  lines.clear();
+  EXPECT_FALSE(writer.miscellaneous({{}, 101}, lines));
+  EXPECT_THAT(lines, ElementsAre("M101"));
+}
+
+TEST(LinuxCncCommands, WhatLinuxCncLacksIsRefused) {
+  LinuxCncCommands writer;
+  streamed::CommandWriter::Lines lines;
+  EXPECT_TRUE(writer.miscellaneous({{}, 25}, lines));
+  EXPECT_FALSE(writer.miscellaneous({{}, 6}, lines)) << "the tool came with its number";
+  EXPECT_TRUE(writer.spindle({{}, SpindleState::Oriented, 0, {}, {}}, lines));
+  EXPECT_TRUE(writer.spindle({{}, SpindleState::Clockwise, 0, Length::mm(100'000), {}}, lines));
+  EXPECT_TRUE(writer.tool({.origin = {}, .number = -1, .offset = {}}, lines));
+  streamed::TextRules rules;
+  rules.max_rpm = 6000;
+  writer.begin(rules);
+  const auto refusal = writer.spindle({{}, SpindleState::Clockwise, 6001, {}, {}}, lines);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->text, "spindle speed 6001 is above LinuxCNC's 6000 rpm");
+  EXPECT_THAT(lines, IsEmpty());
+}
+
+}  // namespace
+}  // namespace dripline::machine::linuxcnc

@@ -1,0 +1,117 @@
+#include "gateway/machine/streamed/motion_writer.hpp"
+
+#include <gmock/gmock.h>
+
+namespace dripline::machine::streamed {
+namespace {
+
+using interpreter::Axis;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TextRules three_axes() {
+  TextRules rules;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rules.axes[i].emplace();
+    rules.axes[i]->travel = TextRules::Range{-100, 100};
+  }
+  rules.decimals = 6;
+  rules.has_stop_mode = true;
+  return rules;
+}
+
+interpreter::Position point(std::initializer_list<std::pair<Axis, double>> values) {
+  interpreter::Position position;
+  for (const auto& [axis, value] : values) position.set_raw(axis, value);
+  return position;
+}
+
+Feed feed(double mm) {
+  return Feed::per_minute(Length::mm(mm));
+}
+
+struct Writer {
+  explicit Writer(TextRules rules = three_axes()) : writer(std::move(rules)) { writer.begin({}); }
+  MotionText line(interpreter::Position to, Feed at, bool rests = false) {
+    MotionText text;
+    refusal = writer.line({.origin = {}, .to = to, .feed = at, .rests = rests}, text);
+    return text;
+  }
+  MotionText rapid(interpreter::Position to, bool rests) {
+    MotionText text;
+    refusal = writer.rapid({.origin = {}, .to = to, .rests = rests}, text);
+    return text;
+  }
+  MotionWriter writer;
+  std::optional<Refusal> refusal;
+};
+
+TEST(MotionWriter, WritesWhatChangesOnly) {
+  Writer it;
+  EXPECT_THAT(it.line(point({{Axis::X, 1.25}, {Axis::Y, 0}}), feed(600)).lines,
+              ElementsAre("G61G1X1.25F600"));
+  EXPECT_THAT(it.line(point({{Axis::X, 1.25}, {Axis::Z, -1.0 / 3}}), feed(600)).lines,
+              ElementsAre("G1Z-0.333333"));
+  EXPECT_THAT(it.rapid(point({{Axis::X, 0}}), true).lines, ElementsAre("G61.1G0X0"));
+  EXPECT_THAT(it.line(point({{Axis::X, 1}}), feed(300), true).lines, ElementsAre("G1X1F300"));
+  EXPECT_THAT(it.line(point({{Axis::X, 2}}), feed(300)).lines, ElementsAre("G61G1X2"));
+}
+
+TEST(MotionWriter, LessThanAStepIsNoLineAndIsNotLost) {
+  Writer it;
+  EXPECT_THAT(it.line(point({{Axis::X, 0.0004}}), feed(600)).lines, IsEmpty());
+  EXPECT_THAT(it.line(point({{Axis::X, 0.0008}}), feed(600)).lines,
+              ElementsAre("G61G1X0.0008F600"));
+}
+
+TEST(MotionWriter, ADeviceWithoutStopModesDwells) {
+  TextRules rules = three_axes();
+  rules.has_stop_mode = false;
+  Writer it(rules);
+  EXPECT_THAT(it.line(point({{Axis::X, 1}}), feed(600), true).lines,
+              ElementsAre("G1X1F600", "G4P0"));
+}
+
+TEST(MotionWriter, AFullCircleIsTwoHalves) {
+  Writer it;
+  MotionText text;
+  interpreter::Arc arc{.origin = {},
+                       .to = point({{Axis::X, 0}, {Axis::Y, 0}}),
+                       .center_first = Length::mm(5),
+                       .center_second = Length::mm(0),
+                       .sweep = Angle::degrees(360),
+                       .feed = feed(600)};
+  EXPECT_FALSE(it.writer.arc(arc, text));
+  EXPECT_THAT(text.lines, ElementsAre("G61G17G2X10Y0I5J0F600", "G17G2X0Y0I-5J0"));
+  EXPECT_NEAR(text.seconds, 3.14159265, 1e-6);
+}
+
+TEST(MotionWriter, AFeedOfRotaryAxesIsTheDevicesOwnKind) {
+  TextRules rules = three_axes();
+  rules.axes[3].emplace();
+  Writer linear(rules);
+  EXPECT_THAT(linear.line(point({{Axis::X, 3}, {Axis::A, 4}}), feed(600)).lines,
+              ElementsAre("G61G1X3A4F600"));
+  rules.feeds_all_axes = true;
+  Writer all(rules);
+  EXPECT_THAT(all.line(point({{Axis::X, 3}, {Axis::A, 4}}), feed(600)).lines,
+              ElementsAre("G61G1X3A4F1000"));
+}
+
+TEST(MotionWriter, RefusesWhatTheDeviceCannotDo) {
+  Writer it;
+  (void)it.line(point({{Axis::X, 101}}), feed(600));
+  EXPECT_EQ(it.refusal->text, "X 101.000 is outside the machine's travel of -100 to 100");
+  (void)it.line(point({{Axis::B, 1}}), feed(600));
+  EXPECT_EQ(it.refusal->text, "the machine has no B axis");
+  (void)it.line(point({{Axis::X, 1}}), feed(0));
+  EXPECT_EQ(it.refusal->id, "MCH0003");
+  (void)it.line(point({{Axis::X, 1}}), Feed::per_revolution(Length::mm(0.1)));
+  EXPECT_EQ(it.refusal->id, "MCH0008");
+  (void)it.line(point({{Axis::X, std::nan("")}}), feed(600));
+  EXPECT_EQ(it.refusal->id, "MCH0006");
+  EXPECT_THAT(it.writer.at(), testing::Each(0.0)) << "nothing of it is taken";
+}
+
+}  // namespace
+}  // namespace dripline::machine::streamed
