@@ -5,6 +5,8 @@
 
 #include "gateway/machine/grbl/board_link.hpp"
 #include "gateway/machine/grbl/grbl_machine.hpp"
+#include "gateway/machine/linuxcnc/helper_link.hpp"
+#include "gateway/machine/linuxcnc/linuxcnc_machine.hpp"
 #include "gateway/machine/simulated_machine.hpp"
 
 namespace dripline::gateway {
@@ -64,6 +66,18 @@ Result<machine::MotionFactory> grbl(const MotionTask& task) {
   };
 }
 
+/// The helper begins with the machine, and is kept running by it.
+Result<machine::MotionFactory> linuxcnc(const MotionTask& task) {
+  return
+      [ini = std::string(task.address), stated = task.setup.machine](machine::ExecutionSink& sink) {
+        auto machine = std::make_unique<machine::linuxcnc::LinuxCncMachine>(
+            machine::linuxcnc::LinuxCncMachine::Settings{
+                .sink = sink, .clock = std::make_shared<SystemClock>(), .machine = stated});
+        machine->connect(ini);
+        return machine;
+      };
+}
+
 Result<void> needs_no_address(std::string_view address) {
   if (address.empty()) return {};
   return fail(Errc::Syntax, "motion simulated has no address, '{}' was given", address);
@@ -75,6 +89,12 @@ Result<void> check_board_address(std::string_view address) {
   return fail(parsed.error().code, "motion grbl: {}", parsed.error().what);
 }
 
+Result<void> check_linuxcnc_address(std::string_view address) {
+  const auto found = machine::linuxcnc::check_ini_path(std::string(address));
+  if (found) return {};
+  return fail(found.error().code, "motion linuxcnc: {}", found.error().what);
+}
+
 struct MotionRow {
   std::string_view name, form;
   Result<void> (*check)(std::string_view address);
@@ -82,6 +102,7 @@ struct MotionRow {
 };
 constexpr std::array kRows{
     MotionRow{"simulated", "simulated", needs_no_address, simulated},
+    MotionRow{"linuxcnc", "linuxcnc:INI", check_linuxcnc_address, linuxcnc},
     MotionRow{"grbl", "grbl:ADDRESS", check_board_address, grbl},
 };
 

@@ -120,9 +120,9 @@ constexpr std::array kRows{
               number_value<100, 600'000, kNetwork, &Network::lease_ms>()},
     OptionRow{
         "motion", "NAME", "", "simulated",
-        "Back end that moves the machine: simulated; grbl:ADDRESS, a board of the Grbl 1.1 "
-        "class at a device, tcp://host:port or rfc2217://host:port, with ,BAUD where it is not "
-        "115200",
+        "Back end that moves the machine: simulated; linuxcnc:INI, the LinuxCNC that runs this INI "
+        "file; grbl:ADDRESS, a board of the Grbl 1.1 class at a device, tcp://host:port or "
+        "rfc2217://host:port, with ,BAUD where it is not 115200",
         set_by(Written::Text, set_motion)},
     OptionRow{"speed", "FACTOR", "", "1x", "Speed of the simulated machine: 1x, 100x, max",
               set_by(Written::TextOrNumber, set_speed)},

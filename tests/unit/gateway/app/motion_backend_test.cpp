@@ -100,14 +100,17 @@ TEST(MotionChoice, NamesTheBackEndsItKnows) {
   EXPECT_TRUE(check_motion("simulated"));
   EXPECT_TRUE(check_motion("grbl:/dev/ttyACM0"));
   EXPECT_TRUE(check_motion("grbl:tcp://board:23"));
+  EXPECT_TRUE(check_motion("linuxcnc:deploy/examples/linuxcnc/mill.ini"));
   EXPECT_TRUE(check_motion("grbl:/dev/ttyUSB0,57600"));
   EXPECT_EQ(check_motion("real").error().what,
-            "motion 'real' is not known: simulated, grbl:ADDRESS");
+            "motion 'real' is not known: simulated, linuxcnc:INI, grbl:ADDRESS");
 }
 
 TEST(MotionChoice, RefusesAnAddressThatIsNone) {
   EXPECT_EQ(check_motion("grbl").error().code, Errc::Syntax);
   EXPECT_EQ(check_motion("grbl:board").error().code, Errc::Syntax);
+  EXPECT_EQ(check_motion("linuxcnc:").error().code, Errc::Syntax);
+  EXPECT_EQ(check_motion("linuxcnc:/no/mill.ini").error().code, Errc::NotFound);
   EXPECT_EQ(check_motion("grbl:/dev/ttyUSB0,fast").error().code, Errc::Syntax);
   EXPECT_EQ(check_motion("simulated:/dev/ttyUSB0").error().code, Errc::Syntax);
 }
