@@ -1,0 +1,126 @@
+// Server, gateway and a real LinuxCNC.
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "tests/integration/system.hpp"
+#include "tests/support/linuxcnc.hpp"
+
+namespace dripline::integration {
+namespace {
+
+using test_support::eventually;
+using test_support::LinuxCnc;
+
+std::string straight_program(int blocks) {
+  std::string text = "G21 G90 G94 F2400\n";
+  for (int i = 1; i <= blocks; ++i) text += "G1 X" + std::to_string(i) + "\n";
+  return text + "M2\n";
+}
+
+class LinuxCncSystem : public testing::Test {
+ protected:
+  void start(const std::string& control) {
+    if (const std::string missing = LinuxCnc::missing(); !missing.empty())
+      GTEST_SKIP() << "skipped: " << missing;
+    linuxcnc.emplace();
+    linuxcnc->start();
+    system.emplace(System::Options{
+        .speed = "1x",
+        .server_arguments = {},
+        .gateway_arguments = {"--motion", "linuxcnc:" + linuxcnc->ini(), "--unattended", "yes"},
+        .control = control});
+    system->start_server();
+    start_gateway();
+  }
+  void start_gateway() {
+    system->start_gateway();
+    system->wait_connected();
+  }
+  test_support::Finished panel(std::vector<std::string> words) {
+    std::vector<std::string> command{program_path("dncgw"), "panel", "--state",
+                                     system->folder() / "gateway" / "lathe-1"};
+    command.insert(command.end(), words.begin(), words.end());
+    return test_support::run_to_end(std::move(command), system->folder() / "panel.out");
+  }
+  /// As the example's README has it.
+  void turn_on(const std::string& program) {
+    ASSERT_TRUE(eventually([&] {
+      return start_reply(program).find("LinuxCNC is in emergency stop") != std::string::npos;
+    })) << start_reply(program);
+    EXPECT_EQ(panel({"emergency-stop", "on"}).status, 0);
+    EXPECT_EQ(panel({"emergency-stop", "off"}).status, 0);
+    ASSERT_TRUE(eventually([&] { return panel({"home"}).status == 0; })) << panel({"home"}).output;
+  }
+  std::string start_reply(const std::string& program) {
+    return system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", program}}).body;
+  }
+  std::string start_run(const std::string& program) {
+    std::string id, refusal;
+    EXPECT_TRUE(eventually([&] {
+      const auto reply =
+          system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", program}});
+      refusal = reply.body;
+      id = reply.status == 201 ? reply.json().value("id", "") : "";
+      return !id.empty();
+    })) << refusal;
+    return id;
+  }
+
+  std::optional<LinuxCnc> linuxcnc;
+  std::optional<System> system;
+};
+
+TEST_F(LinuxCncSystem, AProgramOfATnc155RunsOnALinuxCncMill) {
+  start("tnc155");
+  if (IsSkipped() || HasFatalFailure()) return;
+  std::ostringstream text;
+  text << std::ifstream("deploy/examples/linuxcnc/PLATE.H").rdbuf();
+  system->push("PLATE", text.str());
+  turn_on("PLATE");
+  const std::string id = start_run("PLATE");
+  const auto run = system->wait_ended(id, std::chrono::seconds(180));
+  EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
+  EXPECT_EQ(run.value("executed", 0), 51) << run.dump();
+  EXPECT_TRUE(linuxcnc->rests());
+  double deepest = 0, widest = 0;
+  for (const auto& sample : linuxcnc->samples()) {
+    deepest = std::min(deepest, sample.at[2]);
+    widest = std::max(widest, sample.at[0]);
+  }
+  EXPECT_NEAR(deepest, -8, 0.001);
+  EXPECT_NEAR(widest, 95, 0.001);
+}
+
+TEST_F(LinuxCncSystem, AKilledGatewayLeavesNoMotionAndClaimsNothing) {
+  start("rs274ngc");
+  if (IsSkipped() || HasFatalFailure()) return;
+  system->push("path", straight_program(380));
+  turn_on("path");
+  std::mt19937 random(20'261'123);
+  for (int kill = 0; kill < 3; ++kill) {
+    const double before = linuxcnc->position()[0];
+    const std::string id = start_run("path");
+    ASSERT_TRUE(eventually([&] { return linuxcnc->position()[0] != before; })) << kill;
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(std::uniform_int_distribution<>(0, 1500)(random)));
+    system->gateway().kill();
+    ASSERT_TRUE(eventually([&] { return linuxcnc->rests(); })) << "what it had is aborted";
+    const double at = linuxcnc->position()[0];
+    EXPECT_LT(at, 379);
+    start_gateway();
+    const auto run = system->wait_ended(id);
+    EXPECT_EQ(run.value("state", ""), "interrupted") << run.dump();
+    // Block 1 does not move; block n + 1 ends at X n. The first block may begin far off.
+    if (before < 1) {
+      EXPECT_LE(run.value("executed", 0.0), at + 1.001) << run.dump();
+    }
+    EXPECT_TRUE(linuxcnc->rests(std::chrono::seconds(1)));
+    EXPECT_EQ(linuxcnc->position()[0], at) << "nothing moves by itself";
+  }
+  EXPECT_EQ(panel({"home"}).status, 0);
+}
+
+}  // namespace
+}  // namespace dripline::integration

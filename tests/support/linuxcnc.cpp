@@ -1,0 +1,119 @@
+#include "tests/support/linuxcnc.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace dripline::test_support {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_file(const fs::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+}
+
+std::string read_file(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+void replace(std::string& text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+std::string LinuxCnc::missing() {
+  if (!fs::exists("/usr/bin/linuxcnc")) return "linuxcnc-uspace is not installed";
+  const char* reason = std::getenv("DRIPLINE_NAMESPACES");
+  if (reason == nullptr) return "this test program has no namespaces of its own";
+  return reason;
+}
+
+LinuxCnc::LinuxCnc() {
+  const fs::path example = "deploy/examples/linuxcnc";
+  for (const char* name : {"mill.ini", "mill.hal", "tool.tbl", "no_display", "start"})
+    fs::copy_file(example / name, folder_.path() / name);
+  std::string ini = read_file(folder_.path() / "mill.ini");
+  replace(ini, "HALFILE = mill.hal", "HALFILE = mill.hal\nHALFILE = witness.hal");
+  write_file(folder_.path() / "mill.ini", ini);
+  write_file(folder_.path() / "witness.hal",
+             "loadrt sampler depth=8192 cfg=sfff\n"
+             "addf sampler.0 servo-thread\n"
+             "net line motion.program-line => sampler.0.pin.0\n"
+             "net x => sampler.0.pin.1\n"
+             "net y => sampler.0.pin.2\n"
+             "net z => sampler.0.pin.3\n"
+             "loadusr ./witness\n");
+  write_file(folder_.path() / "witness", "#!/bin/sh\nexec stdbuf -oL halsampler >witness.txt\n");
+  fs::permissions(folder_.path() / "witness", fs::perms::owner_all | fs::perms::others_exec);
+  fs::permissions(folder_.path(), fs::perms::group_exec | fs::perms::others_exec,
+                  fs::perm_options::add);
+}
+
+LinuxCnc::~LinuxCnc() {
+  if (!process_) return;
+  const std::string pid = read_file(folder_.path() / "display.pid");
+  if (!pid.empty()) ::kill(std::atoi(pid.c_str()), SIGTERM);
+  (void)process_->wait(std::chrono::seconds(15));
+}
+
+void LinuxCnc::start() {
+  // Each has a home of its own: the part with the motors listens there.
+  process_.emplace(std::vector<std::string>{"/usr/bin/env", "TMPDIR=" + folder_.path().string(),
+                                            folder_.path() / "start", ini()},
+                   folder_.path() / "linuxcnc.log");
+  ASSERT_TRUE(eventually([&] { return fs::exists(folder_.path() / "display.pid"); },
+                         std::chrono::seconds(30)))
+      << log();
+}
+
+void LinuxCnc::kill(const std::string& process) const {
+  (void)run_to_end({"/usr/bin/killall", "-9", process}, folder_.path() / "killall.log");
+}
+
+std::string LinuxCnc::log() const {
+  return read_file(folder_.path() / "linuxcnc.log");
+}
+
+std::vector<LinuxCnc::Sample> LinuxCnc::samples() const {
+  std::vector<Sample> samples;
+  std::ifstream file(folder_.path() / "witness.txt");
+  for (std::string line; std::getline(file, line) && !file.eof();) {
+    std::istringstream words(line);
+    Sample sample;
+    if (!(words >> sample.line >> sample.at[0] >> sample.at[1] >> sample.at[2])) continue;
+    if (samples.empty() || samples.back().line != sample.line || samples.back().at != sample.at)
+      samples.push_back(sample);
+  }
+  return samples;
+}
+
+std::vector<std::array<double, 3>> LinuxCnc::ends() const {
+  std::vector<std::array<double, 3>> ends;
+  const auto all = samples();
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i].line != all[i - 1].line) ends.push_back(all[i - 1].at);
+  if (!all.empty()) ends.push_back(all.back().at);
+  return ends;
+}
+
+std::array<double, 3> LinuxCnc::position() const {
+  const auto all = samples();
+  return all.empty() ? std::array<double, 3>{} : all.back().at;
+}
+
+bool LinuxCnc::rests(std::chrono::milliseconds time) const {
+  const auto before = position();
+  std::this_thread::sleep_for(time);
+  return position() == before;
+}
+
+}  // namespace dripline::test_support

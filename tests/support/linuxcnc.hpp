@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/support/child_process.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace dripline::test_support {
+
+/// A real LinuxCNC with the simulated mill of deploy/examples/linuxcnc, and a witness of its own: a
+/// component that samples the motors' positions and the line in motion every millisecond.
+///
+/// Only one can run in a system, so the test program must be in namespaces of its own
+/// (linuxcnc_main.cpp).
+class LinuxCnc {
+ public:
+  /// Empty: it can run here. Otherwise why the test is skipped.
+  static std::string missing();
+
+  LinuxCnc();
+  ~LinuxCnc();
+  LinuxCnc(const LinuxCnc&) = delete;
+  LinuxCnc& operator=(const LinuxCnc&) = delete;
+
+  /// Waits until it is up; failures are those of gtest.
+  void start();
+  /// Kills one of its processes: "milltask", "rtapi_app".
+  void kill(const std::string& process) const;
+  std::string ini() const { return folder_.path() / "mill.ini"; }
+  std::string log() const;
+
+  struct Sample {
+    long line = 0;  ///< in motion
+    std::array<double, 3> at{};
+  };
+  /// Everything since the start, without repetitions.
+  std::vector<Sample> samples() const;
+  /// Where the axes were when the line in motion changed, and where they are now.
+  std::vector<std::array<double, 3>> ends() const;
+  std::array<double, 3> position() const;
+  /// They have not moved for `time`.
+  bool rests(std::chrono::milliseconds time = std::chrono::milliseconds(300)) const;
+
+ private:
+  TemporaryFolder folder_;
+  std::optional<ChildProcess> process_;
+};
+
+}  // namespace dripline::test_support
