@@ -195,8 +195,8 @@ Execution StatusBuilder::execution_of_run(std::string& message, const LinkState&
   const RunSession& session = *parts_.run.session;
   message.clear();
   if (session.is_rebuilding()) {
-    message = fmt::format("restart: looking through the program, block {}",
-                          session.restart()->block());
+    message =
+        fmt::format("restart: looking through the program, block {}", session.restart()->block());
     return Execution::Waiting;
   }
   if (parts_.consent.is_awaited()) {
