@@ -119,7 +119,7 @@ double our_rate(const Case& given, int lines) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int lines = argc > 1 ? std::atoi(argv[1]) : 20'000;
+  const int lines = argc > 1 ? std::atoi(argv[1]) : 50'000;
   const std::array cases{Case{"grbl, 128 bytes, 15 blocks", {}, 0.02},
                          Case{"grblHAL, 1024 bytes, 100 blocks",
                               {.rx_bytes = 1024, .planner_blocks = 100, .is_grbl_hal = true},
