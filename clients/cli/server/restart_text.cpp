@@ -145,8 +145,10 @@ Details details_of(const Json& report) {
   if (report.at("stopped_at").is_object())
     details.add("had stopped at", axes_text(report.at("stopped_at")));
   std::size_t number = 0;
-  for (const Json& move : report.at("approach"))
-    details.add(number++ == 0 ? "approach" : "", fmt::format("{}. {}", number, move_text(move)));
+  for (const Json& move : report.at("approach")) {
+    ++number;
+    details.add(number == 1 ? "approach" : "", fmt::format("{}. {}", number, move_text(move)));
+  }
   details.add("next", block_text(report.at("next")));
   details.add("left in it", left_text(report.at("next")));
   return details;
