@@ -31,7 +31,7 @@ LinuxCncMachine::LinuxCncMachine(Settings settings, std::unique_ptr<Session> ses
     : StreamedMachine({.sink = settings.sink,
                        .clock = std::move(settings.clock),
                        .commands = std::make_unique<LinuxCncCommands>(),
-                       .machine = std::move(settings.machine),
+                       .machine = settings.machine,
                        .capabilities = kCapabilities},
                       *session),
       session_(std::move(session)) {}

@@ -344,7 +344,7 @@ void StreamedMachine::discard() {
   builder_.close();
 }
 
-void StreamedMachine::deliver_alarm(Lock& lock, interpreter::Alarm alarm) {
+void StreamedMachine::deliver_alarm(Lock& lock, const interpreter::Alarm& alarm) {
   discard();
   stop_ = MachineState::Alarmed;
   lock.unlock();

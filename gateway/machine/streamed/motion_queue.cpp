@@ -6,9 +6,9 @@ namespace dripline::machine::streamed {
 
 using interpreter::Origin;
 
-void QueueBuilder::begin(TextRules rules, const Coordinates& at) {
+void QueueBuilder::begin(const TextRules& rules, const Coordinates& at) {
   commands_->begin(rules);
-  motion_ = MotionWriter(std::move(rules));
+  motion_ = MotionWriter(rules);
   motion_.begin(at);
   made_.clear();
   inhibit_ = {};

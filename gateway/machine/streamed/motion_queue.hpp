@@ -66,7 +66,7 @@ class QueueBuilder final : public interpreter::EventSink {
   explicit QueueBuilder(std::unique_ptr<CommandWriter> commands)
       : motion_(TextRules{}), commands_(std::move(commands)) {}
 
-  void begin(TextRules rules, const Coordinates& at);
+  void begin(const TextRules& rules, const Coordinates& at);
   void close() { is_closed_ = true; }
   MotionWriter& motion() { return motion_; }
   std::deque<Action> take() { return std::exchange(made_, {}); }

@@ -20,7 +20,7 @@ struct MotionText {
 /// line without motion, and what it has executed could not be observed.
 class MotionWriter {
  public:
-  explicit MotionWriter(TextRules rules) : rules_(std::move(rules)) {}
+  explicit MotionWriter(const TextRules& rules) : rules_(rules) {}
 
   const TextRules& rules() const { return rules_; }
   /// The axes are at `at`; no feed is in force.

@@ -14,7 +14,7 @@ using interpreter::Position;
 StreamedMachine::StreamedMachine(Parts parts, Device& device)
     : sink_(parts.sink),
       clock_(std::move(parts.clock)),
-      stated_(std::move(parts.machine)),
+      stated_(parts.machine),
       builder_(std::move(parts.commands)),
       capabilities_(parts.capabilities),
       device_(device) {}

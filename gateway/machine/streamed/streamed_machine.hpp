@@ -83,7 +83,7 @@ class StreamedMachine : public MotionBackend {
   bool deliver_probe(Lock& lock);
   bool deliver_text(Lock& lock);
   bool deliver_stop(Lock& lock);
-  void deliver_alarm(Lock& lock, interpreter::Alarm alarm);
+  void deliver_alarm(Lock& lock, const interpreter::Alarm& alarm);
   void report(Lock& lock, const Command& command);
   bool finish_front(Lock& lock);
   bool start_front(Lock& lock);
