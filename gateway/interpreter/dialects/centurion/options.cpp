@@ -150,7 +150,7 @@ constexpr Row place(std::string_view key, std::string_view text,
 }
 
 // A row that others depend on is above them: start_at.
-constexpr std::array kRows{
+constexpr std::array kOptionRows{
     Row{{"stored_x", "radius|diameter", "what X is in [control] and [[offset]]"}},
     // POWER page
     Row{{"power_on_feed", kNumber, "feed in force at power on", "10", {}, "per min or rev"}},
@@ -250,12 +250,12 @@ constexpr std::array kRows{
 }  // namespace
 
 std::vector<ListedOption> list_options() {
-  return list_rows(kRows);
+  return list_rows(kOptionRows);
 }
 
 Result<ControlOptions> read_options(const Setup& setup) {
   ControlOptions control;
-  if (auto done = read_rows(kRows, setup.control, control); !done) return fail(done.error());
+  if (auto done = read_rows(kOptionRows, setup.control, control); !done) return fail(done.error());
   if (!setup.switches.mirror.empty()) {
     return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G511");
   }

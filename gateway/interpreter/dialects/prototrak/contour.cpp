@@ -8,7 +8,6 @@
 namespace dripline::interpreter::prototrak {
 namespace {
 
-constexpr double kNoise = 1e-9;  ///< mm
 
 XY operator+(XY a, XY b) {
   return {a.x + b.x, a.y + b.y};

@@ -6,6 +6,8 @@
 
 namespace dripline::interpreter::prototrak {
 
+inline constexpr double kNoise = 1e-9;  ///< mm
+
 /// A straight or circular piece of a part's edge, in mm.
 struct Element {
   bool is_arc = false;

@@ -7,7 +7,6 @@
 namespace dripline::interpreter::prototrak {
 namespace {
 
-constexpr double kNoise = 1e-9;  ///< mm
 
 compensation::Policy policy() {
   compensation::Policy policy;

@@ -10,7 +10,6 @@ namespace dripline::interpreter::prototrak {
 namespace {
 
 constexpr double kStepOver = 0.75;  ///< of the tool's diameter
-constexpr double kNoise = 1e-9;     ///< mm
 /// One event of the control is one block, and a machine queues some 2,000 actions of a block at
 /// most.
 constexpr std::size_t kMaxCircleRings = 600;

@@ -5,7 +5,6 @@
 namespace dripline::interpreter::tektronix1704 {
 namespace {
 
-constexpr std::size_t kZ = 2;
 
 /// R counts from where Z is, Z from R, when dimensions are incremental; both stay.
 void load_levels(Run& run) {

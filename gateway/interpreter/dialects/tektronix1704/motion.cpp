@@ -10,7 +10,6 @@ namespace dripline::interpreter::tektronix1704 {
 namespace {
 
 constexpr std::int64_t kCapacity = 999'999;
-constexpr std::size_t kZ = 2;
 
 /// The F word's value per minute, in the control's unit (manual: feedrate).
 double feed_value(const ControlOptions& options, std::int32_t count) {

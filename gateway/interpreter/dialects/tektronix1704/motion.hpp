@@ -7,6 +7,8 @@
 /// Moves in program counts; false: alarm.
 namespace dripline::interpreter::tektronix1704 {
 
+inline constexpr std::size_t kZ = 2;  ///< the quill among the axes
+
 /// The rate in force, in mm per minute; nullopt after the alarm was made.
 std::optional<double> feed_rate(Run& run);
 /// Loads an F word. False: out of range, strict.

@@ -73,7 +73,7 @@ Result<void> read_start_at(const Options& options, const OptionKey& key, C& cont
   return {};
 }
 
-constexpr auto kRows = in_table(
+constexpr auto kOptionRows = in_table(
     "option",
     std::array{
         // Which control it is
@@ -219,7 +219,7 @@ Result<void> check_limits(const ControlOptions& read) {
 }  // namespace
 
 std::vector<ListedOption> list_options() {
-  return list_rows(kRows);
+  return list_rows(kOptionRows);
 }
 
 Result<char> decimal_sign_of(const Options& options) {
@@ -231,7 +231,7 @@ Result<char> decimal_sign_of(const Options& options) {
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
   ControlOptions read;
-  if (auto done = read_rows(kRows, options, read); !done) return fail(done.error());
+  if (auto done = read_rows(kOptionRows, options, read); !done) return fail(done.error());
   if (auto good = check_limits(read); !good) return fail(good.error());
   if (auto kept = machine_parameters_of(options); !kept) return fail(kept.error());
   const auto version = version_of(options);

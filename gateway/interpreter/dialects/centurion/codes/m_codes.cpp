@@ -52,13 +52,13 @@ constexpr std::array<MRow, kHighestM + 1> all_rows() {
   for (const MRow& row : kNamed) rows[row.code] = row;
   return rows;
 }
-constexpr auto kRows = all_rows();
+constexpr auto kMRows = all_rows();
 
 }  // namespace
 
 const MRow& m_row(unsigned code) {
   invariant(code <= kHighestM, "M numbers are checked when they are read");
-  return kRows[code];
+  return kMRows[code];
 }
 
 }  // namespace dripline::interpreter::centurion

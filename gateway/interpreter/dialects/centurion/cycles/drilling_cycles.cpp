@@ -16,8 +16,6 @@ namespace {
 
 constexpr int kCutLength = 121;
 constexpr int kCutDepth = 122;
-constexpr int kEndPoint = 123;
-constexpr int kDiameter = 124;
 constexpr int kTurningTaper = 125;
 constexpr int kFacingTaper = 126;
 

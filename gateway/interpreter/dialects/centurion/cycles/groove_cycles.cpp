@@ -23,10 +23,10 @@ struct GrooveKind {
   int clearance_parameter;
   int end_parameter;
 };
-constexpr GrooveKind kFace{false,      Address::Z, Address::X,  Address::I,
-                           Address::A, Address::C, kClearanceZ, kGrooveEndX};
-constexpr GrooveKind kDiameter{true,       Address::X, Address::Z,  Address::K,
-                               Address::C, Address::A, kClearanceX, kGrooveEndZ};
+constexpr GrooveKind kOnFace{false,      Address::Z, Address::X,  Address::I,
+                             Address::A, Address::C, kClearanceZ, kGrooveEndX};
+constexpr GrooveKind kOnDiameter{true,       Address::X, Address::Z,  Address::K,
+                                 Address::C, Address::A, kClearanceX, kGrooveEndZ};
 
 /// A groove by its depth and across it, radii where X is meant.
 struct Groove {
@@ -232,7 +232,7 @@ bool cut_groove(Run& run) {
   }
   const bool is_face = run.axis_code() == 74;
   Groove groove;
-  if (!read_groove(run, is_face ? kFace : kDiameter, groove)) return false;
+  if (!read_groove(run, is_face ? kOnFace : kOnDiameter, groove)) return false;
   GrooveCutter cutter(run, groove);
   const double moves_of_column = 3 * cutter.pecks_after_first() + 4;
   if (!check_cycle_length(run, cutter.column_count() * moves_of_column + 12)) return false;

@@ -17,10 +17,8 @@ namespace {
 constexpr int kLeadChange = 100;
 constexpr int kMethod = 105;
 constexpr int kHeight = 106;
-constexpr int kFirstCut = 107;
+constexpr int kFirstThreadCut = 107;
 constexpr int kNoseAngle = 108;
-constexpr int kEndPoint = 123;
-constexpr int kDiameter = 124;
 constexpr int kTaper = 125;
 constexpr int kMinimumCut = 130;
 constexpr int kFinishPasses = 131;
@@ -72,7 +70,7 @@ bool read_method(Run& run, MultipleThread& thread) {
 bool read_depths(Run& run, MultipleThread& thread) {
   thread.height = word_or_parameter(run, Address::K, kHeight);
   if (!(thread.height > 0)) return refuse_parameter(run, "height K", thread.height, "above 0");
-  thread.first_cut = word_or_parameter(run, Address::D, kFirstCut);
+  thread.first_cut = word_or_parameter(run, Address::D, kFirstThreadCut);
   if (!(thread.first_cut > 0)) {
     return refuse_parameter(run, "first cut D", thread.first_cut, "above 0");
   }

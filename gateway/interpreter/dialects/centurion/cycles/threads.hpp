@@ -12,6 +12,10 @@
 
 namespace dripline::interpreter::centurion {
 
+/// P123, P124: where a cut that threads and the box cycles share ends; Z and a diameter.
+inline constexpr int kEndPoint = 123;
+inline constexpr int kDiameter = 124;
+
 /// F and E of the block are the lead of a thread.
 bool takes_lead(const Run& run);
 

@@ -14,8 +14,6 @@ namespace dripline::interpreter::fanuc {
 
 namespace {
 
-constexpr std::array<Address, kAxisCount> kWordOfAxis{X, Y, Z, A, B, C, U, V, W};
-
 /// `use(index, value)` for every axis word of the block.
 template <class Use>
 void each_axis_word(const Run& run, Use use) {

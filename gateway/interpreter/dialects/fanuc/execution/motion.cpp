@@ -17,9 +17,6 @@ bool refuse_range(Run& run, Axis axis, double value) {
                   fmt::format("{}{} is beyond the range", letter(axis), run.in_units(axis, value)));
 }
 
-/// Letter order of Axis: X Y Z A B C U V W.
-constexpr std::array<Address, kAxisCount> kWordOfAxis{X, Y, Z, A, B, C, U, V, W};
-
 /// G16: of the plane's two words the first is a radius, the second an angle, about the program's
 /// zero in G90, in G91 about the present place and on from the last angle.
 void place_by_angle(Run& run, Point3& point) {

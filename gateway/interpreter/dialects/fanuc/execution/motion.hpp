@@ -6,6 +6,9 @@
 /// Where a block's words lead, and G00, G01, G31, G33, G53, G60.
 namespace dripline::interpreter::fanuc {
 
+/// In the order of Axis.
+inline constexpr std::array<Address, kAxisCount> kWordOfAxis{X, Y, Z, A, B, C, U, V, W};
+
 /// From the words, the distance mode and all transformations, in machine coordinates; named axes
 /// are marked. False: alarm 003 or 143.
 bool read_target(Run& run, Position& to);

@@ -14,9 +14,6 @@ namespace {
 constexpr std::array<Axis, 8> kVariableAxes{Axis::X, Axis::Y, Axis::Z, Axis::A,
                                             Axis::B, Axis::C, Axis::U, Axis::V};
 
-bool refuse(Run& run, int number, std::uint32_t column) {
-  return run.fail(ErrorCode::IllegalVariable, column, fmt::format("#{}", number));
-}
 bool refuse_write(Run& run, int number, std::uint32_t column) {
   return run.fail(ErrorCode::WriteProtected, column, fmt::format("#{}", number));
 }
@@ -42,7 +39,7 @@ bool read_pin(Run& run, int pin, double& value) {
 bool read_inputs(Run& run, int number, std::uint32_t column, double& value) {
   constexpr int kWord = 1032;
   if (number >= 1000 && number <= 1015) return read_pin(run, number, value);
-  if (number != kWord) return refuse(run, number, column);
+  if (number != kWord) return refuse_variable(run, number, column);
   value = 0;
   for (int bit = 0; bit < 16; ++bit) {
     double one = 0;
@@ -112,7 +109,7 @@ bool read_control(Run& run, int number, std::uint32_t column, double& value) {
     case 3006:
       return run.fail(ErrorCode::WriteProtected, column, fmt::format("#{} cannot be read", number));
     default:
-      return refuse(run, number, column);
+      return refuse_variable(run, number, column);
   }
 }
 
@@ -134,7 +131,7 @@ bool read_modal(Run& run, int number, std::uint32_t column, double& value) {
     value = held;
     return true;
   }
-  return refuse(run, number, column);
+  return refuse_variable(run, number, column);
 }
 
 /// Zero offsets: #2500 .. by axis and #5201 .. by system; nullptr when it is none.
@@ -159,7 +156,7 @@ bool read_position(Run& run, int number, std::uint32_t column, double& value) {
   const ModalState& state = run.state;
   const int base = number / 20 * 20;
   const Axis* axis = axis_at(number, base);
-  if (axis == nullptr) return refuse(run, number, column);
+  if (axis == nullptr) return refuse_variable(run, number, column);
   const double length = *axis == state.length_axis ? state.length_offset : 0;
   double raw = 0;
   switch (base) {
@@ -179,7 +176,7 @@ bool read_position(Run& run, int number, std::uint32_t column, double& value) {
     case 5100:
       break;
     default:
-      return refuse(run, number, column);
+      return refuse_variable(run, number, column);
   }
   value = run.in_units(*axis, raw);
   return true;
@@ -218,7 +215,8 @@ bool write_outputs(Run& run, int number, std::uint32_t column, double value) {
     return true;
   }
   if (number != 1132 && number != 1133) {
-    return number <= 1032 ? refuse_write(run, number, column) : refuse(run, number, column);
+    return number <= 1032 ? refuse_write(run, number, column)
+                          : refuse_variable(run, number, column);
   }
   const double bits = std::isnan(value) ? 0 : std::round(value);
   if (!(bits >= 0 && bits <= 65535)) {
@@ -266,7 +264,7 @@ bool write_control(Run& run, int number, std::uint32_t column, double value) {
     case 3012:
       return refuse_write(run, number, column);
     default:
-      return refuse(run, number, column);
+      return refuse_variable(run, number, column);
   }
 }
 
@@ -287,7 +285,7 @@ bool read_system_variable(Run& run, int number, std::uint32_t column, double& va
   if (number >= 3000 && number < 4000) return read_control(run, number, column, value);
   if (number >= 4000 && number < 5000) return read_modal(run, number, column, value);
   if (number >= 5000 && number < 5200) return read_position(run, number, column, value);
-  return refuse(run, number, column);
+  return refuse_variable(run, number, column);
 }
 
 bool write_system_variable(Run& run, int number, std::uint32_t column, double value) {
@@ -305,7 +303,7 @@ bool write_system_variable(Run& run, int number, std::uint32_t column, double va
   }
   if (number >= 3000 && number < 4000) return write_control(run, number, column, value);
   if (number >= 4000 && number < 5200) return refuse_write(run, number, column);
-  return refuse(run, number, column);
+  return refuse_variable(run, number, column);
 }
 
 }  // namespace dripline::interpreter::fanuc

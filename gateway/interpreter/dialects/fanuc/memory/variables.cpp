@@ -9,11 +9,11 @@ constexpr int kFirstCommon = 100;
 constexpr int kFirstKept = 500;
 constexpr int kFirstSystem = 1000;
 
-bool refuse(Run& run, int number, std::uint32_t column) {
+}  // namespace
+
+bool refuse_variable(Run& run, int number, std::uint32_t column) {
   return run.fail(ErrorCode::IllegalVariable, column, fmt::format("#{}", number));
 }
-
-}  // namespace
 
 Locals null_locals() {
   Locals locals;
@@ -43,7 +43,7 @@ bool read_variable(Run& run, int number, std::uint32_t column, double& value) {
     value = kNull;
     return true;
   }
-  if (number < kFirstSystem) return refuse(run, number, column);
+  if (number < kFirstSystem) return refuse_variable(run, number, column);
   return read_system_variable(run, number, column, value);
 }
 
@@ -55,7 +55,7 @@ bool write_variable(Run& run, int number, std::uint32_t column, double value) {
   if (number == 0) {
     return run.fail(ErrorCode::WriteProtected, column, "#0");
   }
-  if (number < kFirstSystem) return refuse(run, number, column);
+  if (number < kFirstSystem) return refuse_variable(run, number, column);
   return write_system_variable(run, number, column, value);
 }
 

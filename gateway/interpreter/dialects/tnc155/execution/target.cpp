@@ -10,10 +10,6 @@ constexpr double kFastest = 15'999;     ///< millimeters per minute
 constexpr double kFastestInch = 6'299;  ///< tenths of an inch per minute
 constexpr double kTenthsPerInch = 10;
 
-constexpr std::size_t index(Axis axis) {
-  return static_cast<std::size_t>(axis);
-}
-
 /// Where the present nominal position is, seen from the pole; on it there is a radius, and no
 /// angle.
 bool renew_polar(Run& run, bool needs_angle) {

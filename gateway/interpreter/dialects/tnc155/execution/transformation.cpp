@@ -7,10 +7,6 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-constexpr std::size_t index(Axis axis) {
-  return static_cast<std::size_t>(axis);
-}
-
 /// Exact at multiples of 90 degrees.
 PlaneVector direction(double degrees) {
   const double quarter = degrees / 90;

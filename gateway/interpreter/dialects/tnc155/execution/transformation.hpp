@@ -6,6 +6,10 @@
 
 namespace dripline::interpreter::tnc155 {
 
+constexpr std::size_t index(Axis axis) {
+  return static_cast<std::size_t>(axis);
+}
+
 /// From program coordinates to the machine's:
 /// machine = datum + basic rotation of (shift + rotation of mirrored and scaled program
 /// coordinates). Raw values: millimeters and degrees; index as in kAllAxes.

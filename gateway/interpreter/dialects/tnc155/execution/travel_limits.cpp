@@ -9,7 +9,7 @@ namespace dripline::interpreter::tnc155 {
 namespace {
 
 /// A limit may be reached, with the rounding of a rotated coordinate.
-constexpr double kSame = 1e-9;
+constexpr double kLimitNoise = 1e-9;
 
 bool has_mark(const Position& position) {
   return std::any_of(kAllAxes.begin(), kAllAxes.end(),
@@ -23,8 +23,8 @@ TravelLimits::TravelLimits(EventSink& out, const Position& low, const Position& 
 
 void TravelLimits::check(const Origin& origin, Axis axis, double value) {
   if (reached_) return;
-  const bool is_low = low_.has(axis) && value < low_.raw(axis) - kSame;
-  const bool is_high = high_.has(axis) && value > high_.raw(axis) + kSame;
+  const bool is_low = low_.has(axis) && value < low_.raw(axis) - kLimitNoise;
+  const bool is_high = high_.has(axis) && value > high_.raw(axis) + kLimitNoise;
   if (is_low || is_high) reached_ = LimitReached{axis, is_high, origin};
 }
 

@@ -8,8 +8,6 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-constexpr std::string_view kPositions[] = {"ACTL", "REF", "LAG", "NOML", "DIST"};
-
 /// `raw`: millimeters, of a rotary axis degrees.
 std::string coordinate_text(Axis axis, double raw, Units units) {
   if (is_rotary(axis)) return fmt::format("{:+.3f} deg", raw);
@@ -64,7 +62,7 @@ std::vector<ModFunction> mod_functions(const ModSettings& settings, std::size_t 
       {"VACANT BLOCKS", std::to_string(vacant), fmt::format("of {}", settings.memory_blocks)},
       {"CHANGE MM/INCH", settings.display_units == Units::Inch ? "inch" : "mm", "mm, inch"},
       {"POSITION DATA",
-       std::string(kPositions[static_cast<std::size_t>(settings.position_display)]),
+       std::string(kPositionDisplays[static_cast<std::size_t>(settings.position_display)]),
        "ACTL, REF, LAG, NOML, DIST"},
       {"POSITION DISPLAY", settings.is_display_large ? "large" : "small",
        "small, large (not in ISO)"},

@@ -13,6 +13,9 @@
 namespace dripline::interpreter::tnc155 {
 
 enum class PositionDisplay : std::uint8_t { Actual, Reference, Lag, Nominal, DistanceToGo };
+/// As the setup writes them, in the order of PositionDisplay.
+inline constexpr std::array<std::string_view, 5> kPositionDisplays{"ACTL", "REF", "LAG", "NOML",
+                                                                   "DIST"};
 
 /// A machine parameter that its builder lets the operator set.
 struct UserParameter {

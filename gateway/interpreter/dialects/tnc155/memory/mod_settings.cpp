@@ -34,11 +34,10 @@ Result<std::size_t> choice(const Options& options, std::string_view key,
 
 Result<void> read_display(const Options& options, ModSettings& settings) {
   constexpr std::array<std::string_view, 2> kUnits{"mm", "inch"};
-  constexpr std::array<std::string_view, 5> kPositions{"ACTL", "REF", "LAG", "NOML", "DIST"};
   constexpr std::array<std::string_view, 2> kSizes{"small", "large"};
   const auto units = choice(options, "display_units", kUnits);
   if (!units) return fail(units.error());
-  const auto position = choice(options, "position_display", kPositions);
+  const auto position = choice(options, "position_display", kPositionDisplays);
   if (!position) return fail(position.error());
   const auto size = choice(options, "display_size", kSizes);
   if (!size) return fail(size.error());

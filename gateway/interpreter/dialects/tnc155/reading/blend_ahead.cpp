@@ -1,11 +1,10 @@
 #include "gateway/interpreter/dialects/tnc155/reading/blend_ahead.hpp"
 
+#include "gateway/interpreter/core/language/spelling.hpp"
+
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 std::size_t skip_blanks(std::string_view text, std::size_t at) {
   while (at < text.size() && static_cast<unsigned char>(text[at]) <= ' ') ++at;
   return at;
@@ -13,14 +12,14 @@ std::size_t skip_blanks(std::string_view text, std::size_t at) {
 
 bool begins_as_blend(std::string_view text) {
   std::size_t at = skip_blanks(text, 0);
-  while (at < text.size() && (is_digit(text[at]) || text[at] == ' ')) ++at;
+  while (at < text.size() && (language::is_digit(text[at]) || text[at] == ' ')) ++at;
   if (at == text.size()) return false;
   if (text[at] == 'R') return true;
   if (text[at] != 'L') return false;
   at = skip_blanks(text, at + 1);
   if (at == text.size()) return false;
   const char next = text[at];
-  return is_digit(next) || next == '+' || next == '-' || next == ',' || next == '.' || next == 'Q';
+  return language::is_digit(next) || next == '+' || next == '-' || next == ',' || next == '.' || next == 'Q';
 }
 
 /// G24 to G27 may be anywhere in a block.

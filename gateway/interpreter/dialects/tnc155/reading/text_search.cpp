@@ -2,12 +2,10 @@
 
 #include <fmt/core.h>
 
+#include "gateway/interpreter/core/language/spelling.hpp"
+
 namespace dripline::interpreter::tnc155 {
 namespace {
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 
 /// The characters of a block without blanks and controls.
 class Characters {
@@ -34,9 +32,9 @@ class Characters {
   }
   /// Digits; -1 when there are none.
   std::int64_t number() {
-    if (!is_digit(peek())) return -1;
+    if (!language::is_digit(peek())) return -1;
     std::int64_t value = 0;
-    for (; is_digit(peek()); advance()) {
+    for (; language::is_digit(peek()); advance()) {
       if (value < 1'000'000'000) value = value * 10 + (peek() - '0');
     }
     return value;
