@@ -23,7 +23,7 @@ std::string after_gap(const std::string& text) {
 }
 
 /// The program can continue.
-bool is_interrupted(std::string_view execution) {
+bool is_stopped(std::string_view execution) {
   constexpr std::string_view kInterrupted[] = {"PROGRAM_STOPPED", "OPTIONAL_STOP", "FEED_HOLD",
                                                "INTERRUPTED"};
   return std::ranges::find(kInterrupted, execution) != std::end(kInterrupted);
@@ -38,14 +38,14 @@ std::string next_step(const client::Run& run, const client::MachineStatus& statu
   const bool is_local = status.remote_enable == "not_given";
   if (is_local && status.waits_for == "cycle_start")
     return "cycle start, or the remote enable, is given at the machine";
-  if (!is_interrupted(status.execution)) return {};
+  if (!is_stopped(status.execution)) return {};
   return fmt::format("dnc run resume {} continues", short_id(run.id));
 }
 
 /// The lamp of a control that shows a `*` while a program runs.
 std::string star_text(const std::string& execution) {
   if (execution == "ACTIVE" || execution == "WAIT") return "* (running)";
-  return is_interrupted(execution) ? "* flashing (interrupted)" : "off";
+  return is_stopped(execution) ? "* flashing (interrupted)" : "off";
 }
 
 void add_motion(Details& details, const client::MachineStatus& status) {

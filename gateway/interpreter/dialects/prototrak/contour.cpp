@@ -8,7 +8,6 @@
 namespace dripline::interpreter::prototrak {
 namespace {
 
-
 XY operator+(XY a, XY b) {
   return {a.x + b.x, a.y + b.y};
 }

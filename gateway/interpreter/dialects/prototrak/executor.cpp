@@ -7,7 +7,6 @@
 namespace dripline::interpreter::prototrak {
 namespace {
 
-
 compensation::Policy policy() {
   compensation::Policy policy;
   policy.outside = compensation::OutsideCorner::Arc;

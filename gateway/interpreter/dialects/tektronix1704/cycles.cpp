@@ -5,7 +5,6 @@
 namespace dripline::interpreter::tektronix1704 {
 namespace {
 
-
 /// R counts from where Z is, Z from R, when dimensions are incremental; both stay.
 void load_levels(Run& run) {
   State& state = run.state;

@@ -19,7 +19,8 @@ bool begins_as_blend(std::string_view text) {
   at = skip_blanks(text, at + 1);
   if (at == text.size()) return false;
   const char next = text[at];
-  return language::is_digit(next) || next == '+' || next == '-' || next == ',' || next == '.' || next == 'Q';
+  return language::is_digit(next) || next == '+' || next == '-' || next == ',' || next == '.' ||
+         next == 'Q';
 }
 
 /// G24 to G27 may be anywhere in a block.
