@@ -42,7 +42,7 @@ class LinuxCncSystem : public testing::Test {
     std::vector<std::string> command{program_path("dncgw"), "panel", "--state",
                                      system->folder() / "gateway" / "lathe-1"};
     command.insert(command.end(), words.begin(), words.end());
-    return test_support::run_to_end(std::move(command), system->folder() / "panel.out");
+    return test_support::run_to_end(command, system->folder() / "panel.out");
   }
   /// As the example's README has it.
   void turn_on(const std::string& program) {

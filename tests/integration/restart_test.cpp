@@ -32,7 +32,7 @@ class Restarted : public testing::Test {
   }
   test_support::Finished dnc(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {program_path("dnc"), "--state", system.server_state()});
-    return test_support::run_to_end(std::move(arguments), system.folder() / "dnc.out");
+    return test_support::run_to_end(arguments, system.folder() / "dnc.out");
   }
   void kill_gateway() {
     system.gateway().kill();

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstring>
+#include <system_error>
 #include <thread>
 
 #include "gateway/machine/linuxcnc/helper_text.hpp"
@@ -51,7 +51,7 @@ struct SpawnSettings {
 Result<HelperProcess> HelperProcess::start(const std::string& ini) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends.data()) != 0)
-    return fail(Errc::Io, "a socket for the helper: {}", std::strerror(errno));
+    return fail(Errc::Io, "a socket for the helper: {}", std::generic_category().message(errno));
   Descriptor ours(ends[0]);
   const Descriptor theirs(ends[1]);
   // The helper's side waits.
@@ -62,7 +62,8 @@ Result<HelperProcess> HelperProcess::start(const std::string& ini) {
   pid_t pid = -1;
   const int failed = ::posix_spawn(&pid, kPython, &settings.actions, &settings.attributes,
                                    arguments.data(), environ);
-  if (failed != 0) return fail(Errc::Io, "{}: {}", kPython, std::strerror(failed));
+  if (failed != 0)
+    return fail(Errc::Io, "{}: {}", kPython, std::generic_category().message(failed));
   return HelperProcess(pid, std::move(ours));
 }
 

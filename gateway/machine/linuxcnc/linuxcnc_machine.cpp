@@ -24,7 +24,7 @@ constexpr MotionCapabilities kCapabilities{.axes = {},
 
 }  // namespace
 
-LinuxCncMachine::LinuxCncMachine(Settings settings)
+LinuxCncMachine::LinuxCncMachine(const Settings& settings)
     : LinuxCncMachine(settings, std::make_unique<Session>(settings.limits)) {}
 
 LinuxCncMachine::LinuxCncMachine(Settings settings, std::unique_ptr<Session> session)

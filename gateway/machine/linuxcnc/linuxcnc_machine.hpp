@@ -16,7 +16,7 @@ class LinuxCncMachine final : public streamed::StreamedMachine {
     interpreter::MachineData machine = {};  ///< what the setup states
     SessionLimits limits = {};
   };
-  explicit LinuxCncMachine(Settings settings);
+  explicit LinuxCncMachine(const Settings& settings);
   ~LinuxCncMachine() override;
 
   /// Starts the helper for the LinuxCNC that runs the configuration `ini`, and keeps it running.

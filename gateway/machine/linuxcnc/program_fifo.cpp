@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace dripline::machine::linuxcnc {
@@ -44,12 +44,14 @@ Result<ProgramFifo> ProgramFifo::create() {
   std::error_code no_folder;
   std::string name = std::filesystem::temp_directory_path(no_folder) / "dripline-linuxcnc-XXXXXX";
   if (no_folder || ::mkdtemp(name.data()) == nullptr)
-    return fail(Errc::Io, "a folder for LinuxCNC's program: {}", std::strerror(errno));
+    return fail(Errc::Io, "a folder for LinuxCNC's program: {}",
+                std::generic_category().message(errno));
   ProgramFifo fifo{std::filesystem::path(name)};
   if (::mkfifo(fifo.path_.c_str(), 0600) != 0)
-    return fail(Errc::Io, "{}: {}", fifo.path_, std::strerror(errno));
+    return fail(Errc::Io, "{}: {}", fifo.path_, std::generic_category().message(errno));
   fifo.pipe_ = Descriptor(::open(fifo.path_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
-  if (!fifo.pipe_) return fail(Errc::Io, "{}: {}", fifo.path_, std::strerror(errno));
+  if (!fifo.pipe_)
+    return fail(Errc::Io, "{}: {}", fifo.path_, std::generic_category().message(errno));
   (void)::fcntl(fifo.pipe_.get(), F_SETPIPE_SZ, kPipeBytes);
   return fifo;
 }

@@ -145,7 +145,7 @@ double* work_variable(Run& run, int number, Axis& axis) {
   const bool is_more = number > 7000 && number < 7000 + 20 * kMoreWorkCount;
   if (!is_basic && !is_more) return nullptr;
   const int base = is_basic ? 5200 : 7000;
-  const std::size_t system = static_cast<std::size_t>((number - base) / 20 + (is_basic ? 0 : 7));
+  const auto system = static_cast<std::size_t>((number - base) / 20) + (is_basic ? 0u : 7u);
   const Axis* at = axis_at(number, base + 20 * ((number - base) / 20));
   if (at == nullptr || system >= all.work.size()) return nullptr;
   axis = *at;

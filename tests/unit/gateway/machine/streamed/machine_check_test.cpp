@@ -9,7 +9,7 @@ using interpreter::MachineData;
 
 TextRules found() {
   TextRules rules;
-  rules.axes[0].emplace();
+  rules.axes[0] = TextRules::AxisRules{};
   rules.axes[0]->travel = TextRules::Range{-400, 400};
   rules.axes[0]->max_rate = 12'000;
   rules.max_rpm = 6'000;

@@ -12,7 +12,7 @@ using testing::IsEmpty;
 TextRules three_axes() {
   TextRules rules;
   for (std::size_t i = 0; i < 3; ++i) {
-    rules.axes[i].emplace();
+    rules.axes[i] = TextRules::AxisRules{};
     rules.axes[i]->travel = TextRules::Range{-100, 100};
   }
   rules.decimals = 6;
@@ -31,7 +31,7 @@ Feed feed(double mm) {
 }
 
 struct Writer {
-  explicit Writer(TextRules rules = three_axes()) : writer(std::move(rules)) { writer.begin({}); }
+  explicit Writer(TextRules rules = three_axes()) : writer(rules) { writer.begin({}); }
   MotionText line(interpreter::Position to, Feed at, bool rests = false) {
     MotionText text;
     refusal = writer.line({.origin = {}, .to = to, .feed = at, .rests = rests}, text);
@@ -88,7 +88,7 @@ TEST(MotionWriter, AFullCircleIsTwoHalves) {
 
 TEST(MotionWriter, AFeedOfRotaryAxesIsTheDevicesOwnKind) {
   TextRules rules = three_axes();
-  rules.axes[3].emplace();
+  rules.axes[3] = TextRules::AxisRules{};
   Writer linear(rules);
   EXPECT_THAT(linear.line(point({{Axis::X, 3}, {Axis::A, 4}}), feed(600)).lines,
               ElementsAre("G61G1X3A4F600"));
