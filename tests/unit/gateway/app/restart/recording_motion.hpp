@@ -40,11 +40,49 @@ class PathWriter final : public interpreter::EventFilter {
   Write write_;
 };
 
+/// Forwards what a machine has done; then `on_block` is called for a block.
+class BlockWatch final : public machine::ExecutionSink {
+ public:
+  using OnBlock = std::function<void(std::uint64_t block)>;
+  BlockWatch(machine::ExecutionSink& out, OnBlock on_block)
+      : out_(out), on_block_(std::move(on_block)) {}
+
+  void on_block_executed(const interpreter::Origin& origin) override {
+    out_.on_block_executed(origin);
+    on_block_(origin.block);
+  }
+  void on_motion_starts(const interpreter::Origin& at) override { out_.on_motion_starts(at); }
+  void on_output(const interpreter::Output& event) override { out_.on_output(event); }
+  void on_open(const interpreter::Open& event) override { out_.on_open(event); }
+  void on_close(const interpreter::Close& event) override { out_.on_close(event); }
+  void on_message(const interpreter::Message& event) override { out_.on_message(event); }
+  void on_warning(const interpreter::Warning& event) override { out_.on_warning(event); }
+  void on_spindle(const interpreter::Spindle& event) override { out_.on_spindle(event); }
+  void on_coolant(const interpreter::Coolant& event) override { out_.on_coolant(event); }
+  void on_tool(const interpreter::ToolChange& event) override { out_.on_tool(event); }
+  void on_miscellaneous(const interpreter::Miscellaneous& event) override {
+    out_.on_miscellaneous(event);
+  }
+  void on_pin(const interpreter::PinChange& event) override { out_.on_pin(event); }
+  void on_probed(const interpreter::Probe& event) override { out_.on_probed(event); }
+  void on_stop(const interpreter::Stop& event) override { out_.on_stop(event); }
+  void on_alarm(const interpreter::Alarm& event) override { out_.on_alarm(event); }
+  void on_end(const interpreter::End& event) override { out_.on_end(event); }
+  void on_aborted() override { out_.on_aborted(); }
+
+ private:
+  machine::ExecutionSink& out_;
+  OnBlock on_block_;
+};
+
 /// A back end that writes down what it is given.
 class RecordingMotion final : public machine::MotionBackend {
  public:
-  RecordingMotion(std::unique_ptr<machine::MotionBackend> machine, PathWriter::Write write)
-      : machine_(std::move(machine)), path_(machine_->events(), std::move(write)) {}
+  RecordingMotion(const machine::MotionFactory& make, machine::ExecutionSink& sink,
+                  BlockWatch::OnBlock on_block, PathWriter::Write write)
+      : watch_(sink, std::move(on_block)),
+        machine_(make(watch_)),
+        path_(machine_->events(), std::move(write)) {}
 
   const machine::MotionCapabilities& capabilities() const override {
     return machine_->capabilities();
@@ -76,6 +114,7 @@ class RecordingMotion final : public machine::MotionBackend {
   machine::MachineStatus status() const override { return machine_->status(); }
 
  private:
+  BlockWatch watch_;
   std::unique_ptr<machine::MotionBackend> machine_;
   PathWriter path_;
 };

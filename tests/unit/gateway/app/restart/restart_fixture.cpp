@@ -18,6 +18,9 @@ std::uint64_t block_of(const std::string& line) {
   return block;
 }
 
+/// Thrown in the machine's own call, so that nothing of the gateway is done after it.
+struct Killed {};
+
 bool is_end(const std::string& line) {
   return line.ends_with(" end") && !line.ends_with("program end");
 }
@@ -26,7 +29,7 @@ bool is_end(const std::string& line) {
 
 RestartFixture::RestartFixture(const interpreter::Dialect& control, interpreter::Setup its_setup,
                                const std::string& speed)
-    : GatewayFixture(control, its_setup, speed), control_(control) {
+    : GatewayFixture(control, std::move(its_setup), speed), control_(control) {
   make_recording();
 }
 
@@ -34,13 +37,17 @@ void RestartFixture::make_recording() {
   motion = [this,
             made = make_motion("simulated", control_, {.workpiece = setup.workpiece}).value()](
                machine::ExecutionSink& sink) -> std::unique_ptr<machine::MotionBackend> {
-    return std::make_unique<RecordingMotion>(made(sink), [this](std::string line) {
+    const auto on_block = [this](std::uint64_t block) {
+      if (killed_after_ != 0 && block >= killed_after_) throw Killed{};
+    };
+    const auto write = [this](std::string line) {
       if (path_file.empty()) return path.push_back(std::move(line));
       // One write a line: what a killed process has written stays.
-      static const int file = ::open(path_file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+      static const int kFile = ::open(path_file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
       line += '\n';
-      if (::write(file, line.data(), line.size()) < 0) std::abort();
-    });
+      if (::write(kFile, line.data(), line.size()) < 0) std::abort();
+    };
+    return std::make_unique<RecordingMotion>(made, sink, on_block, write);
   };
 }
 
@@ -76,6 +83,19 @@ bool RestartFixture::run_on(std::size_t turns) {
     if (i % 16 == 15) operate();
   }
   return false;
+}
+
+bool RestartFixture::run_until_killed_after(std::uint64_t block) {
+  killed_after_ = block;
+  bool is_killed = false;
+  try {
+    (void)run_on();
+  } catch (const Killed&) {
+    is_killed = true;
+  }
+  killed_after_ = 0;
+  restart_gateway();
+  return is_killed;
 }
 
 dds::RunEndText RestartFixture::last_end() const {

@@ -23,6 +23,10 @@ class RestartFixture : public GatewayFixture {
   /// most so many turns. Returns whether it has ended.
   bool run_on(std::size_t turns = 100'000);
   std::size_t turns() const { return turns_; }
+  /// Likewise, up to the moment when the journal has this block: what is done after that in the
+  /// same instruction is lost as by a kill, and another process has the disk. False: it was not
+  /// reached.
+  bool run_until_killed_after(std::uint64_t block);
 
   /// Starts a restart of that run and waits for its report. Null: refused, or ended before it.
   nlohmann::json begin_restart(const std::string& program, const std::string& run,
@@ -38,6 +42,7 @@ class RestartFixture : public GatewayFixture {
   void operate();
 
   const interpreter::Dialect& control_;
+  std::uint64_t killed_after_ = 0;  ///< block; 0: none
   std::size_t turns_ = 0;
   std::size_t ended_before_ = 0;  ///< runs, when the last one was started
   std::string last_run_;
