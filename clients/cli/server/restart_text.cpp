@@ -144,6 +144,10 @@ Details details_of(const Json& report) {
   details.add("continues at", axes_text(report.at("continues_at")));
   if (report.at("stopped_at").is_object())
     details.add("had stopped at", axes_text(report.at("stopped_at")));
+  if (report.value("program_has_ended", false)) {
+    details.add("next", "the end of the program: all its blocks were executed, nothing will move");
+    return details;
+  }
   std::size_t number = 0;
   for (const Json& move : report.at("approach")) {
     ++number;

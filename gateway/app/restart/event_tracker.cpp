@@ -49,6 +49,7 @@ void EventTracker::close(DeliveredState state, std::uint64_t last, OnOpen on_ope
   is_closed_ = true;
   wanted_.reset();
   alarm_.reset();
+  end_.reset();
   measured_block_ = 0;
 }
 
@@ -201,6 +202,11 @@ void EventTracker::on_alarm(const interpreter::Alarm& event) {
   EventGate::on_alarm(event);
 }
 
+void EventTracker::on_end(const interpreter::End& event) {
+  if (is_closed_) end_ = event;
+  EventGate::on_end(event);
+}
+
 void EventTracker::note_found(const interpreter::Origin& origin) {
   const bool is_main = origin.program == interpreter::kMainProgram;
   if (!is_main || origin.block > wanted_->until) return;
@@ -226,6 +232,7 @@ void EventTracker::open_now() {
   if (!is_closed_) return;
   is_closed_ = false;
   if (on_open_) std::exchange(on_open_, nullptr)(out());
+  if (end_) out().on_end(*end_);
 }
 
 }  // namespace dripline::gateway

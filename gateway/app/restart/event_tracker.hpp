@@ -46,6 +46,9 @@ class EventTracker final : public interpreter::EventGate {
   /// 0: none.
   std::uint64_t found() const { return found_; }
 
+  /// The program's end came while the gate was closed: the last block has executed it before its
+  /// own end. It passes when the gate opens.
+  bool has_ended() const { return end_.has_value(); }
   /// An alarm that came while the gate was closed.
   const std::optional<interpreter::Diagnostic>& alarm() const { return alarm_; }
 
@@ -73,6 +76,7 @@ class EventTracker final : public interpreter::EventGate {
   void on_pin(const interpreter::PinChange& event) override;
   void on_override_inhibit(const interpreter::OverrideInhibit& event) override;
   void on_alarm(const interpreter::Alarm& event) override;
+  void on_end(const interpreter::End& event) override;
   void on_block_end(const interpreter::Origin& origin) override;
 
  private:
@@ -100,6 +104,7 @@ class EventTracker final : public interpreter::EventGate {
   std::optional<Wanted> wanted_;
   std::uint64_t found_ = 0;
   std::optional<interpreter::Diagnostic> alarm_;
+  std::optional<interpreter::End> end_;
   std::uint64_t measured_block_ = 0;  ///< 0: none
   interpreter::Position measured_from_;
   Measured measured_;

@@ -250,6 +250,12 @@ Rebuild::State Rebuild::advance() {
 void Rebuild::on_open(interpreter::EventSink& out) {
   report_.delivered = parts_.tracker.delivered();
   report_.after = parts_.tracker.delivered().ended;
+  report_.has_ended = parts_.tracker.has_ended();
+  if (report_.has_ended) {
+    report_.delivered.spindle = {};
+    report_.delivered.flood = report_.delivered.mist = false;
+    return;
+  }
   Approach approach;
   approach.is_lathe = parts_.is_lathe;
   approach.tool_axis = tool_axis_.value_or(interpreter::Axis::Z);

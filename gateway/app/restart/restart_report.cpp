@@ -149,7 +149,8 @@ std::string to_json(const RestartReport& report) {
   json["not_repeated"] = codes_json(report.delivered.codes);
   json["position"] = axes_json(only(report.machine, report.delivered.position));
   json["continues_at"] = axes_json(report.delivered.position);
-  json["approach"] = moves_json(report.approach);
+  json["program_has_ended"] = report.has_ended;
+  json["approach"] = report.has_ended ? Json::array() : moves_json(report.approach);
   json["approach_by"] = "default";
   json["stopped_at"] =
       report.stopped_at ? axes_json(only(*report.stopped_at, report.delivered.position)) : Json();

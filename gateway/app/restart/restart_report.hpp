@@ -25,6 +25,8 @@ struct RestartReport {
   /// Everything from the checkpoint to the block was the same, move for move; absent: not recorded
   /// for this block.
   bool is_path_equal = false;
+  /// All blocks were executed; the program's end is all that is left, and nothing moves.
+  bool has_ended = false;
   DeliveredState delivered;
   interpreter::ActiveModes modes;
   std::optional<interpreter::CoordinateFrame> frame;
