@@ -59,8 +59,9 @@ Result<machine::MotionFactory> simulated(const MotionTask& task) {
 Result<machine::MotionFactory> grbl(const MotionTask& task) {
   return [address = std::string(task.address),
           stated = task.setup.machine](machine::ExecutionSink& sink) {
-    auto machine = std::make_unique<machine::grbl::GrblMachine>(machine::grbl::GrblMachine::Parts{
-        .sink = sink, .clock = std::make_shared<SystemClock>(), .machine = stated});
+    auto machine =
+        std::make_unique<machine::grbl::GrblMachine>(machine::grbl::GrblMachine::Settings{
+            .sink = sink, .clock = std::make_shared<SystemClock>(), .machine = stated});
     machine->connect(address);
     return machine;
   };

@@ -186,13 +186,12 @@ int GrblBoard::execute(const Words& words) {
       return 20;
   }
   for (const int code : words.m) {
+    const bool is_coolant = code == 8 || code == 9 || (code == 7 && options_.has_mist);
     if (code == 3 || code == 4)
       spindle_ = words.value('S', spindle_);
     else if (code == 5)
       spindle_ = 0;
-    else if (code == 7 && !options_.has_mist)
-      return 20;
-    else if (code < 7 || code > 9)
+    else if (!is_coolant)
       return 20;
     waits_for_rest_ = true;
   }

@@ -4,6 +4,9 @@
 #include <cmath>
 
 namespace dripline::machine::grbl {
+
+using streamed::TextRules;
+
 namespace {
 
 constexpr std::size_t kLeastWindow = 80;  ///< a line of the longest form must fit
@@ -15,10 +18,6 @@ bool is_zero(const AxisValues& offset) {
 }
 
 }  // namespace
-
-char letter_of(std::size_t axis) {
-  return interpreter::letter(static_cast<interpreter::Axis>(axis));
-}
 
 void BoardInfo::take(const Greeting& greeting) {
   version_ = greeting.version;
@@ -56,12 +55,6 @@ std::uint32_t BoardInfo::line_numbers() const {
   return 99'999;
 }
 
-int BoardInfo::decimals() const {
-  double finest = 0;
-  for (std::size_t i = 0; i < axes(); ++i) finest = std::max(finest, steps(i));
-  return finest > 500 ? 4 : 3;  // a digit is at most half a step
-}
-
 std::string BoardInfo::work_system() const {
   for (const char* name : {"G54", "G55", "G56", "G57", "G58", "G59"}) {
     const auto found = offsets_.find(name);
@@ -70,19 +63,45 @@ std::string BoardInfo::work_system() const {
   return {};
 }
 
-std::optional<BoardInfo::Range> BoardInfo::travel(std::size_t axis) const {
+std::optional<TextRules::Range> BoardInfo::travel(std::size_t axis) const {
   const double length = setting(130, axis);
   if (setting_or(20, 0) == 0 || !(length > 0)) return std::nullopt;
   // Homing makes the home position the zero where the build says so (Z), else the upper end.
   const auto homes_at_low_end = static_cast<unsigned>(setting_or(23, 0)) >> axis & 1U;
-  if (has_letter('Z') && homes_at_low_end != 0) return Range{0, length};
-  return Range{-length, 0};
+  if (has_letter('Z') && homes_at_low_end != 0) return TextRules::Range{0, length};
+  return TextRules::Range{-length, 0};
 }
 
-double BoardInfo::tolerance(std::size_t axis) const {
+TextRules::AxisRules BoardInfo::axis_rules(std::size_t axis) const {
   constexpr double kReported = 0.0015;  // three decimals, and the line's own rounding
   const double step = steps(axis) > 0 ? 1 / steps(axis) : 0;
-  return kReported * report_scale() + 0.75 * step;
+  return {.steps = steps(axis),
+          .max_rate = max_rate(axis),
+          .tolerance = kReported * report_scale() + 0.75 * step,
+          .travel = travel(axis),
+          .travel_setting = fmt::format(" ($20, $23, ${})", 130 + axis),
+          .rate_setting = fmt::format(" (${})", 110 + axis)};
+}
+
+TextRules BoardInfo::rules() const {
+  constexpr std::size_t kGrblLine = 72, kGrblHalLine = 244;  // without N word and end
+  TextRules rules;
+  double finest = 0;
+  for (std::size_t i = 0; i < axes(); ++i) {
+    rules.axes[i] = axis_rules(i);
+    finest = std::max(finest, steps(i));
+  }
+  rules.decimals = finest > 500 ? 4 : 3;  // a digit is at most half a step
+  rules.line_limit = is_grbl_hal_ ? kGrblHalLine : kGrblLine;
+  rules.feeds_all_axes = true;
+  if (setting_or(30, 0) > 0) rules.max_rpm = setting_or(30, 0);
+  if (setting_or(31, 0) > 0) rules.min_rpm = setting_or(31, 0);  // the board raises a lower speed
+  rules.has_mist = has_letter('M');
+  rules.homes = homes();
+  rules.max_rpm_setting = " ($30)";
+  rules.min_rpm_setting = " ($31)";
+  rules.homing_setting = " ($22)";
+  return rules;
 }
 
 Coordinates BoardInfo::in_mm(const AxisValues& values) const {
@@ -124,7 +143,8 @@ Result<void> BoardInfo::check() const {
     if (!(steps(i) > 0 && max_rate(i) > 0 && acceleration(i) > 0))
       return fail(Errc::Unsupported,
                   "axis {}: steps ${}={}, rate ${}={} and acceleration ${}={} must be above 0",
-                  letter_of(i), 100 + i, steps(i), 110 + i, max_rate(i), 120 + i, acceleration(i));
+                  streamed::letter_of(i), 100 + i, steps(i), 110 + i, max_rate(i), 120 + i,
+                  acceleration(i));
   }
   if (setting_or(32, 0) != 0)
     return fail(Errc::Unsupported, "the board is in {} mode ($32={}): a milling machine has $32=0",

@@ -6,12 +6,12 @@
 
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/machine/grbl/reply.hpp"
+#include "gateway/machine/streamed/text_rules.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::machine::grbl {
 
-/// A point of the board by axis number: millimetres or, for A, B and C, degrees.
-using Coordinates = std::array<double, kMaxAxes>;
+using streamed::Coordinates;
 
 /// What the board states about itself at connect: `$I`, `$$` and `$#`. Value type.
 class BoardInfo {
@@ -34,12 +34,8 @@ class BoardInfo {
   double acceleration(std::size_t axis) const {
     return setting(120, axis);
   }  ///< per second squared
-  double max_rpm() const { return setting_or(30, 0); }
-  /// A lower speed is raised to it by the board.
-  double min_rpm() const { return setting_or(31, 0); }
   /// It has reference points ($22).
   bool homes() const { return (static_cast<unsigned>(setting_or(22, 0)) & 1U) != 0; }
-  bool has_mist() const { return has_letter('M'); }
   bool has_line_numbers() const { return has_letter('N'); }
   int planner_blocks() const { return build_ ? build_->blocks : 0; }
   /// N words from 1 to this are enough to tell the lines apart that the board may hold.
@@ -47,26 +43,20 @@ class BoardInfo {
   /// Bytes that may be unanswered: one less than the receive buffer, which some builds need. What
   /// is in it nobody can take back, so that of a large buffer only a part is used.
   std::size_t window() const;
-  /// The longest line that the firmware reads, its end not counted.
-  std::size_t line_limit() const { return is_grbl_hal_ ? 250 : 78; }
-  /// Digits after the point that the steps of the finest axis deserve.
-  int decimals() const;
+  /// How its lines are written.
+  streamed::TextRules rules() const;
   /// Millimetres of one unit of the reports ($13).
   double report_scale() const { return setting_or(13, 0) != 0 ? 25.4 : 1; }
   /// The work coordinate system whose zero is the machine's: "G54". Empty: there is none.
   std::string work_system() const;
-  struct Range {
-    double low = 0, high = 0;
-  };
-  /// The travel of an axis in machine coordinates, where soft limits ($20) make it known.
-  std::optional<Range> travel(std::size_t axis) const;
-  /// Where an axis that was sent to `value` may be found: half a step, and the report's rounding.
-  double tolerance(std::size_t axis) const;
   /// A report's position in millimetres and degrees.
   Coordinates in_mm(const AxisValues& values) const;
 
  private:
   Result<void> check_settings() const;
+  streamed::TextRules::AxisRules axis_rules(std::size_t axis) const;
+  /// In machine coordinates, where soft limits ($20) make it known.
+  std::optional<streamed::TextRules::Range> travel(std::size_t axis) const;
   double setting_or(int number, double otherwise) const;
   double setting(int first, std::size_t axis) const {
     return setting_or(first + static_cast<int>(axis), 0);
@@ -81,8 +71,5 @@ class BoardInfo {
   std::map<int, double> settings_;
   std::map<std::string, AxisValues> offsets_;
 };
-
-/// "X", "A"
-char letter_of(std::size_t axis);
 
 }  // namespace dripline::machine::grbl

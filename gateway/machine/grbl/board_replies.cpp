@@ -84,13 +84,13 @@ void BoardSession::on(const Greeting& greeting, SteadyTime now) {
   const bool was_ready = phase_ == Phase::Ready;
   if (phase_ == Phase::Silent) return;
   drop_lines();
-  ++resets_;
   report_.reset();
   unanswered_poll_.reset();
   info_.take(greeting);
   if (!is_expected && was_ready && is_active_) {
     // Lines that are still on their way would be executed by a board that has lost its position.
-    fault_ = BoardFault{"GRB0004", "the board has restarted by itself: the position is unknown"};
+    fault_ = streamed::DeviceFault{"GRB0004",
+                                   "the board has restarted by itself: the position is unknown"};
     stop_ = Stop::Fault;
     return reset_board(now);
   }
@@ -106,6 +106,7 @@ void BoardSession::on(const Greeting& greeting, SteadyTime now) {
     return;
   }
   info_ = {};
+  rules_ = {};
   info_.take(greeting);
   phase_ = Phase::Identifying;
   not_ready_ = "the board is being identified";
@@ -122,6 +123,7 @@ void BoardSession::identify_next(SteadyTime now) {
   counter_.set_window(info_.window());
   tracker_.set_capacity(std::nullopt);
   tracker_.set_numbers(info_.line_numbers());
+  rules_ = info_.rules();
   const auto fit = info_.check();
   not_ready_ = fit ? std::string() : fit.error().what;
   next_poll_ = now;

@@ -6,10 +6,13 @@
 namespace dripline::machine::grbl {
 
 using std::chrono::milliseconds;
+using streamed::DeviceFault;
 
 namespace {
 
 constexpr milliseconds kAskAgain{500};
+constexpr std::string_view kLost = "GRB0005";
+constexpr std::size_t kAdded = 7;  ///< "N99999" and the line's end
 
 }  // namespace
 
@@ -37,14 +40,14 @@ void BoardSession::lost(const std::string& reason) {
   if (!was_ready) return;
   report_.reset();
   drop_lines();
-  ++resets_;
   if (is_active_ && !fault_)
-    fault_ = BoardFault{"GRB0005", fmt::format("{}: the position is unknown", reason)};
+    fault_ = DeviceFault{kLost, fmt::format("{}: the position is unknown", reason)};
 }
 
 void BoardSession::drop_lines() {
   counter_.reset();
   tracker_.drop();
+  preamble_ = Preamble::None;
   is_held_ = is_resuming_ = hold_is_sent_ = false;
   resting_since_.reset();
   homing_limit_.reset();
@@ -86,7 +89,7 @@ void BoardSession::tick(SteadyTime now) {
   if (phase_ == Phase::Closed || phase_ == Phase::Silent || wants_reopen_) return;
   if (phase_ != Phase::Ready && now - phase_began_ > limits_.wake) {
     if (!is_active_ && !fault_) return give_up("the board does not answer");
-    if (!fault_) fault_ = BoardFault{"GRB0005", "the board does not answer a reset"};
+    if (!fault_) fault_ = DeviceFault{kLost, "the board does not answer a reset"};
     stop_ = Stop::None;
     phase_ = Phase::Silent;
     return;
@@ -110,7 +113,7 @@ void BoardSession::watch_silence(SteadyTime now) {
   if (silence > limits_.lost_after) {
     unanswered_poll_.reset();
     if (is_active_)
-      raise("GRB0005", "the board does not report its state: the position is unknown", now);
+      raise(kLost, "the board does not report its state: the position is unknown", now);
     else
       give_up("the board does not report its state");
   } else if (silence > limits_.hold_after && is_active_ && !is_held_) {
@@ -136,8 +139,9 @@ void BoardSession::watch_answers(SteadyTime now) {
 
 // -- the program ---------------------------------------------------------------------------------
 
-void BoardSession::set_active(bool is_active) {
+void BoardSession::set_active(bool is_active, SteadyTime) {
   if (is_active && !is_active_) garbage_ = 0;
+  if (!is_active) preamble_ = Preamble::None;
   is_active_ = is_active;
 }
 
@@ -169,7 +173,42 @@ Result<void> BoardSession::check_ready() const {
 
 bool BoardSession::may_send(std::size_t bytes) const {
   return phase_ == Phase::Ready && stop_ == Stop::None && !fault_ && !is_held_ &&
-         not_ready_.empty() && !wants_reopen_ && counter_.fits(bytes);
+         not_ready_.empty() && !wants_reopen_ && counter_.fits(bytes + kAdded);
+}
+
+/// The modes are set and read back before the first line of a program.
+bool BoardSession::prepare(SteadyTime now) {
+  constexpr std::size_t kPreambleBytes = 64;
+  if (preamble_ == Preamble::Done) return true;
+  if (!is_empty() || !may_send(kPreambleBytes)) return false;
+  switch (preamble_) {
+    case Preamble::None:
+      send("G21G90G94G17G91.1G49" + info_.work_system(), false, {});
+      send("G92.1M5M9", false, {});
+      preamble_ = Preamble::Sent;
+      return false;
+    case Preamble::Sent:
+      modes_.reset();
+      send_system("$G");
+      preamble_ = Preamble::Asked;
+      return false;
+    case Preamble::Asked:
+    case Preamble::Done:
+      break;
+  }
+  if (!check_modes(now)) return false;
+  preamble_ = Preamble::Done;
+  return true;
+}
+
+bool BoardSession::check_modes(SteadyTime now) {
+  const std::array<std::string, 4> wanted{"G21", "G90", "G94", info_.work_system()};
+  for (const std::string& word : wanted) {
+    if (modes_ && std::ranges::find(modes_->words, word) != modes_->words.end()) continue;
+    raise("GRB0007", fmt::format("the board does not take the mode {}", word), now);
+    return false;
+  }
+  return true;
 }
 
 std::uint64_t BoardSession::send(const std::string& text, bool moves, milliseconds longest) {
@@ -184,6 +223,16 @@ std::uint64_t BoardSession::send(const std::string& text, bool moves, millisecon
   return serial;
 }
 
+void BoardSession::switch_off() {
+  constexpr std::string_view kOff = "M5M9";
+  if (preamble_ != Preamble::None && may_send(kOff.size())) send(std::string(kOff), false, {});
+}
+
+std::optional<streamed::ProbeEnd> BoardSession::probe() const {
+  if (!probe_) return std::nullopt;
+  return streamed::ProbeEnd{.tripped = probe_->tripped, .at = info_.in_mm(probe_->at)};
+}
+
 void BoardSession::send_system(const std::string& text) {
   output_.lines += text + "\n";
   counter_.sent(text + "\n");
@@ -192,7 +241,7 @@ void BoardSession::send_system(const std::string& text) {
 /// The board is held and reset, so that it drops what it has; then it is left alone.
 void BoardSession::raise(std::string_view id, std::string text, SteadyTime now) {
   if (fault_) return;
-  fault_ = BoardFault{id, std::move(text)};
+  fault_ = DeviceFault{id, std::move(text)};
   if (phase_ == Phase::Closed || phase_ == Phase::Silent) return;
   begin_stop(Stop::Fault, std::min(limits_.brake, limits_.answer), now);
 }
@@ -210,6 +259,10 @@ void BoardSession::hold(SteadyTime now) {
 
 bool BoardSession::door_is_open() const {
   return report_ && report_->state == BoardState::Door && report_->substate.value_or(0) != 0;
+}
+
+std::string BoardSession::hold_reason() const {
+  return door_is_open() ? "the safety door is open" : "";
 }
 
 bool BoardSession::resume(SteadyTime now) {
@@ -279,6 +332,7 @@ void BoardSession::reset_board(SteadyTime now) {
 }
 
 void BoardSession::restart(SteadyTime now) {
+  if (!fault_) return;
   fault_.reset();
   is_held_ = is_resuming_ = false;
   garbage_ = 0;
@@ -286,8 +340,20 @@ void BoardSession::restart(SteadyTime now) {
   opened(now);
 }
 
+bool BoardSession::is_connected() const {
+  return phase_ != Phase::Closed && !(fault_ && fault_->id == kLost);
+}
+
 bool BoardSession::is_moving() const {
   return phase_ == Phase::Ready && report_ && !report_->rests();
+}
+
+double BoardSession::feed_per_minute() const {
+  return report_ ? report_->feed.value_or(0) * info_.report_scale() : 0;
+}
+
+double BoardSession::spindle_rpm() const {
+  return report_ ? report_->spindle.value_or(0) : 0;
 }
 
 }  // namespace dripline::machine::grbl

@@ -8,15 +8,9 @@
 #include "gateway/machine/grbl/character_counter.hpp"
 #include "gateway/machine/grbl/execution_tracker.hpp"
 #include "gateway/machine/grbl/override_sender.hpp"
-#include "protocol/base/clock.hpp"
+#include "gateway/machine/streamed/device.hpp"
 
 namespace dripline::machine::grbl {
-
-/// Why a program cannot go on; ids as in the README.
-struct BoardFault {
-  std::string_view id;  ///< static storage
-  std::string text;
-};
 
 /// What the line must carry.
 struct BoardOutput {
@@ -45,7 +39,7 @@ struct SessionLimits {
 /// Nothing that moves is ever sent by itself: motion comes by `send`, and leaves a feed hold only
 /// by `resume`. After a fault the board is held and reset, which drops what it had, and then
 /// nothing is sent until `restart`.
-class BoardSession {
+class BoardSession final : public streamed::Device {
  public:
   explicit BoardSession(SessionLimits limits = {}) : limits_(limits) {}
 
@@ -60,63 +54,58 @@ class BoardSession {
   bool wants_reopen() const { return wants_reopen_; }
   /// Not after a fault: opening a port resets many boards.
   bool may_open() const { return !fault_; }
-
-  // -- the program --------------------------------------------------------------------------------
-  /// A program begins or ends: only then a misbehavior of the board is a fault.
-  void set_active(bool is_active);
-  bool is_active() const { return is_active_; }
-  /// Identified, fit for programs, at rest and without a fault. Errors: Busy, with the reason.
-  Result<void> check_ready() const;
-  bool is_ready() const { return phase_ == Phase::Ready; }
-  bool is_open() const { return phase_ != Phase::Closed; }
-  /// A line can be sent now.
-  bool may_send(std::size_t bytes) const;
-  /// Sends a line without N word and end; returns its serial number. `longest`: how long the board
-  /// may be at rest with it.
-  std::uint64_t send(const std::string& text, bool moves, std::chrono::milliseconds longest = {});
-  /// Sends a $ command.
-  void send_system(const std::string& text);
-  const ExecutionTracker& tracker() const { return tracker_; }
-  /// Every line is answered and executed, as reports show.
-  bool is_empty() const { return counter_.unanswered_lines() == 0 && tracker_.is_empty(); }
-  /// Of `$G`, since it was asked last.
-  const std::optional<ModesReply>& modes() const { return modes_; }
-  const std::optional<ProbeReply>& probe() const { return probe_; }
-  void drop_modes() { modes_.reset(); }
-  void drop_probe() { probe_.reset(); }
-  void raise(std::string_view id, std::string text, SteadyTime now);
-  const std::optional<BoardFault>& fault() const { return fault_; }
-  /// Counts resets: the modes of the board are those after a start.
-  std::uint64_t resets() const { return resets_; }
-
-  // -- the operator -------------------------------------------------------------------------------
-  void hold(SteadyTime now);
-  /// False: the board cannot continue (a door is open).
-  bool resume(SteadyTime now);
-  bool is_held() const { return is_held_; }
-  void set_overrides(const OverridePercent& percent) { overrides_.want(percent); }
-  /// Feed hold, then a soft reset at rest: the position is kept. Ends with `is_stopped`.
-  void stop(bool is_emergency, SteadyTime now);
-  bool is_stopping() const { return stop_ != Stop::None; }
-  /// Ends a fault: resets and identifies the board again.
-  void restart(SteadyTime now);
-  bool door_is_open() const;
-  /// Homes the axes ($H), or unlocks an alarm without homing ($X). Errors: Busy (no board, a fault,
-  /// a program, not at rest).
-  Result<void> reference(bool is_homing, SteadyTime now);
-
-  // -- what it does -------------------------------------------------------------------------------
-  const BoardInfo& board() const { return info_; }
-  const std::optional<StatusReport>& report() const { return report_; }
-  /// In machine coordinates.
-  const Coordinates& position() const { return position_; }
-  bool is_moving() const;
   /// Why the board is not ready; empty: it is.
   const std::string& not_ready() const { return not_ready_; }
+
+  // -- Device: the program ------------------------------------------------------------------------
+  const streamed::TextRules& rules() const override { return rules_; }
+  Result<void> check_ready() const override;
+  void set_active(bool is_active, SteadyTime now) override;
+  bool prepare(SteadyTime now) override;
+  bool may_send(std::size_t bytes) const override;
+  std::uint64_t send(const std::string& text, bool moves,
+                     std::chrono::milliseconds longest) override;
+  void await_execution() override {}
+  std::uint64_t executed() const override { return tracker_.executed(); }
+  bool is_empty() const override { return counter_.unanswered_lines() == 0 && tracker_.is_empty(); }
+  bool is_at_rest() const override { return report_ && report_->state == BoardState::Idle; }
+  const Coordinates& position() const override { return position_; }
+  void drop_probe() override { probe_.reset(); }
+  std::optional<streamed::ProbeEnd> probe() const override;
+  void raise(std::string_view id, std::string text, SteadyTime now) override;
+  const std::optional<streamed::DeviceFault>& fault() const override { return fault_; }
+
+  // -- Device: the operator -----------------------------------------------------------------------
+  void hold(SteadyTime now) override;
+  bool resume(SteadyTime now) override;
+  bool is_held() const override { return is_held_; }
+  /// Feed hold, then a soft reset at rest: the position is kept.
+  void stop(bool is_emergency, SteadyTime now) override;
+  /// Until a report shows where the reset board is. A board with a fault is believed nothing more.
+  bool is_stopping() const override {
+    return !fault_ && (stop_ != Stop::None || (phase_ == Phase::Ready && !report_));
+  }
+  /// Resets and identifies a board with a fault again.
+  void restart(SteadyTime now) override;
+  OperatorPanel known(OperatorPanel panel) const override { return OverrideSender::known(panel); }
+  void set_overrides(const OperatorPanel& panel) override { overrides_.want(panel); }
+  Result<void> home(SteadyTime now) override { return reference(true, now); }
+  Result<void> unlock(SteadyTime now) override { return reference(false, now); }
+  std::string hold_reason() const override;
+  void switch_off() override;
+  bool is_connected() const override;
+
+  // -- Device: what it does -----------------------------------------------------------------------
+  bool is_moving() const override;
+  double feed_per_minute() const override;
+  double spindle_rpm() const override;
+  bool input(int) const override { return false; }  ///< boards of this class report none
 
  private:
   enum class Phase : std::uint8_t { Closed, Waking, Resetting, Identifying, Ready, Silent };
   enum class Stop : std::uint8_t { None, Wake, Abort, Emergency, Fault };
+  /// The modes that all lines rely on.
+  enum class Preamble : std::uint8_t { None, Sent, Asked, Done };
 
   void on(const OkReply&, SteadyTime now);
   void on(const ErrorReply& error, SteadyTime now);
@@ -133,6 +122,12 @@ class BoardSession {
   void on(const GarbageReply& garbage, SteadyTime now);
 
   void real_time(char byte) { output_.real_time += byte; }
+  void send_system(const std::string& text);
+  bool check_modes(SteadyTime now);
+  bool door_is_open() const;
+  /// Homes the axes ($H), or unlocks an alarm without homing ($X). Errors: Busy (no board, a fault,
+  /// a program, not at rest).
+  Result<void> reference(bool is_homing, SteadyTime now);
   void drop_output() { output_ = {.drops_lines = true, .real_time = {}, .lines = {}}; }
   void identify_next(SteadyTime now);
   void begin_stop(Stop stop, std::chrono::milliseconds brake, SteadyTime now);
@@ -151,7 +146,9 @@ class BoardSession {
   SessionLimits limits_;
   Phase phase_ = Phase::Closed;
   Stop stop_ = Stop::None;
+  Preamble preamble_ = Preamble::None;
   BoardInfo info_;
+  streamed::TextRules rules_;
   LineSplitter splitter_;
   CharacterCounter counter_;
   ExecutionTracker tracker_;
@@ -164,10 +161,9 @@ class BoardSession {
   std::optional<AxisValues> work_offset_;
   std::optional<ModesReply> modes_;
   std::optional<ProbeReply> probe_;
-  std::optional<BoardFault> fault_;
+  std::optional<streamed::DeviceFault> fault_;
   std::string last_alarm_;  ///< its number and text, for the operator
   std::string not_ready_ = "the board is not connected";
-  std::uint64_t resets_ = 0;
 
   bool is_active_ = false, is_held_ = false, is_resuming_ = false;
   bool hold_is_sent_ = false, cycle_start_is_sent_ = false, wants_reopen_ = false;

@@ -1,5 +1,7 @@
 #include "gateway/machine/grbl/override_sender.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace dripline::machine::grbl {
@@ -20,12 +22,36 @@ void append(const OverrideBytes& bytes, int percent, std::string& to) {
   to.append(ones, change > 0 ? bytes.more_1 : bytes.less_1);
 }
 
+/// The board has 100, 50 and 25 %.
+double known_rapid(double factor) {
+  if (factor >= 1) return 1;
+  if (factor >= 0.5) return 0.5;
+  return factor >= 0.25 ? 0.25 : 0;
+}
+
+int percent_of(double factor) {
+  return static_cast<int>(std::clamp(std::floor(factor * 100 + 1e-6), 10.0, 200.0));
+}
+
 char rapid_byte(int percent) {
   if (percent >= 100) return '\x95';
   return percent >= 50 ? '\x96' : '\x97';
 }
 
 }  // namespace
+
+OperatorPanel OverrideSender::known(OperatorPanel panel) {
+  constexpr double kLeastFeed = 0.1;
+  if (panel.feed_override < kLeastFeed) panel.feed_override = 0;
+  panel.rapid_override = known_rapid(panel.rapid_override);
+  return panel;
+}
+
+void OverrideSender::want(const OperatorPanel& panel) {
+  wanted_ = {.feed = percent_of(panel.feed_override),
+             .rapid = static_cast<int>(std::max(panel.rapid_override, 0.25) * 100),
+             .spindle = percent_of(panel.spindle_override)};
+}
 
 std::string OverrideSender::take_bytes() {
   std::string bytes;

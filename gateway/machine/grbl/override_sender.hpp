@@ -3,6 +3,7 @@
 #include <string>
 
 #include "gateway/machine/grbl/reply.hpp"
+#include "gateway/machine/operator_panel.hpp"
 
 namespace dripline::machine::grbl {
 
@@ -13,7 +14,11 @@ using OverridePercent = StatusReport::Overrides;
 /// were lost. The board knows steps of 10 and 1 around 100 %. Pure.
 class OverrideSender {
  public:
-  void want(const OverridePercent& percent) { wanted_ = percent; }
+  /// The nearest that the board has, never faster than asked. A feed under 10 % and a rapid under
+  /// 25 % are 0, a hold: the board has none that is lower.
+  static OperatorPanel known(OperatorPanel panel);
+  /// Of `known` factors; 0 is the lowest that the board has.
+  void want(const OperatorPanel& panel);
   /// The bytes that are still to be sent; empty: none.
   std::string take_bytes();
   void reported(const OverridePercent& now);

@@ -4,14 +4,12 @@
 
 namespace dripline::machine::linuxcnc {
 
-/// LinuxCNC's words for what is not motion. M functions 100 to 199 are programs of the machine's
-/// builder there; others are refused: a clamp that is not switched is no detail.
+/// LinuxCNC's words for tools, outputs and other functions. M functions 100 to 199 are programs of
+/// the machine's builder there; others are refused: a clamp that is not switched is no detail.
 class LinuxCncCommands final : public streamed::CommandWriter {
  public:
   void begin(const streamed::TextRules& rules) override;
   std::optional<streamed::Refusal> spindle(const interpreter::Spindle& event,
-                                           Lines& lines) override;
-  std::optional<streamed::Refusal> coolant(const interpreter::Coolant& event,
                                            Lines& lines) override;
   /// A preselection is T. M6 stops the spindle there; a program that has not stopped it itself gets
   /// it back.
@@ -23,8 +21,6 @@ class LinuxCncCommands final : public streamed::CommandWriter {
 
  private:
   std::string spindle_;  ///< the line that has turned it on; empty: it is off
-  std::optional<double> max_rpm_;
-  bool flood_ = false, mist_ = false;
 };
 
 }  // namespace dripline::machine::linuxcnc

@@ -25,6 +25,7 @@ void Session::opened(SteadyTime now) {
   commands_.clear();
   lines_.reset();
   hello_.reset();
+  rules_ = {};
   status_.reset();
   command_number_ = done_number_ = awaited_ = must_obey_ = shown_number_ = 0;
   sent_overrides_ = {};
@@ -111,6 +112,7 @@ void Session::tick(SteadyTime now, bool is_dry) {
 void Session::on(const HelloReply& hello, SteadyTime) {
   if (phase_ != Phase::Starting) return;
   hello_ = hello;
+  rules_ = rules_of(hello);
   phase_ = Phase::Ready;
   trouble_.clear();
 }

@@ -48,7 +48,7 @@ class Session final : public streamed::Device {
   const std::string& reopen_reason() const { return reopen_reason_; }
 
   // -- Device -------------------------------------------------------------------------------------
-  streamed::TextRules rules() const override;
+  const streamed::TextRules& rules() const override { return rules_; }
   Result<void> check_ready() const override;
   void set_active(bool is_active, SteadyTime now) override;
   bool prepare(SteadyTime now) override;
@@ -74,6 +74,7 @@ class Session final : public streamed::Device {
   void set_overrides(const OperatorPanel& panel) override;
   Result<void> home(SteadyTime now) override;
   Result<void> unlock(SteadyTime now) override;
+  void switch_off() override {}  ///< the end of a program does it
   bool is_connected() const override { return phase_ == Phase::Ready; }
   bool is_moving() const override;
   double feed_per_minute() const override;
@@ -112,6 +113,7 @@ class Session final : public streamed::Device {
   void begin_stop(SteadyTime now);
   void abort(SteadyTime now);
   void end_feed();
+  static streamed::TextRules rules_of(const HelloReply& hello);
   Result<void> check_reference() const;
   std::string with_message(std::string text) const;
   Coordinates in_mm(const Coordinates& values) const;
@@ -123,6 +125,7 @@ class Session final : public streamed::Device {
   HelperLines lines_;
   std::string commands_, text_;
   std::optional<HelloReply> hello_;
+  streamed::TextRules rules_;
   std::optional<StatusReply> status_;
   Coordinates position_{};
   std::string trouble_ = "LinuxCNC is not connected", reopen_reason_;

@@ -24,25 +24,25 @@ constexpr std::string_view kEnd = "M2\n%\n";
 
 }  // namespace
 
-TextRules Session::rules() const {
+TextRules Session::rules_of(const HelloReply& hello) {
   TextRules rules;
   rules.decimals = 6;
   rules.line_limit = 200;
   rules.has_stop_mode = true;
-  if (!hello_) return rules;
-  if (hello_->max_rpm > 0) rules.max_rpm = hello_->max_rpm;
+  if (hello.max_rpm > 0) rules.max_rpm = hello.max_rpm;
+  rules.max_rpm_setting = " ([SPINDLE_0]MAX_FORWARD_VELOCITY)";
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
-    if ((hello_->axes >> i & 1U) == 0) continue;
+    if ((hello.axes >> i & 1U) == 0) continue;
     const bool is_rotary = interpreter::is_rotary(static_cast<interpreter::Axis>(i));
-    const double unit = is_rotary ? 1 : 1 / hello_->units_per_mm;
+    const double unit = is_rotary ? 1 : 1 / hello.units_per_mm;
     TextRules::AxisRules axis;
     axis.steps = 1e5;
-    if (hello_->velocity[i] > 0) axis.max_rate = hello_->velocity[i] * unit * 60;
-    if (hello_->low[i] < hello_->high[i])
-      axis.travel = TextRules::Range{hello_->low[i] * unit, hello_->high[i] * unit};
-    rules.axes[i] = axis;
+    if (hello.velocity[i] > 0) axis.max_rate = hello.velocity[i] * unit * 60;
+    if (hello.low[i] < hello.high[i])
+      axis.travel = TextRules::Range{hello.low[i] * unit, hello.high[i] * unit};
+    axis.travel_setting = fmt::format(" ([AXIS_{}]MIN_LIMIT, MAX_LIMIT)", streamed::letter_of(i));
+    rules.axes[i] = std::move(axis);
   }
-  rules.travel_setting = " ([AXIS_...]MIN_LIMIT, MAX_LIMIT)";
   return rules;
 }
 

@@ -1,4 +1,5 @@
 // What the device has executed becomes calls of the sink, action by action.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +12,20 @@ using interpreter::Origin;
 namespace {
 
 constexpr std::chrono::seconds kCommandTime{30};  ///< a spindle may run up meanwhile
+
+/// Whether a straight move between the two passes `point`, within some steps.
+bool is_on_path(const Coordinates& point, const Coordinates& from, const Coordinates& to) {
+  constexpr double kSlack = 0.1;
+  double square = 0, along = 0;
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    square += (to[i] - from[i]) * (to[i] - from[i]);
+    along += (to[i] - from[i]) * (point[i] - from[i]);
+  }
+  const double part = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
+  for (std::size_t i = 0; i < kMaxAxes; ++i)
+    if (std::fabs(from[i] + (to[i] - from[i]) * part - point[i]) > kSlack) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -55,7 +70,7 @@ void StreamedMachine::pump(const Lock&) {
 /// With nothing in motion the axes must be where the program has sent them.
 bool StreamedMachine::check_position(const Coordinates& expected) {
   if (!device_.is_at_rest()) return false;
-  const TextRules rules = device_.rules();
+  const TextRules& rules = device_.rules();
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     if (!rules.has(i)) continue;
     const double is_at = device_.position()[i];
@@ -82,11 +97,11 @@ Seconds StreamedMachine::poll(Seconds, std::size_t max_actions) {
     Lock lock(mutex_);
     take_made();
     is_allowed_ = max_actions > 0;
-    device_.set_active(!is_over(), now());
+    set_active(!is_over());
     while (deliver(lock)) {
     }
     pump(lock);
-    device_.set_active(!is_over(), now());
+    set_active(!is_over());
   }
   wake();
   return Seconds{0};
@@ -180,20 +195,20 @@ bool StreamedMachine::deliver_motion(Lock& lock) {
 
 bool StreamedMachine::deliver_command(Lock& lock) {
   auto& command = std::get<Command>(queue_.front().body);
-  if (!command.lines.empty() && !command.is_sent) {
+  if (command.sent < command.lines.size()) {
     if (start_front(lock)) return true;
     if (!has_begun_ && !check_position(expected_)) return device_.fault().has_value();
     has_begun_ = true;
     if (!device_.prepare(now())) return false;
     const auto* dwell = std::get_if<interpreter::Dwell>(&command.event);
-    for (const std::string& line : command.lines) {
+    for (; command.sent < command.lines.size(); ++command.sent) {
+      const std::string& line = command.lines[command.sent];
       if (!device_.may_send(line.size())) return false;
       const auto time = dwell ? std::chrono::milliseconds(std::llround(dwell->seconds * 1000))
                               : std::chrono::milliseconds(kCommandTime);
       device_.send(line, false, time);
     }
     device_.await_execution();
-    command.is_sent = true;
     return false;
   }
   const Command done = command;
@@ -247,6 +262,11 @@ bool StreamedMachine::deliver_probe(Lock& lock) {
   const bool tripped = move.is_sent && probed->tripped;
   const Coordinates end = tripped ? probed->at : move.text.end;
   if (tripped && !move.is_returning) {
+    if (!is_on_path(end, expected_, move.text.end)) {
+      device_.raise("MCH0009", "the machine reports a contact that is not on the probe's path",
+                    now());
+      return true;
+    }
     writer.move_to(device_.position());
     MotionText text;
     const auto refusal = writer.line(
@@ -346,6 +366,7 @@ void StreamedMachine::discard() {
 
 void StreamedMachine::deliver_alarm(Lock& lock, const interpreter::Alarm& alarm) {
   discard();
+  if (!device_.fault()) device_.switch_off();
   stop_ = MachineState::Alarmed;
   lock.unlock();
   report_off();

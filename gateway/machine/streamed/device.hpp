@@ -35,7 +35,7 @@ class Device {
 
   // -- the program --------------------------------------------------------------------------------
   /// Of the device that is connected now.
-  virtual TextRules rules() const = 0;
+  virtual const TextRules& rules() const = 0;
   /// A program can begin: identified, referenced, at rest, without a fault. Errors: Busy, Conflict,
   /// Unsupported, with the reason.
   virtual Result<void> check_ready() const = 0;
@@ -43,6 +43,7 @@ class Device {
   virtual void set_active(bool is_active, SteadyTime now) = 0;
   /// Brings the modes about that all lines rely on, once for a program. False: not yet.
   virtual bool prepare(SteadyTime now) = 0;
+  /// A line of so many characters can be sent now.
   virtual bool may_send(std::size_t bytes) const = 0;
   /// Sends a line; returns its serial number. `longest`: how long the device may be at rest with
   /// it.
@@ -79,7 +80,13 @@ class Device {
   virtual void set_overrides(const OperatorPanel& panel) = 0;
   virtual Result<void> home(SteadyTime now) = 0;
   virtual Result<void> unlock(SteadyTime now) = 0;
+  /// Why it cannot leave a hold, for the operator; empty: it can.
+  virtual std::string hold_reason() const { return {}; }
 
+  /// Spindle and coolant off, with everything executed and the program at its end by an alarm of
+  /// its own.
+  virtual void switch_off() = 0;
+  /// It hears what it is sent: a stop has switched spindle and coolant off.
   virtual bool is_connected() const = 0;
 
   // -- what it does -------------------------------------------------------------------------------

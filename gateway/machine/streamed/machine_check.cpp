@@ -18,18 +18,19 @@ Result<void> check_axis(const AxisData& stated, std::size_t axis, const TextRule
     return fail(Errc::Conflict, "the setup has an axis {}, the machine has not", name);
   const double rate = rules.axes[axis]->max_rate;
   if (stated.max_rate && !is_same(*stated.max_rate, rate))
-    return fail(Errc::Conflict, "the rate of {} is {:.6g} in the setup and {:.6g} on the machine",
-                name, *stated.max_rate, rate);
+    return fail(Errc::Conflict, "the rate of {} is {:.6g} in the setup and {:.6g} on the machine{}",
+                name, *stated.max_rate, rate, rules.axes[axis]->rate_setting);
   if (!stated.min) return {};
   const auto travel = rules.axes[axis]->travel;
   if (!travel)
     return fail(Errc::Conflict, "the setup has a travel of {}, the machine has none{}", name,
-                rules.travel_setting);
+                rules.axes[axis]->travel_setting);
   if (is_same(*stated.min, travel->low) && is_same(*stated.max, travel->high)) return {};
   return fail(Errc::Conflict,
               "the travel of {} is {:.6g} to {:.6g} in the setup and {:.6g} to {:.6g} on the "
               "machine{}",
-              name, *stated.min, *stated.max, travel->low, travel->high, rules.travel_setting);
+              name, *stated.min, *stated.max, travel->low, travel->high,
+              rules.axes[axis]->travel_setting);
 }
 
 }  // namespace
@@ -40,13 +41,17 @@ Result<void> check_machine(const interpreter::MachineData& stated, const TextRul
     if (auto same = check_axis(*stated.axes[i], i, rules); !same) return same;
   }
   if (stated.max_rpm && !rules.max_rpm)
-    return fail(Errc::Conflict, "max_rpm is {:.6g} in the setup, the machine states none",
-                *stated.max_rpm);
+    return fail(Errc::Conflict, "max_rpm is {:.6g} in the setup, the machine states none{}",
+                *stated.max_rpm, rules.max_rpm_setting);
   if (stated.max_rpm && !is_same(*stated.max_rpm, *rules.max_rpm))
-    return fail(Errc::Conflict, "max_rpm is {:.6g} in the setup and {:.6g} on the machine",
-                *stated.max_rpm, *rules.max_rpm);
-  if (stated.homing == false)
-    return fail(Errc::Conflict, "homing is off in the setup, the machine must be homed");
+    return fail(Errc::Conflict, "max_rpm is {:.6g} in the setup and {:.6g} on the machine{}",
+                *stated.max_rpm, *rules.max_rpm, rules.max_rpm_setting);
+  if (stated.homing == false && rules.homes)
+    return fail(Errc::Conflict, "homing is off in the setup, the machine must be homed{}",
+                rules.homing_setting);
+  if (stated.homing == true && !rules.homes)
+    return fail(Errc::Conflict, "homing is on in the setup and off on the machine{}",
+                rules.homing_setting);
   return {};
 }
 

@@ -5,8 +5,8 @@
 
 namespace dripline::machine::streamed {
 
-/// Whether the device is the machine that the setup states. A device that is checked here is homed
-/// before every program. Errors: Conflict (the first difference, with both values).
+/// Whether the device is the machine that the setup states. Errors: Conflict (the first difference,
+/// with both values and the device's setting).
 Result<void> check_machine(const interpreter::MachineData& stated, const TextRules& rules);
 
 }  // namespace dripline::machine::streamed

@@ -27,7 +27,7 @@ struct Command {
   std::variant<interpreter::Spindle, interpreter::Coolant, interpreter::Dwell,
                interpreter::ToolChange, interpreter::Miscellaneous, interpreter::PinChange>
       event;
-  bool is_sent = false;
+  std::size_t sent = 0;  ///< of the lines
 };
 struct ProbeMove {
   interpreter::Probe probe;

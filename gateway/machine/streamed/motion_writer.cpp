@@ -39,15 +39,14 @@ bool is_finite(const Coordinates& point) {
   return std::all_of(point.begin(), point.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// Without trailing zeros and a minus before nothing: every byte is time on the line.
+}  // namespace
+
 std::string trimmed(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", value, decimals);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
 }
-
-}  // namespace
 
 interpreter::Position position_of(const Coordinates& point, const TextRules& rules) {
   interpreter::Position position;
@@ -120,7 +119,7 @@ std::optional<Refusal> MotionWriter::check_travel(const Coordinates& target) con
     if (target[i] >= travel.low - slack && target[i] <= travel.high + slack) continue;
     return Refusal{"MCH0001", fmt::format("{} {:.3f} is outside the machine's travel of {} to {}{}",
                                           letter_of(i), target[i], travel.low, travel.high,
-                                          rules_.travel_setting)};
+                                          rules_.axes[i]->travel_setting)};
   }
   return std::nullopt;
 }

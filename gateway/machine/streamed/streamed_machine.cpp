@@ -23,7 +23,7 @@ StreamedMachine::~StreamedMachine() = default;
 
 const MotionCapabilities& StreamedMachine::capabilities() const {
   const Lock lock(mutex_);
-  const TextRules rules = device_.rules();
+  const TextRules& rules = device_.rules();
   for (std::size_t i = 0; i < kMaxAxes; ++i) capabilities_.axes.set(i, rules.has(i));
   return capabilities_;
 }
@@ -31,7 +31,7 @@ const MotionCapabilities& StreamedMachine::capabilities() const {
 Result<void> StreamedMachine::check_begin(const Position& at) const {
   const Lock lock(mutex_);
   if (auto ready = device_.check_ready(); !ready) return ready;
-  const TextRules rules = device_.rules();
+  const TextRules& rules = device_.rules();
   if (auto same = check_machine(stated_, rules); !same) return same;
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     const double wanted = at.raw(static_cast<Axis>(i));
@@ -63,12 +63,20 @@ void StreamedMachine::begin(const Position& at) {
   shown_ = {};
   origin_ = {};
   executed_ = 0;
-  device_.set_active(false, now());
+  set_active(false);
+}
+
+void StreamedMachine::set_active(bool is_active) {
+  is_active_ = is_active;
+  device_.set_active(is_active, now());
 }
 
 bool StreamedMachine::has_room() const {
   const Lock lock(mutex_);
-  return queue_.size() + builder_.size() < kMaxActions;
+  // Blocks of a tenth of a millisecond are executed by the thousand before a report shows it.
+  constexpr std::size_t kMaxUnreported = 8 * kMaxActions;
+  const std::size_t made = queue_.size() + builder_.size();
+  return made - next_ < kMaxActions && made < kMaxUnreported;
 }
 
 bool StreamedMachine::input(int pin) const {
@@ -118,7 +126,7 @@ void StreamedMachine::set_panel(const OperatorPanel& panel) {
 void StreamedMachine::hold_by_override() {
   const bool was_zero =
       std::exchange(is_override_hold_, panel_.feed_override == 0 || panel_.rapid_override == 0);
-  if (is_override_hold_ && !was_zero && !is_over() && !device_.is_held()) {
+  if (is_override_hold_ && !was_zero && is_active_ && !device_.is_held()) {
     device_.hold(now());
     is_held_by_override_ = true;
   } else if (!is_override_hold_ && std::exchange(is_held_by_override_, false)) {
@@ -191,6 +199,7 @@ Result<void> StreamedMachine::unlock() {
 
 std::string StreamedMachine::notice() const {
   const Lock lock(mutex_);
+  if (std::string reason = device_.hold_reason(); !reason.empty()) return reason;
   if (device_.is_held() || current_state() == MachineState::Running) return {};
   const auto ready = device_.check_ready();
   return ready ? std::string() : ready.error().what;
@@ -217,7 +226,7 @@ bool StreamedMachine::is_moving() const {
 
 MachineStatus StreamedMachine::status() const {
   const Lock lock(mutex_);
-  const TextRules rules = device_.rules();
+  const TextRules& rules = device_.rules();
   MachineStatus status = shown_;
   status.state = current_state();
   status.position = position_of(device_.position(), rules);

@@ -57,7 +57,7 @@ class StreamedMachine : public MotionBackend {
   bool is_moving() const override;
   MachineStatus status() const override;
 
-  static constexpr std::size_t kMaxActions = 1024;
+  static constexpr std::size_t kMaxActions = 1024;  ///< that are not sent yet
 
  protected:
   using Lock = std::unique_lock<std::mutex>;
@@ -72,6 +72,7 @@ class StreamedMachine : public MotionBackend {
   virtual void wake() {}
 
  private:
+  void set_active(bool is_active);
   bool is_over() const;
   bool may_begin() const;
   bool check_position(const Coordinates& expected);
@@ -110,6 +111,7 @@ class StreamedMachine : public MotionBackend {
   std::size_t next_ = 0;  ///< the first action that is not completely sent
   double queued_seconds_ = 0;
   Coordinates expected_{};    ///< where the axes are when everything sent is executed
+  bool is_active_ = false;    ///< a program has begun and is not over
   bool has_begun_ = false;    ///< the first line may be sent: the axes were where they should be
   bool is_released_ = false;  ///< the motion at the front may be sent, and all that follows it
   bool has_started_ = false;  ///< the front action was announced to the sink

@@ -31,6 +31,8 @@ struct TextRules {
     double max_rate = 10'000;     ///< per minute, for the time that a move takes
     double tolerance = 0.001;     ///< where an axis that was sent to a value may be found
     std::optional<Range> travel;  ///< in machine coordinates, where it is known
+    /// Where travel and rate are set, for the operator: " ($20, $130)".
+    std::string travel_setting = {}, rate_setting = {};
   };
   std::array<std::optional<AxisRules>, kMaxAxes> axes;  ///< absent: no such axis
   int decimals = 3;
@@ -40,8 +42,10 @@ struct TextRules {
   bool feeds_all_axes = false;
   /// G61.1 and G61 before the move; false: a dwell of no time after it.
   bool has_stop_mode = false;
-  std::string_view travel_setting = "";  ///< where the travel is set, for the operator
-  std::optional<double> max_rpm;         ///< of the spindle, where it is known
+  std::optional<double> max_rpm, min_rpm;  ///< of a spindle that is on, where they are known
+  bool has_mist = true;
+  bool homes = true;  ///< the axes are homed before every program
+  std::string max_rpm_setting = {}, min_rpm_setting = {}, homing_setting = {};
 
   bool has(std::size_t axis) const { return axis < kMaxAxes && axes[axis].has_value(); }
 };
@@ -53,5 +57,7 @@ inline char letter_of(std::size_t axis) {
 /// Marks the axes that the device has.
 interpreter::Position position_of(const Coordinates& point, const TextRules& rules);
 Coordinates coordinates_of(const interpreter::Position& position);
+/// Without trailing zeros and a minus before nothing: every byte is time on the line.
+std::string trimmed(double value, int decimals);
 
 }  // namespace dripline::machine::streamed

@@ -2,20 +2,17 @@
 // are sent are those of the program, each once and in order; no block is executed whose line was
 // not answered; after an alarm no line is sent; nothing leaves a hold by itself.
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 
 #include "gateway/machine/grbl/grbl_machine.hpp"
+#include "tests/fuzz/gateway/lines_in_pieces.hpp"
 #include "tests/support/manual_clock.hpp"
 
 namespace {
 
 using namespace dripline;
 using namespace dripline::machine;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using fuzz::require;
 
 class Sink final : public ExecutionSink {
  public:

@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 
 #include "gateway/machine/grbl/board_session.hpp"
 #include "gateway/machine/grbl/reply.hpp"
+#include "tests/fuzz/gateway/lines_in_pieces.hpp"
 
 namespace {
 
 using namespace dripline::machine::grbl;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using dripline::fuzz::require;
 
 void check(const AxisValues& values) {
   require(values.count >= 1 && values.count <= kMaxAxes);
@@ -37,22 +34,14 @@ void check(const Reply& reply) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto bytes = std::as_bytes(std::span(data, size));
-  LineSplitter whole, pieces;
-  const auto lines = whole.feed(bytes);
-  std::vector<std::string> same;
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::string& line : pieces.feed(bytes.subspan(i, 1))) same.push_back(std::move(line));
-  require(lines == same);
-  for (const std::string& line : lines) {
-    require(line.size() <= LineSplitter::kMaxLine);
+  for (const std::string& line : dripline::fuzz::lines_in_pieces<LineSplitter>(bytes))
     check(parse_reply(line));
-  }
 
   // A session that hears it sends no line that moves, and a bounded number of bytes.
   BoardSession session;
   dripline::SteadyTime now{};
   session.opened(now);
-  session.set_active(size % 2 == 0);
+  session.set_active(size % 2 == 0, now);
   std::string sent;
   for (std::size_t i = 0; i < size; i += 16) {
     session.receive(bytes.subspan(i, std::min<std::size_t>(16, size - i)),

@@ -4,18 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 
 #include "gateway/machine/linuxcnc/session.hpp"
+#include "tests/fuzz/gateway/lines_in_pieces.hpp"
 
 namespace {
 
 using namespace dripline::machine::linuxcnc;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using dripline::fuzz::require;
 
 void check(const HelperReply& reply) {
   if (const auto* status = std::get_if<StatusReply>(&reply)) {
@@ -30,16 +27,8 @@ void check(const HelperReply& reply) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto bytes = std::as_bytes(std::span(data, size));
-  HelperLines whole, pieces;
-  const auto lines = whole.feed(bytes);
-  std::vector<std::string> same;
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::string& line : pieces.feed(bytes.subspan(i, 1))) same.push_back(std::move(line));
-  require(lines == same);
-  for (const std::string& line : lines) {
-    require(line.size() <= HelperLines::kMaxLine);
+  for (const std::string& line : dripline::fuzz::lines_in_pieces<HelperLines>(bytes))
     check(parse_helper_reply(line));
-  }
 
   Session session;
   dripline::SteadyTime now{};

@@ -141,6 +141,18 @@ TEST(GrblMachine, AlarmsInPlaceOfWhatTheBoardLacks) {
   EXPECT_NEAR(shop.board.position()[0], 1, 1e-6);
 }
 
+TEST(GrblMachine, AnAlarmOfTheProgramSwitchesTheSpindleOff) {
+  GrblShop shop;
+  shop.begin();
+  shop.program.spindle(1200);
+  shop.program.line(1, 0, 600);
+  shop.program.thread(1, -10, 1.5);
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.status().spindle.state, interpreter::SpindleState::Off);
+  shop.pass(1);
+  EXPECT_FALSE(shop.board.is_spindle_on());
+}
+
 interpreter::Probe probe_to(GrblShop& shop, double z) {
   interpreter::Probe probe;
   probe.origin = shop.program.begin_block();

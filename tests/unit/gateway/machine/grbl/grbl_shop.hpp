@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "gateway/machine/grbl/grbl_machine.hpp"
 #include "tests/support/grbl_board.hpp"
@@ -29,7 +30,7 @@ class GrblShop {
   }
 
   void pass(double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds * 1000 + 0.5); ++i) step();
+    for (long i = std::lround(seconds * 1000); i > 0; --i) step();
   }
   /// Within virtual `seconds`.
   template <class Predicate>

@@ -1,5 +1,3 @@
-#include "gateway/machine/grbl/machine_check.hpp"
-
 #include "tests/unit/gateway/machine/grbl/grbl_shop.hpp"
 
 /// The board beside what the setup states of the machine.
@@ -30,17 +28,18 @@ TEST(GrblMachineCheck, TakesABoardThatIsTheMachineOfTheSetup) {
 
 TEST(GrblMachineCheck, NamesWhatDiffers) {
   EXPECT_EQ(refusal("[machine]\nZ = { rate = 500.0 }"),
-            "the rate of Z is 500 in the setup and 12000 on the board ($112)");
+            "the rate of Z is 500 in the setup and 12000 on the machine ($112)");
   EXPECT_EQ(refusal("[machine]\nX = { min = -300.0, max = 0.0 }"),
-            "the setup has a travel of X, the board's soft limits are off ($20, $130)");
-  EXPECT_EQ(refusal("[machine]\nY = { min = -200.0, max = 0.0 }", {{20, "1"}}),
-            "the travel of Y is -200 to 0 in the setup and -300 to 0 on the board ($131, $23)");
+            "the setup has a travel of X, the machine has none ($20, $23, $130)");
+  EXPECT_EQ(
+      refusal("[machine]\nY = { min = -200.0, max = 0.0 }", {{20, "1"}}),
+      "the travel of Y is -200 to 0 in the setup and -300 to 0 on the machine ($20, $23, $131)");
   EXPECT_EQ(refusal("[machine]\nA = { rate = 500.0 }"),
-            "the setup has an axis A, the board has not");
+            "the setup has an axis A, the machine has not");
   EXPECT_EQ(refusal("[machine]\nmax_rpm = 24000"),
-            "max_rpm is 24000 in the setup and 10000 on the board ($30)");
+            "max_rpm is 24000 in the setup and 10000 on the machine ($30)");
   EXPECT_EQ(refusal("[machine]\nhoming = true"),
-            "homing is on in the setup and off on the board ($22)");
+            "homing is on in the setup and off on the machine ($22)");
 }
 
 TEST(GrblMachineCheck, TakesNoSettingThatTheBoardHasNotStated) {
@@ -65,7 +64,7 @@ TEST(GrblMachineCheck, RefusesASpindleSpeedThatTheBoardWouldRaise) {
   shop.begin();
   shop.program.spindle(200);
   ASSERT_TRUE(shop.pass_until_over());
-  EXPECT_EQ(shop.alarm(), "GRB0010 spindle speed 200 is below the board's 500 rpm ($31)");
+  EXPECT_EQ(shop.alarm(), "MCH0010 spindle speed 200 is below the machine's 500 rpm ($31)");
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ TEST_F(GrblMisbehavior, AxesThatAreNotWhereTheyWereSent) {
   shop.program.line(3, 0, 1200);
   shop.program.output("A");
   shop.program.end();
-  expect_alarm("GRB0003 X is at 3.050, the program has it at 3.000", 20);
+  expect_alarm("MCH0009 X is at 3.050, the program has it at 3.000", 20);
 }
 
 TEST_F(GrblMisbehavior, CheckModeInTheMidst) {

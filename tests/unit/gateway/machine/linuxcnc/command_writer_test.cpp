@@ -13,10 +13,10 @@ TEST(LinuxCncCommands, ATurningSpindleIsTurnedOnAgainAfterAToolChange) {
   LinuxCncCommands writer;
   streamed::CommandWriter::Lines lines;
   EXPECT_FALSE(writer.spindle({{}, SpindleState::Counterclockwise, 1200, {}, {}}, lines));
-  EXPECT_THAT(lines, ElementsAre("M4S1200.000"));
+  EXPECT_THAT(lines, ElementsAre("M4S1200"));
   lines.clear();
   EXPECT_FALSE(writer.tool({.origin = {}, .number = 3, .offset = {}}, lines));
-  EXPECT_THAT(lines, ElementsAre("T3", "M6", "M4S1200.000"));
+  EXPECT_THAT(lines, ElementsAre("T3", "M6", "M4S1200"));
   lines.clear();
   EXPECT_FALSE(writer.spindle({}, lines));
   EXPECT_FALSE(writer.tool({.origin = {}, .number = 4, .offset = {}}, lines));
@@ -57,10 +57,11 @@ TEST(LinuxCncCommands, WhatLinuxCncLacksIsRefused) {
   EXPECT_TRUE(writer.tool({.origin = {}, .number = -1, .offset = {}}, lines));
   streamed::TextRules rules;
   rules.max_rpm = 6000;
+  rules.max_rpm_setting = " ([SPINDLE_0]...)";
   writer.begin(rules);
   const auto refusal = writer.spindle({{}, SpindleState::Clockwise, 6001, {}, {}}, lines);
   ASSERT_TRUE(refusal);
-  EXPECT_EQ(refusal->text, "spindle speed 6001 is above LinuxCNC's 6000 rpm");
+  EXPECT_EQ(refusal->text, "spindle speed 6001 is above the machine's 6000 rpm ([SPINDLE_0]...)");
   EXPECT_THAT(lines, IsEmpty());
 }
 

@@ -29,6 +29,19 @@ TEST(MachineCheck, TakesWhatAgreesAndWhatIsNotStated) {
   EXPECT_TRUE(check_machine({}, found()));
 }
 
+TEST(MachineCheck, NamesTheSettingThatDiffers) {
+  TextRules rules = found();
+  rules.homes = false;
+  rules.homing_setting = " ($22)";
+  EXPECT_EQ(check_machine(same(), rules).error().what,
+            "homing is on in the setup and off on the machine ($22)");
+  rules = found();
+  rules.axes[0]->rate_setting = " ($110)";
+  rules.axes[0]->max_rate = 500;
+  EXPECT_EQ(check_machine(same(), rules).error().what,
+            "the rate of X is 12000 in the setup and 500 on the machine ($110)");
+}
+
 struct DifferenceCase {
   const char* name;
   const char* text;

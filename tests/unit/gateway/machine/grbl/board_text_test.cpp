@@ -1,7 +1,10 @@
-#include "gateway/machine/grbl/line_writer.hpp"
-
 #include <gtest/gtest.h>
 
+#include "gateway/machine/grbl/board_info.hpp"
+#include "gateway/machine/grbl/command_writer.hpp"
+#include "gateway/machine/streamed/motion_writer.hpp"
+
+/// What a board reads, by what it states about itself.
 namespace dripline::machine::grbl {
 namespace {
 
@@ -9,6 +12,9 @@ using interpreter::Axis;
 using interpreter::Plane;
 using interpreter::Position;
 using interpreter::Turn;
+using streamed::MotionText;
+using streamed::MotionWriter;
+using streamed::Refusal;
 using Lines = std::vector<std::string>;
 
 BoardInfo board_of(double steps = 1000, std::size_t axes = 3) {
@@ -38,13 +44,14 @@ Position point(double x, double y, double z) {
   return position;
 }
 
-class LineWriterTest : public testing::Test {
+class BoardText : public testing::Test {
  protected:
   void make(const BoardInfo& board) {
-    writer = LineWriter(board);
+    writer = MotionWriter(board.rules());
     writer.begin({});
+    commands.begin(board.rules());
   }
-  LineWriterTest() { make(board_of()); }
+  BoardText() { make(board_of()); }
   Lines rapid(double x, double y, double z) {
     text = {};
     refusal = writer.rapid({{}, point(x, y, z)}, text);
@@ -72,12 +79,13 @@ class LineWriterTest : public testing::Test {
                          text);
     return text.lines;
   }
-  LineWriter writer{BoardInfo{}};
+  MotionWriter writer{streamed::TextRules{}};
+  BoardCommands commands;
   MotionText text;
   std::optional<Refusal> refusal;
 };
 
-TEST_F(LineWriterTest, WritesWhatChanges) {
+TEST_F(BoardText, WritesWhatChanges) {
   EXPECT_EQ(rapid(1, 0, -2.5), Lines{"G0X1Z-2.5"});
   EXPECT_EQ(line(1, 3, -2.5, 300), Lines{"G1Y3F300"});
   EXPECT_EQ(line(1.25, 3, -2.5, 300), Lines{"G1X1.25"}) << "the feed is in force";
@@ -85,26 +93,26 @@ TEST_F(LineWriterTest, WritesWhatChanges) {
   EXPECT_NEAR(text.seconds, 0.75 / 250.5 * 60, 1e-9);
 }
 
-TEST_F(LineWriterTest, HasTheDecimalsOfTheBoardsSteps) {
+TEST_F(BoardText, HasTheDecimalsOfTheBoardsSteps) {
   EXPECT_EQ(rapid(0.12344, 0, 0), Lines{"G0X0.1234"});
   make(board_of(80));
   EXPECT_EQ(rapid(0.12344, 0, 0), Lines{"G0X0.123"});
 }
 
-TEST_F(LineWriterTest, WritesNoLineForLessThanAStepAndLosesNothing) {
+TEST_F(BoardText, WritesNoLineForLessThanAStepAndLosesNothing) {
   for (int i = 1; i <= 3; ++i) EXPECT_EQ(line(i * 0.0001, 0, 0, 300), Lines{});
   EXPECT_EQ(line(0.0006, 0, 0, 300), Lines{"G1X0.0006F300"});
 }
 
-TEST_F(LineWriterTest, LetsTheAxesRestByADwellOfNoTime) {
+TEST_F(BoardText, LetsTheAxesRestByADwellOfNoTime) {
   EXPECT_EQ(line(1, 0, 0, Feed::per_minute(Length::mm(100)), true), (Lines{"G1X1F100", "G4P0"}));
 }
 
-TEST_F(LineWriterTest, TurnsInverseTimeIntoFeedPerMinute) {
+TEST_F(BoardText, TurnsInverseTimeIntoFeedPerMinute) {
   EXPECT_EQ(line(30, 40, 0, Feed::inverse_time(4)), Lines{"G1X30Y40F200"});
 }
 
-TEST_F(LineWriterTest, ScalesTheFeedWhereTheBoardAddsDegreesToMillimeters) {
+TEST_F(BoardText, ScalesTheFeedWhereTheBoardAddsDegreesToMillimeters) {
   make(board_of(1000, 4));
   Position to = point(3, 0, 0);
   to.set(Axis::A, Angle::degrees(4));
@@ -112,7 +120,7 @@ TEST_F(LineWriterTest, ScalesTheFeedWhereTheBoardAddsDegreesToMillimeters) {
   EXPECT_EQ(text.lines, Lines{"G1X3A4F500"}) << "3 mm of 5 units";
 }
 
-TEST_F(LineWriterTest, WritesArcsByTheirCenterInEveryPlane) {
+TEST_F(BoardText, WritesArcsByTheirCenterInEveryPlane) {
   EXPECT_EQ(arc(10, 10, 0, 0, 10, 90), Lines{"G17G3X10Y10I0J10F600"});
   make(board_of());
   EXPECT_EQ(arc(10, 0, 10, 0, 10, 90, Turn::Counterclockwise, Plane::ZX),
@@ -122,7 +130,7 @@ TEST_F(LineWriterTest, WritesArcsByTheirCenterInEveryPlane) {
             Lines{"G19G3Y10Z10J0K10F600"});
 }
 
-TEST_F(LineWriterTest, SplitsWhatIsMoreThanHalfACircle) {
+TEST_F(BoardText, SplitsWhatIsMoreThanHalfACircle) {
   (void)rapid(10, 0, 0);
   EXPECT_EQ(arc(10, 0, 0, 0, 0, 360, Turn::Clockwise),
             (Lines{"G17G2X-10Y0I-10J0F600", "G17G2X10Y0I10J0"}));
@@ -130,12 +138,12 @@ TEST_F(LineWriterTest, SplitsWhatIsMoreThanHalfACircle) {
   EXPECT_EQ(text.lines.back(), "G17G3X10Z4Y0I10J0");
 }
 
-TEST_F(LineWriterTest, MakesNoCircleOfAnArcWithoutLength) {
+TEST_F(BoardText, MakesNoCircleOfAnArcWithoutLength) {
   (void)rapid(10, 0, 0);
   EXPECT_EQ(arc(10, 0.0005, 0, 0, 0, 0.003), Lines{"G1Y0.0005F600"});
 }
 
-TEST_F(LineWriterTest, WritesASpiralAsChords) {
+TEST_F(BoardText, WritesASpiralAsChords) {
   (void)rapid(10, 0, 0);
   const Lines lines = arc(0, 12, 0, 0, 0, 90);
   EXPECT_GT(lines.size(), 20U);
@@ -143,7 +151,7 @@ TEST_F(LineWriterTest, WritesASpiralAsChords) {
   EXPECT_EQ(writer.at()[1], 12);
 }
 
-TEST_F(LineWriterTest, RefusesWhatTheBoardCannotDo) {
+TEST_F(BoardText, RefusesWhatTheBoardCannotDo) {
   (void)line(1, 0, 0, Feed::per_revolution(Length::mm(0.1)));
   EXPECT_EQ(refusal->text, "this machine cannot feed per revolution");
   (void)line(1, 0, 0, 0);
@@ -151,47 +159,51 @@ TEST_F(LineWriterTest, RefusesWhatTheBoardCannotDo) {
   Position to;
   to.set(Axis::B, Angle::degrees(4));
   refusal = writer.rapid({{}, to}, text);
-  EXPECT_EQ(refusal->text, "the board has no B axis");
+  EXPECT_EQ(refusal->text, "the machine has no B axis");
   (void)rapid(std::nan(""), 0, 0);
   EXPECT_EQ(refusal->id, "MCH0006");
-  std::string words;
-  refusal =
-      writer.spindle({{}, interpreter::SpindleState::Clockwise, 0, Length::mm(100), {}}, words);
-  EXPECT_EQ(refusal->text, "this machine cannot keep a constant surface speed");
-  refusal = writer.spindle({{}, interpreter::SpindleState::Clockwise, 6000, {}, {}}, words);
-  EXPECT_EQ(refusal->text, "spindle speed 6000 is above the board's 5000 rpm ($30)");
   Lines lines;
-  refusal = writer.coolant({{}, false, true}, lines);
+  refusal =
+      commands.spindle({{}, interpreter::SpindleState::Clockwise, 0, Length::mm(100), {}}, lines);
+  EXPECT_EQ(refusal->text, "this machine cannot keep a constant surface speed");
+  refusal = commands.spindle({{}, interpreter::SpindleState::Clockwise, 6000, {}, {}}, lines);
+  EXPECT_EQ(refusal->text, "spindle speed 6000 is above the machine's 5000 rpm ($30)");
+  refusal = commands.coolant({{}, false, true}, lines);
   EXPECT_EQ(refusal->text, "this machine cannot switch mist coolant");
+  refusal = commands.miscellaneous({{}, 25}, lines);
+  EXPECT_EQ(refusal->text, "this machine cannot do M25");
+  refusal = commands.pin({{}, {}, 2, true, {}}, lines);
+  EXPECT_EQ(refusal->text, "this machine cannot switch output 2");
+  EXPECT_TRUE(lines.empty());
 }
 
-TEST_F(LineWriterTest, KeepsToTheTravelWhereSoftLimitsAreInForce) {
+TEST_F(BoardText, KeepsToTheTravelWhereSoftLimitsAreInForce) {
   EXPECT_EQ(rapid(500, 0, 0), Lines{"G0X500"}) << "no soft limits";
   BoardInfo board = board_of();
   board.take(SettingReply{20, 1});
   make(board);
   EXPECT_EQ(rapid(-200, 0, 0), Lines{"G0X-200"});
   (void)rapid(-200, 1, 0);
-  EXPECT_EQ(refusal->text, "Y 1.000 is outside the board's travel of -200 to 0 ($20, $131)");
+  EXPECT_EQ(refusal->text, "Y 1.000 is outside the machine's travel of -200 to 0 ($20, $23, $131)");
   (void)arc(-200, -100, 0, -200, -50, 180, Turn::Counterclockwise);
   EXPECT_TRUE(refusal) << "the arc bulges beyond the travel";
 }
 
-TEST_F(LineWriterTest, SwitchesSpindleAndCoolant) {
-  std::string words;
-  EXPECT_FALSE(
-      writer.spindle({{}, interpreter::SpindleState::Counterclockwise, 1200, {}, {}}, words));
-  EXPECT_EQ(words, "M4S1200");
+TEST_F(BoardText, SwitchesSpindleAndCoolant) {
   Lines lines;
-  EXPECT_FALSE(writer.coolant({{}, true, false}, lines));
+  EXPECT_FALSE(
+      commands.spindle({{}, interpreter::SpindleState::Counterclockwise, 1200, {}, {}}, lines));
+  EXPECT_EQ(lines, Lines{"M4S1200"});
+  lines.clear();
+  EXPECT_FALSE(commands.coolant({{}, true, false}, lines));
   EXPECT_EQ(lines, Lines{"M8"});
   lines.clear();
-  EXPECT_FALSE(writer.coolant({{}, false, false}, lines));
+  EXPECT_FALSE(commands.coolant({{}, false, false}, lines));
   EXPECT_EQ(lines, Lines{"M9"});
 }
 
-TEST_F(LineWriterTest, UsesAWorkOffsetThatIsZero) {
-  EXPECT_EQ(writer.preamble(), (Lines{"G21G90G94G17G91.1G49G55", "G92.1M5M9"}));
+TEST(BoardInfoTest, UsesAWorkOffsetThatIsZero) {
+  EXPECT_EQ(board_of().work_system(), "G55");
 }
 
 TEST(BoardInfoTest, NeedsNoMoreLineNumbersThanTheBoardHoldsLines) {
@@ -205,7 +217,7 @@ TEST(BoardInfoTest, NeedsNoMoreLineNumbersThanTheBoardHoldsLines) {
 }
 
 TEST(BoardInfoTest, NamesWhatMakesABoardUnfit) {
-  const auto reason = [](BoardInfo board) {
+  const auto reason = [](const BoardInfo& board) {
     const auto fit = board.check();
     return fit ? std::string() : fit.error().what;
   };
