@@ -14,6 +14,8 @@ using test_support::BlockEnds;
 using test_support::eventually;
 using test_support::GrblBoard;
 
+constexpr int kFeed = 3000;
+
 class GrblDialects : public GrblSystem, public testing::WithParamInterface<std::size_t> {};
 
 TEST_P(GrblDialects, PassTheEndOfEveryBlockOfTheSimulatedMachine) {
@@ -89,7 +91,7 @@ TEST_F(GrblSystem, TheExampleRunsOnTheBoardOfItsReadme) {
 
 TEST_F(GrblSystem, HoldsResumesAndAborts) {
   start();
-  system->push("path", straight_program(2000));
+  system->push("path", straight_program(2000, kFeed));
   const std::string id = start_run("path");
   ASSERT_TRUE(eventually([&] { return system->run(id).value("executed", 0u) > 20; }));
   command(id, "hold");
@@ -112,7 +114,7 @@ TEST_F(GrblSystem, HoldsResumesAndAborts) {
 
 TEST_F(GrblSystem, APulledCableIsAnAlarmAndTheOperatorsResetEndsIt) {
   start();
-  system->push("path", straight_program(2000));
+  system->push("path", straight_program(2000, kFeed));
   const std::string id = start_run("path");
   ASSERT_TRUE(eventually([&] { return system->run(id).value("executed", 0u) > 20; }));
   board->unplug();
@@ -121,9 +123,7 @@ TEST_F(GrblSystem, APulledCableIsAnAlarmAndTheOperatorsResetEndsIt) {
   EXPECT_NE(run.value("reason", "").find("GRB0005"), std::string::npos) << run.dump();
   EXPECT_NE(run.value("reason", "").find("the position is unknown"), std::string::npos);
   board->plug_in();
-  const auto reply =
-      system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "path"}});
-  EXPECT_NE(reply.status, 201) << "nothing starts before the operator resets";
+  EXPECT_NE(post_run("path").status, 201) << "nothing starts before the operator resets";
   EXPECT_TRUE(eventually([&] { return rests(); })) << "the board has emptied its buffers";
   press_emergency_stop(true);
   press_emergency_stop(false);
@@ -133,10 +133,8 @@ TEST_F(GrblSystem, APulledCableIsAnAlarmAndTheOperatorsResetEndsIt) {
 
 TEST_F(GrblSystem, ALockedBoardIsHomedAtThePanel) {
   start("rs274ngc", {.is_locked = true});
-  system->push("path", straight_program(50));
-  const auto start_reply = [&] {
-    return system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "path"}}).body;
-  };
+  system->push("path", straight_program(50, kFeed));
+  const auto start_reply = [&] { return post_run("path").body; };
   EXPECT_TRUE(eventually([&] { return start_reply().find("home the axes") != std::string::npos; }))
       << start_reply();
   const auto homed = panel({"home"});
@@ -146,7 +144,7 @@ TEST_F(GrblSystem, ALockedBoardIsHomedAtThePanel) {
 
 TEST_F(GrblSystem, ABoardThatIsResetInTheMidstIsAnAlarm) {
   start();
-  system->push("path", straight_program(2000));
+  system->push("path", straight_program(2000, kFeed));
   const std::string id = start_run("path");
   ASSERT_TRUE(eventually([&] { return system->run(id).value("executed", 0u) > 20; }));
   board->with([](GrblBoard& peer) { peer.restart(); });
@@ -157,7 +155,7 @@ TEST_F(GrblSystem, ABoardThatIsResetInTheMidstIsAnAlarm) {
 
 TEST_F(GrblSystem, AStoppedGatewayHoldsTheBoard) {
   start();
-  system->push("path", straight_program(4000));
+  system->push("path", straight_program(4000, kFeed));
   const std::string id = start_run("path");
   ASSERT_TRUE(eventually([&] { return done() > 20; }));
   system->gateway().signal(SIGTERM);

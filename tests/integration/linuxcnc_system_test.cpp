@@ -4,7 +4,7 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/integration/system.hpp"
+#include "tests/integration/motion_system.hpp"
 #include "tests/support/linuxcnc.hpp"
 
 namespace dripline::integration {
@@ -13,63 +13,28 @@ namespace {
 using test_support::eventually;
 using test_support::LinuxCnc;
 
-std::string straight_program(int blocks) {
-  std::string text = "G21 G90 G94 F2400\n";
-  for (int i = 1; i <= blocks; ++i) text += "G1 X" + std::to_string(i) + "\n";
-  return text + "M2\n";
-}
+constexpr int kFeed = 2400;
 
-class LinuxCncSystem : public testing::Test {
+class LinuxCncSystem : public MotionSystem {
  protected:
   void start(const std::string& control) {
     if (const std::string missing = LinuxCnc::missing(); !missing.empty())
       GTEST_SKIP() << "skipped: " << missing;
     linuxcnc.emplace();
     linuxcnc->start();
-    system.emplace(System::Options{
-        .speed = "1x",
-        .server_arguments = {},
-        .gateway_arguments = {"--motion", "linuxcnc:" + linuxcnc->ini(), "--unattended", "yes"},
-        .control = control});
-    system->start_server();
-    start_gateway();
-  }
-  void start_gateway() {
-    system->start_gateway();
-    system->wait_connected();
-  }
-  test_support::Finished panel(std::vector<std::string> words) {
-    std::vector<std::string> command{program_path("dncgw"), "panel", "--state",
-                                     system->folder() / "gateway" / "lathe-1"};
-    command.insert(command.end(), words.begin(), words.end());
-    return test_support::run_to_end(command, system->folder() / "panel.out");
+    start_system(control, "linuxcnc:" + linuxcnc->ini());
   }
   /// As the example's README has it.
   void turn_on(const std::string& program) {
     ASSERT_TRUE(eventually([&] {
-      return start_reply(program).find("LinuxCNC is in emergency stop") != std::string::npos;
-    })) << start_reply(program);
-    EXPECT_EQ(panel({"emergency-stop", "on"}).status, 0);
-    EXPECT_EQ(panel({"emergency-stop", "off"}).status, 0);
+      return post_run(program).body.find("LinuxCNC is in emergency stop") != std::string::npos;
+    })) << post_run(program).body;
+    press_emergency_stop(true);
+    press_emergency_stop(false);
     ASSERT_TRUE(eventually([&] { return panel({"home"}).status == 0; })) << panel({"home"}).output;
-  }
-  std::string start_reply(const std::string& program) {
-    return system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", program}}).body;
-  }
-  std::string start_run(const std::string& program) {
-    std::string id, refusal;
-    EXPECT_TRUE(eventually([&] {
-      const auto reply =
-          system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", program}});
-      refusal = reply.body;
-      id = reply.status == 201 ? reply.json().value("id", "") : "";
-      return !id.empty();
-    })) << refusal;
-    return id;
   }
 
   std::optional<LinuxCnc> linuxcnc;
-  std::optional<System> system;
 };
 
 TEST_F(LinuxCncSystem, AProgramOfATnc155RunsOnALinuxCncMill) {
@@ -96,7 +61,7 @@ TEST_F(LinuxCncSystem, AProgramOfATnc155RunsOnALinuxCncMill) {
 TEST_F(LinuxCncSystem, AKilledGatewayLeavesNoMotionAndClaimsNothing) {
   start("rs274ngc");
   if (IsSkipped() || HasFatalFailure()) return;
-  system->push("path", straight_program(380));
+  system->push("path", straight_program(380, kFeed));
   turn_on("path");
   std::mt19937 random(20'261'123);
   for (int kill = 0; kill < 3; ++kill) {
