@@ -141,15 +141,15 @@ Tool tool_of(const ToolRecord& record) {
 
 void load_active_offsets(const ControlOptions& options, const Parameters& parameters,
                          State& state) {
-  const int first = first_of_system(state.system);
+  const auto first = static_cast<std::size_t>(first_of_system(state.system));
   for (const Axis axis : kAllAxes) {
     const std::size_t i = index_of(axis);
     const double scale = is_rotary(axis) ? 1 : options.mm_per_machine_unit;
-    state.system_offset[i] = parameters[static_cast<std::size_t>(first) + i] * scale;
+    state.system_offset[i] = parameters[first + i] * scale;
     state.g92[i] = parameters[kG92Offsets + i] * scale;
   }
   if (options.is_linuxcnc()) {
-    state.rotation = parameters[static_cast<std::size_t>(first + kSystemRotation)];
+    state.rotation = parameters[first + kSystemRotation];
   }
 }
 

@@ -86,14 +86,13 @@ double to_memory(const Run& run, Axis axis, double mm) {
 }
 
 void load_system(Run& run, int system) {
-  const int first = first_of_system(system);
+  const auto first = static_cast<std::size_t>(first_of_system(system));
   const Axes old = run.state.system_offset;
   for (const Axis axis : kAllAxes) {
-    const auto at = static_cast<std::size_t>(first) + index_of(axis);
-    run.state.system_offset[index_of(axis)] = from_memory(run, axis, run.parameters[at]);
+    const std::size_t i = index_of(axis);
+    run.state.system_offset[i] = from_memory(run, axis, run.parameters[first + i]);
   }
-  run.state.rotation =
-      run.is_linuxcnc() ? run.parameters[static_cast<std::size_t>(first + kSystemRotation)] : 0;
+  run.state.rotation = run.is_linuxcnc() ? run.parameters[first + kSystemRotation] : 0;
   run.state.system = static_cast<std::uint8_t>(system);
   run.parameters[kSystemNumber] = system;
   ++run.frame_changes;
