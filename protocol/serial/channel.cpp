@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "protocol/serial/impl/channels.hpp"
+
 namespace dripline::serial {
 
 Result<std::unique_ptr<Channel>> open_channel(const std::string& address,

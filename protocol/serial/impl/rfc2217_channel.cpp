@@ -1,4 +1,4 @@
-#include "protocol/serial/channel.hpp"
+#include "protocol/serial/impl/channels.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>

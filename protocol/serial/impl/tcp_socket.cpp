@@ -10,7 +10,7 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
-#include "protocol/serial/channel.hpp"
+#include "protocol/serial/impl/channels.hpp"
 
 namespace dripline::serial {
 

@@ -1,4 +1,4 @@
-#include "protocol/serial/channel.hpp"
+#include "protocol/serial/impl/channels.hpp"
 
 #include <fcntl.h>
 #include <linux/serial.h>
