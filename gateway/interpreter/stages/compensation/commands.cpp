@@ -2,11 +2,11 @@
 
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
-/// A corner that a block of its own rounds.
-
 /// The commands that turn compensation on and off.
 
 namespace dripline::interpreter::compensation {
+
+// A corner that a block of its own rounds.
 
 using namespace impl;
 
@@ -46,8 +46,6 @@ bool Compensator::end_corner(const Element& next) {
   if (turn_corner(state_.waiting(), next.direction_in)) return true;
   return refuse({FaultKind::ConcaveCorner, state_.waiting().origin, next.origin});
 }
-
-using namespace impl;
 
 bool Compensator::is_on() const {
   return state_.phase == Phase::Starting || state_.phase == Phase::On;
