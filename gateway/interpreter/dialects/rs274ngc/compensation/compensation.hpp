@@ -7,9 +7,6 @@
 /// Cutter radius compensation, as each of the two programs does it: NIST appendix B, and LinuxCNC
 /// as measured (tests/differential).
 
-/// The two methods of compensation, chosen by the profile; private to compensation*.cpp. Points are
-/// program coordinates along the axes of the plane, in millimeters.
-
 namespace dripline::interpreter::rs274ngc {
 
 /// G40, G41, G42, G41.1, G42.1.
@@ -33,6 +30,9 @@ void continue_from_tool(Run& run);
 
 /// Lets go of moves that are held back: the path ends or continues without compensation.
 void release_held(Run& run);
+
+// The two methods of compensation, chosen by the profile; private to compensation*.cpp. Points are
+// program coordinates along the axes of the plane, in millimeters.
 
 bool nist_line(Run& run, const Target& target, bool is_rapid, const Feed& feed);
 bool nist_arc(Run& run, const Target& target, PlaneVector center, Turn turn, double full_circles,

@@ -8,8 +8,6 @@
 
 /// Canned cycles (NIST 3.5; LinuxCNC: G73, G74, G76).
 
-/// What the cycles do at a hole, as rows of steps (NIST 3.5; where LinuxCNC differs: as measured).
-
 namespace dripline::interpreter::rs274ngc {
 
 /// G73, G74, G81 to G89: holes, each a row of steps.
@@ -22,6 +20,8 @@ bool synchronized_move(Run& run, int g_code);
 
 /// G76: a thread in many passes, in the ZX plane.
 bool thread_cycle(Run& run);
+
+// What the cycles do at a hole, as rows of steps (NIST 3.5; where LinuxCNC differs: as measured).
 
 /// What a cycle does at a hole, one after the other.
 enum class Step : std::uint8_t {

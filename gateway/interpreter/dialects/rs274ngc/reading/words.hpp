@@ -5,9 +5,6 @@
 
 /// The words of one line: letter and value, each letter once.
 
-/// Blanks vanish everywhere outside comments, case does not matter (NIST 3.3). All texts here end
-/// in a byte that can be read and ends a line.
-
 namespace dripline::interpreter::rs274ngc {
 
 /// A to Z keep their place in the alphabet; `@` and `^`, the polar words, follow.
@@ -62,6 +59,9 @@ class Words {
   std::array<double, kAddressCount> value_{};
   std::array<std::uint32_t, kAddressCount> column_{};
 };
+
+// Blanks vanish everywhere outside comments, case does not matter (NIST 3.3). All texts here end
+// in a byte that can be read and ends a line.
 
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t';

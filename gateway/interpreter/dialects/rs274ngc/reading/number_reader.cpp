@@ -1,0 +1,51 @@
+#include "gateway/interpreter/dialects/rs274ngc/reading/number_reader.hpp"
+
+#include <charconv>
+#include <string>
+
+#include "gateway/interpreter/core/language/number.hpp"
+
+namespace dripline::interpreter::rs274ngc {
+
+namespace {
+
+constexpr NumberRules kNumberRules{.skip_blanks = true};
+
+/// More digits than the fast reader takes: nothing is wrong with them here.
+bool read_long_number(Run& run, const char*& at, double& value) {
+  std::string digits;
+  bool has_point = false;
+  for (;; ++at) {
+    if (is_blank(*at)) continue;
+    const bool is_sign = (*at == '-' || *at == '+') && digits.empty();
+    const bool is_point = *at == '.' && !has_point;
+    if (!is_digit(*at) && !is_sign && !is_point) break;
+    has_point |= is_point;
+    digits += *at;
+  }
+  const char* begin = digits.c_str() + (digits.front() == '+' ? 1 : 0);
+  const auto read = std::from_chars(begin, digits.c_str() + digits.size(), value);
+  if (read.ec == std::errc{}) return true;
+  return run.fail(ErrorCode::BadNumber, run.column(at), "a number this long");
+}
+
+}  // namespace
+
+bool read_number_at(Run& run, const char*& at, double& value) {
+  NumberText number;
+  const char* start = at;
+  // the line's end is no character of a number, so that no end need be given
+  const char* after = read_number<kNumberRules>(at, nullptr, number);
+  if (number.fault == NumberFault::None) [[likely]] {
+    value = number.value;
+    at = after;
+    return true;
+  }
+  if (number.fault == NumberFault::TooManyDigits) return read_long_number(run, at, value);
+  if (number.fault == NumberFault::SecondPoint) {
+    return run.fail(ErrorCode::BadNumber, run.column(start), "a second point");
+  }
+  return run.fail(ErrorCode::NoDigits, run.column(start));
+}
+
+}  // namespace dripline::interpreter::rs274ngc
