@@ -179,5 +179,14 @@ TEST(LineTemplates, NameTheKnownOnesForAnUnknown) {
   EXPECT_THAT(found.error().what, HasSubstr("prototrak"));
 }
 
+TEST(PlainSettings, ThatExcludeEachOtherAreNamed) {
+  LineSettings eia;
+  eia.code = CharacterCode::Eia;
+  const auto made = make_discipline(eia, Role::Host);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, Errc::Unsupported);
+  EXPECT_THAT(made.error().what, HasSubstr("rtscts"));
+}
+
 }  // namespace
 }  // namespace dripline::wire

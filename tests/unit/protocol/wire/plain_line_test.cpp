@@ -390,14 +390,5 @@ TEST(PlainSettings, RefuseMarksThatTheLineCannotCarry) {
   EXPECT_EQ(refused({{"start_char", "DC2"}, {"end_char", "DC4"}}), "");
 }
 
-TEST(PlainSettings, ThatExcludeEachOtherAreNamed) {
-  LineSettings eia;
-  eia.code = CharacterCode::Eia;
-  const auto made = make_discipline(eia, Role::Host);
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().code, Errc::Unsupported);
-  EXPECT_THAT(made.error().what, HasSubstr("rtscts"));
-}
-
 }  // namespace
 }  // namespace dripline::wire

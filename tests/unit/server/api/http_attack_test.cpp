@@ -1,135 +1,14 @@
 // The HTTP server against clients that are hostile, broken or only slow. All on loopback.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
-#include <optional>
 #include <thread>
-#include <vector>
 
-#include "server/api/event_hub.hpp"
-#include "server/api/http_server.hpp"
-#include "tests/support/temporary_folder.hpp"
-#include "tests/unit/server/api/raw_peer.hpp"
+#include "tests/unit/server/api/http_attack.hpp"
 
 namespace dripline::server_test {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr std::string_view kToken = "Authorization: Bearer right\r\n";
-
-std::string get(std::string_view path, std::string_view fields = kToken) {
-  return fmt::format("GET {} HTTP/1.1\r\nHost: localhost\r\n{}\r\n", path, fields);
-}
-
-/// Holds handlers until it is opened.
-class Gate {
- public:
-  void wait() {
-    std::unique_lock lock(mutex_);
-    ++waiting_;
-    changed_.notify_all();
-    changed_.wait(lock, [this] { return is_open_; });
-  }
-  void wait_for(int number) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, 30s, [&] { return waiting_ >= number; });
-  }
-  void open() {
-    const std::lock_guard lock(mutex_);
-    is_open_ = true;
-    changed_.notify_all();
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  int waiting_ = 0;
-  bool is_open_ = false;
-};
-
-/// `/health` for everybody, the rest with the token: `/wait` (storage), `/machine` (a machine),
-/// `/events`, `/pieces`, and anything else echoes its body.
-class HttpAttack : public testing::Test {
- protected:
-  void TearDown() override {
-    gate_.open();
-    hub_.close();
-  }
-
-  void start() {
-    options_.address = api::parse_http_address("127.0.0.1:0").value();
-    if (options_.max_body == 0) options_.max_body = 1 << 20;
-    auto started = api::HttpServer::start(
-        options_, {.handle = [this](const api::Request& request) { return answer(request); },
-                   .judge = [](api::Request& head) { return judge(head); },
-                   .waits_for_machine =
-                       [](const api::Request& r) { return r.target.segments.at(0) == "machine"; }});
-    ASSERT_TRUE(started) << started.error().what;
-    server_ = *std::move(started);
-  }
-
-  static std::optional<api::Response> judge(const api::Request& head) {
-    api::Response response;
-    if (head.target.segments.at(0) == "health") {
-      response.body = "fine\n";
-      return response;
-    }
-    if (head.header("authorization") == "Bearer right") return std::nullopt;
-    response.status = 401;
-    return response;
-  }
-
-  api::Response answer(const api::Request& request) {
-    const std::string what = request.target.segments.at(0);
-    if (what == "wait" || what == "machine") gate_.wait();
-    api::Response response;
-    if (what == "events") {
-      response.content_type = "text/event-stream";
-      response.events = hub_.subscribe(std::nullopt);
-    } else if (what == "pieces") {
-      response.source = [n = 0]() mutable -> Result<std::optional<std::string>> {
-        if (++n > 3) return std::optional<std::string>();
-        return std::optional("piece\n" + std::to_string(n));
-      };
-    } else {
-      response.body = "served " + request.body + "\n";
-    }
-    return response;
-  }
-
-  RawPeer peer() { return RawPeer(server_->port()); }
-  /// Sends text over a new connection; what comes back until `end`.
-  std::string exchange(const std::string& text, std::string_view end = "\n\0") {
-    RawPeer one = peer();
-    EXPECT_TRUE(one.is_connected());
-    one.send(text);
-    return one.read_until(end);
-  }
-  std::string status_of(const std::string& text) {
-    return exchange(text, "\r\n\r\n").substr(0, std::string_view("HTTP/1.1 200").size());
-  }
-  void expect_health() {
-    EXPECT_NE(exchange(get("/health", ""), "fine\n").find(" 200 OK\r\n"), std::string::npos);
-  }
-  void expect_served() {
-    EXPECT_NE(exchange(get("/x"), "served").find(" 200 OK\r\n"), std::string::npos);
-  }
-  std::vector<RawPeer> idle(int number) {
-    std::vector<RawPeer> peers;
-    peers.reserve(static_cast<std::size_t>(number));
-    for (int i = 0; i < number; ++i) peers.push_back(peer());
-    return peers;
-  }
-
-  api::HttpOptions options_;
-  Gate gate_;
-  api::EventHub hub_;
-  std::unique_ptr<api::HttpServer> server_;
-};
 
 TEST_F(HttpAttack, AThousandResetsLeaveItServing) {
   start();
@@ -408,63 +287,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"large_body", kHead + "Content-Length: 99999999999\r\n\r\n", "413"},
         BadCase{"large_chunk", kHead + "Transfer-Encoding: chunked\r\n\r\nfffffff\r\n", "413"}),
     [](const auto& i) { return std::string(i.param.name); });
-
-/// A certificate for localhost, in a folder of its own.
-class HttpTlsAttack : public HttpAttack {
- protected:
-  HttpTlsAttack() {
-    options_.tls = api::TlsFiles{.certificate = folder_.path() / "cert.pem",
-                                 .key = folder_.path() / "key.pem"};
-    const std::string make = fmt::format(
-        "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 2 "
-        "-subj /CN=localhost -out {} -keyout {} 2>/dev/null",
-        options_.tls->certificate, options_.tls->key);
-    EXPECT_EQ(std::system(make.c_str()), 0);
-  }
-  int s_client(const std::string& with) {
-    return std::system(fmt::format("openssl s_client -connect 127.0.0.1:{} {} </dev/null "
-                                   ">/dev/null 2>&1",
-                                   server_->port(), with)
-                           .c_str());
-  }
-  test_support::TemporaryFolder folder_;
-};
-
-TEST_F(HttpTlsAttack, IdleConnectionsDoNotKeepOutAHandshake) {
-  start();
-  const auto silent = idle(300);
-  const std::string ask = fmt::format(
-      "curl -sf --max-time 30 --cacert {} --connect-to localhost:443:127.0.0.1:{} "
-      "https://localhost/health | grep -q fine",
-      options_.tls->certificate, server_->port());
-  EXPECT_EQ(std::system(ask.c_str()), 0);
-}
-
-TEST_F(HttpTlsAttack, AHandshakeMustComeInTime) {
-  options_.limits.handshake = 200ms;
-  start();
-  RawPeer silent = peer();
-  EXPECT_TRUE(silent.wait_for_end());
-}
-
-TEST_F(HttpTlsAttack, OnlyCiphersWithForwardSecrecy) {
-  start();
-  EXPECT_EQ(s_client("-tls1_3"), 0);
-  EXPECT_EQ(s_client("-tls1_2"), 0);
-  EXPECT_NE(s_client("-tls1_2 -cipher AES128-SHA:AES128-GCM-SHA256"), 0);
-  EXPECT_NE(s_client("-tls1_1 -cipher ALL:@SECLEVEL=0"), 0);
-}
-
-TEST_F(HttpTlsAttack, AKeyThatOthersCanReadIsRefused) {
-  std::filesystem::permissions(options_.tls->key, std::filesystem::perms::others_read,
-                               std::filesystem::perm_options::add);
-  options_.address = api::parse_http_address("127.0.0.1:0").value();
-  const auto server =
-      api::HttpServer::start(options_, {.handle = [](const auto&) { return api::no_content(); }});
-  ASSERT_FALSE(server);
-  EXPECT_EQ(server.error().code, Errc::Denied);
-  EXPECT_NE(server.error().what.find(options_.tls->key), std::string::npos);
-}
 
 }  // namespace
 }  // namespace dripline::server_test

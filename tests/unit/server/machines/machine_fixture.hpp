@@ -158,4 +158,37 @@ class MachineServiceTest : public ServerTest {
   std::unique_ptr<machines::MachineService> service_;  // last: it ends before what its threads use
 };
 
+/// Runs of that service, among them some of a former life of the server.
+class MachineRuns : public MachineServiceTest {
+ protected:
+  void status(const std::string& run, std::uint32_t outbox = 0) {
+    dds::Status status;
+    status.machine = "lathe-1";
+    status.time = clock_.now();
+    status.run = run;
+    status.outbox = outbox;
+    network_.on_status(status);
+  }
+  /// An Ordered run of a former life of the server.
+  std::string stored_run() {
+    const auto revision = push("O0100", "M30\n");
+    add_machine("lathe-1");
+    Run run;
+    run.id = "old-run";
+    run.machine = "lathe-1";
+    run.program = revision.program;
+    run.revision = revision.number;
+    run.content = revision.content;
+    run.size = revision.size;
+    run.control = "centurion";
+    run.created = clock_.now();
+    EXPECT_TRUE(store_->runs.create(run));
+    return run.id;
+  }
+  /// Waits until the stored run is in this state; the service compares every two seconds.
+  bool wait_state(const std::string& run, storage::RunState state) {
+    return wait_notified(runs_, [&](const Run& r) { return r.id == run && r.state == state; });
+  }
+};
+
 }  // namespace dripline::server_test

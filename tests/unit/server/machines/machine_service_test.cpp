@@ -8,38 +8,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class MachineRuns : public MachineServiceTest {
- protected:
-  void status(const std::string& run, std::uint32_t outbox = 0) {
-    dds::Status status;
-    status.machine = "lathe-1";
-    status.time = clock_.now();
-    status.run = run;
-    status.outbox = outbox;
-    network_.on_status(status);
-  }
-  /// An Ordered run of a former life of the server.
-  std::string stored_run() {
-    const auto revision = push("O0100", "M30\n");
-    add_machine("lathe-1");
-    Run run;
-    run.id = "old-run";
-    run.machine = "lathe-1";
-    run.program = revision.program;
-    run.revision = revision.number;
-    run.content = revision.content;
-    run.size = revision.size;
-    run.control = "centurion";
-    run.created = clock_.now();
-    EXPECT_TRUE(store_->runs.create(run));
-    return run.id;
-  }
-  /// Waits until the stored run is in this state; the service compares every two seconds.
-  bool wait_state(const std::string& run, storage::RunState state) {
-    return wait_notified(runs_, [&](const Run& r) { return r.id == run && r.state == state; });
-  }
-};
-
 TEST_F(MachineRuns, SendAStartCommandAndAreActiveOnceItIsAccepted) {
   const auto revision = push("O0100", "M30\n");
   start_service();
@@ -300,93 +268,6 @@ TEST_F(MachineRuns, AreCommandedInSequence) {
   EXPECT_LT(commands[1].number, commands[2].number);
   EXPECT_EQ(commands[2].session, kSession);
   EXPECT_EQ(commands[2].server, commands[0].server);
-}
-
-/// A deadline by the gateway's clock needs to know that clock; a stop has none.
-TEST_F(MachineRuns, AreStartedOnceTheGatewayHasReportedItsClock) {
-  auto endpoint = test_support::FakeServerEndpoint(written_);
-  std::atomic<bool> is_told = false;
-  machines::CommandDispatcher::Options options;
-  options.expiry = 300ms;
-  options.grace = 0ms;
-  options.repeat = 5ms;
-  options.gateway_of = [&](const std::string&) {
-    machines::CommandDispatcher::Options::Gateway gateway{.session = 2, .steady_ahead = {}};
-    if (is_told) gateway.steady_ahead = kSteadyAhead;
-    return gateway;
-  };
-  machines::CommandDispatcher dispatcher(endpoint, clock_, options, [](const dds::Command&) {});
-  written_->on_command = [&](const dds::Command& heard) {
-    dispatcher.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
-  };
-  dds::Command command;
-  command.machine = "lathe-1";
-  command.action = dds::CommandAction::Abort;
-  EXPECT_TRUE(dispatcher.carry_out(command));
-  command.action = dds::CommandAction::Resume;
-  EXPECT_EQ(dispatcher.carry_out(command).error().code, Errc::Timeout);
-  EXPECT_EQ(written_->commands.size(), 1u);
-  is_told = true;
-  EXPECT_TRUE(dispatcher.carry_out(command));
-  EXPECT_EQ(written_->commands.back().deadline, gateway_steady() + 300ms);
-}
-
-TEST_F(MachineRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsNotified) {
-  push("O0100", "M30\n");
-  start_service();
-  protocol_ = 4711;
-  announce();
-  ASSERT_TRUE(written_->wait([&] { return !written_->commands.empty(); }));
-  EXPECT_EQ(written_->commands[0].action, dds::CommandAction::Refuse);
-  EXPECT_NE(written_->commands[0].argument.find("protocol 4711"), std::string::npos);
-  const auto run = start("O0100");
-  ASSERT_FALSE(run);
-  EXPECT_EQ(run.error().code, Errc::Unsupported);
-  EXPECT_NE(run.error().what.find("protocol 4711, this server 2"), std::string::npos);
-  EXPECT_TRUE(store_->runs.list({}, {})->empty());
-  answer_commands(true);
-  machines::CommandRequest stop;
-  stop.machine = "lathe-1";
-  stop.action = dds::CommandAction::Switch;
-  stop.argument = "emergency_stop";
-  stop.value = 1;
-  EXPECT_TRUE(service_->command(stop)) << "stopping always works";
-  stop.value = 0;
-  EXPECT_EQ(service_->command(stop).error().code, Errc::Unsupported);
-}
-
-TEST_F(MachineRuns, ShowHowFarTheGatewaysClockIsOff) {
-  push("O0100", "M30\n");
-  start_service();
-  announce();
-  EXPECT_EQ(service_->machine("lathe-1")->clock_ahead, std::nullopt);
-  for (const auto ahead : {std::chrono::hours(1), std::chrono::hours(-1)}) {
-    gateway_ahead_ = ahead;
-    for (int i = 0; i < 4; ++i) heartbeat();
-    const auto view = service_->machine("lathe-1");
-    EXPECT_EQ(view->clock_ahead, ahead);
-    EXPECT_EQ(machines::notices_of(*view).at(0),
-              fmt::format("the gateway's clock is 3600.0 s {} the server's",
-                          ahead.count() > 0 ? "ahead of" : "after"));
-  }
-  gateway_ahead_ = 300ms;
-  for (int i = 0; i < 4; ++i) heartbeat();
-  EXPECT_TRUE(machines::notices_of(*service_->machine("lathe-1")).empty());
-}
-
-TEST_F(MachineRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
-  push("O0100", "M30\n");
-  start_service();
-  announce();
-  network_.on_rival("lathe-1", true);
-  answer_commands(true);
-  ASSERT_TRUE(start("O0100"))
-      << "the successor of a killed gateway waits, and the killed is silent";
-  heartbeat();
-  EXPECT_TRUE(service_->machine("lathe-1")->is_contested);
-  network_.on_rival("lathe-1", false);
-  clock_.advance(machines::MachineRegistry::kContested);
-  EXPECT_FALSE(service_->machine("lathe-1")->is_contested);
 }
 
 TEST_F(MachineRuns, ShowTheMachinesLatestStatus) {

@@ -2,11 +2,11 @@
 
 #include "tests/unit/clients/tools/conversational/posted_run.hpp"
 
-/// Posted geometry that the control computes while it runs.
-
 /// Posted programs run. Expected moves are computed from the events, not from the text.
 
 namespace dripline::conversational {
+
+// Posted geometry that the control computes while it runs.
 
 namespace {
 

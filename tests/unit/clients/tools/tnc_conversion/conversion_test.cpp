@@ -5,9 +5,9 @@
 
 #include "clients/tools/tnc_conversion/conversion.hpp"
 
-// A conversion for a control that has not everything: rows HD-238 and HD-239.
-
 namespace dripline::tnc_conversion {
+
+// A conversion for a control that has not everything: rows HD-238 and HD-239.
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include "gateway/interpreter/registry.hpp"
 #include "tests/support/event_log.hpp"
 
-/// An editor's byte order mark in front of a program is leader, whatever the control.
-
 namespace dripline::interpreter {
+
+// An editor's byte order mark in front of a program is leader, whatever the control.
 
 namespace {
 

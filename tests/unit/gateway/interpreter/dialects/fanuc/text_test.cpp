@@ -3,11 +3,11 @@
 #include "gateway/interpreter/registry.hpp"
 #include "tests/unit/gateway/interpreter/dialects/fanuc/program_run.hpp"
 
-/// Which control a text is for.
-
 /// Blocks in the text: lines, semicolons, lengths, ends.
 
 namespace dripline::interpreter {
+
+// Which control a text is for.
 
 namespace {
 

@@ -3,9 +3,9 @@
 
 #include "tests/unit/gateway/interpreter/stages/compensation/contour.hpp"
 
-/// Corners that a block of its own goes round.
-
 namespace dripline::interpreter::compensation {
+
+// Corners that a block of its own goes round.
 
 namespace {
 

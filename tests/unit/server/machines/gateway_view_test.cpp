@@ -1,0 +1,99 @@
+// What the server knows of a gateway: its clock, its protocol, a rival for the same machine.
+#include "server/machines/machine_registry.hpp"
+#include "tests/support/store_decorator.hpp"
+#include "tests/unit/server/machines/machine_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A deadline by the gateway's clock needs to know that clock; a stop has none.
+TEST_F(MachineRuns, AreStartedOnceTheGatewayHasReportedItsClock) {
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  std::atomic<bool> is_told = false;
+  machines::CommandDispatcher::Options options;
+  options.expiry = 300ms;
+  options.grace = 0ms;
+  options.repeat = 5ms;
+  options.gateway_of = [&](const std::string&) {
+    machines::CommandDispatcher::Options::Gateway gateway{.session = 2, .steady_ahead = {}};
+    if (is_told) gateway.steady_ahead = kSteadyAhead;
+    return gateway;
+  };
+  machines::CommandDispatcher dispatcher(endpoint, clock_, options, [](const dds::Command&) {});
+  written_->on_command = [&](const dds::Command& heard) {
+    dispatcher.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
+  };
+  dds::Command command;
+  command.machine = "lathe-1";
+  command.action = dds::CommandAction::Abort;
+  EXPECT_TRUE(dispatcher.carry_out(command));
+  command.action = dds::CommandAction::Resume;
+  EXPECT_EQ(dispatcher.carry_out(command).error().code, Errc::Timeout);
+  EXPECT_EQ(written_->commands.size(), 1u);
+  is_told = true;
+  EXPECT_TRUE(dispatcher.carry_out(command));
+  EXPECT_EQ(written_->commands.back().deadline, gateway_steady() + 300ms);
+}
+
+TEST_F(MachineRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsNotified) {
+  push("O0100", "M30\n");
+  start_service();
+  protocol_ = 4711;
+  announce();
+  ASSERT_TRUE(written_->wait([&] { return !written_->commands.empty(); }));
+  EXPECT_EQ(written_->commands[0].action, dds::CommandAction::Refuse);
+  EXPECT_NE(written_->commands[0].argument.find("protocol 4711"), std::string::npos);
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Unsupported);
+  EXPECT_NE(run.error().what.find("protocol 4711, this server 2"), std::string::npos);
+  EXPECT_TRUE(store_->runs.list({}, {})->empty());
+  answer_commands(true);
+  machines::CommandRequest stop;
+  stop.machine = "lathe-1";
+  stop.action = dds::CommandAction::Switch;
+  stop.argument = "emergency_stop";
+  stop.value = 1;
+  EXPECT_TRUE(service_->command(stop)) << "stopping always works";
+  stop.value = 0;
+  EXPECT_EQ(service_->command(stop).error().code, Errc::Unsupported);
+}
+
+TEST_F(MachineRuns, ShowHowFarTheGatewaysClockIsOff) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  EXPECT_EQ(service_->machine("lathe-1")->clock_ahead, std::nullopt);
+  for (const auto ahead : {std::chrono::hours(1), std::chrono::hours(-1)}) {
+    gateway_ahead_ = ahead;
+    for (int i = 0; i < 4; ++i) heartbeat();
+    const auto view = service_->machine("lathe-1");
+    EXPECT_EQ(view->clock_ahead, ahead);
+    EXPECT_EQ(machines::notices_of(*view).at(0),
+              fmt::format("the gateway's clock is 3600.0 s {} the server's",
+                          ahead.count() > 0 ? "ahead of" : "after"));
+  }
+  gateway_ahead_ = 300ms;
+  for (int i = 0; i < 4; ++i) heartbeat();
+  EXPECT_TRUE(machines::notices_of(*service_->machine("lathe-1")).empty());
+}
+
+TEST_F(MachineRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  network_.on_rival("lathe-1", true);
+  answer_commands(true);
+  ASSERT_TRUE(start("O0100"))
+      << "the successor of a killed gateway waits, and the killed is silent";
+  heartbeat();
+  EXPECT_TRUE(service_->machine("lathe-1")->is_contested);
+  network_.on_rival("lathe-1", false);
+  clock_.advance(machines::MachineRegistry::kContested);
+  EXPECT_FALSE(service_->machine("lathe-1")->is_contested);
+}
+
+}  // namespace
+}  // namespace dripline::server_test
