@@ -13,9 +13,6 @@
 #include "clients/lib/reply.hpp"
 #include "clients/lib/server_location.hpp"
 
-/// One function for each group of verbs: adds it to the application. The verbs run as CLI11
-/// callbacks and leave their status in the context, which must outlive the application.
-
 namespace dripline::cli {
 
 /// The state every command shares: the options before the verb, and the status it leaves.
@@ -73,6 +70,9 @@ auto fetch_all(std::uint64_t limit, Fetch fetch) -> decltype(fetch(client::Page{
   }
   return all;
 }
+
+// One function for each group of verbs: adds it to the application. The verbs run as CLI11
+// callbacks and leave their status in the context, which must outlive the application.
 
 void add_program_commands(Command app, Context& context);
 void add_machine_commands(Command app, Context& context);

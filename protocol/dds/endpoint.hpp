@@ -14,9 +14,6 @@
 /// The two ends of the star: one server, many gateways, a partition for each machine. These
 /// interfaces hide the rest of DDS.
 
-/// The commands that stop or slow down a machine: one rule for both ends. They never expire, and no
-/// session, clock or protocol version withholds them.
-
 namespace dripline::dds {
 
 /// File names of DDS Security (PEM; governance and permissions signed). Loopback runs without.
@@ -126,6 +123,9 @@ class ServerEndpoint {
   virtual Result<void> write(const BlockData& message) = 0;
   virtual Rejected rejected() const = 0;
 };
+
+// The commands that stop or slow down a machine: one rule for both ends. They never expire, and no
+// session, clock or protocol version withholds them.
 
 /// Hold, abort, or a pressed emergency stop.
 inline bool is_stop(CommandAction action, std::string_view argument, double value) {

@@ -5,11 +5,11 @@
 #include "protocol/wire/line_settings.hpp"
 #include "protocol/wire/setting_value.hpp"
 
-/// "9600e72": baud, parity, data bits, stop bits.
-
 /// The keys of a port's settings: one row each.
 
 namespace dripline::wire {
+
+// "9600e72": baud, parity, data bits, stop bits.
 
 namespace {
 

@@ -13,9 +13,6 @@
 ///
 /// BCC: exclusive or of all 7-bit characters from SOH or STX to ETB, both included.
 
-/// The meaning of a line for its TNC program. Plain language:
-/// "0 BEGIN PGM 7 MM" ... "12 END PGM 7 MM"; ISO: "%7 G71" ... "N9999 %7 G71". Pure; any thread.
-
 namespace dripline::wire {
 
 inline constexpr std::size_t kMaxTncLine = 255;      ///< characters of a program line
@@ -55,6 +52,9 @@ class TncFrameReader {
   std::string text_;
   char check_ = 0;
 };
+
+// The meaning of a line for its TNC program. Plain language:
+// "0 BEGIN PGM 7 MM" ... "12 END PGM 7 MM"; ISO: "%7 G71" ... "N9999 %7 G71". Pure; any thread.
 
 enum class TncLineKind { Begin, End, Other };
 

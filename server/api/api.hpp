@@ -17,8 +17,6 @@
 #include "server/machines/machine_control.hpp"
 #include "server/ports/port_control.hpp"
 
-/// The handlers, a file for each kind of resource. `services` must outlive the router.
-
 namespace dripline::api {
 
 /// A bearer token and the name under which its changes are audited.
@@ -89,6 +87,8 @@ std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub)
 
 /// The OpenAPI description, as JSON text.
 std::string_view openapi_text();
+
+// The handlers, a file for each kind of resource. `services` must outlive the router.
 
 void add_server_routes(Router& router, Services& services);
 void add_program_routes(Router& router, Services& services);

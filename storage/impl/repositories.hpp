@@ -11,9 +11,6 @@
 
 /// The repositories without a state of their own; each has a .cpp with its SQL. Thread-safe.
 
-/// How records change runs, inside the transaction that stores the records. Only the runs of the
-/// machine that reports are changed.
-
 namespace dripline::storage {
 
 /// Inside the caller's transaction.
@@ -110,6 +107,9 @@ class SetupRepository final : public SetupStore {
   Connections& connections_;
   const Clock& clock_;
 };
+
+// How records change runs, inside the transaction that stores the records. Only the runs of the
+// machine that reports are changed.
 
 /// Ordered becomes Active. Unknown and other runs stay as they are: a record is never refused for
 /// what it reports of a run.

@@ -8,12 +8,12 @@
 #include "protocol/base/result.hpp"
 #include "protocol/wire/line_settings.hpp"
 
-/// Lines on the command line: how one is named, and how it is written for `dnc port add`.
-
 namespace dripline::cli {
 
 /// `dnc port parameters`: the interface of a TNC 151/155 by its machine parameters, and the line.
 void add_port_parameters_command(Command group, Context& context);
+
+// Lines on the command line: how one is named, and how it is written for `dnc port add`.
 
 /// A template or a short form such as 9600e72, and KEY=VALUE over it. Errors: NotFound, and those
 /// of the settings.

@@ -10,8 +10,6 @@
 
 /// How ports look. Pure.
 
-/// Lists ports and their settings. Each function returns the exit status.
-
 namespace dripline::cli {
 
 /// "9600e72 xonxoff".
@@ -29,6 +27,8 @@ Style style_of_state(const client::Port& port);
 Details port_details(const client::Port& port);
 /// A note where the baud rate of the control's setup is not the line's; else empty.
 std::string baud_warning(const client::Port& port, std::optional<int> control_rate);
+
+// Lists ports and their settings. Each function returns the exit status.
 
 int list_ports(Context& context, client::Client& client);
 int show_port(Context& context, client::Client& client, const std::string& name);

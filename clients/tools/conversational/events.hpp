@@ -8,14 +8,14 @@
 
 #include "protocol/base/result.hpp"
 
-/// Conversational programming of the Centurion: events, the fields of their screens, and the
-/// program text the control posts for them.
-
 /// The events of conversational programming, one record a screen. Lengths are in the program's
 /// units; X positions are diameters unless a member says radius. What each field means, its limits
 /// and its default are in `fields.hpp`.
 
 namespace dripline::conversational {
+
+// Conversational programming of the Centurion: events, the fields of their screens, and the
+// program text the control posts for them.
 
 /// The number in a field of an event's screen; nothing is a field left blank, which posts nothing.
 using Entry = std::optional<double>;

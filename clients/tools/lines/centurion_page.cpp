@@ -4,8 +4,6 @@
 
 #include "protocol/wire/setting_value.hpp"
 
-/// The entries of the Centurion's serial page: one row each.
-
 namespace dripline::wire {
 
 namespace {
@@ -92,6 +90,8 @@ Result<CenturionPage> page_of_line(const LineSettings& line, PagePort port) {
   page.tape_stop = value_of(line.control.tape_stop);
   return page;
 }
+
+// The entries of the Centurion's serial page: one row each.
 
 namespace {
 

@@ -11,9 +11,6 @@
 /// Changes of a program by its block numbers. How blocks are cut, numbered and written depends on
 /// the control; `edit_lines` edits programs of controls that keep a program as its lines. Pure.
 
-/// Editing of blocks (`program_editing.cpp`) and words (`word_editing.cpp`) as on the TNC 151/155.
-/// Contracts: `ProgramEditor`.
-
 namespace dripline::program_editing {
 
 /// All numbers are those before the edit.
@@ -112,6 +109,9 @@ struct ProgramEditor {
 
 /// nullptr: the control keeps a program as its lines, see `edit_lines`.
 const ProgramEditor* find_program_editor(std::string_view control);
+
+// Editing of blocks (`program_editing.cpp`) and words (`word_editing.cpp`) as on the TNC 151/155.
+// Contracts: `ProgramEditor`.
 
 Result<EditedProgram> edit_program(std::string_view text, std::span<const BlockChange> changes);
 Result<std::vector<BlockChange>> change_words(std::string_view text,

@@ -12,8 +12,6 @@
 
 /// Whole programs from text to text. Pure; memory is a small multiple of the text.
 
-/// The two directions of the conversion; errors as of `convert_program`.
-
 namespace dripline::tnc_conversion {
 
 using interpreter::tnc155::ControlOptions;
@@ -39,6 +37,8 @@ Result<std::string> rewrite_program(std::string_view text, const ConversionOptio
 /// and what has no counterpart).
 Result<std::string> convert_program(std::string_view text, Form form,
                                     const ConversionOptions& options = {});
+
+// The two directions of the conversion; errors as of `convert_program`.
 
 Result<std::string> to_iso(const PlainProgram& program, const ConversionOptions& options);
 Result<std::string> to_plain(const IsoProgram& program, const ConversionOptions& options);

@@ -15,9 +15,6 @@
 /// units; the writer of a trace converts back. string_views live until the sink's function returns.
 /// No event of an ordinary motion block allocates.
 
-/// The override inhibits of a tapping cycle, on every control that cuts the thread in step with the
-/// spindle. `usual` are those that the program has set itself, where the control has codes for it.
-
 namespace dripline::interpreter {
 
 /// One fault of a program, with an id that never changes. Tests and callers compare ids, people
@@ -328,6 +325,9 @@ class EventSink {
   /// The block is finished: every event it caused has been delivered.
   virtual void on_block_end(const Origin&) {}
 };
+
+// The override inhibits of a tapping cycle, on every control that cuts the thread in step with the
+// spindle. `usual` are those that the program has set itself, where the control has codes for it.
 
 /// It is in force from the clearance plane to the bottom and back.
 inline OverrideInhibit tapping_lock(const Origin& origin) {

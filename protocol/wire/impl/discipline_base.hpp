@@ -9,10 +9,6 @@
 #include "protocol/wire/impl/line_limits.hpp"
 #include "protocol/wire/line_settings.hpp"
 
-/// One factory for each protocol; make_discipline() has checked the settings before it calls one.
-
-/// Characters that control a line, as they are on the line in its code.
-
 namespace dripline::wire {
 
 /// The common part of all ends: the offered text, the control characters that are sent first, and
@@ -91,6 +87,8 @@ class DisciplineBase : public Discipline {
   bool has_seen_dsr_ = false;
 };
 
+// One factory for each protocol; make_discipline() has checked the settings before it calls one.
+
 std::unique_ptr<Discipline> make_plain(const LineSettings& settings, Role role);
 std::unique_ptr<Discipline> make_xmodem(const LineSettings& settings, Role role);
 std::unique_ptr<Discipline> make_tnc_blockwise_host(const LineSettings& settings);
@@ -98,6 +96,8 @@ std::unique_ptr<Discipline> make_tnc_blockwise_control(const LineSettings& setti
 std::unique_ptr<Discipline> make_tnc_standard(const LineSettings& settings, Role role);
 std::unique_ptr<Discipline> make_tape_reader_host(const LineSettings& settings);
 std::unique_ptr<Discipline> make_tape_reader_control(const LineSettings& settings);
+
+// Characters that control a line, as they are on the line in its code.
 
 inline constexpr char kDc1 = 0x11, kDc2 = 0x12, kDc3 = 0x13, kDc4 = 0x14;
 

@@ -8,9 +8,9 @@
 #include "clients/tools/conversational/form.hpp"
 #include "protocol/base/result.hpp"
 
-/// A file of events before anything in it means something: the same for TOML and JSON.
-
 namespace dripline::conversational {
+
+// A file of events before anything in it means something: the same for TOML and JSON.
 
 using FileValue = std::variant<double, bool, std::string>;
 

@@ -10,8 +10,6 @@
 #include "clients/tools/conversational/events.hpp"
 #include "clients/tools/conversational/post.hpp"
 
-/// The choices of the miscellaneous screen and what each one posts.
-
 namespace dripline::conversational {
 
 /// One block of program text, word by word. Blank entries post nothing.
@@ -88,6 +86,8 @@ void post(Posting& out, const EndOfProgram& event);
 
 /// `BACK C0 W30`: the end of a line's block.
 void add_extend_back(BlockText& block, const ExtendBack& back);
+
+// The choices of the miscellaneous screen and what each one posts.
 
 struct PostedChoice {
   std::string_view name, posted;

@@ -6,14 +6,14 @@
 
 #include "gateway/interpreter/core/language/expression.hpp"
 
-/// What each byte of G-code text may be, as one table. A dialect begins with `printable_characters`
-/// and adds what is blank on its control and what ends a block.
-
 /// Words of several letters in text whose blanks mean nothing, also within a word. `kKinds` is the
 /// dialect's table of characters; the text ends with a character that is neither blank nor part of
 /// a word.
 
 namespace dripline::interpreter::language {
+
+// What each byte of G-code text may be, as one table. A dialect begins with `printable_characters`
+// and adds what is blank on its control and what ends a block.
 
 enum class CharKind : std::uint8_t {
   Bad,  ///< not text of the control

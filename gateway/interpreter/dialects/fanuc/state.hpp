@@ -9,14 +9,14 @@
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
 
-/// The preparatory functions of this control and their modal groups, numbered as the control's own
-/// list and #4001 and up number them. A code without a group is alarm 010.
-
 /// Everything that stays from one block to the next. Lengths are millimeters, angles degrees;
 /// positions are machine coordinates of the programmed point, the tool's length left out, unless
 /// said otherwise. `visit` (snapshot.cpp) lists the members of ModalState: add new ones there.
 
 namespace dripline::interpreter::fanuc {
+
+// The preparatory functions of this control and their modal groups, numbered as the control's own
+// list and #4001 and up number them. A code without a group is alarm 010.
 
 enum Group : std::uint8_t {
   kOneShot = 0,

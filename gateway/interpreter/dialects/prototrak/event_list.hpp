@@ -7,12 +7,9 @@
 #include "gateway/interpreter/core/event.hpp"
 #include "protocol/base/units.hpp"
 
-/// What the control stores (manual: events): numbered events instead of blocks.
-
-/// What can be wrong with a program. The control has no error texts; ids and texts are decided
-/// here.
-
 namespace dripline::interpreter::prototrak {
+
+// What the control stores (manual: events): numbered events instead of blocks.
 
 enum class EventKind : std::uint8_t {
   Position,
@@ -78,6 +75,9 @@ XY reference_of(const StoredProgram& program, std::size_t index);
 /// The stored program as the control sends it: one event a line in its own event format, every
 /// coordinate absolute, numbers with their point. Receiving it gives the same events.
 std::string list_events(const StoredProgram& program);
+
+// What can be wrong with a program. The control has no error texts; ids and texts are decided
+// here.
 
 // The rows are named as enumerators are, because they are used as such.
 // NOLINTBEGIN(readability-identifier-naming): a row is named as an enumerator would be

@@ -12,12 +12,10 @@
 #include "gateway/interpreter/core/language/word_ledger.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/options.hpp"
 
-/// What can be wrong with a tape. The manual knows one lamp; ids and texts are decided here. From
-/// TEK0401 on the manual forbids it but does not say what the control does: a warning.
-
-/// The words of a block: letters, formats, and what one block has (manual: blocks and words).
-
 namespace dripline::interpreter::tektronix1704 {
+
+// What can be wrong with a tape. The manual knows one lamp; ids and texts are decided here. From
+// TEK0401 on the manual forbids it but does not say what the control does: a warning.
 
 // The rows are named as enumerators are, because they are used as such.
 // NOLINTBEGIN(readability-identifier-naming): a row is named as an enumerator would be
@@ -68,6 +66,8 @@ struct Fault {
   static constexpr DiagnosticRow Tape{"TEK0441", "tape is not as the manual wants it"};
 };
 // NOLINTEND(readability-identifier-naming)
+
+// The words of a block: letters, formats, and what one block has (manual: blocks and words).
 
 enum class Address : std::uint8_t { N, G, X, Y, Z, I, J, K, R, F, S, T, M };
 inline constexpr std::size_t kAddressCount = 13;

@@ -5,8 +5,6 @@
 /// The words of the drilling and grooving cycles, and what they leave for the next cycle: a
 /// word that a block does not have keeps its value of an earlier cycle (manual: data of a cycle).
 
-/// The cycles of one block without threads. Every word is checked before anything moves.
-
 namespace dripline::interpreter::centurion {
 
 /// P116-P148 as these cycles use them. Positions are work coordinates as programmed (X a diameter),
@@ -39,6 +37,8 @@ bool cycle_dwell_word(Run& run, double& seconds);
 
 /// F of this block, of an earlier cycle, or the feed in force. Errors: 519.
 bool cycle_feed_word(Run& run, Feed& feed);
+
+// The cycles of one block without threads. Every word is checked before anything moves.
 
 /// G90, cycle A: in along X, cut to the end, out along X, back to the start point (manual: G90).
 bool cut_turning_box(Run& run);

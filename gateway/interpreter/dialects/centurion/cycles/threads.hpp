@@ -7,9 +7,6 @@
 /// Threads (manual: G32, G34 to G36; G92; G76): single lines (G32, G34-G36), cycle 1 (G92), the
 /// multiple cycle (G76). The lead is along the path; F and E of these blocks never change the feed.
 
-/// The words and parameters of a thread, shared by lines and cycles. Each reader keeps the value
-/// where programs find it (P101-P108, P123-P125) and returns false with an alarm.
-
 namespace dripline::interpreter::centurion {
 
 /// P123, P124: where a cut that threads and the box cycles share ends; Z and a diameter.
@@ -28,6 +25,9 @@ bool thread_to(Run& run, const Target& target, const std::optional<ThreadArc>& a
 bool cut_single_thread(Run& run);
 /// G76: all passes are made in this one block, up to 400.
 bool cut_multiple_thread(Run& run);
+
+// The words and parameters of a thread, shared by lines and cycles. Each reader keeps the value
+// where programs find it (P101-P108, P123-P125) and returns false with an alarm.
 
 struct Lead {
   double length = 0;            ///< per revolution, program units

@@ -8,11 +8,6 @@
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/interpreter.hpp"
 
-/// What the control keeps when a program has ended and when it is switched off: P0 to P99, what
-/// only data mode writes (work offsets, tools, axes), and PB0 to PB639 (manual: work offsets; SAVE
-/// and LOAD of parameters). The data of cycles and transformations between them begin as at
-/// power-on.
-
 namespace dripline::interpreter::centurion {
 
 namespace {
@@ -76,6 +71,11 @@ Result<PanelTables> read_panel_tables(const Setup& setup) {
                      .spindle = scaled(*spindle, kPercent),
                      .click_seconds = scaled(*pulses, *minutes * 60 / kPulsesOfTurn)};
 }
+
+// What the control keeps when a program has ended and when it is switched off: P0 to P99, what
+// only data mode writes (work offsets, tools, axes), and PB0 to PB639 (manual: work offsets; SAVE
+// and LOAD of parameters). The data of cycles and transformations between them begin as at
+// power-on.
 
 namespace {
 

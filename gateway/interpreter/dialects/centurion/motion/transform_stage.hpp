@@ -5,10 +5,10 @@
 #include "gateway/interpreter/dialects/centurion/cycles/pattern.hpp"
 #include "gateway/interpreter/stages/event_filter.hpp"
 
-/// Mirror, scaling and rotation: the programmed point is mirrored, then scaled, then rotated
-/// (manual: G511, G551, G568).
-
 namespace dripline::interpreter::centurion {
+
+// Mirror, scaling and rotation: the programmed point is mirrored, then scaled, then rotated
+// (manual: G511, G551, G568).
 
 /// Points are relative to the active zero, in program units, X a radius.
 struct Transformation {

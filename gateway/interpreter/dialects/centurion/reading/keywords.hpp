@@ -7,9 +7,6 @@
 
 /// The words of several letters; blanks inside them mean nothing (manual: addresses and keywords).
 
-/// The characters of this control: a block ends with CR, LF or CR LF; blanks carry no information;
-/// letters may be small or capital. (Manual, section 1.4.)
-
 namespace dripline::interpreter::centurion {
 
 enum class Keyword : std::uint8_t {
@@ -52,6 +49,9 @@ Keyword take_keyword(const char*& at);
 Function take_function(const char*& at);
 /// The operator at `at` and where it ends; None when the text continues with something else.
 language::Operator operator_at(const char* at, const char*& after);
+
+// The characters of this control: a block ends with CR, LF or CR LF; blanks carry no information;
+// letters may be small or capital. (Manual, section 1.4.)
 
 using language::CharKind;
 using language::is_digit;

@@ -8,9 +8,6 @@
 #include "gateway/interpreter/core/language/number.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/keywords.hpp"
 
-/// Numbers as this control reads them: calculator format, a whole number means whole units, blanks
-/// may be anywhere, also between digits (manual: numbers; section 1.4).
-
 namespace dripline::interpreter::centurion {
 
 /// Longest block; a longer one is an alarm, so that a file without line ends needs no memory.
@@ -93,6 +90,9 @@ class TextCursor {
   language::LineWindow window_;
   const char* begin_ = nullptr;
 };
+
+// Numbers as this control reads them: calculator format, a whole number means whole units, blanks
+// may be anywhere, also between digits (manual: numbers; section 1.4).
 
 using Number = NumberText;
 

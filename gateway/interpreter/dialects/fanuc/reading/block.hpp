@@ -8,9 +8,9 @@
 #include "gateway/interpreter/dialects/fanuc/errors.hpp"
 #include "gateway/interpreter/dialects/fanuc/state.hpp"
 
-/// The addresses of this control and the words of one block.
-
 namespace dripline::interpreter::fanuc {
+
+// The addresses of this control and the words of one block.
 
 // clang-format off
 enum class Address : std::uint8_t {

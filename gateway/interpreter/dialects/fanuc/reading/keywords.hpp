@@ -7,10 +7,6 @@
 
 /// The words of custom macro B. Capitals or not; blanks within mean nothing.
 
-/// What each byte of a program may be, as one table. A block ends with LF (and with a semicolon,
-/// by option); CR, blanks, NUL and DEL of punched tapes mean nothing outside comments, so that
-/// LF, CR LF and LF CR CR all end a block.
-
 namespace dripline::interpreter::fanuc {
 
 enum class Keyword : std::uint8_t {
@@ -37,6 +33,10 @@ Keyword take_keyword(const char*& at);
 Function take_function(const char*& at);
 /// The operator at `at`, and where it ends.
 language::Operator operator_at(const char* at, const char*& after);
+
+// What each byte of a program may be, as one table. A block ends with LF (and with a semicolon,
+// by option); CR, blanks, NUL and DEL of punched tapes mean nothing outside comments, so that
+// LF, CR LF and LF CR CR all end a block.
 
 using language::CharKind;
 using language::is_digit;

@@ -5,11 +5,6 @@
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/tnc155/interpreter.hpp"
 
-/// What the control retains after a program and at power off: the datum, which M94 shifts by full
-/// revolutions of a rotary axis (decisions.md). Q parameters are 0 at every start (manual:
-/// parameter functions). The data stored to resume after an interruption are not a program's to
-/// leave after.
-
 namespace dripline::interpreter::tnc155 {
 
 namespace {
@@ -86,6 +81,11 @@ std::string ProgramMemory::listing() const {
   }
   return text + fmt::format("VACANT BLOCKS = {}\n", vacant_blocks());
 }
+
+// What the control retains after a program and at power off: the datum, which M94 shifts by full
+// revolutions of a rotary axis (decisions.md). Q parameters are 0 at every start (manual:
+// parameter functions). The data stored to resume after an interruption are not a program's to
+// leave after.
 
 std::vector<MemoryCell> TncInterpreter::memory_cells() const {
   return cells_of([](auto visit) {

@@ -2,8 +2,6 @@
 
 #include "gateway/interpreter/dialects/tnc155/reading/text_cursor.hpp"
 
-/// The parts of the plain-language reader, each from after its keyword to before the block's end.
-
 namespace dripline::interpreter::tnc155 {
 
 /// Reads one block of plain language, [begin, end) with all its lines; `*end` can be read and is a
@@ -17,6 +15,8 @@ void note_plain_block(const Block& block, ReadingState& state);
 }  // namespace dripline::interpreter::tnc155
 
 namespace dripline::interpreter::tnc155::plain {
+
+// The parts of the plain-language reader, each from after its keyword to before the block's end.
 
 bool read_line(TextCursor& cursor, Block& block);         ///< after L
 bool read_polar_line(TextCursor& cursor, Block& block);   ///< after LP
