@@ -17,6 +17,7 @@
 #include "server/machines/machine_service.hpp"
 #include "server/ports/line_machines.hpp"
 #include "server/ports/port_service.hpp"
+#include "server/web/page.hpp"
 #include "storage/sqlite_store.hpp"
 
 namespace dripline::app {
@@ -74,9 +75,14 @@ Result<api::HttpOptions> http_options(const Settings& settings) {
   return options;
 }
 
-api::HttpHandlers http_handlers(const api::Api& api) {
+/// The page is asked first: it needs no token.
+api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
   return {.handle = [&api](api::Request request) { return api.handle(std::move(request)); },
-          .judge = [&api](api::Request& head) { return api.judge(head); },
+          .judge =
+              [&api, &page](api::Request& head) {
+                auto answer = page.answer(head);
+                return answer ? answer : api.judge(head);
+              },
           .waits_for_machine =
               [&api](const api::Request& head) { return api.waits_for_machine(head); }};
 }
@@ -164,6 +170,7 @@ struct Server::Parts {
   ports::PortService ports;
   ports::MachineRouter machines;
   api::Api api;
+  web::Page page{web::embedded_assets()};
   std::unique_ptr<library::HealthWatch> watch;
   std::unique_ptr<api::HttpServer> http;
   std::string url;
@@ -253,7 +260,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
                                   .probe = [&parts] { return parts.look(); },
                                   .folder = parts.folder.path()});
   if (!*is_checked) parts.check_on();
-  auto http = api::HttpServer::start(*options, http_handlers(parts.api));
+  auto http = api::HttpServer::start(*options, http_handlers(parts.api, parts.page));
   if (!http) return fail(http.error());
   parts.http = *std::move(http);
   api::HttpAddress bound = options->address;

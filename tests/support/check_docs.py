@@ -54,7 +54,7 @@ def findings_in(page, tests, sources):
 
 
 def pages():
-    return [*ROOT.glob("*.md"), *(path for area in AREAS for path in (ROOT / area).rglob("*.md"))]
+    return [*ROOT.glob("*.md"), *(path for area in AREAS for path in (ROOT / area).rglob("*.md") if "node_modules" not in path.parts)]
 
 
 def main():

@@ -33,6 +33,7 @@ server/library: protocol/base protocol/process storage gateway/interpreter serve
 server/machines: protocol storage gateway/interpreter server/library server/machines
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
 server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/api
+server/web: protocol/base server/api server/web
 server/app: protocol storage server
 clients/lib: protocol/base clients/lib
 clients/tools: protocol/base protocol/wire gateway/interpreter clients/tools

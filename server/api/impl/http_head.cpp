@@ -58,11 +58,13 @@ const char* reason_of(int status) {
                                                    {201, "Created"},
                                                    {204, "No Content"},
                                                    {206, "Partial Content"},
+                                                   {304, "Not Modified"},
                                                    {400, "Bad Request"},
                                                    {401, "Unauthorized"},
                                                    {403, "Forbidden"},
                                                    {404, "Not Found"},
                                                    {405, "Method Not Allowed"},
+                                                   {406, "Not Acceptable"},
                                                    {408, "Request Timeout"},
                                                    {409, "Conflict"},
                                                    {413, "Content Too Large"},
@@ -129,7 +131,7 @@ std::string head_text(const Response& response, const Framing& framing) {
   for (const auto& [name, value] : response.headers) add(name, value);
   if (framing.is_chunked) {
     add("Transfer-Encoding", "chunked");
-  } else if (framing.length && response.status != 204) {
+  } else if (framing.length && response.status != 204 && response.status != 304) {
     add("Content-Length", std::to_string(*framing.length));
   }
   add("Connection", framing.keeps_alive ? "keep-alive" : "close");

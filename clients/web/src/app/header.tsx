@@ -1,0 +1,71 @@
+// The bar at the top: the views, the link, and what this browser's user has chosen.
+import { signOut } from '../api/session';
+import { useFeed } from '../live/use_feed';
+import { languages, loadTexts, texts, type Language } from '../texts/texts';
+import { keepPreferences, preferences, showTheme, type Theme } from './preferences';
+import { addressOf, type Route } from './route';
+
+/// The views of the bar; `machine` belongs to the floor.
+const kViews = ['floor'] as const;
+
+function skip(event: Event): void {
+  event.preventDefault();
+  document.getElementById('content')?.focus();
+}
+
+function Settings({ onLanguage }: { onLanguage: () => void }) {
+  const t = texts().app;
+  const chooseLanguage = async (language: Language) => {
+    await loadTexts(language);
+    keepPreferences({ language });
+    onLanguage();
+  };
+  const chooseTheme = (theme: Theme) => {
+    keepPreferences({ theme });
+    showTheme(theme);
+  };
+  return (
+    <details class="settings">
+      <summary class="button">{t.settings}</summary>
+      <div class="panel">
+        <label>
+          {t.language}
+          <select value={preferences.language} onChange={(e) => void chooseLanguage(e.currentTarget.value as Language)}>
+            {Object.entries(languages).map(([key, { name }]) => <option key={key} value={key} lang={key}>{name}</option>)}
+          </select>
+        </label>
+        <label>
+          {t.theme}
+          <select value={preferences.theme} onChange={(e) => chooseTheme(e.currentTarget.value as Theme)}>
+            {Object.entries(t.themes).map(([key, name]) => <option key={key} value={key}>{name}</option>)}
+          </select>
+        </label>
+        <button type="button" onClick={signOut}>{t.signOut}</button>
+      </div>
+    </details>
+  );
+}
+
+function LinkState() {
+  const { link } = useFeed('link');
+  const t = texts().link;
+  return <span class={`link ${link.state}`}>{link.state === 'live' ? t.live : link.state === 'lost' ? t.old : '…'}</span>;
+}
+
+export function Header({ route, onLanguage }: { route: Route; onLanguage: () => void }) {
+  const t = texts().app;
+  const shown = route.view === 'machine' ? 'floor' : route.view;
+  return (
+    <header class="bar">
+      <a class="skip" href="#content" onClick={skip}>{t.skip}</a>
+      <span class="name">{t.title}</span>
+      <nav aria-label={t.menu}>
+        {kViews.map((view) => (
+          <a key={view} href={addressOf(view)} aria-current={view === shown ? 'page' : undefined}>{t.views[view]}</a>
+        ))}
+      </nav>
+      <LinkState />
+      <Settings onLanguage={onLanguage} />
+    </header>
+  );
+}

@@ -1,0 +1,169 @@
+// What the page knows of the shop, kept current by one event stream: every machine and each one's latest run. Views read it and are
+// told when their part has changed, at most four times a second, so that a thousand busy machines stay fluid.
+import type { Machine, Machines, Record as ReportRecord, Run, Runs } from '../../generated/api';
+import { ApiError, get, pathOf } from '../api/request';
+import type { StreamEvent } from './event_parser';
+import { readEvents } from './event_stream';
+import { stateOf, type MachineState } from './machine_state';
+
+export type Link = { state: 'connecting' } | { state: 'live' } | { state: 'lost'; since: Date };
+
+/// What a view listens to: the list of machines and their states, the link, or one machine.
+export type Topic = 'machines' | 'link' | 'runs' | `machine:${string}`;
+
+const kFlushMs = 250;
+const kDelaysMs = [250, 500, 1000, 2000, 4000];
+const kMostRuns = 1000;
+
+export class Feed {
+  readonly machines = new Map<string, Machine>();
+  /// By machine.
+  readonly runs = new Map<string, Run>();
+  link: Link = { state: 'connecting' };
+
+  private readonly listeners = new Map<Topic, Set<() => void>>();
+  private readonly recordListeners = new Set<(record: ReportRecord) => void>();
+  private readonly changed = new Set<Topic>();
+  /// Of which an event has come since the stream was opened: newer than any answer to a request.
+  private readonly fresh = new Set<string>();
+  private flushing = false;
+  private ending: AbortController | null = null;
+
+  /// Until end(): reads, and reconnects whenever the stream ends.
+  begin(): void {
+    if (this.ending) return;
+    this.ending = new AbortController();
+    void this.follow(this.ending.signal);
+  }
+
+  end(): void {
+    this.ending?.abort();
+    this.ending = null;
+    this.machines.clear();
+    this.runs.clear();
+    this.link = { state: 'connecting' };
+  }
+
+  on(topic: Topic, listener: () => void): () => void {
+    const set = this.listeners.get(topic) ?? new Set();
+    this.listeners.set(topic, set.add(listener));
+    return () => {
+      set.delete(listener);
+      if (set.size === 0) this.listeners.delete(topic);
+    };
+  }
+
+  /// Every record as it comes.
+  onRecord(listener: (record: ReportRecord) => void): () => void {
+    this.recordListeners.add(listener);
+    return () => this.recordListeners.delete(listener);
+  }
+
+  stateOf(machine: Machine): MachineState {
+    return stateOf(machine, this.runOf(machine));
+  }
+
+  /// The run that the machine's status is about.
+  runOf(machine: Machine): Run | undefined {
+    const run = this.runs.get(machine.name);
+    return machine.status?.run && run?.id !== machine.status.run ? undefined : run;
+  }
+
+  private async follow(signal: AbortSignal): Promise<void> {
+    for (let failures = 0; !signal.aborted; ++failures) {
+      let wasOpen = false;
+      try {
+        const open = () => {
+          wasOpen = true;
+          this.fresh.clear();
+          void this.load(signal);
+        };
+        await readEvents(pathOf('events'), signal, open, (event) => this.take(event));
+      } catch (failure) {
+        if (failure instanceof ApiError && failure.status === 401) return; // signed out
+      }
+      if (signal.aborted) return;
+      if (this.link.state !== 'lost') this.setLink({ state: 'lost', since: new Date() });
+      if (wasOpen) failures = 0;
+      await pause(kDelaysMs[Math.min(failures, kDelaysMs.length - 1)]!, signal);
+    }
+  }
+
+  /// The whole state, once the stream is open: what changes meanwhile arrives as an event, which is newer.
+  private async load(signal: AbortSignal): Promise<void> {
+    try {
+      const [{ machines }, { runs }] = await Promise.all([
+        get<Machines>(pathOf('machines'), {}, signal), get<Runs>(pathOf('runs'), { limit: kMostRuns }, signal)]);
+      const present = new Set(machines.map((machine) => machine.name));
+      for (const name of this.machines.keys()) if (!present.has(name)) this.machines.delete(name);
+      for (const machine of machines) if (!this.fresh.has(machine.name)) this.takeMachine(machine);
+      for (const run of runs.reverse()) this.takeRun(run);
+      this.note('machines');
+      this.setLink({ state: 'live' });
+    } catch {
+      // The stream ends too, and both begin again.
+    }
+  }
+
+  private take(event: StreamEvent): void {
+    if (event.name === 'machine') {
+      const machine = JSON.parse(event.data) as Machine;
+      this.fresh.add(machine.name);
+      this.takeMachine(machine);
+    }
+    if (event.name === 'run') this.takeRun(JSON.parse(event.data) as Run);
+    if (event.name !== 'record') return;
+    const record = JSON.parse(event.data) as ReportRecord;
+    for (const listener of this.recordListeners) listener(record);
+  }
+
+  private takeMachine(machine: Machine): void {
+    const before = this.machines.get(machine.name);
+    this.machines.set(machine.name, machine);
+    this.note(`machine:${machine.name}`);
+    if (!before || this.stateOf(before).word !== this.stateOf(machine).word) this.note('machines');
+  }
+
+  private takeRun(run: Run): void {
+    const before = this.runs.get(run.machine);
+    if (before && before.created > run.created) return;
+    this.runs.set(run.machine, run);
+    this.note(`machine:${run.machine}`);
+    this.note('runs');
+    if (before?.state !== run.state) this.note('machines');
+  }
+
+  private setLink(link: Link): void {
+    this.link = link;
+    this.note('link');
+  }
+
+  private note(topic: Topic): void {
+    this.changed.add(topic);
+    if (this.flushing) return;
+    this.flushing = true;
+    setTimeout(() => requestAnimationFrameOrSoon(() => this.flush()), kFlushMs);
+  }
+
+  private flush(): void {
+    this.flushing = false;
+    const topics = [...this.changed];
+    this.changed.clear();
+    for (const topic of topics) for (const listener of [...(this.listeners.get(topic) ?? [])]) listener();
+  }
+}
+
+/// A page in the background draws no frames, but must not keep what it was told.
+function requestAnimationFrameOrSoon(action: () => void): void {
+  if (document.hidden) action();
+  else requestAnimationFrame(action);
+}
+
+function pause(ms: number, signal: AbortSignal): Promise<void> {
+  return new Promise((done) => {
+    const timer = setTimeout(done, ms);
+    signal.addEventListener('abort', () => { clearTimeout(timer); done(); }, { once: true });
+  });
+}
+
+export const feed = new Feed();

@@ -1,0 +1,44 @@
+// All that the page says is in one file for each language; a language is one more file and a row here.
+import { en, type Texts } from './en';
+
+export type { Texts };
+
+export const languages = {
+  en: { name: 'English', load: async (): Promise<Texts> => en },
+  de: { name: 'Deutsch', load: async (): Promise<Texts> => (await import('./de')).de },
+};
+export type Language = keyof typeof languages;
+
+let current: Texts = en;
+let language: Language = 'en';
+
+/// Before the page is shown; another language needs the page to be drawn again.
+export async function loadTexts(wanted: Language): Promise<void> {
+  current = await languages[wanted].load();
+  language = wanted;
+  document.documentElement.lang = wanted;
+}
+
+export function texts(): Texts {
+  return current;
+}
+
+/// A number as this language writes it.
+export function numberText(value: number, digits = 0): string {
+  return value.toLocaleString(language, { minimumFractionDigits: digits, maximumFractionDigits: digits });
+}
+
+export function timeText(time: Date | string): string {
+  return new Date(time).toLocaleTimeString(language, { hour: '2-digit', minute: '2-digit', second: '2-digit' });
+}
+
+export function dateTimeText(time: Date | string): string {
+  return new Date(time).toLocaleString(language, { dateStyle: 'medium', timeStyle: 'medium' });
+}
+
+export function bytesText(bytes: number): string {
+  const units = ['B', 'KiB', 'MiB', 'GiB', 'TiB'];
+  let unit = 0;
+  for (; bytes >= 1024 && unit < units.length - 1; ++unit) bytes /= 1024;
+  return `${numberText(bytes, unit === 0 ? 0 : 1)} ${units[unit]}`;
+}

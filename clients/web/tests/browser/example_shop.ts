@@ -1,0 +1,30 @@
+// A shop in which much is going on, for pictures: a run, a question of a control, an alarm, a stop, a machine that was switched off.
+import { Shop, longProgram, until } from './shop';
+
+const kAsks = 'O0300 (DIAMETERS FROM THE OPERATOR)\nG20 G93 G98\nINPUT (LARGEST DIAMETER) P1\nG0 X[P1]\nM30\n';
+const kStops = 'O0400 (TURN THE PART OVER)\nG21 G90\nG0 X10.\nM0\nG0 X0.\nM30\n';
+
+export async function exampleShop(): Promise<Shop> {
+  const shop = new Shop();
+  await shop.startServer();
+  await shop.startMachine('mill-1', { control: 'fanuc', description: 'Vertical, three axes' });
+  await shop.startMachine('mill-2', { control: 'fanuc', description: 'Vertical, pallet changer' });
+  await shop.startMachine('mill-3', { control: 'fanuc', description: 'Horizontal' });
+  await shop.startMachine('mill-4', { control: 'fanuc', description: 'Test bench' });
+  await shop.startMachine('lathe-1', { control: 'centurion', description: 'Turning, probe' });
+  await shop.startMachine('lathe-2', { control: 'centurion' });
+  await shop.push('O0100', longProgram('O0100', 3000), 'fanuc');
+  await shop.push('O0200', 'O0200 (WITH AN ERROR)\nG21 G90\nG1 X1. F100. ZZ5.\nM30\n', 'fanuc');
+  await shop.push('O0300', kAsks, 'centurion');
+  await shop.push('O0400', kStops, 'fanuc');
+  await shop.start('mill-1', 'O0100');
+  await shop.start('mill-2', 'O0200');
+  await shop.start('mill-3', 'O0400');
+  await shop.start('lathe-1', 'O0300');
+  await shop.stopMachine('mill-4');
+  await until('lathe-1 asks', async () => {
+    const machine = await shop.api<{ status: { waits_for: string } | null }>('GET', 'machines/lathe-1');
+    return machine?.status?.waits_for === 'answer';
+  });
+  return shop;
+}

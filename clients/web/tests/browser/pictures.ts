@@ -1,0 +1,39 @@
+// Pictures of every view at both widths and in both themes, to be looked at: tests/run pictures FOLDER
+import { mkdirSync } from 'node:fs';
+import path from 'node:path';
+import { exampleShop } from './example_shop';
+import { kThemes, kWidths, openBrowser, visit } from './page';
+
+const kPlaces: Record<string, string> = {
+  floor: '#/floor',
+  wall: '#/floor?wall=1',
+};
+
+async function main(): Promise<void> {
+  const folder = path.resolve(process.argv[2]!);
+  mkdirSync(folder, { recursive: true });
+  const shop = await exampleShop();
+  const browser = await openBrowser();
+  try {
+    for (const [name, place] of Object.entries(kPlaces)) {
+      if (process.argv[3] && !name.includes(process.argv[3])) continue;
+      const { page, complaints } = await visit(browser, shop, place);
+      await page.waitForLoadState('networkidle', { timeout: 2000 }).catch(() => {}); // the event stream stays open
+      for (const theme of kThemes) {
+        for (const width of kWidths) {
+          await page.emulateMedia({ colorScheme: theme });
+          await page.setViewportSize({ width, height: 900 });
+          await page.waitForTimeout(400);
+          await page.screenshot({ path: path.join(folder, `${name}-${theme}-${width}.png`), fullPage: name !== 'wall' });
+        }
+      }
+      if (complaints.length > 0) console.error(name, complaints);
+      await page.context().close();
+    }
+  } finally {
+    await browser.close();
+    await shop.stop();
+  }
+}
+
+void main();

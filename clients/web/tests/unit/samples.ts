@@ -1,0 +1,26 @@
+// A machine, its status and a run with usual values, for tests that are about one of them.
+import type { Machine, Run, Status } from '../../generated/api';
+
+export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<Status> {
+  return {
+    time: '2026-11-23T12:00:00Z', execution: 'READY', mode: 'AUTOMATIC', run: 'run-1', program: 'O0100', sent: 0, accepted: 0, executed: 0,
+    total_bytes: 0, offset: 0, line: 1, sequence: null, position: { X: 0, Z: 0 }, feed_mm_per_min: 0, spindle_rpm: 0, feed_override: 1,
+    rapid_override: 1, spindle_override: 1, buffered_seconds: 0, single_block: false, message: null, outbox: 0, modes: null, coordinates: null,
+    emergency_stop: false, remote_enable: 'unattended', waits_for: 'nothing', ...changed,
+  };
+}
+
+export function machine(changed: Partial<Machine> = {}, changedStatus: Partial<NonNullable<Status>> = {}): Machine {
+  return {
+    name: 'lathe-1', control: 'centurion', description: null, gateway_version: '0.1.0', connected: true, clock_ahead_seconds: 0, notices: [],
+    first_seen: '2026-11-23T10:00:00Z', last_seen: '2026-11-23T12:00:00Z', status: status(changedStatus), ...changed,
+  };
+}
+
+export function run(changed: Partial<Run> = {}): Run {
+  return {
+    id: 'run-1', machine: 'lathe-1', program: 'O0100', revision: 1, sha256: '0'.repeat(64), size: 1000, control: 'centurion', state: 'active',
+    sent: 0, accepted: 0, executed: 0, line: 0, sequence: null, reason: null, content_verified: null, author: 'admin',
+    created: '2026-11-23T12:00:00Z', started: '2026-11-23T12:00:00Z', ended: null, outputs: 0, setup: null, ...changed,
+  };
+}
