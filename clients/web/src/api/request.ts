@@ -27,12 +27,15 @@ export function withQuery(path: string, query: Query): string {
 export interface Body {
   json?: unknown;
   raw?: Blob | string;
+  /// Of the answer: "bytes=0-99".
+  range?: string;
 }
 
 export async function fetchApi(method: string, path: string, body: Body = {}, signal?: AbortSignal): Promise<Response> {
   const headers: Record<string, string> = { ...authorization() };
   if (body.json !== undefined) headers['Content-Type'] = 'application/json';
   else if (body.raw !== undefined) headers['Content-Type'] = 'application/octet-stream';
+  if (body.range !== undefined) headers.Range = body.range;
   const content = body.json !== undefined ? JSON.stringify(body.json) : body.raw;
   let response: Response;
   try {

@@ -44,11 +44,30 @@ class Guard extends Component<{ name: string; children: ComponentChildren }, { f
   }
 }
 
-function View({ route }: { route: Route }) {
-  switch (route.view) {
-    case 'floor': return <Floor query={route.query} />;
-    default: return <p class="notice">{texts().app.notFound}</p>;
+type LaterView = (props: { path: string[]; query: URLSearchParams }) => ComponentChildren;
+
+/// The floor comes with the page; the rest is loaded when it is first asked for.
+const kLater: { [view: string]: () => Promise<{ default: LaterView }> } = {
+  machine: () => import('../machine/machine'),
+};
+
+function Later({ load, route }: { load: () => Promise<{ default: LaterView }>; route: Route }) {
+  const [Shown, show] = useState<LaterView | null>(null);
+  const [isGone, setGone] = useState(false);
+  useEffect(() => {
+    load().then((module) => show(() => module.default), () => setGone(true));
+  }, []);
+  const t = texts().app;
+  if (isGone) {
+    return <p class="notice warn">{t.newVersion} <button type="button" onClick={() => location.reload()}>{t.reload}</button></p>;
   }
+  return Shown ? <Shown path={route.path} query={route.query} /> : <p class="muted" role="status">{t.loading}</p>;
+}
+
+function View({ route }: { route: Route }) {
+  if (route.view === 'floor') return <Floor query={route.query} />;
+  const load = Object.hasOwn(kLater, route.view) ? kLater[route.view] : undefined;
+  return load ? <Later key={route.view} load={load} route={route} /> : <p class="notice">{texts().app.notFound}</p>;
 }
 
 export function App() {

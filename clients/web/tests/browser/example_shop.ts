@@ -4,6 +4,29 @@ import { Shop, longProgram, until } from './shop';
 const kAsks = 'O0300 (DIAMETERS FROM THE OPERATOR)\nG20 G93 G98\nINPUT (LARGEST DIAMETER) P1\nG0 X[P1]\nM30\n';
 const kStops = 'O0400 (TURN THE PART OVER)\nG21 G90\nG0 X10.\nM0\nG0 X0.\nM30\n';
 
+const kSetup = `units = "mm"
+
+[[tool]]          # face mill
+number = 1
+length = 142.315
+radius = 25.0
+
+[[tool]]          # drill
+number = 2
+length = 118.402
+radius = 4.25
+
+[[offset]]
+name = "G54"
+X = -250.0
+Y = -180.0
+Z = -312.75
+
+[[variable]]
+name = "#500"
+value = 12.5
+`;
+
 export async function exampleShop(): Promise<Shop> {
   const shop = new Shop();
   await shop.startServer();
@@ -17,6 +40,8 @@ export async function exampleShop(): Promise<Shop> {
   await shop.push('O0200', 'O0200 (WITH AN ERROR)\nG21 G90\nG1 X1. F100. ZZ5.\nM30\n', 'fanuc');
   await shop.push('O0300', kAsks, 'centurion');
   await shop.push('O0400', kStops, 'fanuc');
+  await shop.api('PUT', 'machines/mill-1/setup?comment=As+measured', kSetup);
+  await shop.api('PUT', 'machines/mill-1/setup?comment=Tool+2+reground', kSetup.replace('118.402', '117.95'));
   await shop.start('mill-1', 'O0100');
   await shop.start('mill-2', 'O0200');
   await shop.start('mill-3', 'O0400');

@@ -7,6 +7,10 @@ import { kThemes, kWidths, openBrowser, visit } from './page';
 const kPlaces: Record<string, string> = {
   floor: '#/floor',
   wall: '#/floor?wall=1',
+  machine: '#/machine/mill-1',
+  prompt: '#/machine/lathe-1',
+  setup: '#/machine/mill-1/setup',
+  runs: '#/machine/mill-2/runs',
 };
 
 async function main(): Promise<void> {

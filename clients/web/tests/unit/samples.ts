@@ -1,5 +1,5 @@
 // A machine, its status and a run with usual values, for tests that are about one of them.
-import type { Machine, Run, Status } from '../../generated/api';
+import type { Machine, Record as ReportRecord, Run, Status } from '../../generated/api';
 
 export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<Status> {
   return {
@@ -22,5 +22,12 @@ export function run(changed: Partial<Run> = {}): Run {
     id: 'run-1', machine: 'lathe-1', program: 'O0100', revision: 1, sha256: '0'.repeat(64), size: 1000, control: 'centurion', state: 'active',
     sent: 0, accepted: 0, executed: 0, line: 0, sequence: null, reason: null, content_verified: null, author: 'admin',
     created: '2026-11-23T12:00:00Z', started: '2026-11-23T12:00:00Z', ended: null, outputs: 0, setup: null, ...changed,
+  };
+}
+
+export function record(changed: Partial<ReportRecord> = {}): ReportRecord {
+  return {
+    machine: 'lathe-1', epoch: 1, number: 1, time: '2026-11-23T12:00:00Z', received: null, run: 'run-1', kind: 'output', block: 1, line: 1,
+    sequence: null, device: null, text: '', ...changed,
   };
 }

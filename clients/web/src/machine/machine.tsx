@@ -1,0 +1,81 @@
+// One machine: what it does now and the commands to it, its setup, what its control retained, and its runs.
+import { addressOf } from '../app/route';
+import { useFeed } from '../live/use_feed';
+import { durationText, percentDigits, progressOf } from '../live/progress';
+import { StatePill } from '../parts/state_pill';
+import { Tabs } from '../parts/tabs';
+import { dateTimeText, numberText, texts } from '../texts/texts';
+import { ExecutingText } from './executing_text';
+import { MachineMemory } from './memory';
+import { Modes } from './modes';
+import { Overrides } from './overrides';
+import { Position } from './position';
+import { RunControls } from './run_controls';
+import { RunRecords } from './run_records';
+import { MachineRuns } from './runs';
+import { MachineSetup } from './setup/setup';
+import { StartForm } from './start_form';
+
+const kTabs = ['now', 'setup', 'memory', 'runs'] as const;
+
+function Now({ name }: { name: string }) {
+  const feed = useFeed(`machine:${name}`, 'link');
+  const machine = feed.machines.get(name)!;
+  const { status } = machine;
+  const run = feed.runs.get(name);
+  const hasRun = status?.run != null;
+  return (
+    <>
+      <RunControls machine={machine} />
+      <div class="columns">
+        <div>{status && <Position status={status} />}{hasRun ? null : <StartForm key={name} machine={machine} />}{run && <RunRecords run={run.id} />}</div>
+        <div>{status && <ExecutingText run={feed.runOf(machine)} status={status} />}{status && <Modes status={status} />}</div>
+        <div>{status && <Overrides machine={name} status={status} />}</div>
+      </div>
+    </>
+  );
+}
+
+function Head({ name }: { name: string }) {
+  const feed = useFeed(`machine:${name}`);
+  const t = texts().machine;
+  const machine = feed.machines.get(name)!;
+  const state = feed.stateOf(machine);
+  const progress = machine.connected ? progressOf(machine.status, feed.runOf(machine)) : null;
+  return (
+    <div class="machine-head live">
+      <h1>{name}</h1>
+      <StatePill state={state} />
+      <span class="muted">{[machine.control, machine.description].filter(Boolean).join(' · ')}</span>
+      {!machine.connected && <span class="muted">{texts().floor.lastSeen(dateTimeText(machine.last_seen))}</span>}
+      {progress && (
+        <span class="progress-row">
+          <progress value={progress.fraction} max={1} aria-label={texts().floor.progress} />
+          <span>{numberText(progress.fraction * 100, percentDigits(progress.fraction))} %</span>
+          {progress.secondsLeft !== null && <span class="muted">{texts().floor.timeLeft(durationText(progress.secondsLeft))}</span>}
+        </span>
+      )}
+      {state.message && <p class="message">{state.message}</p>}
+      {machine.notices.map((notice) => <p key={notice} class="notice warn">{t.notice}: {notice}</p>)}
+    </div>
+  );
+}
+
+export default function MachineView({ path }: { path: string[] }) {
+  const [name = '', tab = 'now'] = path;
+  const feed = useFeed('machines', 'link');
+  const t = texts().machine;
+  if (!feed.machines.has(name)) {
+    return <p class="notice">{feed.link.state === 'connecting' ? texts().app.loading : t.unknown(name)}</p>;
+  }
+  return (
+    <>
+      <Head name={name} />
+      <Tabs label={t.parts} tabs={kTabs.map((key) => ({ address: addressOf('machine', [name, key]), name: t.tabs[key], isShown: key === tab }))} />
+      {tab === 'now' && <Now name={name} />}
+      {tab === 'setup' && <MachineSetup machine={name} key={name} />}
+      {tab === 'memory' && <MachineMemory machine={name} />}
+      {tab === 'runs' && <MachineRuns machine={name} />}
+    </>
+  );
+}

@@ -1,0 +1,43 @@
+// Starts a program on a machine. The revision is the latest unless one is named; the second press of the button names all of it.
+import { useState } from 'preact/hooks';
+import type { Machine, Programs } from '../../generated/api';
+import { get, pathOf } from '../api/request';
+import { CommandFault, useCommand } from '../parts/command';
+import { SureButton } from '../parts/sure_button';
+import { useLoaded } from '../parts/use_loaded';
+import { texts } from '../texts/texts';
+import { startRun } from './commands';
+
+const kMostListed = 1000;
+
+export function StartForm({ machine }: { machine: Machine }) {
+  const t = texts().machine;
+  const command = useCommand();
+  const [program, setProgram] = useState('');
+  const [from, setFrom] = useState('');
+  const { value } = useLoaded((signal) => get<Programs>(pathOf('programs'), { limit: kMostListed }, signal), []);
+  const fitting = (value?.programs ?? []).filter((p) => p.control === null || p.control === machine.control);
+  const chosen = fitting.find((p) => p.name === program);
+  const start = async () => {
+    // The revision that the question named, whatever has been uploaded since.
+    const request = { machine: machine.name, program, revision: chosen?.revision ?? null, from: from.trim() };
+    if (await command.send(() => startRun(request))) setFrom('');
+  };
+  return (
+    <section class="panel" aria-labelledby="start">
+      <h2 id="start">{t.start}</h2>
+      <label>
+        {t.program}
+        <input name="program" list="programs" autocomplete="off" value={program} onInput={(e) => setProgram(e.currentTarget.value)} />
+      </label>
+      <datalist id="programs">{fitting.map((p) => <option key={p.name} value={p.name}>{p.title ?? ''}</option>)}</datalist>
+      <label>
+        {t.from}
+        <input name="from" autocomplete="off" maxLength={24} placeholder={t.fromHint} value={from} onInput={(e) => setFrom(e.currentTarget.value)} />
+      </label>
+      <SureButton class="big primary" label={t.start} disabled={program === '' || command.isBusy || !machine.connected}
+        question={t.startSure(program, chosen ? String(chosen.revision) : t.latest, machine.name, from.trim())} onSure={() => void start()} />
+      <CommandFault command={command} />
+    </section>
+  );
+}

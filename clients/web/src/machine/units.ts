@@ -1,0 +1,33 @@
+// Numbers as the control shows them: in the unit of its program. The API's lengths are millimeters. Pure.
+import type { ActiveModes } from '../../generated/api';
+import { numberText } from '../texts/texts';
+
+const kRotary = 'ABC';
+const kMmPerInch = 25.4;
+
+export interface LengthUnit {
+  name: 'mm' | 'inch';
+  perMm: number;
+  digits: number;
+}
+
+export function unitOf(modes: ActiveModes): LengthUnit {
+  return modes?.units === 'inch' ? { name: 'inch', perMm: 1 / kMmPerInch, digits: 4 } : { name: 'mm', perMm: 1, digits: 3 };
+}
+
+/// Of an axis: rotary ones are in degrees, whatever the unit.
+export function axisText(axis: string, value: number | undefined, unit: LengthUnit): string {
+  if (value === undefined) return '–';
+  return kRotary.includes(axis) ? `${numberText(value, 3)}°` : lengthText(value, unit);
+}
+
+export function lengthText(mm: number, unit: LengthUnit): string {
+  const value = mm * unit.perMm;
+  const isNothing = Math.abs(value) < 0.5 * 10 ** -unit.digits; // no "-0.000"
+  return numberText(isNothing ? 0 : value, unit.digits);
+}
+
+/// In the order of a control's display.
+export function sortAxes(axes: string[]): string[] {
+  return [...axes].sort((a, b) => 'XYZABCUVW'.indexOf(a) - 'XYZABCUVW'.indexOf(b));
+}

@@ -1,0 +1,26 @@
+// Loads what a view shows besides the feed, again when one of `inputs` changes, when the server is back, or when asked to.
+import { useCallback, useEffect, useState } from 'preact/hooks';
+import { feed } from '../live/feed';
+import { faultText } from './command';
+
+export interface Loaded<T> {
+  /// What was loaded last, also while something newer is on its way; null: nothing yet.
+  value: T | null;
+  fault: string | null;
+  reload(): void;
+}
+
+export function useLoaded<T>(load: (signal: AbortSignal) => Promise<T>, inputs: unknown[]): Loaded<T> {
+  const [state, setState] = useState<{ value: T | null; fault: string | null }>({ value: null, fault: null });
+  const [count, setCount] = useState(0);
+  const reload = useCallback(() => setCount((before) => before + 1), []);
+  useEffect(() => {
+    const ending = new AbortController();
+    load(ending.signal).then(
+      (value) => { if (!ending.signal.aborted) setState({ value, fault: null }); },
+      (failure: unknown) => { if (!ending.signal.aborted) setState((before) => ({ ...before, fault: faultText(failure, false) })); });
+    return () => ending.abort();
+  }, [...inputs, count]);
+  useEffect(() => feed.on('link', () => { if (feed.link.state === 'live') reload(); }), []);
+  return { ...state, reload };
+}

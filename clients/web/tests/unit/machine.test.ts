@@ -1,0 +1,117 @@
+// The logic behind the machine's view: the window of a program's text, the tables of a setup, differences, units, records.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { probingOf, recordText } from '../../src/live/record_text';
+import { addRow, columnsOf, readTables, setCell } from '../../src/machine/setup/setup_tables';
+import { holds, numberLines, rangeAround, type TextWindow } from '../../src/machine/text_window';
+import { axisText, lengthText, sortAxes, unitOf } from '../../src/machine/units';
+import { diffLines, foldDiff } from '../../src/parts/diff';
+import { record } from './samples';
+
+const program = Array.from({ length: 5000 }, (_, i) => `N${i + 1} X${i}\r\n`).join('');
+const bytes = new TextEncoder().encode(program);
+
+function windowAt(offset: number): TextWindow {
+  const { first, last } = rangeAround(offset, bytes.length);
+  return { offset: first, bytes: bytes.slice(first, last + 1), size: bytes.length };
+}
+
+for (const line of [1, 2, 700, 2500, 4999, 5000]) {
+  test(`line ${line} has its number and its text, wherever the window was cut`, () => {
+    const offset = program.indexOf(`N${line} `);
+    const lines = numberLines(windowAt(offset), offset, line);
+    assert.equal(lines.find((l) => l.number === line)?.text, `N${line} X${line - 1}`);
+    for (const l of lines) assert.equal(l.text, `N${l.number} X${l.number - 1}`);
+  });
+}
+
+test('a window is kept while the block is well inside it', () => {
+  const window = windowAt(30_000);
+  assert.equal(holds(window, 30_000), true);
+  assert.equal(holds(window, window.offset + window.bytes.length - 10), false);
+  assert.equal(holds(window, window.offset + 10), false);
+  assert.equal(holds(window, bytes.length + 10), false);
+  assert.equal(holds(windowAt(0), 0), true);
+  assert.equal(holds(windowAt(bytes.length - 5), bytes.length - 5), true);
+});
+
+const setup = `units = "mm"
+
+[[tool]]   # face mill
+number = 1
+length = 142.3   # measured, "cold"
+
+[control]
+number = 9
+[[ tool ]]
+number = 2
+wear = { X = 0.1 }
+[[offset]]
+name = "G54 # not a comment"
+`;
+
+test('tables are found where they are written, and nothing else is', () => {
+  const rows = readTables(setup);
+  assert.deepEqual(rows.map((row) => [row.table, ...row.cells.map((c) => `${c.key}=${c.text}`)]), [
+    ['tool', 'number=1', 'length=142.3'], ['tool', 'number=2', 'wear={ X = 0.1 }'], ['offset', 'name="G54 # not a comment"']]);
+  assert.deepEqual(columnsOf(rows.filter((row) => row.table === 'tool')), ['number', 'length', 'wear']);
+});
+
+test('a cell changes its own bytes and no others', () => {
+  const [first] = readTables(setup);
+  assert.equal(setCell(setup, first!, 'length', ' 150 '), setup.replace('142.3', '150'));
+  assert.equal(setCell(setup, first!, 'length', '  '), setup);
+});
+
+test('a cell that was missing is written after the last line of its table', () => {
+  const [, second] = readTables(setup);
+  assert.equal(setCell(setup, second!, 'length', '80'), setup.replace('{ X = 0.1 }', '{ X = 0.1 }\nlength = 80'));
+});
+
+test('a new tool has the next number', () => {
+  const rows = readTables(addRow(setup, 'tool', ['number', 'length']));
+  assert.equal(rows.at(-1)?.cells[0]?.text, '3');
+  assert.equal(readTables(addRow('', 'variable', [])).length, 1);
+});
+
+test('a difference can be read both ways', () => {
+  const before = 'a\nb\nc\nd\ne';
+  const after = 'a\nc\nx\nd\ne\nf';
+  const lines = diffLines(before, after);
+  assert.equal(lines.filter((l) => l.kind !== 'added').map((l) => l.text).join('\n'), before);
+  assert.equal(lines.filter((l) => l.kind !== 'removed').map((l) => l.text).join('\n'), after);
+  assert.deepEqual(lines.filter((l) => l.kind !== 'same').map((l) => l.kind[0] + l.text), ['rb', 'ax', 'af']);
+});
+
+test('what did not change is folded, and no difference is nothing', () => {
+  const many = Array.from({ length: 100 }, (_, i) => `line ${i}`);
+  const changed = many.map((line, i) => (i === 50 ? 'x' : line));
+  const folded = foldDiff(diffLines(many.join('\n'), changed.join('\n')), 2);
+  assert.equal(folded.length, 6);
+  assert.deepEqual(foldDiff(diffLines('a', 'a')), []);
+});
+
+test('lengths are in the unit of the program, angles in degrees', () => {
+  const mm = unitOf(null);
+  const inch = { ...mm, name: 'inch' as const, perMm: 1 / 25.4, digits: 4 };
+  assert.equal(lengthText(25.4, inch), '1.0000');
+  assert.equal(lengthText(-0.0001, mm), '0.000');
+  assert.equal(axisText('B', 90, inch), '90.000°');
+  assert.equal(axisText('X', undefined, mm), '–');
+  assert.deepEqual(sortAxes(['C', 'Z', 'X']), ['X', 'Z', 'C']);
+});
+
+test('structured records are told in words, broken ones as they are', () => {
+  assert.equal(recordText(record({ kind: 'alarm', text: '{"code":"FA0005","text":"PS005 NO DATA"}' })), 'PS005 NO DATA · FA0005');
+  assert.equal(recordText(record({ kind: 'run_ended', text: '{"outcome":"completed","reason":"","sent":5}' })), 'completed');
+  assert.equal(recordText(record({ kind: 'alarm', text: '{"code":' })), '{"code":');
+  assert.equal(recordText(record({ kind: 'output', text: '[1,2]' })), '[1,2]');
+  assert.equal(recordText(record({ kind: 'output', text: '{"a":1}' })), '{"a":1}');
+});
+
+test('a probing result is a point', () => {
+  const probe = record({ kind: 'probe', text: '{"to":{"Z":-3},"until":"contact","tripped":true,"at":{"X":1.5,"Z":-0.25}}' });
+  assert.deepEqual(probingOf(probe), { at: { X: 1.5, Z: -0.25 }, tripped: true });
+  assert.equal(recordText(probe), 'X 1.5000  Z -0.2500');
+  assert.equal(probingOf(record({ kind: 'output', text: probe.text })), null);
+});
