@@ -245,6 +245,7 @@ void members(V&& v, Is<BlockData> auto& m) {
   v(DRIPLINE_MEMBER(ends));
   v(DRIPLINE_MEMBER(bytes), CheckedBy{DRIPLINE_FIELD(crc)});
   v(DRIPLINE_MEMBER(reason), FreeText{});
+  v(DRIPLINE_MEMBER(content), Sha256{});
 }
 
 #undef DRIPLINE_FIELD

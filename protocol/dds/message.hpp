@@ -232,6 +232,7 @@ struct BlockData {
   bool ends = false;
   std::vector<std::byte> bytes;  ///< a message with a wrong CRC was dropped
   std::string reason;
+  std::string content;  ///< of a called program: its SHA-256, hexadecimal; empty: not stated
   friend bool operator==(const BlockData&, const BlockData&) = default;
 };
 

@@ -135,6 +135,7 @@ BlockFeed::Turn BlockFeed::send_bytes(dds::BlockRequest request, const Content& 
     const auto piece = bytes.first(std::min(bytes.size(), dds::kMaxBlockBytes));
     dds::BlockData data = answer_to(request);
     data.total_bytes = content.size;
+    if (!request.program.empty()) data.content = content.digest.hex();
     data.bytes.assign(piece.begin(), piece.end());
     data.ends = request.offset + piece.size() == content.size;
     if (auto written = endpoint_.write(data); !written) {

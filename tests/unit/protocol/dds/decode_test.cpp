@@ -43,6 +43,15 @@ TEST(Decode, RefusesBlockDataBeyondItsTotal) {
   EXPECT_FALSE(decode(sample));
 }
 
+TEST(Decode, RefusesAContentThatIsNoDigest) {
+  BlockData data = block_data("lathe-1", 0, 10);
+  data.content = std::string(64, 'a');
+  auto sample = sample_of(data);
+  EXPECT_TRUE(decode(sample));
+  sample.content[0] = 'x';
+  EXPECT_FALSE(decode(sample));
+}
+
 TEST(Decode, RefusesBytesThatComeWithAFailure) {
   const BlockData data = block_data("lathe-1", 0, 10);
   auto sample = sample_of(data);

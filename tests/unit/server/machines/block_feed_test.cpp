@@ -98,6 +98,8 @@ TEST_F(BlockFeedTest, FindsACalledProgramByItsNumber) {
   const std::string run = running("M98 P2\n");
   request(run, 0, 100, "O0002");
   EXPECT_EQ(fed(1), "O2\nM99\n");
+  EXPECT_EQ(written_->blocks[0].content, sha256("O2\nM99\n").hex())
+      << "to be compared by a restart";
 }
 
 TEST_F(BlockFeedTest, KeepsACalledProgramAsItWasWhenTheRunBegan) {
