@@ -145,7 +145,7 @@ SteadyTime Gateway::turn(SteadyTime now) {
 SteadyTime Gateway::next_turn(SteadyTime now) const {
   const SteadyTime next_tick = parts_.options.speed.factor ? now + kTick : now;
   if (loop_.is_moving()) return next_tick;
-  if (loop_.is_rebuilding()) return now;
+  if (loop_.is_looking_through()) return now;
   constexpr std::chrono::milliseconds kSoon{20};
   const bool must_send = announcement_is_due_ || !commands_.is_sent();
   SteadyTime next = now + (run_.session || must_send ? report::StatusPublisher::kMinInterval

@@ -72,6 +72,7 @@ class Gateway {
   Reply start(const dds::Command& command);
   Reply operate(const dds::Command& command);
   Reply resume();
+  std::optional<Reply> refusal_of_fault() const;
   void keep_answer(const dds::Command& command, const Reply& reply);
   Reply carry_out(const PanelCommand& command);
   Reply cycle_start();

@@ -159,10 +159,14 @@ Reply Gateway::operate(const dds::Command& command) {
   }
 }
 
+std::optional<Reply> Gateway::refusal_of_fault() const {
+  if (recorder_.fault().empty()) return std::nullopt;
+  return refuse(fmt::format("reports cannot be kept: {}", recorder_.fault()));
+}
+
 Reply Gateway::resume() {
   if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStop));
-  if (!recorder_.fault().empty())
-    return refuse(fmt::format("reports cannot be kept: {}", recorder_.fault()));
+  if (auto refusal = refusal_of_fault()) return *refusal;
   if (consent_.is_awaited()) return cycle_start();
   if (machine_->resume()) {
     recorder_.clear_notice();
@@ -235,6 +239,7 @@ Reply Gateway::cycle_start() {
   if (!consent_.is_awaited()) return resume();
   if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStopIsPressed));
   if (loop_.is_rebuilding()) return refuse(std::string(kIsRebuilding));
+  if (auto refusal = refusal_of_fault()) return *refusal;
   loop_.cycle_start();
   return {};
 }

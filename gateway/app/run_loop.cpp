@@ -63,6 +63,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   const interpreter::Position at =
       is_restart ? parts_.machine.status().position : setup->position.value_or(setup->start);
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
+  if (is_restart) conditions.restart_of = origin.from.restart->run;
   if (auto done = parts_.machine.check_begin(at); !done) return done;
   auto session =
       RunSession::make({.run = run,
@@ -92,6 +93,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   parts_.run.was_emergency_stopped = false;
   last_step_ = parts_.clock.steady_now();
   last_state_ = MachineState::Idle;
+  has_dropped_checkpoint_ = false;
   next_sync_ = last_step_;
   next_checkpoint_ = last_step_ + parts_.options.checkpoint_interval;
   const SteadyTime deadline = last_step_ + parts_.options.cycle_start_wait;
@@ -116,7 +118,7 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
   });
   if (parts_.keeps_checkpoints) {
     parts_.outbox.checkpoints().stage_run({run,
-                                           encode(std::move(conditions)),
+                                           encode(run.run, std::move(conditions)),
                                            {},
                                            origin.from.restart ? origin.from.restart->run : ""});
     session.want_checkpoint();
@@ -183,8 +185,7 @@ bool RunLoop::wait_for_cycle_start(SteadyTime now) {
   if (!parts_.run.is_active()) return true;
   commit_reports();
   if (parts_.consent.is_overdue(now)) {
-    end(dds::RunOutcome::Aborted, fmt::format("no cycle start at the machine within {} s",
-                                              parts_.options.cycle_start_wait.count()));
+    end(dds::RunOutcome::Aborted, overdue_reason());
   } else {
     check_end();
   }
@@ -213,7 +214,7 @@ void RunLoop::keep_state(SteadyTime now) {
   if (!has_memory && !parts_.outbox.checkpoints().is_staged()) return;
   const bool may_commit = !parts_.outbox.has_staged_records() &&
                           parts_.recorder.is_between_blocks() && parts_.recorder.fault().empty();
-  if (may_commit) (void)parts_.recorder.commit();
+  if (may_commit) commit_state();
 }
 
 /// Before the record of the run's end, and in the same transaction.
@@ -348,7 +349,7 @@ Result<void> RunLoop::recover() {
   ending.executed = progress;
   ending.time_us = parts_.clock.now().time_since_epoch().count();
   ending.memory = parts_.memory.digest();
-  parts_.outbox.checkpoints().stage_ending(run->run, encode(std::move(ending)));
+  parts_.outbox.checkpoints().stage_ending(run->run, encode(run->run, std::move(ending)));
   const bool has_memory = !parts_.outbox.memory().cells().empty() && parts_.memory.fault().empty();
   parts_.recorder.end_interrupted(run->run, progress,
                                   has_memory ? parts_.memory.report() : std::vector<std::string>());

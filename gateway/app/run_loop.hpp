@@ -62,6 +62,10 @@ class RunLoop {
   bool is_rebuilding() const {
     return parts_.run.is_active() && parts_.run.session->is_rebuilding();
   }
+  /// The look-through has work to do, and does not wait for text.
+  bool is_looking_through() const {
+    return is_rebuilding() && parts_.run.session->restart()->state() == Rebuild::State::Working;
+  }
   /// A hold is the operator's from here on: records on disk again do not end it.
   void keep_hold() { is_held_by_fault_ = false; }
   /// Ends the run, if any, as interrupted. Errors: those of the outbox; then the next start does
@@ -96,6 +100,8 @@ class RunLoop {
   void report_memory();
   void stage_ending(bool is_completed);
   void check_end();
+  std::string overdue_reason() const;
+  void commit_state();
   void end(dds::RunOutcome outcome, const std::string& reason);
   void try_to_finish(SteadyTime now);
 
@@ -104,6 +110,7 @@ class RunLoop {
   SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_checkpoint_{};
   machine::MachineState last_state_{};
   std::uint64_t rebuild_rounds_ = 0;
+  bool has_dropped_checkpoint_ = false;  ///< of this run, for the log
 };
 
 inline constexpr std::string_view kIsRebuilding =

@@ -11,6 +11,7 @@ using machine::MachineState;
 
 Conditions RunLoop::conditions_of(const StartOrigin& origin) const {
   Conditions conditions;
+  conditions.machine = parts_.options.machine;
   if (!origin.setup.empty()) conditions.server_setup = sha256(origin.setup).hex();
   conditions.gateway_setup = parts_.setup_digest;
   conditions.block_skip = parts_.machine.panel().block_skip;
@@ -24,9 +25,7 @@ Result<std::optional<RestartPlan>> RunLoop::plan_of(const report::ActiveRun& run
                                                     const StartOrigin& origin) const {
   if (!origin.from.restart) return std::optional<RestartPlan>();
   auto plan = plan_restart(parts_.outbox.database(), *origin.from.restart,
-                           {.machine = parts_.options.machine,
-                            .program = run.program,
-                            .revision = run.revision,
+                           {.revision = run.revision,
                             .control = run.control,
                             .size = run.size,
                             .conditions = conditions_of(origin),
@@ -60,8 +59,30 @@ void RunLoop::rebuild(SteadyTime now) {
     end(dds::RunOutcome::Aborted, fmt::format("restart: {}", session.restart()->fault()));
 }
 
-/// The operator sees it before cycle start.
+std::string RunLoop::overdue_reason() const {
+  const auto seconds = parts_.options.cycle_start_wait.count();
+  if (!is_rebuilding()) return fmt::format("no cycle start at the machine within {} s", seconds);
+  return fmt::format("restart: the program was not looked through within {} s, but to block {}{}",
+                     seconds, parts_.run.session->restart()->block(),
+                     is_looking_through() ? "" : ": its text did not come");
+}
+
+/// Nothing is executed that waits for this. A cut is worth more than a checkpoint: without room for
+/// one the machine moves on, and a restart begins at the one before.
+void RunLoop::commit_state() {
+  const auto done = parts_.recorder.commit();
+  if (done) return;
+  if (!std::exchange(has_dropped_checkpoint_, true)) {
+    process::log_warning("checkpoints cannot be kept: {} {}", done.error().what,
+                         parts_.run.label());
+  }
+  parts_.outbox.checkpoints().drop_checkpoints();
+  (void)parts_.recorder.commit();
+}
+
+/// The operator sees it before cycle start, and has all the time for it.
 void RunLoop::show_restart() {
+  parts_.consent.await_confirmation(parts_.clock.steady_now() + parts_.options.cycle_start_wait);
   RunSession& session = *parts_.run.session;
   const RestartReport& report = session.restart()->report();
   process::log_info("restart of run {} after block {}: state {}, path {} {}", report.original.run,
@@ -83,7 +104,8 @@ void RunLoop::stage_ending(bool is_completed) {
   ending.is_completed = is_completed;
   ending.stopped_at = parts_.machine.status().position;
   ending.memory = parts_.memory.digest();
-  parts_.outbox.checkpoints().stage_ending(session.run().run, encode(std::move(ending)));
+  const std::string& run = session.run().run;
+  parts_.outbox.checkpoints().stage_ending(run, encode(run, std::move(ending)));
 }
 
 }  // namespace dripline::gateway

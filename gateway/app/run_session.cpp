@@ -100,8 +100,7 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
         ++blocks;
         note_modes();
         note_memory();
-        if (is_at_boundary_ && (wants_checkpoint_ || now >= next_early_checkpoint_))
-          take_checkpoint();
+        if (is_at_boundary_ && is_checkpoint_due()) take_checkpoint();
         break;
       case StepState::NeedsText:
         waits_ = Waits::ForText;

@@ -86,6 +86,10 @@ class RunSession {
   Result<void> give_memory(const Make& make, const interpreter::Setup& setup);
   /// True: the interpreter can continue.
   bool resolve_question();
+  bool is_checkpoint_due() const {
+    return wants_checkpoint_ || interpreter_->blocks() >= next_early_checkpoint_ ||
+           (checkpoints_ && checkpoints_->lacks_programs(feed()));
+  }
   void take_checkpoint();
   Result<void> begin_rebuild();
   void end_rebuild();

@@ -67,11 +67,19 @@ void RunSession::end_rebuild() {
 /// The run can be restarted itself, before it has a checkpoint of its own.
 void RunSession::keep_inherited(const Rebuild& rebuild) {
   report::Outbox& outbox = *parts_.checkpoints;
-  auto stored = report::CheckpointStore::read(outbox.database(), rebuild.original_run(),
-                                              rebuild.report().checkpoint);
-  if (stored) outbox.checkpoints().stage(parts_.run.run, *std::move(stored));
-  for (const auto& answer : rebuild.answers_given())
-    outbox.checkpoints().stage_answer(parts_.run.run, answer.number, answer.bytes);
+  const std::string &from = rebuild.original_run(), &run = parts_.run.run;
+  const std::uint64_t block = rebuild.report().checkpoint;
+  const auto stored = report::CheckpointStore::read(outbox.database(), from, block);
+  if (auto kept = read_checkpoint(outbox.database(), from, block); kept && stored) {
+    outbox.checkpoints().stage(
+        run, {block, stored->executed, stored->time, encode(run, *std::move(kept))});
+  }
+  for (const auto& given : rebuild.answers_given()) {
+    if (auto answer = decode_answer(from, given.number, given.bytes)) {
+      outbox.checkpoints().stage_answer(run, given.number,
+                                        encode(run, given.number, *std::move(answer)));
+    }
+  }
   checkpoints_.emplace(parts_.run.run, outbox, parts_.clock, rebuild.answers());
 }
 

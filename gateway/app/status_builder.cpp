@@ -197,10 +197,18 @@ Execution StatusBuilder::execution_of_run(std::string& message, const LinkState&
   if (session.is_rebuilding()) {
     message =
         fmt::format("restart: looking through the program, block {}", session.restart()->block());
+    if (session.restart()->state() == Rebuild::State::NeedsText)
+      message +=
+          links.is_connected ? ": waiting for its text" : ": waiting for its text: no server";
     return Execution::Waiting;
   }
   if (parts_.consent.is_awaited()) {
     message = kAwaitsCycleStart;
+    if (session.restart() != nullptr) {
+      message +=
+          fmt::format(": restart of run {} after block {}", session.restart()->original_run(),
+                      session.restart()->report().after.block);
+    }
     return Execution::Waiting;
   }
   if (state == MachineState::Idle && session.waits() == RunSession::Waits::ForOperator) {

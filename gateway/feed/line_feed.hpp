@@ -13,6 +13,15 @@
 
 namespace dripline::feed {
 
+/// A program that was called by name. Without both it was not found yet, or the server does not
+/// state its content.
+struct CalledProgram {
+  std::string name;
+  std::string content;      ///< SHA-256, hexadecimal
+  bool is_missing = false;  ///< there is none of this name
+  friend bool operator==(const CalledProgram&, const CalledProgram&) = default;
+};
+
 /// A run's text, and what its owner must know of its arrival. Functions that a kind of feed does
 /// not need do nothing. One thread, the one that steps the interpreter.
 class ProgramFeed : public interpreter::ProgramSource {
@@ -28,9 +37,10 @@ class ProgramFeed : public interpreter::ProgramSource {
   /// The rate at which the text is used up; nullopt: as fast as possible.
   virtual void set_consumption(std::optional<double> /*bytes_per_second*/) {}
 
-  /// The names that `find` was asked for, in the order of their indices from 1. A feed of the same
-  /// run that is asked for them in this order gives the same indices.
-  virtual std::vector<std::string> called_programs() const { return {}; }
+  /// What `find` was asked for, in the order of the indices from 1. A feed of the same run that is
+  /// asked for them in this order gives the same indices.
+  virtual std::vector<CalledProgram> called_programs() const { return {}; }
+  virtual std::size_t called_program_count() const { return 0; }
 
   /// The *sent* counter: bytes of the main program received without a gap from its beginning.
   virtual std::uint64_t sent() const = 0;

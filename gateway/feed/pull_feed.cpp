@@ -92,10 +92,11 @@ interpreter::ProgramLookup PullFeed::find(std::string_view name) {
   return {State::NotYet, index};
 }
 
-std::vector<std::string> PullFeed::called_programs() const {
-  std::vector<std::string> names;
-  for (std::size_t i = 1; i < programs_.size(); ++i) names.push_back(programs_[i].name);
-  return names;
+std::vector<CalledProgram> PullFeed::called_programs() const {
+  std::vector<CalledProgram> called;
+  for (std::size_t i = 1; i < programs_.size(); ++i)
+    called.push_back({programs_[i].name, programs_[i].content, programs_[i].is_missing});
+  return called;
 }
 
 void PullFeed::on_data(const dds::BlockData& data, SteadyTime now) {
@@ -122,10 +123,16 @@ std::optional<interpreter::ProgramIndex> PullFeed::program_of(const dds::BlockDa
   return std::nullopt;
 }
 
-bool PullFeed::is_consistent(const Program& program, const dds::BlockData& data) {
+bool PullFeed::is_consistent(Program& program, const dds::BlockData& data) {
   if (program.size && *program.size != data.total_bytes) {
     failure_ = fmt::format("the server reports that program \"{}\" has {} bytes, it began with {}",
                            program.name, data.total_bytes, *program.size);
+    return false;
+  }
+  if (program.content.empty()) program.content = data.content;
+  if (!data.content.empty() && program.content != data.content) {
+    failure_ = fmt::format("the server has another content for program \"{}\" than it began with",
+                           program.name);
     return false;
   }
   return data.offset <= data.total_bytes && data.bytes.size() <= data.total_bytes - data.offset;

@@ -51,7 +51,8 @@ class PullFeed final : public ProgramFeed {
   interpreter::TextWindow fetch(interpreter::ProgramIndex program, std::uint64_t offset,
                                 std::size_t min_bytes) override;
   interpreter::ProgramLookup find(std::string_view name) override;
-  std::vector<std::string> called_programs() const override;
+  std::vector<CalledProgram> called_programs() const override;
+  std::size_t called_program_count() const override { return programs_.size() - 1; }
 
   void on_data(const dds::BlockData& data, SteadyTime now) override;
   void poll(SteadyTime now) override;
@@ -73,6 +74,7 @@ class PullFeed final : public ProgramFeed {
   struct Program {
     std::string name;  ///< empty: the run's own
     std::optional<std::uint64_t> size;
+    std::string content;  ///< SHA-256, of a called program; empty: not stated
     bool is_missing = false;
     int failures = 0;
     std::uint64_t received_to = 0;  ///< end of the furthest answer since it was last asked
@@ -88,7 +90,7 @@ class PullFeed final : public ProgramFeed {
   interpreter::TextWindow stitch(interpreter::ProgramIndex program, std::uint64_t offset,
                                  std::size_t need);
   std::optional<interpreter::ProgramIndex> program_of(const dds::BlockData& data) const;
-  bool is_consistent(const Program& program, const dds::BlockData& data);
+  bool is_consistent(Program& program, const dds::BlockData& data);
   void on_error(Program& program, const dds::BlockData& data);
   void drop_asked(interpreter::ProgramIndex program, std::uint64_t from, std::uint64_t to);
   void extend_hash();

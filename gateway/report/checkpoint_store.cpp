@@ -76,7 +76,8 @@ std::vector<std::uint64_t> checkpoints_to_drop(std::vector<CheckpointSize> kept,
   return dropped;
 }
 
-void CheckpointStore::stage(const std::string& run, StoredCheckpoint checkpoint) {
+void CheckpointStore::stage(const std::string& run, StoredCheckpoint checkpoint, bool is_awaited) {
+  is_awaited_ |= is_awaited;
   if (staged_.size() >= kMaxStaged) staged_.erase(staged_.begin() + 1);
   staged_.push_back({run, std::move(checkpoint)});
 }
@@ -90,6 +91,11 @@ void CheckpointStore::discard() {
   staged_.clear();
   staged_answers_.clear();
   staged_ending_.reset();
+  is_awaited_ = false;
+}
+
+void CheckpointStore::drop_checkpoints() {
+  if (!is_awaited_) staged_.clear();
 }
 
 Result<void> CheckpointStore::write(sqlite::Database& database) const {

@@ -54,8 +54,9 @@ class CheckpointStore {
   static constexpr std::size_t kMaxAnswers = 4096;
 
   void stage_run(StoredRun run) { staged_run_ = std::move(run); }
-  /// While a commit fails the newest few are kept, and the first.
-  void stage(const std::string& run, StoredCheckpoint checkpoint);
+  /// While a commit fails the newest few are kept, and the first. `is_awaited`: see
+  /// `has_awaited`.
+  void stage(const std::string& run, StoredCheckpoint checkpoint, bool is_awaited = false);
   /// What the interpreter was answered, the `number`th of its run from 1.
   void stage_answer(const std::string& run, std::uint64_t number, Bytes answer);
   void stage_ending(const std::string& run, Bytes ending) {
@@ -65,7 +66,11 @@ class CheckpointStore {
   bool is_staged() const {
     return staged_run_ || staged_ending_ || !staged_.empty() || !staged_answers_.empty();
   }
-  bool has_staged_answers() const { return !staged_answers_.empty(); }
+  /// Something of this must be on disk before the next block is executed: an answer, or a
+  /// checkpoint that was staged so.
+  bool has_awaited() const { return is_awaited_ || !staged_answers_.empty(); }
+  /// Drops the staged checkpoints, unless one of them is awaited. The disk may have no room.
+  void drop_checkpoints();
   Result<void> write(storage::sqlite::Database& database) const;
   void discard();
 
@@ -105,6 +110,7 @@ class CheckpointStore {
 
   std::optional<StoredRun> staged_run_;
   std::vector<OfRun> staged_;
+  bool is_awaited_ = false;
   std::vector<AnswerOfRun> staged_answers_;
   std::optional<EndingOfRun> staged_ending_;
 };

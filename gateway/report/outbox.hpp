@@ -57,9 +57,9 @@ class Outbox {
   /// Drops what was staged since the last commit.
   void discard();
 
-  /// Records, or answers to the interpreter: the block that they belong to is not executed before
-  /// they are committed.
-  bool has_staged_records() const { return !staged_.empty() || checkpoints_.has_staged_answers(); }
+  /// Records, answers to the interpreter or a checkpoint that is awaited: the block that they
+  /// belong to is not executed before they are committed.
+  bool has_staged_records() const { return !staged_.empty() || checkpoints_.has_awaited(); }
   std::size_t staged_records() const { return staged_.size(); }
   /// Errors: Io ("disk full" among them), Busy, Corrupt.
   Result<void> commit();

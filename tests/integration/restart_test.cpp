@@ -91,6 +91,10 @@ TEST_F(Restarted, IsRefusedAfterANewRevisionOrSetup) {
   EXPECT_NE(unknown.status, 0);
   EXPECT_NE(unknown.output.find("expected executed, block=1234"), std::string::npos)
       << unknown.output;
+  ASSERT_LT(system.rest().remove("/api/v1/programs/O0300").status, 300);
+  const auto removed = dnc({"run", "restart", id});
+  EXPECT_NE(removed.status, 0);
+  EXPECT_NE(removed.output.find("O0300"), std::string::npos) << removed.output;
 }
 
 }  // namespace

@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "gateway/app/restart/delivered_state.hpp"
+#include "gateway/feed/line_feed.hpp"
 #include "gateway/interpreter/core/interpreter.hpp"
 #include "gateway/report/checkpoint_store.hpp"
 #include "protocol/base/clock.hpp"
 
-/// What is kept of a run for a restart. Every one of these is sealed by a SHA-256 at its end: bytes
-/// that differ in any place from what was written are Corrupt, and start nothing. They are those of
-/// this machine and of `kFormat`. Errors of decoding: Corrupt, Unsupported (another format).
+/// What is kept of a run for a restart. Every one of these is sealed by a SHA-256 at its end, which
+/// covers the run that it belongs to: bytes that differ in any place from what was written, and
+/// those of another run, are Corrupt, and start nothing. They are those of this machine and of
+/// `kFormat`. Errors of decoding: Corrupt, Unsupported (another format).
 namespace dripline::gateway {
 
 /// A state between two blocks.
@@ -22,27 +24,29 @@ struct Checkpoint {
   std::int64_t time_us = 0;   ///< UTC
   interpreter::Snapshot snapshot;
   DeliveredState delivered;
-  interpreter::Position machine;      ///< where the axes were at that time
-  std::uint64_t answers = 0;          ///< given to the interpreter by then
-  std::uint64_t prompts = 0;          ///< of these, to the operator's questions
-  std::vector<std::string> programs;  ///< that were called by then, in their order
+  interpreter::Position machine;              ///< where the axes were at that time
+  std::uint64_t answers = 0;                  ///< given to the interpreter by then
+  std::uint64_t prompts = 0;                  ///< of these, to the operator's questions
+  std::vector<feed::CalledProgram> programs;  ///< by then, in their order
 };
-report::Bytes encode(Checkpoint checkpoint);
-Result<Checkpoint> decode_checkpoint(const report::Bytes& bytes);
+report::Bytes encode(std::string_view run, Checkpoint checkpoint);
+Result<Checkpoint> decode_checkpoint(std::string_view run, const report::Bytes& bytes);
 /// For tests: any bytes with the seal of a checkpoint.
-report::Bytes sealed_checkpoint(report::Bytes content);
+report::Bytes sealed_checkpoint(std::string_view run, report::Bytes content);
 
 /// What decides, besides its text, how a program is interpreted.
 struct Conditions {
+  std::string machine;
   std::string server_setup;   ///< SHA-256 of its text; empty: the server gave none
   std::string gateway_setup;  ///< likewise of the gateway's own
   bool block_skip = false;
   std::string start;  ///< the place that its start named ("N120 pass=3"); empty: the first block
   interpreter::Position begun_at;  ///< where the machine was then
+  std::string restart_of;          ///< the run that it continues; empty: it is no restart
   friend bool operator==(const Conditions&, const Conditions&) = default;
 };
-report::Bytes encode(Conditions conditions);
-Result<Conditions> decode_conditions(const report::Bytes& bytes);
+report::Bytes encode(std::string_view run, Conditions conditions);
+Result<Conditions> decode_conditions(std::string_view run, const report::Bytes& bytes);
 
 /// How far a run came.
 struct RunEnding {
@@ -53,11 +57,12 @@ struct RunEnding {
   std::optional<interpreter::Position> stopped_at;
   std::string memory;  ///< digest of what the control had kept
 };
-report::Bytes encode(RunEnding ending);
-Result<RunEnding> decode_ending(const report::Bytes& bytes);
+report::Bytes encode(std::string_view run, RunEnding ending);
+Result<RunEnding> decode_ending(std::string_view run, const report::Bytes& bytes);
 
-/// An answer that the interpreter was given.
-report::Bytes encode(interpreter::Answer answer);
-Result<interpreter::Answer> decode_answer(const report::Bytes& bytes);
+/// The `number`th answer that the interpreter of a run was given.
+report::Bytes encode(std::string_view run, std::uint64_t number, interpreter::Answer answer);
+Result<interpreter::Answer> decode_answer(std::string_view run, std::uint64_t number,
+                                          const report::Bytes& bytes);
 
 }  // namespace dripline::gateway

@@ -37,6 +37,11 @@ class CheckpointKeeper {
   /// disk.
   void note_answer(const interpreter::Answer& answer);
 
+  /// Programs that are called in no checkpoint yet. Their content is on disk before the next block
+  /// is executed: a restart compares it.
+  bool lacks_programs(const feed::ProgramFeed& feed) const {
+    return feed.called_program_count() > programs_;
+  }
   /// Block of the checkpoint that was taken last.
   std::uint64_t last_block() const { return last_block_; }
 
@@ -48,6 +53,7 @@ class CheckpointKeeper {
   const Clock& clock_;
   GivenAnswers answers_;
   std::uint64_t last_block_ = 0;
+  std::size_t programs_ = 0;  ///< in the checkpoint that was taken last
 };
 
 }  // namespace dripline::gateway

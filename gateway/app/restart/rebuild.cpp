@@ -21,10 +21,8 @@ Rebuild::Rebuild(Parts parts) : parts_(std::move(parts)) {
   const auto& checkpoints = parts_.plan.checkpoints;
   const auto target = parts_.plan.known_target();
   place_ = parts_.plan.nearest(target.value_or(parts_.plan.ending.executed.executed + 1));
-  // The newest one that a proof may use knows all programs that were called by then.
-  const std::size_t newest = std::min(place_ + 1, checkpoints.size() - 1);
   const auto checkpoint =
-      read_checkpoint(parts_.database, parts_.plan.original.run, checkpoints[newest].block);
+      read_checkpoint(parts_.database, parts_.plan.original.run, checkpoints.back().block);
   if (!checkpoint) {
     fail_with(checkpoint.error().what);
     return;
@@ -64,20 +62,42 @@ Rebuild::State Rebuild::work() {
 
 /// Programs are known by their indices in a snapshot, so they are asked for in the same order.
 Rebuild::State Rebuild::find_programs() {
-  for (const std::string& name : parts_.feed.called_programs()) {
-    if (std::ranges::find(programs_, name) == programs_.end())
-      return fail_with(fmt::format("program {} was opened before its restart", name));
+  for (const auto& opened : parts_.feed.called_programs()) {
+    if (std::ranges::find(programs_, opened.name, &feed::CalledProgram::name) == programs_.end())
+      return fail_with(fmt::format("program {} was opened before its restart", opened.name));
   }
   bool is_known = true;
-  for (const std::string& name : programs_) {
-    is_known &= parts_.feed.find(name).state != interpreter::ProgramLookup::State::NotYet;
+  for (const auto& called : programs_) {
+    is_known &= parts_.feed.find(called.name).state != interpreter::ProgramLookup::State::NotYet;
   }
   if (!is_known) return State::NeedsText;
+  if (const std::string changed = changed_program(); !changed.empty())
+    return fail_with(fmt::format("changed since run {}: {}", parts_.plan.original.run, changed));
   if (const auto target = parts_.plan.known_target()) {
     target_ = *target;
     return begin_proof();
   }
   return begin_search();
+}
+
+/// A program that the run called, and that is another one now; empty: none. A server that does not
+/// state contents leaves them to the comparison of states and paths.
+std::string Rebuild::changed_program() const {
+  const auto present = parts_.feed.called_programs();
+  for (const auto& then : programs_) {
+    const auto now = std::ranges::find(present, then.name, &feed::CalledProgram::name);
+    if (now == present.end()) return fmt::format("program {} cannot be found", then.name);
+    if (now->is_missing && !then.content.empty())
+      return fmt::format("program {} is not in the library any more", then.name);
+    if (then.is_missing && !now->is_missing)
+      return fmt::format("program {} was not in the library, it is", then.name);
+    const bool is_comparable = !then.content.empty() && !now->content.empty();
+    if (is_comparable && then.content != now->content) {
+      return fmt::format("the content of called program {} was {}, it is {}", then.name,
+                         then.content.substr(0, 12), now->content.substr(0, 12));
+    }
+  }
+  return {};
 }
 
 /// Restores the checkpoint of the plan at this block, with the gate closed.
@@ -108,7 +128,8 @@ bool Rebuild::load(std::uint64_t block) {
 bool Rebuild::answer() {
   if (next_answer_ >= answers_.size() || answers_[next_answer_].number != used_.all + 1)
     return false;
-  const auto given = decode_answer(answers_[next_answer_].bytes);
+  const auto given =
+      decode_answer(parts_.plan.original.run, used_.all + 1, answers_[next_answer_].bytes);
   if (!given || !parts_.interpreter.answer(*given)) return false;
   ++next_answer_;
   ++used_.all;

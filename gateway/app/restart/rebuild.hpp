@@ -64,6 +64,7 @@ class Rebuild {
 
   State fail_with(std::string fault);
   State find_programs();
+  std::string changed_program() const;
   State search();
   State prove();
   State advance();
@@ -82,10 +83,11 @@ class Rebuild {
   State state_ = State::Working;
   Phase phase_ = Phase::Programs;
   std::string fault_;
-  std::vector<std::string> programs_;  ///< of the newest checkpoint that is used
-  std::size_t place_ = 0;              ///< of the checkpoint in use
-  std::uint64_t target_ = 0;           ///< the last block that is not executed again
-  std::uint64_t goal_ = 0;             ///< block of a phase's end
+  std::vector<feed::CalledProgram>
+      programs_;              ///< by the whole run, as the newest checkpoint has them
+  std::size_t place_ = 0;     ///< of the checkpoint in use
+  std::uint64_t target_ = 0;  ///< the last block that is not executed again
+  std::uint64_t goal_ = 0;    ///< block of a phase's end
   Digest expected_;
   bool lacks_answer_ = false;
   std::vector<report::CheckpointStore::Answer> answers_;

@@ -22,6 +22,8 @@ std::string changes(const report::ActiveRun& original, const Conditions& then,
     if (!text.empty()) text += "; ";
     text += what;
   };
+  if (then.machine != now.conditions.machine)
+    add(fmt::format("the machine was {}, it is {}", then.machine, now.conditions.machine));
   if (original.control != now.control)
     add(fmt::format("the control was {}, it is {}", original.control, now.control));
   if (original.revision != now.revision || original.size != now.size) {
@@ -82,7 +84,7 @@ Result<Checkpoint> read_checkpoint(storage::sqlite::Database& database, const st
                                    std::uint64_t block) {
   const auto stored = CheckpointStore::read(database, run, block);
   if (!stored) return fail(stored.error());
-  auto checkpoint = decode_checkpoint(stored->bytes);
+  auto checkpoint = decode_checkpoint(run, stored->bytes);
   if (checkpoint && checkpoint->block == block) return checkpoint;
   return fail(Errc::Corrupt, "the checkpoint of run {} at block {}: {}", run, block,
               checkpoint ? "it is another block's" : checkpoint.error().what);
@@ -100,10 +102,10 @@ Result<RestartPlan> plan_restart(storage::sqlite::Database& database,
   RestartPlan plan;
   plan.original = stored->run;
   plan.at = argument.at;
-  auto conditions = decode_conditions(stored->conditions);
+  auto conditions = decode_conditions(argument.run, stored->conditions);
   if (!conditions) return fail(conditions.error());
   plan.conditions = *std::move(conditions);
-  auto ending = decode_ending(stored->ending);
+  auto ending = decode_ending(argument.run, stored->ending);
   if (!ending) return fail(ending.error());
   plan.ending = *std::move(ending);
   if (plan.ending.is_completed) {
@@ -116,8 +118,12 @@ Result<RestartPlan> plan_restart(storage::sqlite::Database& database,
   auto checkpoints = CheckpointStore::list(database, argument.run);
   if (!checkpoints) return fail(checkpoints.error());
   plan.checkpoints = *std::move(checkpoints);
-  if (plan.checkpoints.empty())
-    return fail(Errc::NotFound, "no checkpoints of run {} are kept", argument.run);
+  if (plan.checkpoints.empty()) {
+    const std::string& original = plan.conditions.restart_of;
+    return fail(Errc::NotFound, "no checkpoints of run {} are kept{}{}", argument.run,
+                original.empty() ? "" : ": it executed nothing, and it is a restart of run ",
+                original);
+  }
   if (auto good = check_place(plan); !good) return fail(good.error());
   return plan;
 }

@@ -10,7 +10,7 @@ namespace dripline::gateway {
 
 /// What is in force now; a restart is refused where it is not what the run was executed under.
 struct PresentState {
-  std::string machine, program, revision, control;
+  std::string revision, control;
   std::uint64_t size = 0;
   Conditions conditions;  ///< of a start at the first block
   std::string memory;     ///< digest of what the control keeps

@@ -28,11 +28,11 @@ void restore(const interpreter::Snapshot& snapshot) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto* bytes = reinterpret_cast<const std::byte*>(data);
   const report::Bytes content(bytes, bytes + size);
-  if (gateway::decode_checkpoint(content)) std::abort();
-  const report::Bytes whole = gateway::sealed_checkpoint(content);
-  const auto read = gateway::decode_checkpoint(whole);
+  if (gateway::decode_checkpoint("run", content)) std::abort();
+  const report::Bytes whole = gateway::sealed_checkpoint("run", content);
+  const auto read = gateway::decode_checkpoint("run", whole);
   if (!read) return 0;
-  if (gateway::encode(*read) != whole) std::abort();
+  if (gateway::encode("run", *read) != whole) std::abort();
   restore(read->snapshot);
   return 0;
 }

@@ -209,6 +209,7 @@ void GatewayFixture::serve() {
       data.program = request.program;
       data.offset = at;
       data.total_bytes = text.size();
+      if (!request.program.empty()) data.content = sha256(text).hex();
       const std::size_t length = std::min(dds::kMaxBlockBytes, end - at);
       const auto* bytes = reinterpret_cast<const std::byte*>(text.data()) + at;
       data.bytes.assign(bytes, bytes + length);

@@ -7,6 +7,7 @@
 namespace dripline::feed {
 namespace {
 
+using interpreter::ProgramLookup;
 using interpreter::TextWindow;
 using std::chrono::milliseconds;
 
@@ -45,8 +46,17 @@ class FakeServer {
  private:
   void answer(const dds::BlockRequest& request, std::size_t piece,
               std::vector<dds::BlockData>& to) {
-    dds::BlockData data{
-        request.machine, request.session, request.run, request.program, {}, 0, 0, false, {}, {}};
+    dds::BlockData data{request.machine,
+                        request.session,
+                        request.run,
+                        request.program,
+                        {},
+                        0,
+                        0,
+                        false,
+                        {},
+                        {},
+                        {}};
     data.offset = request.offset;
     const auto found = programs.find(request.program);
     if (found == programs.end()) {
@@ -57,6 +67,7 @@ class FakeServer {
     const std::string& text = found->second;
     const std::size_t end = std::min<std::size_t>(text.size(), request.offset + request.length);
     data.total_bytes = text.size();
+    if (!request.program.empty()) data.content = sha256(text).hex();
     std::size_t at = request.offset;
     do {
       const std::size_t length = std::min(piece, end - at);
@@ -105,6 +116,33 @@ TEST_F(PullFeedTest, TheEndOfTheProgramIsAnEmptyWindow) {
   EXPECT_EQ(window.state, TextWindow::State::Ready);
   EXPECT_TRUE(window.text.empty());
   EXPECT_TRUE(window.reaches_end);
+}
+
+// A revision of the same length, after a server was restored from a copy for instance.
+TEST_F(PullFeedTest, ACalledProgramOfAnotherContentIsRefused) {
+  PullFeed feed = make("O1\nM98 P2\nM30\n");
+  server.programs["2"] = std::string(200'000, 'X');
+  EXPECT_EQ(feed.find("2").state, ProgramLookup::State::NotYet);
+  feed.poll(now);
+  std::vector<dds::BlockData> first = server.answers();
+  feed.on_data(first.front(), now);
+  ASSERT_EQ(feed.find("2").state, ProgramLookup::State::Found);
+  const CalledProgram expected{"2", sha256(server.programs["2"]).hex()};
+  EXPECT_EQ(feed.called_programs(), std::vector{expected});
+  EXPECT_EQ(feed.called_program_count(), 1u);
+  server.programs["2"].back() = 'Y';
+  EXPECT_EQ(feed.fetch(1, 100'000, 1).state, TextWindow::State::NotYet);
+  exchange(feed);
+  EXPECT_EQ(feed.fetch(1, 100'000, 1).state, TextWindow::State::Failed);
+  EXPECT_NE(feed.failure().find("another content for program \"2\""), std::string::npos);
+}
+
+TEST_F(PullFeedTest, ReportsACalledProgramThatIsMissing) {
+  PullFeed feed = make("O1\nM98 P2\nM30\n");
+  (void)feed.find("2");
+  exchange(feed);
+  const CalledProgram expected{"2", {}, true};
+  EXPECT_EQ(feed.called_programs(), std::vector{expected});
 }
 
 TEST_F(PullFeedTest, StitchesALineAcrossPieces) {
@@ -192,10 +230,10 @@ TEST_F(PullFeedTest, ALoopWithinTheCacheIsNotAskedForAgain) {
 TEST_F(PullFeedTest, CalledProgramsComeByName) {
   PullFeed feed = make("M98 P2\n");
   server.programs["O0002"] = "G0 X1\nM99\n";
-  EXPECT_EQ(feed.find("O0002").state, interpreter::ProgramLookup::State::NotYet);
+  EXPECT_EQ(feed.find("O0002").state, ProgramLookup::State::NotYet);
   exchange(feed);
   const auto found = feed.find("O0002");
-  ASSERT_EQ(found.state, interpreter::ProgramLookup::State::Found);
+  ASSERT_EQ(found.state, ProgramLookup::State::Found);
   EXPECT_EQ(feed.fetch(found.program, 0, 1).text, "G0 X1\nM99\n");
 }
 
@@ -203,7 +241,7 @@ TEST_F(PullFeedTest, AMissingCalledProgramIsNotFoundAndTheRunGoesOn) {
   PullFeed feed = make("M98 P2\n");
   feed.find("O0002");
   exchange(feed);
-  EXPECT_EQ(feed.find("O0002").state, interpreter::ProgramLookup::State::NotFound);
+  EXPECT_EQ(feed.find("O0002").state, ProgramLookup::State::NotFound);
   EXPECT_EQ(feed.fetch(0, 0, 1).state, TextWindow::State::Ready);
 }
 

@@ -26,15 +26,15 @@ Checkpoint sample() {
   checkpoint.delivered.codes = {8, 21};
   checkpoint.machine.set(Axis::Z, Length::mm(-3));
   checkpoint.answers = 5;
-  checkpoint.programs = {"O0007", "O0008"};
+  checkpoint.programs = {{"O0007", std::string(64, 'a')}, {"O0008", {}, true}};
   return checkpoint;
 }
 
 TEST(Checkpoint, ReadsBackAsItWasWritten) {
-  const auto bytes = encode(sample());
-  const auto read = decode_checkpoint(bytes);
+  const auto bytes = encode("run-1", sample());
+  const auto read = decode_checkpoint("run-1", bytes);
   ASSERT_TRUE(read) << read.error().what;
-  EXPECT_EQ(encode(*read), bytes);
+  EXPECT_EQ(encode("run-1", *read), bytes);
   EXPECT_EQ(read->block, 1234u);
   EXPECT_EQ(read->programs, sample().programs);
   EXPECT_EQ(read->delivered.tool, 3);
@@ -43,19 +43,20 @@ TEST(Checkpoint, ReadsBackAsItWasWritten) {
 
 // Promise 8: what is damaged in any place starts nothing.
 TEST(Checkpoint, IsCorruptWithAnyByteChanged) {
-  const auto whole = encode(sample());
+  const auto whole = encode("run-1", sample());
   for (std::size_t i = 0; i < whole.size(); ++i) {
     auto damaged = whole;
     damaged[i] ^= std::byte{0x10};
-    const auto read = decode_checkpoint(damaged);
+    const auto read = decode_checkpoint("run-1", damaged);
     ASSERT_FALSE(read) << "byte " << i;
     EXPECT_EQ(read.error().code, Errc::Corrupt);
   }
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    ASSERT_FALSE(
-        decode_checkpoint({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}));
+    ASSERT_FALSE(decode_checkpoint(
+        "run-1", {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}));
   }
-  EXPECT_FALSE(decode_ending(whole)) << "the seal covers what it is, too";
+  EXPECT_FALSE(decode_ending("run-1", whole)) << "the seal covers what it is, too";
+  EXPECT_FALSE(decode_checkpoint("run-2", whole)) << "and of which run";
 }
 
 TEST(Checkpoint, KeepsAnswersOfEveryKind) {
@@ -65,10 +66,11 @@ TEST(Checkpoint, KeepsAnswersOfEveryKind) {
   const interpreter::Answer input = true;
   const interpreter::Answer time = interpreter::LocalTime{2026, 11, 23, 15, 4, 5};
   for (const auto& answer : {probe, prompt, refused, input, time}) {
-    const auto read = decode_answer(encode(answer));
+    const auto read = decode_answer("run-1", 7, encode("run-1", 7, answer));
     ASSERT_TRUE(read);
     EXPECT_EQ(read->index(), answer.index());
-    EXPECT_EQ(encode(*read), encode(answer));
+    EXPECT_EQ(encode("run-1", 7, *read), encode("run-1", 7, answer));
+    EXPECT_FALSE(decode_answer("run-1", 8, encode("run-1", 7, answer)));
   }
 }
 
@@ -104,10 +106,10 @@ TEST(CheckpointStore, OutlivesItsProcessAndKeepsTheLastRuns) {
     auto outbox = report::Outbox::open(file).value();
     for (int i = 0; i < 6; ++i) {
       const std::string run = "run-" + std::to_string(i);
-      outbox.checkpoints().stage_run({{run, "P", "r", "fanuc", 10}, encode(Conditions{}), {}});
-      outbox.checkpoints().stage(run, {7, 5, UtcTime{}, encode(sample())});
-      outbox.checkpoints().stage_answer(run, 1, encode(interpreter::Answer{true}));
-      outbox.checkpoints().stage_ending(run, encode(RunEnding{}));
+      outbox.checkpoints().stage_run({{run, "P", "r", "fanuc", 10}, encode(run, Conditions{}), {}});
+      outbox.checkpoints().stage(run, {7, 5, UtcTime{}, encode(run, sample())});
+      outbox.checkpoints().stage_answer(run, 1, encode(run, 1, interpreter::Answer{true}));
+      outbox.checkpoints().stage_ending(run, encode(run, RunEnding{}));
       ASSERT_TRUE(outbox.commit());
     }
   }
@@ -116,7 +118,7 @@ TEST(CheckpointStore, OutlivesItsProcessAndKeepsTheLastRuns) {
   const auto run = report::CheckpointStore::find(outbox.database(), "run-2");
   ASSERT_TRUE(run) << run.error().what;
   EXPECT_EQ(run->run.control, "fanuc");
-  EXPECT_TRUE(decode_ending(run->ending));
+  EXPECT_TRUE(decode_ending("run-2", run->ending));
   const auto list = report::CheckpointStore::list(outbox.database(), "run-2").value();
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].executed, 5u);

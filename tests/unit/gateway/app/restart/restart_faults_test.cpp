@@ -1,0 +1,396 @@
+// A restart that meets faults, other hands and damage: nothing moves, the reason is named, and it
+// can be stopped.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <random>
+
+#include "gateway/interpreter/core/dialects.hpp"
+#include "tests/unit/gateway/app/restart/restart_fixture.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+using dds::CommandAction;
+using dds::RunOutcome;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+const std::string kProgram =
+    "O0540\nT1 M06\nG90 G00 X0 Y0 Z50.\nM03 S900\nM08\n#1=1\nN10 WHILE[#1LE6]DO1\nN20 G01 "
+    "X[#1*10] F600\nN30 Y10.\nM98 P0561\n#1=#1+1\nEND1\nN40 T2 M06\nN50 G01 Z-5.\nX0\nM00\nN60 "
+    "Y0\nM98 P0562\nN70 X90.\nM30\n";
+const std::string kCalled = "O0561\nG91 Z-1.\nZ1.\nG90 M99\n";
+const std::string kCalledLater = "O0562\nG91 Z-2.\nZ2.\nG90 M99\n";
+
+class RestartFaults : public testing::Test {
+ protected:
+  RestartFaults() : shop(interpreter::kFanucDialect, {}, "20x") {
+    shop.set_checkpoint_interval(std::chrono::milliseconds(200));
+    shop.push("P", kProgram);
+    shop.loader = [this](std::string_view name) -> std::optional<std::string> {
+      for (const auto& [number, text] : called) {
+        if (name.ends_with(number)) return text;
+      }
+      return std::nullopt;
+    };
+    shop.restart_gateway();
+  }
+  /// Up to the stop before N60.
+  void run_to_stop() {
+    shop.path.clear();
+    ASSERT_TRUE(shop.start_program("P").accepted);
+    run = shop.last_run();
+    ASSERT_TRUE(shop.run_until(
+        [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
+  }
+  void abort() {
+    ASSERT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
+    ASSERT_TRUE(shop.run_on());
+    ASSERT_EQ(shop.last_end().outcome, RunOutcome::Aborted);
+  }
+  void abort_at_stop() {
+    run_to_stop();
+    before = shop.path;
+    abort();
+    shop.path.clear();
+  }
+  nlohmann::json restart(const std::string& at = "executed") {
+    shop.path.clear();
+    return shop.begin_restart("P", run, at);
+  }
+  std::string reason() const {
+    return shop.start_answer.accepted ? shop.last_end().reason : shop.start_answer.reason;
+  }
+  /// A restart that begins, and cannot look through the program.
+  void restart_without_text() {
+    shop.serves_text = false;
+    dds::Command start = shop.start_command("P");
+    start.argument = "restart=" + run;
+    ASSERT_TRUE(shop.send(start).accepted);
+    second = start.run;
+    ASSERT_TRUE(shop.run_until([&] { return says("waiting for its text"); }));
+  }
+  bool says(const std::string& text) const {
+    return shop.status && shop.status->message.find(text) != std::string::npos;
+  }
+  bool has_ended(std::size_t runs) const { return shop.count(dds::RecordKind::RunEnded) == runs; }
+  /// As after an undisturbed restart.
+  void completes() {
+    const auto report = restart();
+    ASSERT_TRUE(report.is_object()) << reason();
+    ASSERT_TRUE(shop.cycle_start());
+    ASSERT_TRUE(shop.run_on());
+    EXPECT_EQ(shop.last_end().outcome, RunOutcome::Completed) << shop.last_end().reason;
+  }
+
+  std::map<std::string, std::string> called{{"561", kCalled}, {"562", kCalledLater}};
+  RestartFixture shop;
+  std::string run, second;
+  RestartFixture::Path before;
+};
+
+TEST_F(RestartFaults, ALinkCutWhileLookingThroughIsNamedAndWaits) {
+  abort_at_stop();
+  restart_without_text();
+  EXPECT_GT(shop.gateway->turn(shop.clock.steady), shop.clock.steady) << "it waits, and rests";
+  shop.connect(false);
+  ASSERT_TRUE(shop.run_until([&] { return says("waiting for its text: no server"); }));
+  EXPECT_EQ(shop.panel("cycle-start").rfind("refused the restart still looks through", 0), 0u);
+  shop.serves_text = true;
+  shop.connect(true);
+  ASSERT_TRUE(shop.run_until([&] { return says("waiting for cycle start"); }));
+  shop.path.clear();
+  ASSERT_TRUE(shop.cycle_start());
+  ASSERT_TRUE(shop.run_until([&] { return has_ended(2); }));
+  EXPECT_EQ(shop.last_end().outcome, RunOutcome::Completed) << shop.last_end().reason;
+}
+
+TEST_F(RestartFaults, IsStoppedAtThePanelWithoutALink) {
+  abort_at_stop();
+  restart_without_text();
+  shop.connect(false);
+  EXPECT_EQ(shop.panel("abort"), "ok");
+  shop.serves_text = true;
+  shop.connect(true);
+  ASSERT_TRUE(shop.run_until([&] { return has_ended(2); }));
+  EXPECT_EQ(shop.last_end().outcome, RunOutcome::Aborted);
+  EXPECT_THAT(shop.path, IsEmpty());
+  completes();
+}
+
+TEST_F(RestartFaults, EndsWithoutItsText) {
+  abort_at_stop();
+  restart_without_text();
+  shop.clock.steady += std::chrono::seconds(1801);
+  ASSERT_TRUE(shop.run_until([&] { return has_ended(2); }));
+  EXPECT_THAT(shop.last_end().reason, HasSubstr("its text did not come"));
+  EXPECT_THAT(shop.path, IsEmpty());
+}
+
+TEST_F(RestartFaults, TheOperatorHasAllTheTimeAfterALongLook) {
+  abort_at_stop();
+  restart_without_text();
+  shop.clock.steady += std::chrono::seconds(1790);
+  shop.serves_text = true;
+  ASSERT_TRUE(shop.run_until([&] { return says("waiting for cycle start"); }));
+  shop.clock.steady += std::chrono::seconds(60);
+  (void)shop.run_until([] { return false; });
+  EXPECT_FALSE(has_ended(2));
+}
+
+TEST_F(RestartFaults, IsAbortedWhileItWaitsForCycleStart) {
+  abort_at_stop();
+  ASSERT_TRUE(restart().is_object());
+  const auto position = shop.status->position;
+  abort();
+  EXPECT_EQ(shop.status->position, position);
+  EXPECT_FALSE(shop.cycle_start()) << "there is nothing to start any more";
+  completes();
+}
+
+TEST_F(RestartFaults, TheEmergencyStopEndsIt) {
+  abort_at_stop();
+  ASSERT_TRUE(restart().is_object());
+  EXPECT_EQ(shop.panel("emergency-stop on"), "ok");
+  EXPECT_FALSE(shop.cycle_start());
+  EXPECT_FALSE(has_ended(2));
+  EXPECT_EQ(shop.panel("emergency-stop off"), "ok");
+  ASSERT_TRUE(shop.run_until([&] { return has_ended(2); }));
+  EXPECT_EQ(shop.last_end().reason, "EMERGENCY STOP");
+  completes();
+}
+
+TEST_F(RestartFaults, TheSameRestartTwiceBeginsOnce) {
+  abort_at_stop();
+  shop.path.clear();
+  dds::Command start = shop.start_command("P");
+  start.argument = "restart=" + run;
+  dds::Command other = shop.start_command("P");
+  other.argument = start.argument;
+  ASSERT_TRUE(shop.send(start).accepted);
+  EXPECT_THAT(shop.send(other).reason, HasSubstr("busy with run " + start.run));
+  EXPECT_TRUE(shop.send(start).accepted) << "the answer is repeated, not the start";
+  ASSERT_TRUE(shop.run_until([&] { return says("waiting for cycle start"); }));
+  EXPECT_EQ(shop.count(dds::RecordKind::RunStarted), 2u);
+}
+
+TEST_F(RestartFaults, AKillWhileLookingThroughLeavesTheFirstRunToRestart) {
+  abort_at_stop();
+  restart_without_text();
+  shop.restart_gateway();
+  shop.serves_text = true;
+  ASSERT_TRUE(shop.run_until([&] { return has_ended(2); }));
+  EXPECT_EQ(shop.last_end().outcome, RunOutcome::Interrupted);
+  EXPECT_THAT(shop.path, IsEmpty());
+  const std::string first = std::exchange(run, second);
+  EXPECT_TRUE(restart().is_null());
+  EXPECT_THAT(reason(), AllOf(HasSubstr("no checkpoints of run " + second),
+                              HasSubstr("it is a restart of run " + first)));
+  run = first;
+  completes();
+}
+
+TEST_F(RestartFaults, ClocksThatAreHoursApartChangeNothing) {
+  shop.clock.step = std::chrono::hours(7);
+  run_to_stop();
+  shop.clock.step = -std::chrono::hours(5);  // set back in the middle of the run
+  abort();
+  const auto report = restart();
+  ASSERT_TRUE(report.is_object()) << reason();
+  EXPECT_EQ(report["after"]["block"], report["cut_off_at"]);
+  EXPECT_EQ(report["proof"]["path"], "equal");
+  abort();
+  completes();
+}
+
+TEST_F(RestartFaults, BelongsToItsMachine) {
+  abort_at_stop();
+  shop.close_gateway();
+  auto database = storage::sqlite::Database::open(shop.folder() / "outbox.sqlite").value();
+  const auto stored = report::CheckpointStore::find(database, run).value();
+  PresentState now;
+  now.revision = stored.run.revision;
+  now.size = stored.run.size;
+  now.control = stored.run.control;
+  now.conditions = decode_conditions(run, stored.conditions).value();
+  now.memory = decode_ending(run, stored.ending)->memory;
+  EXPECT_TRUE(plan_restart(database, {run, {}}, now));
+  now.conditions.machine = "lathe-2";
+  const auto refused = plan_restart(database, {run, {}}, now);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("the machine was lathe-1, it is lathe-2"));
+}
+
+TEST_F(RestartFaults, ACalledProgramThatChangedIsNamed) {
+  abort_at_stop();
+  called["561"] = kCalled + "(the same moves)\n";
+  EXPECT_TRUE(restart().is_null());
+  EXPECT_THAT(reason(), AllOf(HasSubstr("the content of called program"), HasSubstr("561")));
+  EXPECT_THAT(shop.path, IsEmpty());
+  called["561"] = kCalled;
+  called["562"] = kCalledLater + "(read ahead)\n";
+  EXPECT_TRUE(restart("N20").is_null()) << "interpreted, not executed";
+  EXPECT_THAT(reason(), AllOf(HasSubstr("the content of called program"), HasSubstr("562")));
+  called["562"] = kCalledLater;
+  called.erase("561");
+  EXPECT_TRUE(restart().is_null());
+  EXPECT_THAT(reason(), HasSubstr("is not in the library any more"));
+  called["561"] = kCalled;
+  completes();
+}
+
+// The content of a program is on record before a block of it is executed.
+TEST_F(RestartFaults, ACalledProgramThatChangedIsNamedAfterAKillInItsFirstBlock) {
+  shop.set_checkpoint_interval(std::chrono::hours(1));
+  shop.restart_gateway();
+  const std::uint64_t first_in_called = 11;
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  run = shop.last_run();
+  ASSERT_TRUE(shop.run_until_killed_after(first_in_called));
+  ASSERT_TRUE(shop.run_until([&] { return has_ended(1); }));
+  ASSERT_EQ(shop.last_end().executed, first_in_called);
+  called["561"] = kCalled + "(the same moves)\n";
+  EXPECT_TRUE(restart().is_null());
+  EXPECT_THAT(reason(), AllOf(HasSubstr("the content of called program"), HasSubstr("561")));
+}
+
+TEST_F(RestartFaults, ACalledProgramThatChangesWhileItIsReadEndsTheRun) {
+  std::string longer = "O0561\n";
+  for (int i = 0; i < 40'000; ++i) longer += "G91 X0\n";
+  longer += "M99\n";
+  std::size_t reads = 0;
+  shop.loader = [&](std::string_view) -> std::optional<std::string> {
+    std::string text = longer;
+    if (++reads > 1) text.back() = ' ';  // of the same length
+    return text;
+  };
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  ASSERT_TRUE(shop.run_on());
+  EXPECT_GT(reads, 1u);
+  EXPECT_EQ(shop.last_end().outcome, RunOutcome::Alarmed);
+  EXPECT_THAT(shop.last_end().reason, HasSubstr("another content"));
+}
+
+// A cut is worth more than a checkpoint.
+TEST_F(RestartFaults, AFullDiskStopsCheckpointsAndNotTheMachine) {
+  std::string text = "O1\nG91\n";
+  for (int i = 0; i < 400; ++i) text += i % 2 == 0 ? "G01 X5. F3000\n" : "X-5.\n";
+  text += "M30\n";
+  shop.outbox_bytes = 128 * 1024;
+  shop.set_checkpoint_interval(std::chrono::milliseconds(20));
+  shop.push("P", text);
+  shop.restart_gateway();
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  run = shop.last_run();
+  constexpr std::uint64_t kBlocks = 400;
+  std::uint64_t executed = 0;
+  ASSERT_TRUE(shop.run_until([&] {
+    executed = std::max(executed, shop.status->executed);
+    return executed >= kBlocks || shop.status->waits_for == dds::WaitsFor::Disk || has_ended(1);
+  }));
+  EXPECT_GE(executed, kBlocks) << shop.status->message;
+  shop.close_gateway();
+  auto database = storage::sqlite::Database::open(shop.folder() / "outbox.sqlite").value();
+  const auto kept = report::CheckpointStore::list(database, run).value();
+  ASSERT_FALSE(kept.empty());
+  EXPECT_LT(kept.back().executed, kBlocks / 2) << "the disk was not full";
+}
+
+int flips() {
+  const char* wanted = std::getenv("DRIPLINE_RESTART_FLIPS");
+  return wanted != nullptr ? std::atoi(wanted) : 60;
+}
+
+class DamagedFile : public RestartFaults {
+ protected:
+  void SetUp() override {
+    abort_at_stop();
+    executed = shop.last_end().executed;
+    shop.restart_gateway();  // the simulated axes are at their start again
+    const auto report = restart();
+    ASSERT_TRUE(report.is_object()) << reason();
+    ASSERT_TRUE(shop.cycle_start());
+    ASSERT_TRUE(shop.run_on());
+    right = shop.path;
+    // The same again, up to where the restart began: `run` is the run that was cut off.
+    abort_at_stop();
+    shop.close_gateway();
+    std::ifstream in(file(), std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+    records = shop.records;
+  }
+  std::filesystem::path file() const { return shop.folder() / "outbox.sqlite"; }
+  /// Nothing reaches the machine, or what is right.
+  void restart_from(const std::string& damaged) {
+    shop.close_gateway();
+    for (const char* suffix : {"-wal", "-shm"}) std::filesystem::remove(file().string() + suffix);
+    std::ofstream(file(), std::ios::binary | std::ios::trunc) << damaged;
+    shop.records = records;
+    try {
+      shop.restart_gateway();
+    } catch (const std::exception&) {
+      ++unopened;  // dncgw ends with the fault in its log
+      return;
+    }
+    nlohmann::json report;
+    try {
+      report = restart();
+    } catch (const std::out_of_range&) {
+      // No answer at all: whether the command was carried out before cannot be looked up.
+    }
+    if (!report.is_object()) {
+      ++refused;
+      // A report that cannot be kept is none that the operator has seen.
+      if (!shop.path.empty()) {
+        EXPECT_THAT(shop.panel("cycle-start"), HasSubstr("reports cannot be kept"));
+        EXPECT_FALSE(shop.cycle_start());
+      }
+      EXPECT_EQ(shop.status->executed, 0u);
+      return;
+    }
+    if (report["after"]["block"] != executed || report["proof"]["path"] != "equal") {
+      ADD_FAILURE() << report.dump();
+      return;
+    }
+    ASSERT_TRUE(shop.cycle_start());
+    (void)shop.run_until([&] { return shop.path.size() >= right.size(); });
+    EXPECT_EQ(shop.path, right);
+    ++completed;
+  }
+
+  std::uint64_t executed = 0;
+  RestartFixture::Path right;
+  std::string bytes;
+  std::vector<dds::Record> records;
+  int unopened = 0, refused = 0, completed = 0;
+};
+
+TEST_F(DamagedFile, AFlippedBitMovesNothingThatWasNotProved) {
+  std::mt19937 random{20261123};
+  for (int i = 0; i < flips() && !HasFailure(); ++i) {
+    std::string damaged = bytes;
+    auto at = std::uniform_int_distribution<std::size_t>(0, bytes.size() - 1)(random);
+    while (bytes[at] == 0) at = (at + 1) % bytes.size();  // most of the file is empty
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << (random() % 8)));
+    SCOPED_TRACE(at);
+    restart_from(damaged);
+  }
+  std::printf("%zu bytes: %d not opened, %d refused, %d completed\n", bytes.size(), unopened,
+              refused, completed);
+}
+
+TEST_F(DamagedFile, ATruncatedFileMovesNothing) {
+  for (std::size_t part = 1; part < 8 && !HasFailure(); ++part) {
+    SCOPED_TRACE(part);
+    restart_from(bytes.substr(0, bytes.size() * part / 8));
+  }
+  EXPECT_EQ(completed, 0);
+}
+
+}  // namespace
+}  // namespace dripline::gateway
