@@ -52,6 +52,8 @@ class Gateway {
   Result<void> interrupt_run(const std::string& reason) { return loop_.interrupt(reason); }
   /// Nothing is left to send.
   bool is_delivered() const { return outbox_.unacknowledged() == 0 && commands_.is_sent(); }
+  /// As the server gets it.
+  dds::Status status() const;
 
   static constexpr std::chrono::milliseconds kTick{10};  ///< while the machine moves in real time
 
@@ -79,7 +81,6 @@ class Gateway {
   Reply discard_memory();
   Reply reference_axes(bool is_homing);
 
-  dds::Status status() const;
   void announce();
   void log_rejected(SteadyTime now);
   SteadyTime next_turn(SteadyTime now) const;

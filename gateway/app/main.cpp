@@ -16,6 +16,7 @@
 #include "protocol/dds/configuration.hpp"
 #include "protocol/process/daemon_log.hpp"
 #include "protocol/process/log.hpp"
+#include "protocol/process/service_manager.hpp"
 #include "protocol/process/settings_reader.hpp"
 #include "protocol/process/stop_signals.hpp"
 
@@ -45,10 +46,10 @@ class SignalWatch {
       : thread_([&inbox, signals] {
           int signal = 0;
           // Without a log file a hang-up ends the process, as it ends any program without a
-          // terminal.
+          // terminal; a service has none.
           do {
             if (::sigwait(&signals, &signal) != 0) return;
-          } while (signal == SIGHUP && process::reopen_log());
+          } while (signal == SIGHUP && (process::reopen_log() || process::has_service_manager()));
           inbox.post(StopRequested{signal});
         }) {}
   ~SignalWatch() {
@@ -100,17 +101,51 @@ std::uint64_t new_session() {
   return random_number() | 1;  // never zero
 }
 
+/// The line that `systemctl status` shows of a gateway.
+std::string status_line(const Gateway& gateway) {
+  const dds::Status status = gateway.status();
+  std::string line = fmt::format("{} {}", status.machine, to_string(status.execution));
+  if (!status.program.empty()) line += fmt::format(", program {}", status.program);
+  if (!status.message.empty()) line += fmt::format(": {}", status.message);
+  return line;
+}
+
+/// Tells the service manager now and then that the loop turns.
+class AliveNotice {
+ public:
+  explicit AliveNotice(const Gateway& gateway) : gateway_(gateway) {
+    process::notify_ready(status_line(gateway));
+  }
+  /// When to be called again.
+  SteadyTime turn(SteadyTime now) {
+    if (!interval_) return SteadyTime::max();
+    if (now >= due_) {
+      process::notify_alive(status_line(gateway_));
+      due_ = now + *interval_;
+    }
+    return due_;
+  }
+
+ private:
+  const Gateway& gateway_;
+  const std::optional<std::chrono::microseconds> interval_ = process::alive_interval();
+  SteadyTime due_{};
+};
+
 /// Runs until a stop is requested; then gives the records some time to be acknowledged.
 Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock, bool has_server) {
   std::optional<SteadyTime> farewell;
+  AliveNotice notice(gateway);
   SteadyTime next = clock.steady_now();
   for (;;) {
     for (const Incoming& incoming : inbox.take(next)) gateway.receive(incoming, clock.steady_now());
     if (gateway.stop_requested() && !farewell) {
       farewell = clock.steady_now() + kFarewell;
+      process::notify_stopping();
       if (const auto done = gateway.interrupt_run("the gateway was stopped"); !done) return done;
     }
     next = gateway.turn(clock.steady_now());
+    next = std::min(next, notice.turn(clock.steady_now()));
     if (!farewell) continue;
     if (gateway.is_delivered() || !has_server || clock.steady_now() >= *farewell) return {};
     next = std::min(next, clock.steady_now() + std::chrono::milliseconds(20));

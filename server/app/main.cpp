@@ -7,6 +7,7 @@
 #include "protocol/dds/configuration.hpp"
 #include "protocol/process/daemon_log.hpp"
 #include "protocol/process/log.hpp"
+#include "protocol/process/service_manager.hpp"
 #include "protocol/process/stop_signals.hpp"
 #include "server/app/server.hpp"
 #include "server/app/settings.hpp"
@@ -32,13 +33,23 @@ void keep_memory_small() {
   ::mallopt(M_ARENA_MAX, kArenas);        // NOLINT(concurrency-mt-unsafe): no threads yet
 }
 
-void serve_until(const sigset_t& signals, Server& server) {
-  constexpr timespec kTidyInterval{.tv_sec = 3600, .tv_nsec = 0};
+void serve_until(const sigset_t& signals, Server& server, const Clock& clock) {
+  constexpr std::chrono::hours kTidyInterval{1};
+  const auto interval = process::alive_interval().value_or(kTidyInterval);
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(interval);
+  const timespec wait{.tv_sec = seconds.count(),
+                      .tv_nsec = std::chrono::nanoseconds(interval - seconds).count()};
+  SteadyTime tidied = clock.steady_now();
   for (;;) {
-    const int signal = sigtimedwait(&signals, nullptr, &kTidyInterval);
-    if (signal < 0 && errno == EAGAIN) server.tidy();
-    // Without a log file a hang-up is the end, as of any program whose terminal is gone.
-    if (signal == SIGHUP && process::reopen_log()) continue;
+    const int signal = sigtimedwait(&signals, nullptr, &wait);
+    if (signal < 0 && errno == EAGAIN) process::notify_alive(server.status());
+    if (clock.steady_now() - tidied >= kTidyInterval) {
+      server.tidy();
+      tidied = clock.steady_now();
+    }
+    // Without a log file a hang-up is the end, as of any program whose terminal is gone; a service
+    // has none.
+    if (signal == SIGHUP && (process::reopen_log() || process::has_service_manager())) continue;
     if (signal >= 0) return;
   }
 }
@@ -65,8 +76,10 @@ int run(const Settings& settings) {
   process::log_info("dncd {} listening at {}", DRIPLINE_VERSION, (*server)->url());
   fmt::print("dncd listening at {}\n", (*server)->url());
   std::fflush(stdout);
-  serve_until(signals, **server);
+  process::notify_ready((*server)->status());
+  serve_until(signals, **server, clock);
   process::log_info("stopping");
+  process::notify_stopping();
   server->reset();
   process::log_info("stopped");
   spdlog::shutdown();

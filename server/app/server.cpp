@@ -276,6 +276,14 @@ const std::string& Server::url() const {
   return parts_->url;
 }
 
+std::string Server::status() const {
+  const auto machines = parts_->machines.machines();
+  const auto connected = std::ranges::count_if(
+      machines, [](const machines::MachineView& view) { return view.is_connected; });
+  return fmt::format("{}: {} of {} machines connected, {}", parts_->url, connected, machines.size(),
+                     to_string(parts_->health.state().level));
+}
+
 void Server::tidy() {
   // By the steady clock: the time of day may jump by years. While the server is away no time
   // counts.

@@ -21,6 +21,9 @@ class Server {
   const std::string& url() const;
   /// From time to time: drops abandoned uploads.
   void tidy();
+  /// One line for the service manager. Takes the locks that a request takes: a server whose threads
+  /// block each other does not return.
+  std::string status() const;
 
  private:
   struct Parts;

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "tests/integration/system.hpp"
+#include "tests/support/service_socket.hpp"
 
 namespace dripline::integration {
 namespace {
@@ -228,6 +229,46 @@ TEST(OpenNetwork, NeedsToBeConfirmed) {
     const auto refused = run_to_end(open, folder.path() / "out", std::chrono::seconds(20));
     EXPECT_EQ(refused.status, 2) << refused.output;
     EXPECT_NE(refused.output.find("dds-open-network"), std::string::npos) << refused.output;
+  }
+}
+
+/// What systemd is told of a unit of Type=notify with a watchdog of one second.
+TEST(ServiceUnit, IsReadyStaysAliveAndAnnouncesItsEnd) {
+  const auto in_unit = [](const test_support::ServiceSocket& manager, const auto& start) {
+    ::setenv("NOTIFY_SOCKET", manager.path().c_str(), 1);  // NOLINT(concurrency-mt-unsafe): alone
+    ::setenv("WATCHDOG_USEC", "1000000", 1);               // NOLINT(concurrency-mt-unsafe): alone
+    start();
+    ::unsetenv("NOTIFY_SOCKET");  // NOLINT(concurrency-mt-unsafe): alone
+    ::unsetenv("WATCHDOG_USEC");  // NOLINT(concurrency-mt-unsafe): alone
+  };
+  const auto expect_next = [](test_support::ServiceSocket& manager, const std::string& begin) {
+    const auto message = manager.receive();
+    ASSERT_TRUE(message) << begin;
+    EXPECT_EQ(message->substr(0, begin.size()), begin);
+  };
+  test_support::ServiceSocket server_manager, gateway_manager;
+  System system;
+  in_unit(server_manager, [&] { system.start_server(); });
+  in_unit(gateway_manager, [&] { system.start_gateway(); });
+  expect_next(server_manager,
+              "READY=1\nSTATUS=" + system.url() + ": 0 of 0 machines connected, ok");
+  expect_next(gateway_manager, "READY=1\nSTATUS=lathe-1 READY");
+  system.wait_connected();
+  for (int i = 0; i < 2; ++i) {
+    expect_next(server_manager, "WATCHDOG=1\nSTATUS=" + system.url());
+    expect_next(gateway_manager, "WATCHDOG=1\nSTATUS=lathe-1 READY");
+  }
+  system.gateway().signal(SIGHUP);  // `systemctl reload`: a service has no terminal to lose
+  system.server().signal(SIGHUP);
+  expect_next(gateway_manager, "WATCHDOG=1");
+  expect_next(server_manager, "WATCHDOG=1");
+  for (auto [child, manager] : {std::pair{&system.gateway(), &gateway_manager},
+                                std::pair{&system.server(), &server_manager}}) {
+    child->signal(SIGTERM);
+    EXPECT_EQ(child->wait(std::chrono::seconds(20)), 0);
+    std::optional<std::string> last;
+    while (auto message = manager->receive(std::chrono::milliseconds(0))) last = message;
+    EXPECT_EQ(last, "STOPPING=1");
   }
 }
 
