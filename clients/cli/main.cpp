@@ -2,6 +2,7 @@
 #include <csignal>
 
 #include "clients/cli/command_line.hpp"
+#include "clients/cli/completion.hpp"
 #include "clients/cli/context.hpp"
 
 namespace {
@@ -105,8 +106,12 @@ int run(int argc, char** argv) {
   add_conversational_commands(dnc, context);
   add_chart_command(dnc, context);
   add_extract_command(dnc, context);
+  add_completion_command(dnc, context);
   app.footer(kFooter);  // after the verbs, which would inherit it
   let_options_follow(app);
+  const std::vector<std::string> words(argv + std::min(argc, 3), argv + argc);
+  if (argc > 2 && std::string_view(argv[1]) == "completion" && std::string_view(argv[2]) == "words")
+    return print_candidates(app, context, words);  // as typed so far, so not to be parsed
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {
