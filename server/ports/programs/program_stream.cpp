@@ -92,8 +92,9 @@ void ProgramStream::add(const Digest& content, std::uint64_t first, std::uint64_
 }
 
 void ProgramStream::add(std::string text) {
-  size_ += text.size();
-  pieces_.push_back({.content = {}, .first = 0, .size = text.size(), .text = std::move(text)});
+  const std::uint64_t size = text.size();
+  size_ += size;
+  pieces_.push_back({.content = {}, .first = 0, .size = size, .text = std::move(text)});
 }
 
 Result<void> ProgramStream::add(storage::ProgramStore& store, const storage::Revision& revision) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <set>
 
+#include "protocol/wire/discipline.hpp"
+
 namespace dripline::wire {
 namespace {
 
