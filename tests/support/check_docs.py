@@ -9,9 +9,11 @@
   test   `EndToEnd.ARunKeepsTheRevisionItBeganWith`: a test of this name exists
   link   [text](page.md): the file exists
   map    in a row of a table that begins with a folder: the files named after it are in that folder
+  table  in a README, a column headed `file` or `files`: `router`, `impl/reader`, `tnc_*` are files or folders below the README's
 
 Exit status: 0 nothing found, 1 findings.
 """
+import fnmatch
 import pathlib
 import re
 import sys
@@ -33,7 +35,34 @@ def source_files():
     return {f"/{path.relative_to(ROOT)}" for area in AREAS for path in (ROOT / area).rglob("*") if path.suffix in (".hpp", ".cpp", ".py", ".idl")}
 
 
+def names_below(folder):
+    """What a table may call the files below a folder: path or name, with or without the last suffix."""
+    found = set()
+    for path in folder.rglob("*"):
+        if not {"node_modules", "build"} & set(path.parts):
+            found |= {path.name, path.stem, str(path.relative_to(folder)), str(path.relative_to(folder).with_suffix(""))}
+    return found
+
+
+def table_findings(page):
+    """Of the columns that name files."""
+    below, columns = None, []
+    for number, line in enumerate(page.read_text().splitlines(), 1):
+        cells = [cell.strip() for cell in line.strip("|").split("|")] if line.startswith("|") else []
+        if any(cell in ("file", "files") for cell in cells):
+            columns = [i for i, cell in enumerate(cells) if cell in ("file", "files")]
+            below = below or names_below(page.parent)
+        elif not cells:
+            columns = []
+        for cell in (cells[i] for i in columns if i < len(cells)):
+            for name in re.findall(r"`([a-z][a-z0-9_*/.]*)`", cell):
+                if not any(fnmatch.fnmatchcase(known, name) for known in below):
+                    yield number, f"no file {name} below {page.parent.relative_to(ROOT)}"
+
+
 def findings_in(page, tests, sources):
+    if page.name == "README.md":
+        yield from table_findings(page)
     for number, line in enumerate(page.read_text().splitlines(), 1):
         for name in re.findall(r"`([^`]+)`", line):
             if "000N" in name:  # any number
