@@ -239,6 +239,7 @@ Reply Gateway::cycle_start() {
   if (!consent_.is_awaited()) return resume();
   if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStopIsPressed));
   if (loop_.is_rebuilding()) return refuse(std::string(kIsRebuilding));
+  if (loop_.is_checking()) return refuse(std::string(kIsChecking));
   if (auto refusal = refusal_of_fault()) return *refusal;
   loop_.cycle_start();
   return {};

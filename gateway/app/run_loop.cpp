@@ -65,6 +65,8 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
   if (is_restart) conditions.restart_of = origin.from.restart->run;
   if (auto done = parts_.machine.check_begin(at); !done) return done;
+  // A line cannot be read again, and the run of a restart was looked through before.
+  auto check = is_restart || !parts_.keeps_checkpoints ? nullptr : parts_.machine.make_check(at);
   auto session =
       RunSession::make({.run = run,
                         .feed = std::move(feed),
@@ -75,6 +77,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
                         .begins_with_former_memory = origin.from.memory == StartMemory::Begin,
                         .checkpoints = parts_.keeps_checkpoints ? &parts_.outbox : nullptr,
                         .restart = *std::move(restart),
+                        .check = std::move(check),
                         .is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe},
                        parts_.dialect, *setup);
   if (!session) {
@@ -146,7 +149,7 @@ void RunLoop::run_slice(SteadyTime now) {
   const auto& factor = parts_.options.speed.factor;
   double seconds = factor ? std::chrono::duration<double>(elapsed).count() * *factor
                           : std::numeric_limits<double>::infinity();
-  if (wait_for_cycle_start(now)) return;
+  if (wait_for_beginning(now)) return;
   if (wait_out_fault(now)) {
     (void)parts_.machine.poll(machine::Seconds{seconds}, 0);  // comes to rest, begins nothing
     return;
@@ -177,19 +180,47 @@ bool RunLoop::run_round(double& machine_seconds, SteadyTime deadline) {
   return can_continue && parts_.recorder.fault().empty() && parts_.clock.steady_now() < deadline;
 }
 
-/// True: the run was not begun at the machine yet. Nothing of it is interpreted; an abort works.
-bool RunLoop::wait_for_cycle_start(SteadyTime now) {
-  if (!parts_.consent.is_awaited()) return false;
+/// True: the run was not begun at the machine yet, or its program is still looked through. Nothing
+/// of it reaches the machine; an abort works.
+bool RunLoop::wait_for_beginning(SteadyTime now) {
+  const bool is_awaited = parts_.consent.is_awaited();
+  if (!is_awaited && !is_checking()) return false;
   (void)parts_.machine.poll(machine::Seconds{0}, 0);
   if (is_rebuilding()) rebuild(now);
+  if (is_checking()) check_program(now);
   if (!parts_.run.is_active()) return true;
   commit_reports();
-  if (parts_.consent.is_overdue(now)) {
+  if (is_awaited && parts_.consent.is_overdue(now)) {
     end(dds::RunOutcome::Aborted, overdue_reason());
   } else {
     check_end();
   }
   return true;
+}
+
+/// What the machine cannot do ends the run before its first move.
+void RunLoop::check_program(SteadyTime now) {
+  RunSession& session = *parts_.run.session;
+  ProgramCheck& check = *session.check();
+  auto state = ProgramCheck::State::Working;
+  while (state == ProgramCheck::State::Working && parts_.clock.steady_now() < now + kSlice) {
+    session.feed().poll(now);
+    state = check.work(parts_.clock.steady_now());
+    if (parts_.clock.steady_now() == now && ++look_rounds_ % 64 == 0) break;
+  }
+  if (!check.is_over()) return;
+  if (state == ProgramCheck::State::Refused) {
+    const interpreter::Alarm refusal = check.refusal();
+    session.end_check();
+    return parts_.recorder.on_alarm(refusal);
+  }
+  session.end_check();
+  session.size_feed(parts_.options.speed.factor);
+}
+
+bool RunLoop::is_looking_through() const {
+  if (is_rebuilding()) return parts_.run.session->restart()->state() == Rebuild::State::Working;
+  return is_checking() && parts_.run.session->check()->state() == ProgramCheck::State::Working;
 }
 
 void RunLoop::cycle_start() {

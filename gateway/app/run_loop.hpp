@@ -62,10 +62,10 @@ class RunLoop {
   bool is_rebuilding() const {
     return parts_.run.is_active() && parts_.run.session->is_rebuilding();
   }
-  /// The look-through has work to do, and does not wait for text.
-  bool is_looking_through() const {
-    return is_rebuilding() && parts_.run.session->restart()->state() == Rebuild::State::Working;
-  }
+  /// The program is looked through before its first move.
+  bool is_checking() const { return parts_.run.is_active() && parts_.run.session->check(); }
+  /// A look-through has work to do, and does not wait for text.
+  bool is_looking_through() const;
   /// A hold is the operator's from here on: records on disk again do not end it.
   void keep_hold() { is_held_by_fault_ = false; }
   /// Ends the run, if any, as interrupted. Errors: those of the outbox; then the next start does
@@ -90,13 +90,14 @@ class RunLoop {
                            Conditions conditions, RunSession& session);
   void run_slice(SteadyTime now);
   bool run_round(double& machine_seconds, SteadyTime deadline);
-  bool wait_for_cycle_start(SteadyTime now);
+  bool wait_for_beginning(SteadyTime now);
   bool wait_out_fault(SteadyTime now);
   void commit_reports();
   void keep_state(SteadyTime now);
   void checkpoint_at_stop(SteadyTime now);
   void rebuild(SteadyTime now);
   void show_restart();
+  void check_program(SteadyTime now);
   void report_memory();
   void stage_ending(bool is_completed);
   void check_end();
@@ -109,12 +110,14 @@ class RunLoop {
   bool is_held_by_fault_ = false;
   SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_checkpoint_{};
   machine::MachineState last_state_{};
-  std::uint64_t rebuild_rounds_ = 0;
+  std::uint64_t look_rounds_ = 0;
   bool has_dropped_checkpoint_ = false;  ///< of this run, for the log
 };
 
 inline constexpr std::string_view kIsRebuilding =
     "the restart still looks through the program: cycle start when it reports what it will do";
+inline constexpr std::string_view kIsChecking =
+    "the program is still looked through for what the machine cannot do: press cycle start again";
 inline constexpr std::string_view kEmergencyStop =
     "the emergency stop is pressed: release it first (switch emergency_stop off)";
 

@@ -52,7 +52,7 @@ void RunLoop::rebuild(SteadyTime now) {
   while (state == Rebuild::State::Working && parts_.clock.steady_now() < now + kSlice) {
     session.feed().poll(now);
     state = session.rebuild();
-    if (parts_.clock.steady_now() == now && ++rebuild_rounds_ % 64 == 0) break;
+    if (parts_.clock.steady_now() == now && ++look_rounds_ % 64 == 0) break;
   }
   if (state == Rebuild::State::Ready) show_restart();
   if (state == Rebuild::State::Failed)

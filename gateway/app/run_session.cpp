@@ -30,14 +30,15 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   std::unique_ptr<RunSession> session(new RunSession(std::move(parts), setup));
   interpreter::Setup given = setup;
   given.answers.clear();
-  const auto make = [&](const interpreter::Setup& its_setup) {
-    return dialect.make(its_setup, session->feed(), session->tracker_);
+  const auto make = [&](const interpreter::Setup& its_setup, interpreter::EventSink& events) {
+    return dialect.make(its_setup, session->feed(), events);
   };
-  auto made = make(given);
+  auto made = make(given, session->tracker_);
   if (!made) return fail(made.error());
   session->interpreter_ = std::move(*made);
   if (auto done = session->give_memory(make, given); !done) return fail(done.error());
   session->note_modes();
+  if (auto begun = session->begin_check(make, given); !begun) return fail(begun.error());
   if (!session->parts_.restart) return session;
   if (auto begun = session->begin_rebuild(); !begun) return fail(begun.error());
   return session;
@@ -50,7 +51,7 @@ Result<void> RunSession::give_memory(const Make& make, const interpreter::Setup&
   const auto make_with = [&](const std::vector<interpreter::VariableRecord>& kept) -> Result<void> {
     interpreter::Setup given = setup;
     given.variables.insert(given.variables.end(), kept.begin(), kept.end());
-    auto made = make(given);
+    auto made = make(given, tracker_);
     if (!made) return fail(made.error());
     interpreter_ = std::move(*made);
     retained_ = dynamic_cast<interpreter::RetainedMemory*>(interpreter_.get());
@@ -74,6 +75,20 @@ Result<void> RunSession::give_memory(const Make& make, const interpreter::Setup&
   return {};
 }
 
+/// With an interpreter of its own, in the state in which the run's begins: what the control has
+/// kept is not in the setup.
+Result<void> RunSession::begin_check(const Make& make, const interpreter::Setup& setup) {
+  if (!parts_.check) return {};
+  auto made = make(setup, parts_.check->events());
+  if (!made) return fail(made.error());
+  if (retained_ != nullptr)
+    if (auto same = (*made)->restore(interpreter_->snapshot()); !same) return same;
+  check_ = std::make_unique<ProgramCheck>(ProgramCheck::Parts{.machine = std::move(parts_.check),
+                                                              .interpreter = *std::move(made),
+                                                              .answers = setup_.answers});
+  return {};
+}
+
 RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
     : parts_(std::move(parts)),
       setup_(setup),
@@ -85,7 +100,7 @@ RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
 
 std::size_t RunSession::fill(std::size_t max_blocks) {
   waits_ = Waits::ForMachine;
-  if (is_over_ || is_rebuilding()) return 0;
+  if (is_over_ || is_rebuilding() || check_) return 0;
   if (has_question_ && !resolve_question()) return 0;
   drop_modes();
   std::size_t blocks = 0;
@@ -252,7 +267,7 @@ Result<void> RunSession::answer(const std::string& text) {
 }
 
 void RunSession::size_feed(std::optional<double> speed_factor) {
-  if (!speed_factor || is_rebuilding()) return feed().set_consumption(std::nullopt);
+  if (!speed_factor || is_rebuilding() || check_) return feed().set_consumption(std::nullopt);
   const double seconds = parts_.machine.buffered().count() / *speed_factor;
   const interpreter::Origin& ahead = interpreter_->origin();
   const interpreter::Origin at = parts_.machine.status().origin;

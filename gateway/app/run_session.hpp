@@ -9,6 +9,7 @@
 
 #include "gateway/app/control_memory.hpp"
 #include "gateway/app/execution_recorder.hpp"
+#include "gateway/app/program_check.hpp"
 #include "gateway/app/restart/checkpoint_keeper.hpp"
 #include "gateway/app/restart/rebuild.hpp"
 #include "gateway/feed/line_feed.hpp"
@@ -34,6 +35,7 @@ class RunSession {
     bool begins_with_former_memory = false;
     report::Outbox* checkpoints = nullptr;  ///< where they are kept; null: none are, nor a restart
     std::optional<RestartPlan> restart = {};
+    std::unique_ptr<machine::MotionCheck> check = {};  ///< null: the program is not looked through
     bool is_lathe = false;
   };
   /// Errors: those of Dialect::make. The machine is unchanged then.
@@ -70,6 +72,10 @@ class RunSession {
   }
   /// Stages a checkpoint now, or at the end of the block in hand.
   void want_checkpoint();
+  /// The look through the program before its first move; null: there is none any more.
+  ProgramCheck* check() { return check_.get(); }
+  const ProgramCheck* check() const { return check_.get(); }
+  void end_check() { check_.reset(); }
   /// A restart that has not come to its place yet: `rebuild` continues it, `fill` does nothing.
   bool is_rebuilding() const { return rebuild_ && rebuild_->state() != Rebuild::State::Ready; }
   Rebuild::State rebuild();
@@ -81,8 +87,8 @@ class RunSession {
 
  private:
   RunSession(Parts parts, const interpreter::Setup& setup);
-  using Make =
-      std::function<Result<std::unique_ptr<interpreter::Interpreter>>(const interpreter::Setup&)>;
+  using Make = std::function<Result<std::unique_ptr<interpreter::Interpreter>>(
+      const interpreter::Setup&, interpreter::EventSink& events)>;
   Result<void> give_memory(const Make& make, const interpreter::Setup& setup);
   /// True: the interpreter can continue.
   bool resolve_question();
@@ -91,6 +97,7 @@ class RunSession {
            (checkpoints_ && checkpoints_->lacks_programs(feed()));
   }
   void take_checkpoint();
+  Result<void> begin_check(const Make& make, const interpreter::Setup& setup);
   Result<void> begin_rebuild();
   void end_rebuild();
   void keep_inherited(const Rebuild& rebuild);
@@ -137,6 +144,7 @@ class RunSession {
     std::optional<interpreter::CoordinateFrame> frame;
   };
   std::deque<Frame> frames_;  ///< likewise
+  std::unique_ptr<ProgramCheck> check_;
   std::unique_ptr<Rebuild> rebuild_;
   bool is_over_ = false, has_question_ = false, is_probing_ = false;
 };

@@ -202,6 +202,11 @@ Execution StatusBuilder::execution_of_run(std::string& message, const LinkState&
           links.is_connected ? ": waiting for its text" : ": waiting for its text: no server";
     return Execution::Waiting;
   }
+  if (const ProgramCheck* check = session.check()) {
+    message = fmt::format("looking through the program for what the machine cannot do, block {}",
+                          check->block());
+    return Execution::Waiting;
+  }
   if (parts_.consent.is_awaited()) {
     message = kAwaitsCycleStart;
     if (session.restart() != nullptr) {

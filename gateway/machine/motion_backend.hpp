@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gateway/machine/execution_sink.hpp"
@@ -30,6 +31,15 @@ struct MotionCapabilities {
   bool places_axes = false;  ///< `begin` puts the axes where it is asked to
 };
 
+/// Takes a program's events as a back end does, and executes nothing.
+class MotionCheck {
+ public:
+  virtual ~MotionCheck() = default;
+  virtual interpreter::EventSink& events() = 0;
+  /// The first thing that the machine cannot do, with its line.
+  virtual const std::optional<interpreter::Diagnostic>& refusal() const = 0;
+};
+
 /// What moves the axes: takes what the program does, executes it in order and reports what was
 /// executed. The gateway knows this interface only.
 ///
@@ -51,6 +61,11 @@ class MotionBackend {
   /// Whether a program can begin with the axes at `at`. Errors: Conflict (they are elsewhere, and
   /// this back end cannot place them), Busy (an alarm, no link).
   virtual Result<void> check_begin(const interpreter::Position& at) const = 0;
+  /// For a look through a program that begins at `at`, before its first move. Null: what the
+  /// machine cannot do is found at its place only.
+  virtual std::unique_ptr<MotionCheck> make_check(const interpreter::Position&) const {
+    return nullptr;
+  }
   /// A new program that begins at `at`: clears queue, stops, alarm, hold and spindle; keeps the
   /// panel.
   virtual void begin(const interpreter::Position& at) = 0;

@@ -131,6 +131,20 @@ TEST_F(GrblSystem, APulledCableIsAnAlarmAndTheOperatorsResetEndsIt) {
   EXPECT_TRUE(eventually([&] { return system->run(second).value("executed", 0u) > 2; }));
 }
 
+TEST_F(GrblSystem, WhatTheBoardCannotDoIsRefusedBeforeTheFirstMove) {
+  start();
+  std::string text = "G21 G90 G94 F600\n";
+  for (int i = 1; i <= 5000; ++i) text += "G1 X" + std::to_string(i % 100) + "\n";
+  system->push("path", text + "M3 S20000\nG1 X9\nM2\n");
+  const auto run = system->wait_ended(start_run("path"));
+  EXPECT_EQ(run.value("state", ""), "alarmed") << run.dump();
+  EXPECT_EQ(run.value("reason", ""),
+            "MCH0010 spindle speed 20000 is above the machine's 10000 rpm ($30) (line 5002, found "
+            "before the first move)");
+  EXPECT_EQ(run.value("executed", 1U), 0U) << run.dump();
+  EXPECT_EQ(traveled(), 0);
+}
+
 TEST_F(GrblSystem, ALockedBoardIsHomedAtThePanel) {
   start("rs274ngc", {.is_locked = true});
   system->push("path", straight_program(50, kFeed));

@@ -22,6 +22,10 @@ constexpr MotionCapabilities kCapabilities{.axes = {},
                                            .simulated_time = false,
                                            .places_axes = false};
 
+std::unique_ptr<streamed::CommandWriter> make_commands() {
+  return std::make_unique<BoardCommands>();
+}
+
 }  // namespace
 
 GrblMachine::GrblMachine(const Settings& settings)
@@ -30,7 +34,7 @@ GrblMachine::GrblMachine(const Settings& settings)
 GrblMachine::GrblMachine(const Settings& settings, std::unique_ptr<BoardSession> session)
     : StreamedMachine({.sink = settings.sink,
                        .clock = settings.clock,
-                       .commands = std::make_unique<BoardCommands>(),
+                       .make_commands = make_commands,
                        .machine = settings.machine,
                        .capabilities = kCapabilities},
                       *session),

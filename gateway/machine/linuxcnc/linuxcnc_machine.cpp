@@ -22,6 +22,10 @@ constexpr MotionCapabilities kCapabilities{.axes = {},
                                            .simulated_time = false,
                                            .places_axes = false};
 
+std::unique_ptr<streamed::CommandWriter> make_commands() {
+  return std::make_unique<LinuxCncCommands>();
+}
+
 }  // namespace
 
 LinuxCncMachine::LinuxCncMachine(const Settings& settings)
@@ -30,7 +34,7 @@ LinuxCncMachine::LinuxCncMachine(const Settings& settings)
 LinuxCncMachine::LinuxCncMachine(Settings settings, std::unique_ptr<Session> session)
     : StreamedMachine({.sink = settings.sink,
                        .clock = std::move(settings.clock),
-                       .commands = std::make_unique<LinuxCncCommands>(),
+                       .make_commands = make_commands,
                        .machine = settings.machine,
                        .capabilities = kCapabilities},
                       *session),

@@ -97,11 +97,12 @@ Seconds StreamedMachine::poll(Seconds, std::size_t max_actions) {
     Lock lock(mutex_);
     take_made();
     is_allowed_ = max_actions > 0;
-    set_active(!is_over());
+    const bool has_program = is_active_ || is_allowed_;  // not while it waits for cycle start
+    set_active(has_program && !is_over());
     while (deliver(lock)) {
     }
     pump(lock);
-    set_active(!is_over());
+    set_active(has_program && !is_over());
   }
   wake();
   return Seconds{0};

@@ -12,11 +12,13 @@ void QueueBuilder::begin(const TextRules& rules, const Coordinates& at) {
   motion_.begin(at);
   made_.clear();
   inhibit_ = {};
+  refusal_.reset();
   is_closed_ = false;
 }
 
 Action* QueueBuilder::add(const Origin& origin) {
   if (is_closed_) return nullptr;
+  if (!keeps_actions_) made_.clear();
   Action& action = made_.emplace_back();
   action.origin = origin;
   action.may_stop_after = !inhibit_.single_block;
@@ -26,8 +28,8 @@ Action* QueueBuilder::add(const Origin& origin) {
 void QueueBuilder::refuse(const Origin& origin, Refusal refusal) {
   Action* action = add(origin);
   if (!action) return;
-  action->body =
-      AlarmEvent{{.id = refusal.id, .text = std::move(refusal.text), .line = origin.line}};
+  refusal_ = {.id = refusal.id, .text = std::move(refusal.text), .line = origin.line};
+  action->body = AlarmEvent{*refusal_};
   is_closed_ = true;
 }
 

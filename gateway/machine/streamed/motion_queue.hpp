@@ -68,6 +68,10 @@ class QueueBuilder final : public interpreter::EventSink {
 
   void begin(const TextRules& rules, const Coordinates& at);
   void close() { is_closed_ = true; }
+  /// For a check: actions are made and dropped.
+  void keep_nothing() { keeps_actions_ = false; }
+  /// What the device cannot do, after which nothing is taken.
+  const std::optional<interpreter::Diagnostic>& refusal() const { return refusal_; }
   MotionWriter& motion() { return motion_; }
   std::deque<Action> take() { return std::exchange(made_, {}); }
   std::size_t size() const { return made_.size(); }
@@ -110,7 +114,8 @@ class QueueBuilder final : public interpreter::EventSink {
   std::unique_ptr<CommandWriter> commands_;
   std::deque<Action> made_;
   interpreter::OverrideInhibit inhibit_;
-  bool is_closed_ = false;
+  std::optional<interpreter::Diagnostic> refusal_;
+  bool is_closed_ = false, keeps_actions_ = true;
 };
 
 }  // namespace dripline::machine::streamed

@@ -11,11 +11,33 @@ namespace dripline::machine::streamed {
 using interpreter::Axis;
 using interpreter::Position;
 
+namespace {
+
+/// The text is written as for a run, and dropped.
+class Check final : public MotionCheck {
+ public:
+  Check(std::unique_ptr<CommandWriter> commands, const TextRules& rules, const Coordinates& at)
+      : builder_(std::move(commands)) {
+    builder_.begin(rules, at);
+    builder_.keep_nothing();
+  }
+  interpreter::EventSink& events() override { return builder_; }
+  const std::optional<interpreter::Diagnostic>& refusal() const override {
+    return builder_.refusal();
+  }
+
+ private:
+  QueueBuilder builder_;
+};
+
+}  // namespace
+
 StreamedMachine::StreamedMachine(Parts parts, Device& device)
     : sink_(parts.sink),
       clock_(std::move(parts.clock)),
       stated_(parts.machine),
-      builder_(std::move(parts.commands)),
+      make_commands_(parts.make_commands),
+      builder_(make_commands_()),
       capabilities_(parts.capabilities),
       device_(device) {}
 
@@ -46,6 +68,11 @@ Result<void> StreamedMachine::check_begin(const Position& at) const {
                 wanted);
   }
   return {};
+}
+
+std::unique_ptr<MotionCheck> StreamedMachine::make_check(const Position& at) const {
+  const Lock lock(mutex_);
+  return std::make_unique<Check>(make_commands_(), device_.rules(), coordinates_of(at));
 }
 
 void StreamedMachine::begin(const Position& at) {

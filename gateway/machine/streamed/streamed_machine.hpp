@@ -21,7 +21,7 @@ class StreamedMachine : public MotionBackend {
   struct Parts {
     ExecutionSink& sink;
     std::shared_ptr<const Clock> clock;
-    std::unique_ptr<CommandWriter> commands;
+    std::unique_ptr<CommandWriter> (*make_commands)();
     interpreter::MachineData machine = {};  ///< what the setup states; the device must agree
     MotionCapabilities capabilities = {};   ///< the axes are the device's
   };
@@ -33,6 +33,7 @@ class StreamedMachine : public MotionBackend {
   /// Errors: those of Device::check_ready; Conflict (another machine than the setup states, the
   /// axes are elsewhere).
   Result<void> check_begin(const interpreter::Position& at) const override;
+  std::unique_ptr<MotionCheck> make_check(const interpreter::Position& at) const override;
   void begin(const interpreter::Position& at) override;
   interpreter::EventSink& events() override { return builder_; }
   bool has_room() const override;
@@ -101,6 +102,7 @@ class StreamedMachine : public MotionBackend {
   ExecutionSink& sink_;
   const std::shared_ptr<const Clock> clock_;
   const interpreter::MachineData stated_;
+  std::unique_ptr<CommandWriter> (*const make_commands_)();
   QueueBuilder builder_;  ///< owner's thread only
   OperatorPanel panel_;   ///< owner's thread only
   mutable MotionCapabilities capabilities_;

@@ -96,6 +96,67 @@ TEST_F(MotionBackendTest, HoldsResumesAndAborts) {
   EXPECT_EQ(fixture.ended().outcome, RunOutcome::Aborted);
 }
 
+/// A back end whose programs are looked through before their first move.
+class ProgramCheckTest : public MotionBackendTest {
+ protected:
+  ProgramCheckTest() {
+    fixture.motion = [](machine::ExecutionSink& sink) {
+      return std::make_unique<ToyMotion>(sink, true);
+    };
+    fixture.restart_gateway();
+  }
+};
+
+TEST_F(ProgramCheckTest, RefusesWhatTheMachineCannotDoBeforeTheFirstMove) {
+  const auto end = run("X1\nOUT A\nTHREAD\nEND\n");
+  EXPECT_EQ(end.outcome, RunOutcome::Alarmed);
+  EXPECT_EQ(end.reason,
+            "MCH0008 this machine cannot cut threads (line 3, found before the first move)");
+  EXPECT_EQ(end.executed, 0U);
+  EXPECT_EQ(fixture.count(dds::RecordKind::Alarm), 1U);
+  EXPECT_TRUE(fixture.lines().empty());
+  EXPECT_EQ(fixture.status->position[0], 0);
+}
+
+TEST_F(ProgramCheckTest, RunsWhatItHasLookedThroughOnce) {
+  const auto end = run("X1\nOUT A\nX4\nOUT B\nEND\n");
+  EXPECT_EQ(end.outcome, RunOutcome::Completed) << end.reason;
+  EXPECT_EQ(end.executed, 5U);
+  EXPECT_EQ(fixture.lines(), (std::vector<std::string>{"A", "B"}));
+}
+
+TEST_F(ProgramCheckTest, EndsAtAQuestionWhoseAnswerIsNotKnown) {
+  const auto end = run("X1\nPIN 3\nTHREAD\nEND\n");
+  EXPECT_EQ(end.reason, "MCH0008 this machine cannot cut threads");
+  EXPECT_EQ(end.executed, 2U);
+}
+
+TEST_F(ProgramCheckTest, DoesNotWaitForTextForever) {
+  fixture.push("O1", "X1\nTHREAD\nEND\n");
+  fixture.serves_text = false;
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  const auto is_looking = [&] {
+    return fixture.status->message.find("looking through the program") != std::string::npos;
+  };
+  EXPECT_TRUE(fixture.run_until(is_looking)) << fixture.status->message;
+  EXPECT_TRUE(fixture.run_until([&] { return !is_looking(); }));
+  fixture.serves_text = true;
+  EXPECT_EQ(fixture.ended().executed, 1U) << "an alarm at its place";
+}
+
+TEST_F(ProgramCheckTest, IsOverBeforeCycleStart) {
+  fixture.make_attended();
+  fixture.restart_gateway();
+  fixture.push("O1", "X1\nEND\n");
+  fixture.serves_text = false;
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  EXPECT_NE(fixture.panel("cycle-start").find("still looked through"), std::string::npos);
+  fixture.serves_text = true;
+  EXPECT_TRUE(fixture.run_until(
+      [&] { return fixture.panel("cycle-start").find("looked") == std::string::npos; }));
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+}
+
 TEST(MotionChoice, NamesTheBackEndsItKnows) {
   EXPECT_TRUE(check_motion("simulated"));
   EXPECT_TRUE(check_motion("grbl:/dev/ttyACM0"));

@@ -14,6 +14,29 @@ Result<void> ToyMotion::check_begin(const interpreter::Position& at) const {
               status_.position.raw(Axis::X), at.raw(Axis::X));
 }
 
+namespace {
+
+/// Of a machine that cuts no threads.
+class ToyCheck final : public machine::MotionCheck, private interpreter::EventSink {
+ public:
+  interpreter::EventSink& events() override { return *this; }
+  const std::optional<interpreter::Diagnostic>& refusal() const override { return refusal_; }
+
+ private:
+  void on_thread(const interpreter::Thread& thread) override {
+    if (!refusal_)
+      refusal_ = {
+          .id = "MCH0008", .text = "this machine cannot cut threads", .line = thread.origin.line};
+  }
+  std::optional<interpreter::Diagnostic> refusal_;
+};
+
+}  // namespace
+
+std::unique_ptr<machine::MotionCheck> ToyMotion::make_check(const interpreter::Position&) const {
+  return checks_ ? std::make_unique<ToyCheck>() : nullptr;
+}
+
 void ToyMotion::begin(const interpreter::Position&) {
   queue_.clear();
   status_.state = MachineState::Idle;

@@ -12,12 +12,15 @@ namespace dripline::gateway {
 /// axis and its input pins read high.
 class ToyMotion final : public machine::MotionBackend, private interpreter::EventSink {
  public:
-  explicit ToyMotion(machine::ExecutionSink& sink) : sink_(sink) {
+  /// `checks`: its programs are looked through before they move.
+  explicit ToyMotion(machine::ExecutionSink& sink, bool checks = false)
+      : sink_(sink), checks_(checks) {
     capabilities_.axes.set(static_cast<std::size_t>(interpreter::Axis::X));
   }
 
   const machine::MotionCapabilities& capabilities() const override { return capabilities_; }
   Result<void> check_begin(const interpreter::Position& at) const override;
+  std::unique_ptr<machine::MotionCheck> make_check(const interpreter::Position& at) const override;
   void begin(const interpreter::Position& at) override;
   interpreter::EventSink& events() override { return *this; }
   bool has_room() const override { return queue_.size() < 16; }
@@ -45,6 +48,7 @@ class ToyMotion final : public machine::MotionBackend, private interpreter::Even
   void queue(std::function<void()> action);
 
   machine::ExecutionSink& sink_;
+  const bool checks_;
   machine::MotionCapabilities capabilities_;
   machine::OperatorPanel panel_;
   machine::MachineStatus status_;

@@ -141,6 +141,44 @@ TEST(GrblMachine, AlarmsInPlaceOfWhatTheBoardLacks) {
   EXPECT_NEAR(shop.board.position()[0], 1, 1e-6);
 }
 
+struct CheckCase {
+  const char* name;
+  void (*program)(Program&);
+  const char* refusal;
+};
+class GrblCheck : public testing::TestWithParam<CheckCase> {};
+
+TEST_P(GrblCheck, FindsWhatTheBoardCannotDoWithoutMoving) {
+  GrblShop shop({.start = {-50, 0, -50, 0}, .settings = {{20, "1"}}});
+  const auto check = shop.machine.make_check(Program::at(-50, -50));
+  Program program(check->events());
+  program.line(-60, -50, 600);
+  program.spindle(1200);
+  EXPECT_FALSE(check->refusal());
+  GetParam().program(program);
+  program.line(-70, -50, 600);
+  ASSERT_TRUE(check->refusal());
+  EXPECT_EQ(check->refusal()->text, GetParam().refusal);
+  EXPECT_EQ(check->refusal()->line, 3U) << "the first";
+  shop.pass(1);
+  EXPECT_TRUE(shop.board.lines.empty());
+  EXPECT_TRUE(shop.machine.drained());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , GrblCheck,
+    testing::Values(
+        CheckCase{"thread", [](Program& it) { it.thread(-61, -60, 1.5); },
+                  "this machine cannot cut threads"},
+        CheckCase{"feed_per_revolution",
+                  [](Program& it) { it.line(-61, -50, Feed::per_revolution(Length::mm(0.1))); },
+                  "this machine cannot feed per revolution"},
+        CheckCase{"travel", [](Program& it) { it.line(1, -50, 600); },
+                  "X 1.000 is outside the machine's travel of -300 to 0 ($20, $23, $130)"},
+        CheckCase{"spindle_speed", [](Program& it) { it.spindle(20'000); },
+                  "spindle speed 20000 is above the machine's 10000 rpm ($30)"}),
+    [](const auto& i) { return std::string(i.param.name); });
+
 TEST(GrblMachine, AnAlarmOfTheProgramSwitchesTheSpindleOff) {
   GrblShop shop;
   shop.begin();

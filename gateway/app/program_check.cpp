@@ -1,0 +1,44 @@
+#include "gateway/app/program_check.hpp"
+
+#include <fmt/format.h>
+
+namespace dripline::gateway {
+
+using interpreter::StepState;
+
+ProgramCheck::State ProgramCheck::work(SteadyTime now) {
+  constexpr std::uint64_t kBlocksAtOnce = 1024;
+  if (is_over()) return state_;
+  if (!began_) began_ = now;
+  if (now - *began_ > kLimit) return state_ = State::Passed;
+  const StepState step = parts_.interpreter->step(kBlocksAtOnce);
+  if (const auto& refusal = parts_.machine->refusal()) {
+    refusal_.origin.line = refusal->line;
+    refusal_.diagnostic = *refusal;
+    refusal_.diagnostic.text =
+        fmt::format("{} (line {}, found before the first move)", refusal->text, refusal->line);
+    return state_ = State::Refused;
+  }
+  switch (step) {
+    case StepState::Ran:
+      return state_ = State::Working;
+    case StepState::NeedsText:
+      return state_ = State::NeedsText;
+    case StepState::NeedsAnswer:
+      return state_ = answer() ? State::Working : State::Passed;
+    case StepState::Ended:
+    case StepState::Alarmed:
+      break;
+  }
+  return state_ = State::Passed;
+}
+
+bool ProgramCheck::answer() {
+  if (!std::holds_alternative<interpreter::PromptQuestion>(parts_.interpreter->question()) ||
+      next_answer_ >= parts_.answers.size())
+    return false;
+  const interpreter::PromptAnswer given{parts_.answers[next_answer_++]};
+  return parts_.interpreter->answer(given).has_value();
+}
+
+}  // namespace dripline::gateway

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/machine/motion_backend.hpp"
+#include "protocol/base/clock.hpp"
+
+namespace dripline::gateway {
+
+/// Looks through a program before its first move for what the machine cannot do: the middle of a
+/// cut is the worst place for an alarm. It ends at a question whose answer is not known beforehand,
+/// at the program's end, and after kLimit; what it has not reached stays an alarm at its place. One
+/// thread.
+class ProgramCheck {
+ public:
+  struct Parts {
+    std::unique_ptr<machine::MotionCheck> machine;
+    /// At the program's beginning; its events go to the machine's check.
+    std::unique_ptr<interpreter::Interpreter> interpreter;
+    std::vector<std::string> answers;  ///< of the setup, to the program's prompts
+  };
+  explicit ProgramCheck(Parts parts) : parts_(std::move(parts)) {}
+
+  enum class State { Working, NeedsText, Passed, Refused };
+  /// A bounded piece of work.
+  State work(SteadyTime now);
+  State state() const { return state_; }
+  bool is_over() const { return state_ == State::Passed || state_ == State::Refused; }
+  /// When refused: what the machine cannot do, with its line.
+  const interpreter::Alarm& refusal() const { return refusal_; }
+  /// Looked through so far, for the operator.
+  std::uint64_t block() const { return parts_.interpreter->blocks(); }
+
+  static constexpr std::chrono::seconds kLimit{10};
+
+ private:
+  bool answer();
+
+  Parts parts_;
+  State state_ = State::Working;
+  std::optional<SteadyTime> began_;
+  std::size_t next_answer_ = 0;
+  interpreter::Alarm refusal_;
+};
+
+}  // namespace dripline::gateway
