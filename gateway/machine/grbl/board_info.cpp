@@ -83,6 +83,16 @@ TextRules::AxisRules BoardInfo::axis_rules(std::size_t axis) const {
           .rate_setting = fmt::format(" (${})", 110 + axis)};
 }
 
+/// What is reported late, a part for the planner, and the time in which the axes come from their
+/// highest rate to rest: with less ahead the planner would slow them down.
+double BoardInfo::seconds_ahead() const {
+  constexpr double kReported = 0.75, kMax = 5;
+  double braking = 0;
+  for (std::size_t i = 0; i < axes(); ++i)
+    if (acceleration(i) > 0) braking = std::max(braking, max_rate(i) / 60 / acceleration(i));
+  return std::min(kReported + braking, kMax);
+}
+
 TextRules BoardInfo::rules() const {
   constexpr std::size_t kGrblLine = 72, kGrblHalLine = 244;  // without N word and end
   TextRules rules;
@@ -94,6 +104,7 @@ TextRules BoardInfo::rules() const {
   rules.decimals = finest > 500 ? 4 : 3;  // a digit is at most half a step
   rules.line_limit = is_grbl_hal_ ? kGrblHalLine : kGrblLine;
   rules.feeds_all_axes = true;
+  rules.seconds_ahead = seconds_ahead();
   if (setting_or(30, 0) > 0) rules.max_rpm = setting_or(30, 0);
   if (setting_or(31, 0) > 0) rules.min_rpm = setting_or(31, 0);  // the board raises a lower speed
   rules.has_mist = has_letter('M');

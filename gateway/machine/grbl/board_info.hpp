@@ -54,6 +54,7 @@ class BoardInfo {
 
  private:
   Result<void> check_settings() const;
+  double seconds_ahead() const;
   streamed::TextRules::AxisRules axis_rules(std::size_t axis) const;
   /// In machine coordinates, where soft limits ($20) make it known.
   std::optional<streamed::TextRules::Range> travel(std::size_t axis) const;

@@ -70,8 +70,8 @@ ArcPath arc_path(const Coordinates& from, const Coordinates& to, const interpret
   return path;
 }
 
-std::vector<Coordinates> half_circles(const ArcPath& path) {
-  return pieces(path, std::fabs(path.sweep) / kPi - 1e-6);
+std::vector<Coordinates> arcs(const ArcPath& path, double count) {
+  return pieces(path, std::max(count, std::fabs(path.sweep) / kPi) - 1e-6);
 }
 
 std::vector<Coordinates> extremes(const ArcPath& path) {

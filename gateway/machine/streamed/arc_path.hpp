@@ -24,9 +24,9 @@ struct ArcPath {
 /// where both do.
 ArcPath arc_path(const Coordinates& from, const Coordinates& to, const interpreter::Arc& arc);
 
-/// The ends of pieces of at most half a circle: an end point that rounding has moved past the start
-/// must not make a whole circle of nothing, or nothing of a whole circle.
-std::vector<Coordinates> half_circles(const ArcPath& path);
+/// The ends of pieces, at least `count`, of at most half a circle: an end point that rounding has
+/// moved past the start must not make a whole circle of nothing, or nothing of a whole circle.
+std::vector<Coordinates> arcs(const ArcPath& path, double count);
 /// The ends of chords that leave the path by at most `deviation` (mm).
 std::vector<Coordinates> chords(const ArcPath& path, double deviation);
 

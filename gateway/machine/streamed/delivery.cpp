@@ -58,13 +58,26 @@ void StreamedMachine::pump(const Lock&) {
     if (!must_wait && std::holds_alternative<BlockEnd>(action.body)) continue;
     auto* motion = std::get_if<Motion>(&action.body);
     if (must_wait || motion == nullptr) return device_.await_execution();
+    const double seconds = action.seconds / static_cast<double>(motion->lines.size());
     for (; motion->sent < motion->lines.size(); ++motion->sent) {
       const std::string& line = motion->lines[motion->sent];
-      if (!device_.may_send(line.size())) return;
+      if (!may_be_ahead(seconds) || !device_.may_send(line.size())) return;
       motion->last_serial = device_.send(line, !line.starts_with("G4"), {});
+      ahead_.push_back({motion->last_serial, seconds});
+      seconds_ahead_ += seconds;
     }
     expected_ = motion->end;
   }
+}
+
+/// Two lines at least are under way, so that the axes pass from one to the next.
+bool StreamedMachine::may_be_ahead(double seconds) {
+  constexpr std::size_t kLeastLines = 2;
+  for (; !ahead_.empty() && ahead_.front().serial <= device_.executed(); ahead_.pop_front())
+    seconds_ahead_ -= ahead_.front().seconds;
+  if (ahead_.empty()) seconds_ahead_ = 0;
+  const auto& limit = device_.rules().seconds_ahead;
+  return !limit || ahead_.size() < kLeastLines || seconds_ahead_ + seconds <= *limit;
 }
 
 /// With nothing in motion the axes must be where the program has sent them.
@@ -88,6 +101,8 @@ bool StreamedMachine::check_position(const Coordinates& expected) {
 void StreamedMachine::take_made() {
   for (Action& action : builder_.take()) {
     queued_seconds_ += action.seconds;
+    if (const auto* motion = std::get_if<Motion>(&action.body))
+      queued_lines_ += motion->lines.size();
     queue_.push_back(std::move(action));
   }
 }
@@ -344,6 +359,7 @@ bool StreamedMachine::finish_front(Lock& lock) {
   const bool ends_block = action.ends_block;
   const bool may_stop = action.may_stop_after;
   queued_seconds_ = queue_.size() == 1 ? 0 : std::max(0.0, queued_seconds_ - action.seconds);
+  if (const auto* motion = std::get_if<Motion>(&action.body)) queued_lines_ -= motion->lines.size();
   queue_.pop_front();
   if (next_ > 0) --next_;
   has_started_ = false;
@@ -360,6 +376,8 @@ void StreamedMachine::discard() {
   queue_.clear();
   next_ = 0;
   queued_seconds_ = 0;
+  queued_lines_ = 0;
+  ahead_.clear();
   is_released_ = has_started_ = false;
   (void)builder_.take();
   builder_.close();

@@ -11,6 +11,7 @@ void QueueBuilder::begin(const TextRules& rules, const Coordinates& at) {
   motion_ = MotionWriter(rules);
   motion_.begin(at);
   made_.clear();
+  lines_ = 0;
   inhibit_ = {};
   refusal_.reset();
   is_closed_ = false;
@@ -44,6 +45,7 @@ void QueueBuilder::add_motion(const Event& event, MotionKind kind,
   if (text.lines.empty()) return;  // less than a step
   Action* action = add(event.origin);
   action->seconds = text.seconds;
+  lines_ += text.lines.size();
   action->body = Motion{.lines = std::move(text.lines), .end = text.end, .kind = kind};
 }
 

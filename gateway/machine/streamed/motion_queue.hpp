@@ -73,8 +73,13 @@ class QueueBuilder final : public interpreter::EventSink {
   /// What the device cannot do, after which nothing is taken.
   const std::optional<interpreter::Diagnostic>& refusal() const { return refusal_; }
   MotionWriter& motion() { return motion_; }
-  std::deque<Action> take() { return std::exchange(made_, {}); }
+  std::deque<Action> take() {
+    lines_ = 0;
+    return std::exchange(made_, {});
+  }
   std::size_t size() const { return made_.size(); }
+  /// Of the motion that is not taken yet.
+  std::size_t lines() const { return lines_; }
   void begin_probe(const interpreter::Probe& probe);
 
   void on_rapid(const interpreter::Rapid& event) override;
@@ -113,6 +118,7 @@ class QueueBuilder final : public interpreter::EventSink {
   MotionWriter motion_;
   std::unique_ptr<CommandWriter> commands_;
   std::deque<Action> made_;
+  std::size_t lines_ = 0;
   interpreter::OverrideInhibit inhibit_;
   std::optional<interpreter::Diagnostic> refusal_;
   bool is_closed_ = false, keeps_actions_ = true;

@@ -17,7 +17,9 @@ constexpr double kMaxRadiusChange = 0.004;
 /// Shorter arcs are written as lines: their ends are too close for the angle between them.
 constexpr double kShortestArc = 0.005;
 constexpr double kChordDeviation = 0.002;
-constexpr std::size_t kMaxPieces = 4096;  ///< of one arc
+constexpr std::size_t kMaxPieces = 4096;  ///< of one move
+/// Of a move, where a device may have so many seconds ahead: several of them are always under way.
+constexpr double kPieceSeconds = 0.25;
 
 double distance(const Coordinates& from, const Coordinates& to) {
   double square = 0;
@@ -170,8 +172,28 @@ void MotionWriter::append_rest(bool rests, MotionText& text) const {
   if (rests && !rules_.has_stop_mode && !text.lines.empty()) text.lines.push_back(dwell(0));
 }
 
+double MotionWriter::pieces_of(double seconds) const {
+  if (!rules_.seconds_ahead) return 1;
+  return std::clamp(std::ceil(seconds / kPieceSeconds - 1e-6), 1.0, double{kMaxPieces});
+}
+
 std::optional<Refusal> MotionWriter::straight(const Motion& motion, const Coordinates& to,
                                               MotionText& text) {
+  const Coordinates from = at_;
+  const bool may_split = text.lines.size() < kMaxPieces;
+  const double count = may_split ? pieces_of(seconds_of(to, motion.feed)) : 1;
+  for (double i = 1; i < count; ++i) {
+    Coordinates point;
+    for (std::size_t k = 0; k < kMaxAxes; ++k) point[k] = from[k] + (to[k] - from[k]) * i / count;
+    if (is_same_step(point, to)) break;
+    if (auto refusal = straight_line({motion.code, motion.feed, false}, point, text))
+      return refusal;
+  }
+  return straight_line(motion, to, text);
+}
+
+std::optional<Refusal> MotionWriter::straight_line(const Motion& motion, const Coordinates& to,
+                                                   MotionText& text) {
   text.end = to;
   if (is_same_step(at_, to)) return std::nullopt;  // it is not lost: the next target is absolute
   const std::string words = axis_words(to);
@@ -251,7 +273,8 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
   const bool is_arc = !is_spiral && !has_rotary && length >= kShortestArc;
   interpreter::Arc turned = event;  // in the direction of the path
   turned.turn = path.sweep > 0 ? interpreter::Turn::Counterclockwise : interpreter::Turn::Clockwise;
-  const auto ends = is_arc ? half_circles(path) : chords(path, kChordDeviation);
+  const double arc_count = std::min(pieces_of(length / feed * 60), length / kShortestArc);
+  const auto ends = is_arc ? arcs(path, arc_count) : chords(path, kChordDeviation);
   if (ends.size() > kMaxPieces)
     return Refusal{"MCH0005", fmt::format("an arc of {} pieces, the machine gets at most {}",
                                           ends.size(), kMaxPieces)};

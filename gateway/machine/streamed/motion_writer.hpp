@@ -46,6 +46,9 @@ class MotionWriter {
   std::optional<Refusal> target_of(const interpreter::Position& to, Coordinates& target) const;
   std::optional<Refusal> check_travel(const Coordinates& target) const;
   std::optional<Refusal> straight(const Motion& motion, const Coordinates& to, MotionText& text);
+  std::optional<Refusal> straight_line(const Motion& motion, const Coordinates& to,
+                                       MotionText& text);
+  double pieces_of(double seconds) const;
   std::optional<Refusal> feed_of(Feed feed, const Coordinates& to, double length,
                                  double& per_minute) const;
   std::optional<Refusal> append(std::string line, MotionText& text) const;

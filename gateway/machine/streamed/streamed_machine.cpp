@@ -103,7 +103,8 @@ bool StreamedMachine::has_room() const {
   // Blocks of a tenth of a millisecond are executed by the thousand before a report shows it.
   constexpr std::size_t kMaxUnreported = 8 * kMaxActions;
   const std::size_t made = queue_.size() + builder_.size();
-  return made - next_ < kMaxActions && made < kMaxUnreported;
+  return made - next_ < kMaxActions && made < kMaxUnreported &&
+         queued_lines_ + builder_.lines() < kMaxLines;
 }
 
 bool StreamedMachine::input(int pin) const {

@@ -59,6 +59,7 @@ class StreamedMachine : public MotionBackend {
   MachineStatus status() const override;
 
   static constexpr std::size_t kMaxActions = 1024;  ///< that are not sent yet
+  static constexpr std::size_t kMaxLines = 16 * kMaxActions;
 
  protected:
   using Lock = std::unique_lock<std::mutex>;
@@ -74,6 +75,7 @@ class StreamedMachine : public MotionBackend {
 
  private:
   void set_active(bool is_active);
+  bool may_be_ahead(double seconds);
   bool is_over() const;
   bool may_begin() const;
   bool check_position(const Coordinates& expected);
@@ -112,6 +114,13 @@ class StreamedMachine : public MotionBackend {
   std::deque<Action> queue_;
   std::size_t next_ = 0;  ///< the first action that is not completely sent
   double queued_seconds_ = 0;
+  std::size_t queued_lines_ = 0;
+  struct Ahead {
+    std::uint64_t serial = 0;
+    double seconds = 0;
+  };
+  std::deque<Ahead> ahead_;  ///< motion that was sent and is not executed
+  double seconds_ahead_ = 0;
   Coordinates expected_{};    ///< where the axes are when everything sent is executed
   bool is_active_ = false;    ///< a program has begun and is not over
   bool has_begun_ = false;    ///< the first line may be sent: the axes were where they should be

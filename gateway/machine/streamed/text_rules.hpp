@@ -42,6 +42,9 @@ struct TextRules {
   bool feeds_all_axes = false;
   /// G61.1 and G61 before the move; false: a dwell of no time after it.
   bool has_stop_mode = false;
+  /// A device that does what it has when its link is cut gets no more motion than this ahead of its
+  /// axes, long moves in pieces; absent: a device that stops by itself.
+  std::optional<double> seconds_ahead;
   std::optional<double> max_rpm, min_rpm;  ///< of a spindle that is on, where they are known
   bool has_mist = true;
   bool homes = true;  ///< the axes are homed before every program

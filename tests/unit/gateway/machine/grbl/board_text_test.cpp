@@ -47,9 +47,11 @@ Position point(double x, double y, double z) {
 class BoardText : public testing::Test {
  protected:
   void make(const BoardInfo& board) {
-    writer = MotionWriter(board.rules());
+    streamed::TextRules rules = board.rules();
+    rules.seconds_ahead.reset();  // every move in one piece
+    writer = MotionWriter(rules);
     writer.begin({});
-    commands.begin(board.rules());
+    commands.begin(rules);
   }
   BoardText() { make(board_of()); }
   Lines rapid(double x, double y, double z) {

@@ -211,11 +211,11 @@ TEST(GrblMachine, ProbesAndEndsAtTheContact) {
   EXPECT_TRUE(result->tripped);
   EXPECT_NEAR(result->at.raw(Axis::Z), -3.25, 1e-6);
   EXPECT_NEAR(shop.board.position()[2], -3.25, 1e-3) << "moved back from where it has braked";
-  shop.program.line(5, -3.25, 600);
+  shop.program.line(5, -3.25, 3000);
   shop.program.end();
   ASSERT_TRUE(shop.pass_until_over());
   EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
-  EXPECT_EQ(shop.board.lines.back(), "G1X5F600");
+  EXPECT_EQ(shop.board.lines.back(), "G1X5F3000");
 }
 
 TEST(GrblMachine, ReportsAProbeWithoutContact) {

@@ -31,7 +31,7 @@ Feed feed(double mm) {
 }
 
 struct Writer {
-  explicit Writer(TextRules rules = three_axes()) : writer(rules) { writer.begin({}); }
+  explicit Writer(const TextRules& rules = three_axes()) : writer(rules) { writer.begin({}); }
   MotionText line(interpreter::Position to, Feed at, bool rests = false) {
     MotionText text;
     refusal = writer.line({.origin = {}, .to = to, .feed = at, .rests = rests}, text);
@@ -96,6 +96,31 @@ TEST(MotionWriter, AFeedOfRotaryAxesIsTheDevicesOwnKind) {
   Writer all(rules);
   EXPECT_THAT(all.line(point({{Axis::X, 3}, {Axis::A, 4}}), feed(600)).lines,
               ElementsAre("G61G1X3A4F1000"));
+}
+
+TEST(MotionWriter, LongMovesAreWrittenInPiecesWhereTheDeviceHasLittleAhead) {
+  TextRules rules = three_axes();
+  rules.has_stop_mode = false;
+  rules.seconds_ahead = 1;
+  Writer it(rules);
+  const MotionText text = it.line(point({{Axis::X, 10}, {Axis::Y, -1}}), feed(600));
+  EXPECT_THAT(text.lines,
+              ElementsAre("G1X2Y-0.2F600", "G1X4Y-0.4", "G1X6Y-0.6", "G1X8Y-0.8", "G1X10Y-1"));
+  EXPECT_NEAR(text.seconds, std::sqrt(101) / 10, 1e-9);
+  EXPECT_THAT(it.line(point({{Axis::X, 12}}), feed(600), true).lines, ElementsAre("G1X12", "G4P0"));
+  EXPECT_THAT(it.line(point({{Axis::X, 12.004}}), feed(0.06)).lines,
+              ElementsAre("G1X12.0005F0.06", "G1X12.0015", "G1X12.0025", "G1X12.004"))
+      << "a step at least";
+  MotionText arc;
+  EXPECT_FALSE(it.writer.arc({.origin = {},
+                              .to = point({{Axis::X, 2.004}, {Axis::Y, -1}}),
+                              .center_first = Length::mm(7.004),
+                              .center_second = Length::mm(-1),
+                              .sweep = Angle::degrees(180),
+                              .feed = feed(1200)},
+                             arc));
+  EXPECT_EQ(arc.lines.size(), 4U) << "0.785 s";
+  EXPECT_EQ(arc.lines.back(), "G17G2X2.004Y-1I3.535534J3.535534");
 }
 
 TEST(MotionWriter, RefusesWhatTheDeviceCannotDo) {
