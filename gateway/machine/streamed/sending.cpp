@@ -1,0 +1,59 @@
+// What may be sent ahead of the axes.
+#include <cmath>
+
+#include "gateway/machine/streamed/streamed_machine.hpp"
+
+namespace dripline::machine::streamed {
+
+void StreamedMachine::pump(const Lock&) {
+  if (!is_released_ || !may_begin()) return;
+  if (!has_begun_ && !check_position(expected_)) return;
+  has_begun_ = true;
+  if (!device_.prepare(now())) return;
+  for (; next_ < queue_.size(); ++next_) {
+    Action& action = queue_[next_];
+    const bool must_wait = is_single_block_ && action.origin.block != queue_.front().origin.block;
+    if (!must_wait && std::holds_alternative<BlockEnd>(action.body)) continue;
+    auto* motion = std::get_if<Motion>(&action.body);
+    if (must_wait || motion == nullptr) return device_.await_execution();
+    const double seconds = action.seconds / static_cast<double>(motion->lines.size());
+    for (; motion->sent < motion->lines.size(); ++motion->sent) {
+      const std::string& line = motion->lines[motion->sent];
+      if (!may_be_ahead(seconds) || !device_.may_send(line.size())) return;
+      motion->last_serial = device_.send(line, !line.starts_with("G4"), {});
+      ahead_.push_back({motion->last_serial, seconds});
+      seconds_ahead_ += seconds;
+    }
+    expected_ = motion->end;
+  }
+}
+
+/// Two lines at least are under way, so that the axes pass from one to the next.
+bool StreamedMachine::may_be_ahead(double seconds) {
+  constexpr std::size_t kLeastLines = 2;
+  for (; !ahead_.empty() && ahead_.front().serial <= device_.executed(); ahead_.pop_front())
+    seconds_ahead_ -= ahead_.front().seconds;
+  if (ahead_.empty()) seconds_ahead_ = 0;
+  const auto& limit = device_.rules().seconds_ahead;
+  return !limit || ahead_.size() < kLeastLines || seconds_ahead_ + seconds <= *limit;
+}
+
+/// With nothing in motion the axes must be where the program has sent them.
+bool StreamedMachine::check_position(const Coordinates& expected) {
+  if (!device_.is_at_rest()) return false;
+  const TextRules& rules = device_.rules();
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    if (!rules.has(i)) continue;
+    const double is_at = device_.position()[i];
+    if (std::fabs(is_at - expected[i]) <= rules.axes[i]->tolerance) continue;
+    device_.raise("MCH0009",
+                  fmt::format("{} is at {:.3f}, the program has it at {:.3f}: the machine does not "
+                              "do what it was sent",
+                              letter_of(i), is_at, expected[i]),
+                  now());
+    return false;
+  }
+  return true;
+}
+
+}  // namespace dripline::machine::streamed
