@@ -70,7 +70,7 @@ class GrblKill : public GrblSystem {
   void expect_truth(const std::string& state) {
     const auto run = system->wait_ended(id);
     EXPECT_EQ(run.value("state", ""), state) << run.dump();
-    const auto executed = run.value("executed", std::size_t{0});
+    executed = run.value("executed", std::size_t{0});
     EXPECT_LE(executed, truth + kSilent) << "claims what was not done: " << run.dump();
     EXPECT_GE(executed + kMaxAhead + kOwnerLate, truth + kSilent) << run.dump();
     EXPECT_EQ(blocks_done(), truth) << "nothing moves by itself";
@@ -81,7 +81,7 @@ class GrblKill : public GrblSystem {
   }
   std::mt19937 random{20'261'123};
   std::string id;
-  std::size_t at_cut = 0, truth = 0, unknown = 0;
+  std::size_t at_cut = 0, truth = 0, executed = 0, unknown = 0;
 };
 
 TEST_F(GrblKill, OfTheGatewayDoesNoBlockTwiceSkipsNoneAndClaimsNone) {
@@ -122,6 +122,7 @@ TEST_F(GrblKill, OfTheServerIsNotFelt) {
       command(id, "abort");
     });
     expect_truth("aborted");
+    EXPECT_EQ(executed, truth + kSilent) << "an abort counts what the axes have passed";
   }
 }
 

@@ -27,6 +27,18 @@ bool is_on_path(const Coordinates& point, const Coordinates& from, const Coordin
   return true;
 }
 
+enum class Place : std::uint8_t { Elsewhere, OnPath, End };
+
+/// Every point of a path is at most its length from both of its ends together; for a straight move
+/// there are no others. An arc may pass its end before it is there.
+Place place_on(const Motion& motion, const Coordinates& at) {
+  constexpr double kSlack = 0.01;  // the device's own rounding and arc tolerance
+  const double to_end = distance(at, motion.end);
+  if (distance(motion.from, at) + to_end > motion.length + kSlack) return Place::Elsewhere;
+  const bool is_straight = distance(motion.from, motion.end) > motion.length - kSlack / 2;
+  return is_straight && motion.length > kSlack && to_end < kSlack / 2 ? Place::End : Place::OnPath;
+}
+
 }  // namespace
 
 /// The sink is called without the mutex: a hold must not wait for a disk.
@@ -86,6 +98,7 @@ bool StreamedMachine::deliver(Lock& lock) {
     return false;
   }
   if (is_aborting_) {
+    if (deliver_passed(lock)) return true;
     end_abort(lock);
     return false;
   }
@@ -100,6 +113,24 @@ bool StreamedMachine::deliver_executed(Lock& lock) {
                            motion->last_serial > 0 && device_.executed() >= motion->last_serial;
   const bool is_end = is_released_ && std::holds_alternative<BlockEnd>(queue_.front().body);
   return (is_executed || is_end) && finish_front(lock);
+}
+
+/// With the axes at rest after an abort: motion that they have passed, though no report had shown
+/// it yet. Where a path crosses itself, the first place counts: nothing is claimed that was not
+/// done.
+bool StreamedMachine::deliver_passed(Lock& lock) {
+  if (!device_.is_at_rest() || !is_released_) return false;
+  for (std::size_t i = 0; i < queue_.size(); ++i) {
+    const auto* motion = std::get_if<Motion>(&queue_[i].body);
+    if (motion == nullptr && !std::holds_alternative<BlockEnd>(queue_[i].body)) return false;
+    if (motion == nullptr) continue;
+    if (motion->sent == 0) return false;
+    const Place place = place_on(*motion, device_.position());
+    if (place == Place::Elsewhere) continue;
+    const bool is_passed = place == Place::End && motion->sent == motion->lines.size();
+    return (i > 0 || is_passed) && finish_front(lock);
+  }
+  return false;
 }
 
 bool StreamedMachine::deliver_front(Lock& lock) {

@@ -40,13 +40,18 @@ void QueueBuilder::add_motion(const Event& event, MotionKind kind,
                                                                             MotionText&)) {
   if (is_closed_) return;
   MotionText text;
+  const Coordinates from = motion_.at();
   if (auto refusal = (motion_.*write)(event, text))
     return refuse(event.origin, *std::move(refusal));
   if (text.lines.empty()) return;  // less than a step
   Action* action = add(event.origin);
   action->seconds = text.seconds;
   lines_ += text.lines.size();
-  action->body = Motion{.lines = std::move(text.lines), .end = text.end, .kind = kind};
+  action->body = Motion{.lines = std::move(text.lines),
+                        .from = from,
+                        .end = text.end,
+                        .length = text.length,
+                        .kind = kind};
 }
 
 template <class Event>

@@ -16,7 +16,8 @@ namespace dripline::machine::streamed {
 /// Lines that move the axes; they are streamed, also many blocks of them ahead.
 struct Motion {
   std::vector<std::string> lines;
-  Coordinates end{};
+  Coordinates from{}, end{};
+  double length = 0;  ///< of the path
   MotionKind kind = MotionKind::None;
   std::size_t sent = 0;           ///< of the lines
   std::uint64_t last_serial = 0;  ///< of the last line, when all are sent

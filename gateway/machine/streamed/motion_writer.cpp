@@ -21,12 +21,6 @@ constexpr std::size_t kMaxPieces = 4096;  ///< of one move
 /// Of a move, where a device may have so many seconds ahead: several of them are always under way.
 constexpr double kPieceSeconds = 0.25;
 
-double distance(const Coordinates& from, const Coordinates& to) {
-  double square = 0;
-  for (std::size_t i = 0; i < kMaxAxes; ++i) square += (to[i] - from[i]) * (to[i] - from[i]);
-  return std::sqrt(square);
-}
-
 /// The length that a program's feed is for: that of the linear axes, if any moves.
 double program_distance(const Coordinates& from, const Coordinates& to) {
   double linear = 0, rotary = 0;
@@ -42,6 +36,12 @@ bool is_finite(const Coordinates& point) {
 }
 
 }  // namespace
+
+double distance(const Coordinates& from, const Coordinates& to) {
+  double square = 0;
+  for (std::size_t i = 0; i < kMaxAxes; ++i) square += (to[i] - from[i]) * (to[i] - from[i]);
+  return std::sqrt(square);
+}
 
 std::string trimmed(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", value, decimals);
@@ -206,6 +206,7 @@ std::optional<Refusal> MotionWriter::straight_line(const Motion& motion, const C
   }
   if (auto refusal = append(std::move(line), text)) return refusal;
   text.seconds += seconds_of(to, motion.feed);
+  text.length += distance(at_, to);
   at_ = to;
   return std::nullopt;
 }
@@ -286,6 +287,7 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
   }
   text.end = to;
   text.seconds = length / feed * 60;
+  text.length = length;
   append_rest(event.rests, text);
   return std::nullopt;
 }

@@ -10,6 +10,7 @@ namespace dripline::machine::streamed {
 struct MotionText {
   std::vector<std::string> lines;  ///< G-code without line ends
   double seconds = 0;              ///< at 100 % override, without acceleration
+  double length = 0;               ///< of the path, all axes
   Coordinates end{};               ///< where it ends
 };
 

@@ -81,6 +81,7 @@ class StreamedMachine : public MotionBackend {
   bool check_position(const Coordinates& expected);
   bool deliver(Lock& lock);
   bool deliver_executed(Lock& lock);
+  bool deliver_passed(Lock& lock);
   bool deliver_front(Lock& lock);
   bool deliver_motion(Lock& lock);
   bool deliver_command(Lock& lock);

@@ -60,6 +60,8 @@ inline char letter_of(std::size_t axis) {
 /// Marks the axes that the device has.
 interpreter::Position position_of(const Coordinates& point, const TextRules& rules);
 Coordinates coordinates_of(const interpreter::Position& position);
+/// Of all axes, degrees as millimeters.
+double distance(const Coordinates& from, const Coordinates& to);
 /// Without trailing zeros and a minus before nothing: every byte is time on the line.
 std::string trimmed(double value, int decimals);
 

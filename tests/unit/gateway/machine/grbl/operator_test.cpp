@@ -72,7 +72,26 @@ TEST_F(GrblOperator, AbortKeepsThePosition) {
   EXPECT_EQ(moved_in(5), 0);
   EXPECT_NEAR(shop.x(), shop.board.position()[0], 1e-3);
   EXPECT_TRUE(shop.machine.check_begin(shop.machine.status().position)) << "no alarm of the board";
-  EXPECT_LE(shop.recorder.blocks.size(), shop.board.done.size());
+  EXPECT_EQ(shop.recorder.blocks.size(), shop.board.done.size());
+}
+
+TEST_F(GrblOperator, AnAbortCountsWhatTheAxesHavePassedAndNoMore) {
+  for (const double after : {0.1, 0.93, 1.27, 2.0}) {
+    GrblShop other;
+    other.begin();
+    other.program.line(3, 0, 1200);
+    other.program.arc(3, 0, 0, 0, 360, 1200);
+    for (int i = 0; i < 20; ++i) other.program.line(i % 2 == 0 ? 5 : 4, -0.3 * i, 1200);
+    ASSERT_TRUE(other.pass_until([&] { return other.board.is_moving(); }));
+    other.pass(after);
+    other.machine.abort();
+    ASSERT_TRUE(other.pass_until_over(5));
+    constexpr std::size_t kCircle = 4;  // lines
+    const std::size_t lines = other.board.done.size();
+    const std::size_t blocks =
+        lines > kCircle ? lines - kCircle + 1 : std::min<std::size_t>(lines, 1);
+    EXPECT_EQ(other.recorder.blocks.size(), blocks) << after;
+  }
 }
 
 TEST_F(GrblOperator, EmergencyStopEndsTheProgramWhenItIsReleased) {
