@@ -5,13 +5,15 @@
 
 #include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
+#include "storage/actor.hpp"
 #include "storage/page.hpp"
 
 namespace dripline::storage {
 
 struct AuditEntry {
   UtcTime time;
-  std::string who, action, subject, detail;
+  Actor who;
+  std::string action, subject, detail;
 };
 
 /// Promises of every store: storage/store.hpp.

@@ -8,6 +8,7 @@
 #include "protocol/base/clock.hpp"
 #include "protocol/base/digest.hpp"
 #include "protocol/base/result.hpp"
+#include "storage/actor.hpp"
 #include "storage/page.hpp"
 
 namespace dripline::storage {
@@ -38,7 +39,7 @@ struct ProgramSummary {
 /// A program that gets another name, or a copy of one.
 struct ProgramMove {
   std::string from, to;
-  std::string who;
+  Actor who;
 };
 
 /// Names with immutable revisions; content is addressed by its SHA-256. Promises of every store:
@@ -62,10 +63,10 @@ class ProgramStore {
   /// in force stays as it is. The audit entry (program.accept, program.reject) is part of the
   /// transaction. Errors: NotFound.
   virtual Result<Revision> accept(const std::string& program, std::uint64_t number,
-                                  const std::string& who) = 0;
+                                  const Actor& who) = 0;
   /// Hides a held revision forever. Errors: NotFound, Conflict (it is not held).
   virtual Result<void> reject(const std::string& program, std::uint64_t number,
-                              const std::string& who) = 0;
+                              const Actor& who) = 0;
   /// Makes a new program of the latest revision, or of the one with that number; the audit entry
   /// (program.copy) is part of the transaction. Errors: NotFound, Syntax and LimitExceeded (the new
   /// name), Conflict (it exists, or is the same; the revision is held).

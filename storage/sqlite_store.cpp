@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "storage/impl/account_repository.hpp"
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/upload_repository.hpp"
@@ -55,7 +56,8 @@ struct SqliteStore::Repositories {
         records(*connections, clock),
         ports(*connections),
         setups(*connections, clock),
-        audit(*connections) {}
+        audit(*connections),
+        accounts(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -66,6 +68,7 @@ struct SqliteStore::Repositories {
   PortRepository ports;
   SetupRepository setups;
   AuditRepository audit;
+  AccountRepository accounts;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -79,7 +82,7 @@ Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions&
 SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
     : Store{repositories->programs, repositories->uploads, repositories->machines,
             repositories->runs,     repositories->records, repositories->ports,
-            repositories->setups,   repositories->audit},
+            repositories->setups,   repositories->audit,   repositories->accounts},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "storage/account_store.hpp"
 #include "storage/audit_store.hpp"
 #include "storage/machine_store.hpp"
 #include "storage/port_store.hpp"
@@ -11,7 +12,7 @@
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: eight interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: nine interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -24,6 +25,7 @@ struct Store {
   PortStore& ports;
   SetupStore& setups;
   AuditStore& audit;
+  AccountStore& accounts;
 };
 
 }  // namespace dripline::storage

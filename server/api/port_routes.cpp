@@ -202,7 +202,7 @@ Response receive_program(Services& services, ports::PortControl& ports, const Re
 }
 
 Response stop_transfer(Services& services, ports::PortControl& ports, const Request& request) {
-  const auto stopped = ports.stop_transfer(request.parameter("name"), "stopped by " + request.who);
+  const auto stopped = ports.stop_transfer(request.parameter("name"), "stopped by " + request.who.name);
   if (!stopped) return error_response(stopped.error());
   note(services, request, "port.stop", "");
   return no_content();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "protocol/base/result.hpp"
+#include "storage/actor.hpp"
 
 namespace dripline::api {
 
@@ -28,7 +29,7 @@ struct Request {
   std::map<std::string, std::string> headers;  ///< names in lower case
   std::string body;
   std::map<std::string, std::string> parameters;  ///< `{name}` of the route; set by the router
-  std::string who;                                ///< the owner of the token; set by the API
+  storage::Actor who;                             ///< the caller; set by the API
 
   std::string header(const std::string& lower_case_name) const;
   const std::string& parameter(const std::string& name) const { return parameters.at(name); }

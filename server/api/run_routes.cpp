@@ -87,7 +87,7 @@ namespace {
 Response start_run(Services& services, const Request& request) {
   auto start = decode_start(request.body);
   if (!start) return error_response(start.error());
-  start->author = request.who;
+  start->author = request.who.name;
   const auto run = services.machines.start(*start);
   if (!run) return error_response(run.error());
   services.audit.write(
@@ -107,7 +107,7 @@ Response restart_run(Services& services, const Request& request) {
   start.machine = original->machine;
   start.program = original->program;
   start.revision = original->revision;
-  start.author = request.who;
+  start.author = request.who.name;
   start.restart = {original->id, *at};
   const auto run = services.machines.start(start);
   if (!run) return error_response(run.error());

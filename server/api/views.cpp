@@ -248,7 +248,9 @@ json report_json(const storage::Run& run) {
 
 json audit_json(const storage::AuditEntry& entry) {
   return {{"time", to_iso8601(entry.time)},
-          {"who", entry.who},
+          {"who", entry.who.name},
+          {"credential", entry.who.credential},
+          {"address", entry.who.address},
           {"action", entry.action},
           {"subject", entry.subject},
           {"detail", entry.detail}};

@@ -14,7 +14,8 @@ class AuditTrail {
   AuditTrail(storage::AuditStore& store, const Clock& clock) : store_(store), clock_(clock) {}
 
   struct Change {
-    std::string who, action, subject, detail;
+    storage::Actor who;
+    std::string action, subject, detail;
   };
   void write(Change change);
   Result<std::vector<storage::AuditEntry>> entries(storage::Page page) { return store_.list(page); }

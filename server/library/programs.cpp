@@ -24,7 +24,7 @@ Programs::Programs(const storage::Store& store, const Clock& clock, const Contro
       audit_(audit),
       titles_(store.programs) {}
 
-Result<storage::Upload> Programs::begin(const UploadRequest& request, const std::string& who) {
+Result<storage::Upload> Programs::begin(const UploadRequest& request, const storage::Actor& who) {
   if (auto name = check_program_name(request.program); !name) return fail(name.error());
   if (request.comment.size() > kMaxComment) {
     return fail(Errc::LimitExceeded, "comment of {} bytes: at most {}", request.comment.size(),
@@ -37,7 +37,7 @@ Result<storage::Upload> Programs::begin(const UploadRequest& request, const std:
   upload.program = request.program;
   upload.control = request.control;
   upload.comment = request.comment;
-  upload.author = who;
+  upload.author = who.name;
   upload.created = clock_.now();
   upload.is_held = request.is_held;
   return uploads_.begin(upload);
@@ -77,7 +77,7 @@ Result<storage::Upload> Programs::append(const std::string& id, std::uint64_t of
 }
 
 Result<Committed> Programs::commit(const std::string& id, const std::optional<Digest>& expected,
-                                   const std::string& who, Protection protection) {
+                                   const storage::Actor& who, Protection protection) {
   const auto session = this->session(id);
   const std::lock_guard lock(session->mutex);
   auto upload = uploads_.find(id);
@@ -119,16 +119,18 @@ Result<void> Programs::abandon(const std::string& id) {
 }
 
 Result<storage::Revision> Programs::accept(const std::string& program, std::uint64_t number,
-                                           const std::string& who) {
+                                           const storage::Actor& who) {
   auto accepted = store_.accept(program, number, who);
-  if (accepted) process::log_info("accepted program={} revision={} by={}", program, number, who);
+  if (accepted)
+    process::log_info("accepted program={} revision={} by={}", program, number, who.name);
   return accepted;
 }
 
 Result<void> Programs::reject(const std::string& program, std::uint64_t number,
-                              const std::string& who) {
+                              const storage::Actor& who) {
   auto rejected = store_.reject(program, number, who);
-  if (rejected) process::log_info("rejected program={} revision={} by={}", program, number, who);
+  if (rejected)
+    process::log_info("rejected program={} revision={} by={}", program, number, who.name);
   return rejected;
 }
 
@@ -147,7 +149,7 @@ Result<void> Programs::check_protection(const std::string& program,
               revision->number);
 }
 
-Result<void> Programs::remove(const std::string& program, const std::string& who,
+Result<void> Programs::remove(const std::string& program, const storage::Actor& who,
                               Protection protection) {
   if (protection == Protection::Respect) {
     if (auto free = check_protection(program, std::nullopt); !free) {
@@ -179,14 +181,14 @@ Result<storage::Revision> Programs::copy(const storage::ProgramMove& move,
                                          std::optional<std::uint64_t> number) {
   auto copy = store_.copy(move, number);
   if (!copy) return fail(in_control_words(move, copy.error()));
-  process::log_info("copied program={} to={} by={}", move.from, move.to, move.who);
+  process::log_info("copied program={} to={} by={}", move.from, move.to, move.who.name);
   return copy;
 }
 
 Result<void> Programs::rename(const storage::ProgramMove& move) {
   auto renamed = store_.rename(move);
   if (!renamed) return fail(in_control_words(move, renamed.error()));
-  process::log_info("renamed program={} to={} by={}", move.from, move.to, move.who);
+  process::log_info("renamed program={} to={} by={}", move.from, move.to, move.who.name);
   return renamed;
 }
 

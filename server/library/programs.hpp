@@ -44,7 +44,7 @@ class Programs {
            AuditTrail& audit);
 
   /// Errors: Syntax, LimitExceeded (name, comment), Unsupported (control; names the known ones).
-  Result<storage::Upload> begin(const UploadRequest& request, const std::string& who);
+  Result<storage::Upload> begin(const UploadRequest& request, const storage::Actor& who);
   Result<storage::Upload> upload(const std::string& id) { return uploads_.find(id); }
   /// Errors: those of ContentCheck and detect_control (the upload is dropped then), NotFound,
   /// Conflict (a gap or an overlap).
@@ -54,7 +54,7 @@ class Programs {
   /// those of append, Syntax (empty), Corrupt (the digest is another one), Conflict (the
   /// newest revision is protected; the upload is dropped).
   Result<Committed> commit(const std::string& id, const std::optional<Digest>& expected,
-                           const std::string& who, Protection protection = Protection::Respect);
+                           const storage::Actor& who, Protection protection = Protection::Respect);
   Result<void> abandon(const std::string& id);
 
   Result<std::vector<storage::ProgramSummary>> list(storage::Page page) {
@@ -74,11 +74,11 @@ class Programs {
   }
   /// Puts a held revision in force. Errors: NotFound.
   Result<storage::Revision> accept(const std::string& program, std::uint64_t number,
-                                   const std::string& who);
+                                   const storage::Actor& who);
   /// Hides a held revision forever. Errors: NotFound, Conflict (it is in force).
-  Result<void> reject(const std::string& program, std::uint64_t number, const std::string& who);
+  Result<void> reject(const std::string& program, std::uint64_t number, const storage::Actor& who);
   /// Errors: NotFound, Busy, Conflict (protected).
-  Result<void> remove(const std::string& program, const std::string& who,
+  Result<void> remove(const std::string& program, const storage::Actor& who,
                       Protection protection = Protection::Respect);
   /// Promises of both: storage::ProgramStore.
   Result<storage::Revision> copy(const storage::ProgramMove& move,

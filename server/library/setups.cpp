@@ -4,7 +4,7 @@
 
 namespace dripline::library {
 
-Result<SavedSetup> Setups::save(const SetupText& text, const std::string& who) {
+Result<SavedSetup> Setups::save(const SetupText& text, const storage::Actor& who) {
   if (text.comment.size() > kMaxComment) {
     return fail(Errc::LimitExceeded, "a comment of {} bytes, at most {}", text.comment.size(),
                 kMaxComment);
@@ -21,7 +21,7 @@ Result<SavedSetup> Setups::save(const SetupText& text, const std::string& who) {
   setup.machine = text.machine;
   setup.text = text.text;
   setup.comment = text.comment;
-  setup.author = who;
+  setup.author = who.name;
   auto saved = store_.save(setup, text.base);
   if (!saved) return fail(saved.error());
   const bool is_unchanged = before && before->number == saved->number;

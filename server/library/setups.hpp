@@ -31,7 +31,7 @@ class Setups {
 
   /// Errors: Syntax, Unsupported, LimitExceeded (what the control would not take, with key and
   /// line; the comment; the size), Conflict (`base` is not the newest any more).
-  Result<SavedSetup> save(const SetupText& text, const std::string& who);
+  Result<SavedSetup> save(const SetupText& text, const storage::Actor& who);
   /// Newest first, without their texts.
   Result<std::vector<storage::SetupRevision>> list(const std::string& machine,
                                                    storage::Page page) const {

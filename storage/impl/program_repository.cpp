@@ -94,7 +94,7 @@ Result<Revision> copy_program(sqlite::Database& database, const ProgramMove& mov
   upload.program = move.to;
   upload.control = source->control;
   upload.comment = fmt::format("copy of {} revision {}", source->program, source->number);
-  upload.author = move.who;
+  upload.author = move.who.name;
   auto copy = publish_revision(database, upload, (*content)->id, now);
   if (!copy) return copy;
   const std::string detail =
@@ -188,14 +188,14 @@ Result<Revision> ProgramRepository::revision(const std::string& program,
 }
 
 Result<Revision> ProgramRepository::accept(const std::string& program, std::uint64_t number,
-                                           const std::string& who) {
+                                           const Actor& who) {
   return connections_.write([&](sqlite::Database& database) {
     return accept_revision(database, {program, number, who, clock_.now()});
   });
 }
 
 Result<void> ProgramRepository::reject(const std::string& program, std::uint64_t number,
-                                       const std::string& who) {
+                                       const Actor& who) {
   return connections_.write([&](sqlite::Database& database) {
     return reject_revision(database, {program, number, who, clock_.now()});
   });

@@ -19,9 +19,8 @@ class ProgramRepository final : public ProgramStore {
   Result<Revision> revision(const std::string& program,
                             std::optional<std::uint64_t> number) override;
   Result<Revision> accept(const std::string& program, std::uint64_t number,
-                          const std::string& who) override;
-  Result<void> reject(const std::string& program, std::uint64_t number,
-                      const std::string& who) override;
+                          const Actor& who) override;
+  Result<void> reject(const std::string& program, std::uint64_t number, const Actor& who) override;
   Result<Revision> copy(const ProgramMove& move, std::optional<std::uint64_t> number) override;
   Result<void> rename(const ProgramMove& move) override;
   Result<void> remove(const std::string& program) override;

@@ -9,10 +9,12 @@
 namespace dripline::storage {
 
 Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry) {
-  return sqlite::run(database,
-                     "INSERT INTO audit (time_us, who, action, subject, detail) "
-                     "VALUES (?1, ?2, ?3, ?4, ?5)",
-                     entry.time, entry.who, entry.action, entry.subject, entry.detail);
+  return sqlite::run(
+      database,
+      "INSERT INTO audit (time_us, who, action, subject, detail, credential, address) "
+      "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
+      entry.time, entry.who.name, entry.action, entry.subject, entry.detail, entry.who.credential,
+      entry.who.address);
 }
 
 Result<void> AuditRepository::add(const AuditEntry& entry) {
@@ -23,10 +25,15 @@ Result<std::vector<AuditEntry>> AuditRepository::list(Page page) {
   return connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(
         database,
-        "SELECT time_us, who, action, subject, detail FROM audit ORDER BY id DESC "
+        "SELECT time_us, who, action, subject, detail, credential, address FROM audit "
+        "ORDER BY id DESC "
         "LIMIT ?1 OFFSET ?2",
         [](const sqlite::Statement& row) {
-          return AuditEntry{row.time(0), row.text(1), row.text(2), row.text(3), row.text(4)};
+          return AuditEntry{row.time(0),
+                            {row.text(1), row.text(5), row.text(6)},
+                            row.text(2),
+                            row.text(3),
+                            row.text(4)};
         },
         page.limit, page.offset);
   });

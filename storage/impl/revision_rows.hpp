@@ -35,7 +35,7 @@ Result<Revision> publish_revision(sqlite::Database& database, const Upload& uplo
 struct Judgment {
   std::string program;
   std::uint64_t number = 0;
-  std::string who;
+  Actor who;
   UtcTime time;
 };
 /// Promises of both: storage/program_store.hpp.

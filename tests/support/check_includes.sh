@@ -30,9 +30,10 @@ gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite
 server/library: protocol/base protocol/process storage gateway/interpreter server/library
+server/identity: protocol/base protocol/process storage server/library server/identity
 server/machines: protocol storage gateway/interpreter server/library server/machines
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
-server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/api
+server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/api
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
 clients/lib: protocol/base clients/lib
@@ -78,6 +79,7 @@ only 'dds/' protocol/dds
 only 'SQLiteCpp|sqlite3' storage/sqlite
 only 'boost/' server/api
 only 'httplib' clients/lib
+only 'sodium' server/identity
 
 echo "$checked includes checked"
 exit $bad

@@ -22,11 +22,11 @@ class ProgramStoreDecorator : public storage::ProgramStore {
     return inner_.revision(program, number);
   }
   Result<storage::Revision> accept(const std::string& program, std::uint64_t number,
-                                   const std::string& who) override {
+                                   const storage::Actor& who) override {
     return inner_.accept(program, number, who);
   }
   Result<void> reject(const std::string& program, std::uint64_t number,
-                      const std::string& who) override {
+                      const storage::Actor& who) override {
     return inner_.reject(program, number, who);
   }
   Result<storage::Revision> copy(const storage::ProgramMove& move,
@@ -114,16 +114,16 @@ class RecordStoreDecorator : public storage::RecordStore {
 
 /// `store` with one of its parts replaced; the part must outlive it.
 inline storage::Store with(const storage::Store& store, storage::ProgramStore& programs) {
-  return {programs,      store.uploads, store.machines, store.runs,
-          store.records, store.ports,   store.setups,   store.audit};
+  return {programs,    store.uploads, store.machines, store.runs,    store.records,
+          store.ports, store.setups,  store.audit,    store.accounts};
 }
 inline storage::Store with(const storage::Store& store, storage::MachineStore& machines) {
-  return {store.programs, store.uploads, machines,     store.runs,
-          store.records,  store.ports,   store.setups, store.audit};
+  return {store.programs, store.uploads, machines,    store.runs,    store.records,
+          store.ports,    store.setups,  store.audit, store.accounts};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
-  return {store.programs, store.uploads, store.machines, store.runs,
-          records,        store.ports,   store.setups,   store.audit};
+  return {store.programs, store.uploads, store.machines, store.runs,    records,
+          store.ports,    store.setups,  store.audit,    store.accounts};
 }
 
 }  // namespace dripline::test_support

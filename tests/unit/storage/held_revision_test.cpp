@@ -80,7 +80,7 @@ TEST_F(HeldRevision, AcceptedIsInForceFromThenOnAndWrittenDown) {
   EXPECT_EQ(store_->programs.list({})->at(0).held, 0u);
   const auto entry = store_->audit.list({})->at(0);
   EXPECT_EQ(entry.action, "program.accept");
-  EXPECT_EQ(entry.who, "boss");
+  EXPECT_EQ(entry.who.name, "boss");
   EXPECT_EQ(entry.subject, "p.nc");
   EXPECT_EQ(entry.detail, "revision 2 sha256 " + accepted->content.hex());
   EXPECT_TRUE(store_->programs.accept("p.nc", 2, "boss")) << "twice is no harm";

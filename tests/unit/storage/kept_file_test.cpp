@@ -89,9 +89,27 @@ TEST_P(KeptFile, HasSetupsSinceVersion3) {
   EXPECT_EQ(store_->setups.find("m1", 1)->text, "[[tool]]\nnumber = 4\n");
 }
 
+TEST_P(KeptFile, HasAccountsSinceVersion7) {
+  reopen();
+  const auto accounts = store_->accounts.load();
+  ASSERT_TRUE(accounts) << accounts.error().what;
+  const bool has_them = std::string_view(GetParam()) >= "v7.sql";
+  EXPECT_EQ(accounts->users.size(), has_them ? 3u : 0u);
+  EXPECT_EQ(accounts->credentials.size(), has_them ? 2u : 0u);
+  EXPECT_EQ(accounts->groups.at(0).name, kAllMachines) << "always there";
+  EXPECT_EQ(store_->audit.list({})->at(0).who.address, "");
+  if (!has_them) return;
+  const User& anna = accounts->users.at(1);
+  EXPECT_EQ(anna.role, Role::Operator);
+  EXPECT_EQ(anna.state, UserState::Locked);
+  EXPECT_EQ(anna.groups, std::set<std::string>{"lathes"});
+  EXPECT_EQ(accounts->users.at(2).state, UserState::Removed);
+  EXPECT_EQ(accounts->groups.at(1).machines, std::set<std::string>{"m1"});
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql",
-                                         "v6.sql"),
+                                         "v6.sql", "v7.sql"),
                          [](const auto& i) { return std::string(i.param, 2); });
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST_F(ProgramMoveTest, ACopyBeginsWithTheLatestRevision) {
   EXPECT_EQ(store_->programs.revisions("O1")->size(), 2u) << "what was copied stays";
   EXPECT_EQ(last_entry().action, "program.copy");
   EXPECT_EQ(last_entry().subject, "O2");
-  EXPECT_EQ(last_entry().who, "cam");
+  EXPECT_EQ(last_entry().who.name, "cam");
   const auto old = copy("O1", "O3", 1);
   ASSERT_TRUE(old);
   EXPECT_EQ(pull(old->content), "G0 X1\n");

@@ -219,7 +219,7 @@ TEST_F(AuditTest, EntriesComeNewestFirst) {
   EXPECT_EQ(page->at(0).action, "abort");
   EXPECT_EQ(page->at(1).action, "start");
   EXPECT_EQ(page->at(0).time, clock_.now());
-  EXPECT_EQ(page->at(0).who, "cam");
+  EXPECT_EQ(page->at(0).who.name, "cam");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ TEST_F(ProgramsTest, StoreAnUploadAsARevisionAndAuditIt) {
   EXPECT_EQ(revision.content, sha256("O1\nM30\n"));
   const auto entries = audit_->entries({});
   ASSERT_TRUE(entries && entries->size() == 1);
-  EXPECT_EQ(entries->front().who, "cam");
+  EXPECT_EQ(entries->front().who.name, "cam");
   EXPECT_EQ(entries->front().action, "program.store");
   EXPECT_EQ(entries->front().subject, "O1.nc");
 }
