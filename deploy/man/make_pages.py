@@ -117,7 +117,7 @@ def dnc_page(program):
 
 def keys_of(program):
     """An option `--dds-domain NUMBER` is the key `dds-domain`."""
-    rows = [row for row in Help(program).options() if not row[0].startswith(("--config", "--begin-empty"))]
+    rows = [row for row in Help(program).options() if not row[0].startswith(("--config", "--begin-empty", "--recover-admin"))]
     return rows_of([[name.removeprefix("--"), text] for name, text in rows])
 
 

@@ -1,27 +1,18 @@
 #include "server/api/api.hpp"
 
-#include <openssl/crypto.h>
 #include <nlohmann/json.hpp>
 
-#include "protocol/base/digest.hpp"
 #include "protocol/process/log.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
 
-namespace {
-
-/// Requests that need no token; their handlers do not wait.
-bool is_open_to_all(const Request& request) {
-  const auto& path = request.target.segments;
-  return path.size() == 3 && path[0] == "api" && path[1] == "v1" &&
-         (path[2] == "health" || path[2] == "openapi.json");
-}
-
-}  // namespace
-
-Api::Api(Services services, Token token)
-    : services_(std::move(services)), token_(std::move(token)) {
+Api::Api(Services services)
+    : services_(std::move(services)),
+      access_({.accounts = services_.accounts,
+               .runs = services_.runs,
+               .ports = services_.ports,
+               .has_tls = services_.has_tls}) {
   add_server_routes(router_, services_);
   add_program_routes(router_, services_);
   add_upload_routes(router_, services_);
@@ -31,23 +22,45 @@ Api::Api(Services services, Token token)
   add_setup_routes(router_, services_);
   add_memory_routes(router_, services_);
   add_port_routes(router_, services_);
+  add_account_routes(router_, services_);
+  router_.change_routes([this](Router::Route& route) { protect(route); });
+}
+
+/// A route without a permission must not be served, not even by mistake.
+void Api::protect(Router::Route& route) {
+  route.permission = find_permission(route.method, route.pattern);
+  if (route.permission == nullptr) {
+    process::log_error("{} {} names no permission", route.method, route.pattern);
+    std::abort();
+  }
+  if (route.permission->machine == MachineIn::Nowhere) return;
+  route.handler = [this, row = route.permission,
+                   handler = std::move(route.handler)](const Request& request) {
+    if (auto refused = access_.judge_machine(request, *row)) return *std::move(refused);
+    return handler(request);
+  };
 }
 
 std::optional<Response> Api::judge(Request& head) const {
-  if (is_open_to_all(head)) return route(head);
-  if (is_authorized(token_, head.header("authorization"))) {
-    head.who = token_.name;
-    return std::nullopt;
-  }
-  Response response =
-      error_response({Errc::Denied, "send the server's token: Authorization: Bearer TOKEN"});
-  response.headers.emplace_back("WWW-Authenticate", "Bearer");
-  return response;
+  const Router::Route* const found = router_.find(head);
+  if (auto refused = access_.judge(head, found)) return refused;
+  const bool is_open =
+      found != nullptr && found->permission->permission == identity::Permission::Open;
+  // Health and description do not wait, and are answered when every worker is busy.
+  if (is_open && head.method == "GET") return route(head);
+  return std::nullopt;
 }
 
 Response Api::handle(Request request) const {
   if (auto judged = judge(request)) return *std::move(judged);
-  return route(std::move(request));
+  const auto caller = request.caller;
+  Response response = route(std::move(request));
+  if (response.events && caller) {
+    response.is_allowed = [&accounts = services_.accounts, caller = *caller] {
+      return accounts.is_valid(caller);
+    };
+  }
+  return response;
 }
 
 Response Api::route(Request request) const {
@@ -85,15 +98,6 @@ machines::MachineListener publish_to(EventHub& hub) {
               [publish](const storage::Record& record) {
                 publish("record", record.machine, [&] { return record_json(record); });
               }};
-}
-
-bool is_authorized(const Token& token, const std::string& authorization) {
-  constexpr std::string_view kScheme = "Bearer ";
-  if (token.secret.empty() || !authorization.starts_with(kScheme)) return false;
-  // Digests have one length, so the time does not depend on the token's length either.
-  const Digest given = sha256(std::string_view(authorization).substr(kScheme.size()));
-  const Digest right = sha256(token.secret);
-  return CRYPTO_memcmp(given.bytes.data(), right.bytes.data(), Digest::kSize) == 0;
 }
 
 }  // namespace dripline::api

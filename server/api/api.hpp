@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/clock.hpp"
+#include "server/api/access_control.hpp"
 #include "server/api/event_hub.hpp"
 #include "server/api/router.hpp"
+#include "server/identity/accounts.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
@@ -18,15 +20,6 @@
 #include "server/ports/port_control.hpp"
 
 namespace dripline::api {
-
-/// A bearer token and the name under which its changes are audited.
-struct Token {
-  std::string name;
-  std::string secret;
-};
-
-/// Whether `authorization` ("Bearer ...") has this token. Takes the same time wherever they differ.
-bool is_authorized(const Token& token, const std::string& authorization);
 
 /// The constant part of the answer to `GET /api/v1/server`.
 struct ServerFacts {
@@ -42,24 +35,27 @@ struct Services {
   machines::MachineControl& machines;
   library::RunHistory& runs;
   library::AuditTrail& audit;
+  identity::Accounts& accounts;
   EventHub& events;
   const Clock& clock;
   ServerFacts facts;
   std::function<std::uint64_t()> dds_rejected;
   ports::PortControl* ports = nullptr;  ///< null: a server without serial ports
   library::Health* health = nullptr;    ///< null: always ok
+  bool has_tls = false;                 ///< the sockets in front of it do
 };
 
 /// The REST API without its sockets: a request in, a response out. Any thread, several at once;
 /// handlers wait for storage and for gateways, so never on a thread that serves sockets.
 class Api {
  public:
-  Api(Services services, Token token);
+  /// Every route must be in the table of route_permissions.
+  explicit Api(Services services);
   Api(const Api&) = delete;  // the handlers refer to our services
   Api& operator=(const Api&) = delete;
-  /// The answer that needs only the request's head, before its body is read and without waiting: a
-  /// request without the token is refused, health and OpenAPI description need no token. Otherwise
-  /// nullopt, and `head.who` is the owner of the token.
+  /// The answer that needs only the request's head, before its body is read and without waiting: of
+  /// a caller who is not known or may not, and of health and OpenAPI description, which anybody may
+  /// read. Otherwise nullopt, and the caller is set in `head`.
   std::optional<Response> judge(Request& head) const;
   /// Calls `judge`, finds the handler and runs it. Never throws.
   Response handle(Request request) const;
@@ -74,8 +70,10 @@ class Api {
  private:
   Response route(Request request) const;
 
+  void protect(Router::Route& route);
+
   Services services_;
-  Token token_;
+  AccessControl access_;
   Router router_;
 };
 
@@ -99,6 +97,7 @@ void add_report_routes(Router& router, Services& services);
 void add_setup_routes(Router& router, Services& services);
 void add_memory_routes(Router& router, Services& services);
 void add_port_routes(Router& router, Services& services);
+void add_account_routes(Router& router, Services& services);
 
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer
 /// `limit` (default 100) and `offset`.

@@ -23,6 +23,7 @@ class JsonObject {
   /// Errors: Syntax (not JSON, not an object, nested too deep, a member twice), LimitExceeded.
   static Result<JsonObject> parse(std::string_view text);
 
+  bool has(const std::string& name) const { return members_.contains(name); }
   std::string required_text(const std::string& name, std::size_t longest);
   std::optional<std::string> optional_text(const std::string& name, std::size_t longest);
   std::optional<std::uint64_t> optional_unsigned(const std::string& name);

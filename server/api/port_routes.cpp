@@ -202,7 +202,8 @@ Response receive_program(Services& services, ports::PortControl& ports, const Re
 }
 
 Response stop_transfer(Services& services, ports::PortControl& ports, const Request& request) {
-  const auto stopped = ports.stop_transfer(request.parameter("name"), "stopped by " + request.who.name);
+  const auto stopped =
+      ports.stop_transfer(request.parameter("name"), "stopped by " + request.who.name);
   if (!stopped) return error_response(stopped.error());
   note(services, request, "port.stop", "");
   return no_content();

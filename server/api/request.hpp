@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "protocol/base/result.hpp"
-#include "storage/actor.hpp"
+#include "server/identity/accounts.hpp"
 
 namespace dripline::api {
 
@@ -29,7 +29,9 @@ struct Request {
   std::map<std::string, std::string> headers;  ///< names in lower case
   std::string body;
   std::map<std::string, std::string> parameters;  ///< `{name}` of the route; set by the router
-  storage::Actor who;                             ///< the caller; set by the API
+  std::string address;                            ///< of the client; set by the sockets
+  storage::Actor who;                             ///< the caller, for authors and the audit trail
+  std::optional<identity::Caller> caller;         ///< set by the API; absent: anybody
 
   std::string header(const std::string& lower_case_name) const;
   const std::string& parameter(const std::string& name) const { return parameters.at(name); }

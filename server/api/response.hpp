@@ -25,6 +25,7 @@ struct Response {
   BodySource source;
   std::optional<std::uint64_t> source_length;  ///< if known
   std::shared_ptr<EventSubscription> events;
+  std::function<bool()> is_allowed;  ///< asked while `events` are sent; false ends them
 };
 
 Response json_response(int status, const nlohmann::json& value);

@@ -39,6 +39,17 @@ void Router::add(std::string method, std::string_view pattern, Handler handler, 
                      .waits = waits});
 }
 
+const Router::Route* Router::find(const Request& request) const {
+  const auto found = std::ranges::find_if(routes_, [&](const Route& route) {
+    return route.method == request.method && match(route.segments, request.target.segments);
+  });
+  return found == routes_.end() ? nullptr : &*found;
+}
+
+void Router::change_routes(const std::function<void(Route&)>& change) {
+  for (auto& route : routes_) change(route);
+}
+
 bool Router::waits_for_machine(const Request& request) const {
   return std::ranges::any_of(routes_, [&](const Route& route) {
     return route.waits == Waits::ForMachine && route.method == request.method &&

@@ -9,6 +9,7 @@
 #include "protocol/process/log.hpp"
 #include "server/api/api.hpp"
 #include "server/api/http_server.hpp"
+#include "server/identity/accounts.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/health.hpp"
@@ -26,7 +27,6 @@ namespace {
 constexpr auto kUploadLife = std::chrono::hours(24);
 /// Of the database, for damage; what a bigger one needs longer for is looked at beside the work.
 constexpr std::chrono::seconds kCheckBeforeStart{10};
-constexpr const char* kTokenName = "admin";  ///< who, in the audit trail
 
 std::string host_name() {
   std::array<char, 256> name{};
@@ -92,12 +92,13 @@ api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
 /// In the order of their making; each may use those above it.
 struct Server::Parts {
   Parts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
-        const Settings& settings, const Clock& system_clock, std::string token)
+        const Settings& settings, const Clock& system_clock, const storage::AccountData& users)
       : clock(system_clock),
         folder(std::move(state_folder)),
         store(std::move(opened)),
         health(clock),
         audit(store->audit, clock),
+        accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, users),
         programs(*store, clock, catalog, audit),
         runs(*store),
         setups(store->setups, catalog, audit),
@@ -111,6 +112,7 @@ struct Server::Parts {
              .machines = machines,
              .runs = runs,
              .audit = audit,
+             .accounts = accounts,
              .events = events,
              .clock = clock,
              .facts = {.name = host_name(),
@@ -120,8 +122,8 @@ struct Server::Parts {
                        .dds_domain = settings.dds_domain},
              .dds_rejected = [this] { return machine_service.rejected().messages; },
              .ports = &ports,
-             .health = &health},
-            {.name = kTokenName, .secret = std::move(token)}),
+             .health = &health,
+             .has_tls = !settings.tls_key.empty()}),
         tidied(clock.steady_now()) {}
 
   machines::MachineService::Options machine_options() {
@@ -162,6 +164,7 @@ struct Server::Parts {
   library::Health health;
   library::DialectCatalog catalog;
   library::AuditTrail audit;
+  identity::Accounts accounts;
   library::Programs programs;
   library::RunHistory runs;
   library::Setups setups;
@@ -194,6 +197,7 @@ struct Server::Parts {
     if (!sound) return sound;
     if (!is_announced) announce();
     ports.open_due();
+    accounts.store_uses();
     return sound;
   }
 
@@ -242,11 +246,15 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (auto known = folder->remember_database(*identity); !known) return fail(known.error());
   const auto is_checked = (*store)->check(kCheckBeforeStart);
   if (!is_checked) return fail(is_checked.error());
-  auto token = folder->token();
+  const auto token = folder->token();
   if (!token) return fail(token.error());
-  std::unique_ptr<Server> server(new Server(
-      std::make_unique<Parts>(*folder, *std::move(store), settings, clock, *std::move(token))));
+  const auto users = (*store)->accounts.load();
+  if (!users) return fail(users.error());
+  std::unique_ptr<Server> server(
+      new Server(std::make_unique<Parts>(*folder, *std::move(store), settings, clock, *users)));
   Parts& parts = *server->parts_;
+  if (auto used = parts.accounts.use_local_secret(*token, settings.recover_admin); !used)
+    return fail(used.error());
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint =
@@ -296,6 +304,7 @@ void Server::tidy() {
   } else if (*dropped > 0) {
     process::log_info("dropped {} abandoned uploads", *dropped);
   }
+  parts_->accounts.tidy();
 }
 
 }  // namespace dripline::app

@@ -236,6 +236,8 @@ CommandLine read_command_line(int argc, const char* const* argv) {
       ->type_name("FILE");
   program.add_flag("--begin-empty", line.settings.begin_empty,
                    "Start with an empty database if this folder's database is missing");
+  program.add_flag("--recover-admin", line.settings.recover_admin,
+                   "Make user admin an active administrator again, with this folder's token");
   process::SettingsReader reader(std::span<const Row>(kRows), line.settings);
   reader.declare(program);
   try {

@@ -30,6 +30,7 @@ struct Settings {
   std::uint32_t log_mb = 10;
   std::uint32_t log_files = 5;
   bool begin_empty = false;          ///< on the command line alone, for one start
+  bool recover_admin = false;        ///< likewise
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
 };
 

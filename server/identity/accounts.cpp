@@ -156,6 +156,19 @@ bool Accounts::may_act_on(const Caller& caller, const std::string& machine) cons
   return found != nullptr && directory_.may_act_on(*found, machine);
 }
 
+std::set<std::string> Accounts::groups_of(const Caller& caller) const {
+  const std::lock_guard lock(mutex_);
+  const User* const owner = directory_.user(caller.user);
+  if (owner == nullptr) return {};
+  const std::set<std::string> every{storage::kAllMachines};
+  const auto& owners = owner->role == Role::Administrator ? every : owner->groups;
+  if (!caller.groups || caller.groups->contains(storage::kAllMachines)) return owners;
+  if (owners.contains(storage::kAllMachines)) return *caller.groups;
+  std::set<std::string> both;
+  std::ranges::set_intersection(owners, *caller.groups, std::inserter(both, both.end()));
+  return both;
+}
+
 // -- sessions -------------------------------------------------------------------------------------
 
 /// A name that no user has may be a password in the wrong field, so it is not written down.

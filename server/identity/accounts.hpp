@@ -93,6 +93,7 @@ class Accounts {
   };
   /// Errors: those of AccountStore::load.
   static Result<std::unique_ptr<Accounts>> open(const Parts& parts, const Options& options);
+  Accounts(const Parts& parts, const Options& options, const storage::AccountData& data);
 
   /// At the start: `secret` is the token of user kFirstUser that the state folder keeps; a server
   /// without users makes that user first. When it is no longer an active administrator the secret
@@ -105,6 +106,8 @@ class Accounts {
   /// Whether the caller's credential is still valid, for answers that never end.
   bool is_valid(const Caller& caller) const;
   bool may_act_on(const Caller& caller, const std::string& machine) const;
+  /// The groups whose machines the caller may act on.
+  std::set<std::string> groups_of(const Caller& caller) const;
   RefusalLog& refusals() { return refusals_; }
 
   // -- sessions --
@@ -167,8 +170,6 @@ class Accounts {
   static constexpr std::chrono::hours kMaxSessionLife{720};
 
  private:
-  Accounts(const Parts& parts, const Options& options, const storage::AccountData& data);
-
   void note(const storage::Actor& who, std::string action, std::string subject, std::string detail);
   void note_refused(const SignIn& request, bool is_known, std::string_view why);
   Result<User> known_user(const std::string& name) const;

@@ -10,8 +10,8 @@ void AuditTrail::write(Change change) {
                                   .subject = std::move(change.subject),
                                   .detail = std::move(change.detail)};
   if (auto written = store_.add(entry); !written) {
-    process::log_error("audit entry lost who={} action={} subject={}: {}", entry.who.name, entry.action,
-                       entry.subject, written.error().what);
+    process::log_error("audit entry lost who={} action={} subject={}: {}", entry.who.name,
+                       entry.action, entry.subject, written.error().what);
   }
 }
 

@@ -38,6 +38,17 @@ constexpr auto kDiscardLimit = 5s;  ///< for a refused body to be read away
 constexpr std::uint64_t kDiscardSize = 8ull * 1024 * 1024;
 constexpr int kStreamBuffer = 64 * 1024;  ///< bytes that the kernel buffers for a listener
 
+/// An IPv4 client of a socket for both protocols has its IPv4 address.
+std::string address_text(const asio::ip::tcp::socket& socket) {
+  error_code error;
+  const auto peer = socket.remote_endpoint(error);
+  if (error) return {};
+  const auto& address = peer.address();
+  if (address.is_v6() && address.to_v6().is_v4_mapped())
+    return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
+  return address.to_string();
+}
+
 class Session final : public HttpSession, public std::enable_shared_from_this<Session> {
  public:
   Session(HttpShared& shared, std::unique_ptr<Transport> transport, bool is_reserve)
@@ -46,7 +57,8 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
         transport_(std::move(transport)),
         is_reserve_(is_reserve),
         buffer_(kMaxBuffer),
-        woken_(shared.io) {}
+        woken_(shared.io),
+        address_(address_text(transport_->socket())) {}
 
   void close() override {
     is_closed_ = true;
@@ -93,6 +105,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       co_await refuse(refused);
       co_return false;
     }
+    request->address = address_;
     is_head_only_ = request->method == "HEAD";
     std::optional<Response> judged;
     if (shared_.handlers.judge) judged = shared_.handlers.judge(*request);
@@ -325,6 +338,8 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     std::string text = ": events follow\n\n";
     bool continues = co_await write(head);
     while (continues && may_continue() && !is_left_) {
+      // A token that was revoked reads nothing more.
+      if (response.is_allowed && !response.is_allowed()) break;
       const std::string chunk = framing.is_chunked ? chunk_text(text) : text;
       continues = co_await write(chunk);
       const auto beat = Clock::now() + shared_.options.heartbeat;
@@ -357,6 +372,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   const bool is_reserve_;
   beast::flat_buffer buffer_;
   Signal woken_;
+  const std::string address_;  ///< of the client
   bool is_closed_ = false;
   bool is_abandoned_ = false;
   bool is_answered_ = false;

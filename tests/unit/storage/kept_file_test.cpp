@@ -108,8 +108,8 @@ TEST_P(KeptFile, HasAccountsSinceVersion7) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
-                         testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql",
-                                         "v6.sql", "v7.sql"),
+                         testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
+                                         "v7.sql"),
                          [](const auto& i) { return std::string(i.param, 2); });
 
 }  // namespace

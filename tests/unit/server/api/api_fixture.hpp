@@ -21,7 +21,14 @@ class ApiTest : public ServerTest {
  protected:
   using Json = nlohmann::json;
 
-  ApiTest() { make_api(&ports_); }
+  ApiTest() {
+    const identity::Accounts::Options cheap{.hashing = {.cost = {.passes = 1, .memory = 8192}}};
+    accounts_ = identity::Accounts::open(
+                    {.store = store_->accounts, .audit = *audit_, .clock = clock_}, cheap)
+                    .value();
+    EXPECT_TRUE(accounts_->use_local_secret(kSecret, false));
+    make_api(&ports_);
+  }
 
   void make_api(ports::PortControl* ports) {
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
@@ -29,6 +36,7 @@ class ApiTest : public ServerTest {
                                                     .machines = machines_,
                                                     .runs = *runs_,
                                                     .audit = *audit_,
+                                                    .accounts = *accounts_,
                                                     .events = events_,
                                                     .clock = clock_,
                                                     .facts = {.name = "office",
@@ -38,8 +46,7 @@ class ApiTest : public ServerTest {
                                                               .dds_domain = 3},
                                                     .dds_rejected = [] { return std::uint64_t{4}; },
                                                     .ports = ports,
-                                                    .health = &health_},
-                                      api::Token{.name = "admin", .secret = kSecret});
+                                                    .health = &health_});
   }
 
   api::Response call(const std::string& method, const std::string& target, const Call& call = {}) {
@@ -49,7 +56,9 @@ class ApiTest : public ServerTest {
     request.method = method;
     request.target = parsed.value_or(api::Target{});
     request.headers = call.headers;
-    request.headers["authorization"] = "Bearer " + call.token;
+    if (!call.token.empty()) request.headers["authorization"] = "Bearer " + call.token;
+    request.headers.emplace("content-length", std::to_string(call.body.size()));
+    request.address = "192.0.2.1";
     request.body = call.body;
     return api_->handle(std::move(request));
   }
@@ -129,6 +138,20 @@ class ApiTest : public ServerTest {
     return run.id;
   }
 
+  /// A token of a user with this role, who is made when there is none yet and has every machine.
+  std::string token_of(const std::string& role) {
+    const identity::Caller admin =
+        accounts_->find({identity::PresentedSecret::From::Bearer, kSecret}, "").value();
+    identity::NewUser user{.name = "a-" + role, .role = storage::parse_role(role).value()};
+    user.groups = {storage::kAllMachines};
+    (void)accounts_->add_user(admin, user);
+    (void)accounts_->revoke(admin, user.name, "test");
+    const auto issued = accounts_->add_token(admin, user.name, {.name = "test"});
+    EXPECT_TRUE(issued) << issued.error().what;
+    return issued ? issued->secret : "";
+  }
+
+  std::unique_ptr<identity::Accounts> accounts_;
   FakeMachines machines_;
   FakePorts ports_;
   library::Health health_{clock_};

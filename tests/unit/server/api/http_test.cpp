@@ -115,6 +115,36 @@ TEST_F(Http, StreamsWhatPassesOverALineToOurClient) {
   EXPECT_TRUE(has_traffic);
 }
 
+/// Whoever listens when the token is revoked hears nothing more.
+TEST_F(Http, EndsTheStreamOfATokenThatIsRevoked) {
+  const std::string secret = token_of("viewer");
+  bool has_begun = false;
+  const auto answer = client(secret).Get("/api/v1/events", [&](const char*, std::size_t) {
+    if (std::exchange(has_begun, true)) return true;
+    EXPECT_EQ(call("DELETE", "/api/v1/users/a-viewer/tokens/test").status, 204);
+    return true;
+  });
+  ASSERT_TRUE(answer) << "the stream ended by itself";
+  EXPECT_TRUE(has_begun);
+  EXPECT_EQ(client(secret).Get("/api/v1/server")->status, 401);
+}
+
+TEST_F(Http, ReadsNoLargeBodyOfAStranger) {
+  const std::string body =
+      R"({"user":"admin","password":")" + std::string(1 << 20, 'x') + R"(","bearer":true})";
+  httplib::Client stranger("127.0.0.1", server_->port());
+  const auto answer = stranger.Post("/api/v1/session", body, "application/json");
+  EXPECT_TRUE(!answer || answer->status == 413);
+}
+
+TEST_F(Http, EntersTheClientsAddressIntoTheAuditTrail) {
+  EXPECT_EQ(client().Put("/api/v1/machine-groups/lathes", "", "application/json")->status, 201);
+  const auto entry = audit_->entries({})->at(0);
+  EXPECT_EQ(entry.action, "group.add");
+  EXPECT_EQ(entry.who.address, "127.0.0.1");
+  EXPECT_EQ(entry.who.credential, "local");
+}
+
 TEST_F(Http, RefusesDeepJsonAndBadUrls) {
   const std::string deep = std::string(10'000, '[') + std::string(10'000, ']');
   const auto answer = client().Post("/api/v1/runs", deep, "application/json");

@@ -70,6 +70,52 @@ class OpenApi : public ApiTest {
                                              Json::parse(line)),
               "");
   }
+  void expect_accounts_described() {
+    const std::string user = "/api/v1/users/{name}";
+    expect_described("POST", "/api/v1/users",
+                     post("/api/v1/users", {{"name", "anna"},
+                                            {"role", "operator"},
+                                            {"groups", {"all"}},
+                                            {"password", "correct horse"}}));
+    const auto login =
+        post("/api/v1/session",
+             {{"user", "anna"}, {"password", "correct horse"}, {"bearer", true}, {"hours", 1}});
+    EXPECT_EQ(login.status, 201) << login.body;
+    expect_described("POST", "/api/v1/session", login);
+    const std::string secret = json(login).value("secret", "");
+    const Call of_anna{.body = {}, .headers = {}, .token = secret};
+    expect_described("GET", "/api/v1/session", call("GET", "/api/v1/session", of_anna));
+    expect_described("GET", "/api/v1/session", get("/api/v1/session"));
+    expect_described("GET", "/api/v1/users", get("/api/v1/users"));
+    expect_described("GET", user, get("/api/v1/users/anna"));
+    expect_described(
+        "PUT", user,
+        call("PUT", "/api/v1/users/anna", {.body = R"({"locked":false})", .headers = {}}));
+    expect_described("POST", user + "/tokens",
+                     post("/api/v1/users/anna/tokens",
+                          {{"name", "mes"}, {"role", "viewer"}, {"groups", {"all"}}, {"days", 7}}));
+    expect_described("GET", user + "/tokens", get("/api/v1/users/anna/tokens"));
+    EXPECT_EQ(json(get("/api/v1/users/anna/tokens"))["tokens"].size(), 2u);
+    expect_described("DELETE", user + "/tokens/{token}",
+                     call("DELETE", "/api/v1/users/anna/tokens/mes"));
+    expect_described("DELETE", "/api/v1/session", call("DELETE", "/api/v1/session", of_anna));
+    expect_described("PUT", user + "/password",
+                     call("PUT", "/api/v1/users/anna/password",
+                          {.body = R"({"password":"another horse"})", .headers = {}}));
+    const std::string group = "/api/v1/machine-groups/{group}";
+    for (const int status : {201, 200}) {
+      const auto put = call("PUT", "/api/v1/machine-groups/lathes");
+      EXPECT_EQ(put.status, status);
+      expect_described("PUT", group, put);
+    }
+    expect_described("PUT", group + "/machines/{machine}",
+                     call("PUT", "/api/v1/machine-groups/lathes/machines/lathe-1"));
+    expect_described("GET", "/api/v1/machine-groups", get("/api/v1/machine-groups"));
+    expect_described("DELETE", group + "/machines/{machine}",
+                     call("DELETE", "/api/v1/machine-groups/lathes/machines/lathe-1"));
+    expect_described("DELETE", group, call("DELETE", "/api/v1/machine-groups/lathes"));
+    expect_described("DELETE", user, call("DELETE", "/api/v1/users/anna"));
+  }
   void expect_setups_described() {
     const std::string path = "/api/v1/machines/lathe-1/setup";
     const Call text{.body = "[[tool]]\nnumber = 1\n", .headers = {}};
@@ -125,6 +171,24 @@ class OpenApi : public ApiTest {
   Json document_;
   std::set<std::string> covered_;
 };
+
+TEST_F(OpenApi, NamesThePermissionOfEveryRoute) {
+  std::size_t operations = 0;
+  for (const auto& [path, item] : document_["paths"].items()) {
+    for (const auto& [verb, operation] : item.items()) {
+      std::string method;
+      for (const char c : verb) method += static_cast<char>(c - 'a' + 'A');
+      const auto* const row = api::find_permission(method, path);
+      ASSERT_NE(row, nullptr) << method << " " << path << " has no row in route_permissions";
+      EXPECT_EQ(operation.value("x-permission", ""), identity::to_string(row->permission))
+          << method << " " << path;
+      const bool is_open = operation.contains("security") && operation["security"].empty();
+      EXPECT_EQ(is_open, row->permission == identity::Permission::Open) << method << " " << path;
+      ++operations;
+    }
+  }
+  EXPECT_EQ(operations, api::route_permissions().size()) << "a row without a route";
+}
 
 TEST_F(OpenApi, DescribesEveryRouteAndNothingElse) {
   std::set<std::string> described;
@@ -205,6 +269,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_described("POST", "/api/v1/programs/{name}/rename",
                    post("/api/v1/programs/O20/rename", {{"to", "O21"}}));
   expect_described("DELETE", "/api/v1/programs/{name}", call("DELETE", "/api/v1/programs/O2"));
+  expect_accounts_described();
   for (const auto& route : api_->router().routes()) {
     EXPECT_TRUE(covered_.contains(route.method + " " + route.pattern))
         << route.method << " " << route.pattern << " is not covered by this test";

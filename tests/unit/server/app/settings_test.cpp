@@ -109,11 +109,26 @@ TEST(Settings, WithWrongUseEndWithTwo) {
   EXPECT_EQ(read({"--config", "/nowhere/dncd.toml"}).exit_code, 2);
   const auto help = read({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* option :
-       {"--state", "--http", "--tls-certificate", "--tls-key", "--http-connections",
-        "--http-connections-per-address", "--http-event-streams", "--dds-domain", "--dds-tag",
-        "--dds-interface", "--dds-open-network", "--discovery-interval-ms", "--lease-ms", "--log",
-        "--log-level", "--log-mb", "--log-files", "--config", "--begin-empty"}) {
+  for (const char* option : {"--state",
+                             "--http",
+                             "--tls-certificate",
+                             "--tls-key",
+                             "--http-connections",
+                             "--http-connections-per-address",
+                             "--http-event-streams",
+                             "--dds-domain",
+                             "--dds-tag",
+                             "--dds-interface",
+                             "--dds-open-network",
+                             "--discovery-interval-ms",
+                             "--lease-ms",
+                             "--log",
+                             "--log-level",
+                             "--log-mb",
+                             "--log-files",
+                             "--config",
+                             "--begin-empty",
+                             "--recover-admin"}) {
     EXPECT_NE(help.print.find(option), std::string::npos) << option;
   }
 }

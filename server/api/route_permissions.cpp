@@ -1,0 +1,97 @@
+#include "server/api/route_permissions.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace dripline::api {
+namespace {
+
+using enum identity::Permission;
+using enum MachineIn;
+
+constexpr std::array kRoutes{
+    RoutePermission{"GET", "/api/v1/health", Open},
+    RoutePermission{"GET", "/api/v1/openapi.json", Open},
+    RoutePermission{"GET", "/api/v1/server", View},
+    RoutePermission{"GET", "/api/v1/audit", Approve},
+    RoutePermission{"GET", "/api/v1/events", View},
+
+    RoutePermission{"POST", "/api/v1/session", Open},
+    RoutePermission{"GET", "/api/v1/session", SignedIn},
+    RoutePermission{"DELETE", "/api/v1/session", SignedIn},
+    RoutePermission{"GET", "/api/v1/users", Administer},
+    RoutePermission{"POST", "/api/v1/users", Administer},
+    RoutePermission{"GET", "/api/v1/users/{name}", SignedIn},
+    RoutePermission{"PUT", "/api/v1/users/{name}", Administer},
+    RoutePermission{"DELETE", "/api/v1/users/{name}", Administer},
+    RoutePermission{"PUT", "/api/v1/users/{name}/password", SignedIn},
+    RoutePermission{"GET", "/api/v1/users/{name}/tokens", SignedIn},
+    RoutePermission{"POST", "/api/v1/users/{name}/tokens", SignedIn},
+    RoutePermission{"DELETE", "/api/v1/users/{name}/tokens/{token}", SignedIn},
+    RoutePermission{"GET", "/api/v1/machine-groups", View},
+    RoutePermission{"PUT", "/api/v1/machine-groups/{group}", Administer},
+    RoutePermission{"DELETE", "/api/v1/machine-groups/{group}", Administer},
+    RoutePermission{"PUT", "/api/v1/machine-groups/{group}/machines/{machine}", Administer},
+    RoutePermission{"DELETE", "/api/v1/machine-groups/{group}/machines/{machine}", Administer},
+
+    RoutePermission{"GET", "/api/v1/programs", View},
+    RoutePermission{"GET", "/api/v1/programs/{name}", View},
+    RoutePermission{"DELETE", "/api/v1/programs/{name}", Program},
+    RoutePermission{"POST", "/api/v1/programs/{name}/copy", Program},
+    RoutePermission{"POST", "/api/v1/programs/{name}/rename", Program},
+    RoutePermission{"POST", "/api/v1/programs/{name}/revisions/{number}/accept", Approve},
+    RoutePermission{"POST", "/api/v1/programs/{name}/revisions/{number}/reject", Approve},
+    RoutePermission{"GET", "/api/v1/programs/{name}/content", View},
+    RoutePermission{"POST", "/api/v1/uploads", Program},
+    RoutePermission{"GET", "/api/v1/uploads/{id}", Program},
+    RoutePermission{"PUT", "/api/v1/uploads/{id}/content", Program},
+    RoutePermission{"POST", "/api/v1/uploads/{id}/commit", Program},
+    RoutePermission{"DELETE", "/api/v1/uploads/{id}", Program},
+
+    RoutePermission{"GET", "/api/v1/machines", View},
+    RoutePermission{"GET", "/api/v1/machines/{name}", View},
+    RoutePermission{"POST", "/api/v1/machines/{name}/commands", Operate, Name},
+    RoutePermission{"GET", "/api/v1/machines/{name}/setups", View},
+    RoutePermission{"GET", "/api/v1/machines/{name}/setup", View},
+    RoutePermission{"PUT", "/api/v1/machines/{name}/setup", SetUp, Name},
+    RoutePermission{"GET", "/api/v1/machines/{name}/memory", View},
+
+    RoutePermission{"POST", "/api/v1/runs", Operate, Start},
+    RoutePermission{"GET", "/api/v1/runs", View},
+    RoutePermission{"GET", "/api/v1/runs/{id}", View},
+    RoutePermission{"POST", "/api/v1/runs/{id}/restart", Operate, Run},
+    RoutePermission{"POST", "/api/v1/runs/{id}/commands", Operate, Run},
+    RoutePermission{"GET", "/api/v1/runs/{id}/records", View},
+    RoutePermission{"GET", "/api/v1/machine-reports", View},
+    RoutePermission{"GET", "/api/v1/machines/{name}/report", View},
+    RoutePermission{"GET", "/api/v1/reports", View},
+    RoutePermission{"GET", "/api/v1/reports/{run}", View},
+
+    RoutePermission{"GET", "/api/v1/ports", View},
+    RoutePermission{"GET", "/api/v1/ports/{name}", View},
+    RoutePermission{"PUT", "/api/v1/ports/{name}", Administer},
+    RoutePermission{"DELETE", "/api/v1/ports/{name}", Administer},
+    RoutePermission{"POST", "/api/v1/ports/{name}/test", Administer},
+    RoutePermission{"POST", "/api/v1/ports/{name}/test-rules", View},
+    RoutePermission{"POST", "/api/v1/ports/{name}/transfers", Operate, Port},
+    RoutePermission{"POST", "/api/v1/ports/{name}/receive", Operate, Port},
+    RoutePermission{"DELETE", "/api/v1/ports/{name}/transfers", Operate, Port},
+    RoutePermission{"GET", "/api/v1/ports/{name}/recording", View},
+    RoutePermission{"GET", "/api/v1/ports/{name}/traffic", View},
+    RoutePermission{"GET", "/api/v1/port-templates", View},
+};
+
+}  // namespace
+
+std::span<const RoutePermission> route_permissions() {
+  return kRoutes;
+}
+
+const RoutePermission* find_permission(std::string_view method, std::string_view pattern) {
+  const auto found = std::ranges::find_if(kRoutes, [&](const RoutePermission& row) {
+    return row.method == method && row.pattern == pattern;
+  });
+  return found == kRoutes.end() ? nullptr : &*found;
+}
+
+}  // namespace dripline::api
