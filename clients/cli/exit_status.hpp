@@ -9,7 +9,8 @@ inline constexpr int kExitOk = 0;
 inline constexpr int kExitNo = 1;           ///< the program, the run or the server refused
 inline constexpr int kExitUsage = 2;        ///< usage, unreadable file, unknown control
 inline constexpr int kExitUnreachable = 3;  ///< no server, or not a Dripline server
-inline constexpr int kExitDenied = 4;       ///< the server does not accept the token
+inline constexpr int kExitDenied =
+    4;  ///< the server does not accept the token, or it may not do this
 inline constexpr int kExitClosedPipe =
     141;  ///< standard output has no reader any more, as for SIGPIPE
 inline constexpr int kExitInterrupted = 130;  ///< Ctrl-C

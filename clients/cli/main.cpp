@@ -15,14 +15,16 @@ constexpr const char* kAbout =
 constexpr const char* kFooter = R"(Which server:
   --server, else DRIPLINE_SERVER, else the local server's file STATE/dncd.json. STATE is --state,
   else DRIPLINE_STATE, else /var/lib/dripline (root), $XDG_STATE_HOME/dripline or
-  ~/.local/state/dripline. The token is --token-file's, else DRIPLINE_TOKEN, else the local
-  server's. These options may come before or after the verb.
+  ~/.local/state/dripline. The token is --token-file's, else DRIPLINE_TOKEN, else the one
+  that dnc login saved for this server (not with --state), else the local server's. These options
+  may come before or after the verb.
 
 Examples:
   dnc program push shaft.nc --name O0200 --control centurion
   dnc run start lathe-1 O0200 --follow
   dnc port add line-3 --machine mill-3 --address /dev/ttyUSB0 --template tnc155
   dnc report export latest --format csv -o profile.csv
+  dnc user add anna --role operator --group lathes --password
   dnc --server https://dnc.shop:8443 --ca shop-ca.pem --token-file ~/.dnc-token machine list
   dnc check shaft.nc
   dnc trace --control centurion --setup lathe.toml shaft.nc
@@ -34,7 +36,7 @@ Exit status:
   1    refused by the program, the run or the server
   2    usage, an unreadable file, an unknown control
   3    the server is not reachable
-  4    the server does not accept the token
+  4    the server does not accept the token, or its user may not do this
   130  interrupted by Ctrl-C; a watched run continues
 
 See `dnc VERB --help` and `dnc GROUP VERB --help`. NO_COLOR is respected.)";
@@ -95,6 +97,10 @@ int run(int argc, char** argv) {
   add_memory_commands(dnc, context);
   add_report_commands(dnc, context);
   add_server_commands(dnc, context);
+  add_login_commands(dnc, context);
+  add_user_commands(dnc, context);
+  add_token_commands(dnc, context);
+  add_group_commands(dnc, context);
   add_check_command(dnc, context);
   add_trace_command(dnc, context);
   add_edit_command(dnc, context);

@@ -219,6 +219,10 @@ DRIPLINE_API_TYPE(Traffic);
 DRIPLINE_API_TYPE(PortTest);
 DRIPLINE_API_TYPE(RuleVerdict);
 DRIPLINE_API_TYPE(PortTemplates);
+DRIPLINE_API_TYPE(Session);
+DRIPLINE_API_TYPE(User);
+DRIPLINE_API_TYPE(Token);
+DRIPLINE_API_TYPE(MachineGroup);
 #undef DRIPLINE_API_TYPE
 
 Result<Json> parse_json(std::string_view text) {

@@ -254,6 +254,34 @@ struct PortTemplate {
 struct PortSetting {
   std::string key, type, text, preset;
 };
+/// Who the caller is, and by which token or session.
+struct Session {
+  std::string user, role;
+  std::vector<std::string> groups;
+  std::string credential, kind, expires, address;
+  std::string secret;  ///< of a new one alone
+};
+
+struct User {
+  std::string name, role;
+  std::vector<std::string> groups;
+  bool locked = false, has_password = false;
+  std::string created, signed_in;
+};
+
+/// A token or a session of a user.
+struct Token {
+  std::string user, name, kind, role;
+  std::optional<std::vector<std::string>> groups;  ///< nullopt: those of its user
+  std::string created, expires, used, used_from;
+  std::string secret;  ///< of a new one alone
+};
+
+struct MachineGroup {
+  std::string name;
+  std::vector<std::string> machines;
+};
+
 struct PortTemplates {
   std::vector<PortTemplate> templates;
   std::vector<PortSetting> settings;  ///< all settings of a port

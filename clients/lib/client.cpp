@@ -42,10 +42,13 @@ Failure refusal(const HttpResponse& response, const std::string& url) {
       message = error->value("message", "");
     }
   }
+  if (response.status == 403 && !message.empty()) {
+    return {Failure::Kind::Denied, Errc::Denied, message};
+  }
   if (response.status == 401 || response.status == 403 || code == "denied") {
     return {Failure::Kind::Denied, Errc::Denied,
             fmt::format("server {} does not accept the token{}{}; expected the right one from "
-                        "--token-file FILE or DRIPLINE_TOKEN",
+                        "--token-file FILE, DRIPLINE_TOKEN or dnc login",
                         url, message.empty() ? "" : ": ", message)};
   }
   if (message.empty()) {
@@ -138,6 +141,13 @@ Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* me
   return list;
 }
 
+template Reply<Session> Client::fetch(HttpRequest, std::string_view);
+template Reply<User> Client::fetch(HttpRequest, std::string_view);
+template Reply<Token> Client::fetch(HttpRequest, std::string_view);
+template Reply<MachineGroup> Client::fetch(HttpRequest, std::string_view);
+template Reply<std::vector<User>> Client::fetch_list(const std::string&, const char*);
+template Reply<std::vector<Token>> Client::fetch_list(const std::string&, const char*);
+template Reply<std::vector<MachineGroup>> Client::fetch_list(const std::string&, const char*);
 template Reply<Port> Client::fetch(HttpRequest, std::string_view);
 template Reply<PortTest> Client::fetch(HttpRequest, std::string_view);
 template Reply<Transfer> Client::fetch(HttpRequest, std::string_view);

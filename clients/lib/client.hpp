@@ -100,6 +100,32 @@ struct PortRequest {
   bool enabled = true;
 };
 
+struct SignInRequest {
+  std::string user, password;
+  std::uint64_t hours = 12;
+};
+
+struct UserRequest {
+  std::string name, role;
+  std::vector<std::string> groups;
+  std::optional<std::string> password;
+};
+
+/// What is absent stays as it is.
+struct UserChange {
+  std::optional<std::string> role;
+  std::optional<std::vector<std::string>> groups;
+  std::optional<bool> locked;
+};
+
+struct TokenRequest {
+  std::string user, name;
+  /// Absent: as much as the user, and the token by which it is made, may have.
+  std::optional<std::string> role;
+  std::optional<std::vector<std::string>> groups;
+  std::uint64_t days = 90;
+};
+
 /// Typed calls for every endpoint of server/api/README.md; each is one HTTP exchange and is not
 /// repeated. One thread at a time.
 class Client {
@@ -167,6 +193,28 @@ class Client {
   /// Passes JSON lines of Traffic to `sink` as they arrive; false from it ends the call.
   Reply<void> recording(std::string_view name, const std::function<bool(std::string_view)>& sink);
   Reply<PortTemplates> port_templates();
+
+  /// Answers with a secret for the next calls.
+  Reply<Session> sign_in(const SignInRequest& request);
+  Reply<Session> session();
+  Reply<void> sign_out();
+  Reply<std::vector<User>> users();
+  Reply<User> user(std::string_view name);
+  Reply<User> add_user(const UserRequest& request);
+  Reply<User> change_user(std::string_view name, const UserChange& change);
+  /// `current`: of the caller who changes the own one; else empty.
+  Reply<void> set_password(std::string_view name, const std::string& password,
+                           const std::string& current);
+  Reply<void> remove_user(std::string_view name);
+  /// Sessions too.
+  Reply<std::vector<Token>> tokens(std::string_view user);
+  Reply<Token> add_token(const TokenRequest& request);
+  Reply<void> revoke_token(std::string_view user, std::string_view name);
+  Reply<std::vector<MachineGroup>> machine_groups();
+  Reply<MachineGroup> add_group(std::string_view name);
+  Reply<void> remove_group(std::string_view name);
+  Reply<MachineGroup> add_to_group(std::string_view group, std::string_view machine);
+  Reply<MachineGroup> remove_from_group(std::string_view group, std::string_view machine);
 
   Reply<std::vector<Report>> reports(const ReportQuery& query);
   /// `format`: text, csv or json. Passes the bytes to `sink` as they arrive; false from it ends

@@ -1,5 +1,7 @@
 #include "clients/lib/server_location.hpp"
 
+#include "clients/lib/saved_logins.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -106,9 +108,17 @@ Result<std::optional<std::string>> named_url(const LocationOptions& options,
 }
 
 Result<std::string> find_token(const LocationOptions& options, const Environment& environment,
+                               const std::string& url,
                                const std::optional<std::string>& local_token_file) {
   if (options.token_file) return read_token(*options.token_file);
   if (auto token = environment("DRIPLINE_TOKEN")) return *token;
+  // Who names the state folder wants the server's own token.
+  const auto file = options.state_dir ? std::nullopt : login_file(environment);
+  if (file) {
+    auto saved = SavedLogins(*file).find(url);
+    if (!saved) return fail(saved.error());
+    if (*saved) return **saved;
+  }
   if (local_token_file) return read_token(*local_token_file);
   return std::string();
 }
@@ -137,9 +147,11 @@ Result<ServerAddress> locate_server(const LocationOptions& options, const Enviro
   }
   const bool state_is_named = options.state_dir || environment("DRIPLINE_STATE");
   const bool is_local = local && (!*url || **url == local->url || state_is_named);
-  auto token = find_token(options, environment, is_local ? local->token_file : std::nullopt);
+  ServerAddress address{*url ? **url : local->url, {}, options.ca_file};
+  auto token =
+      find_token(options, environment, address.url, is_local ? local->token_file : std::nullopt);
   if (!token) return fail(token.error());
-  ServerAddress address{*url ? **url : local->url, *token, options.ca_file};
+  address.token = *std::move(token);
   if (!address.ca_file && is_local) address.ca_file = local->ca_file;
   return address;
 }

@@ -26,7 +26,8 @@ struct LocationOptions {
 /// Finds the server. Address: --server, DRIPLINE_SERVER, then `url` of STATE/dncd.json, which a
 /// local server writes. Token: --token-file, DRIPLINE_TOKEN (the token itself), then `token_file`
 /// of dncd.json; that last one is used only for the server which dncd.json names, or when the state
-/// folder was named explicitly, so that the local token is never sent elsewhere.
+/// folder was named explicitly, so that the local token is never sent elsewhere. A login that was
+/// saved for the address (saved_logins.hpp) comes before the local token, unless --state is given.
 /// Errors: Syntax (an address or dncd.json that is not as described), NotFound (no server is named
 /// anywhere), Io (a file that cannot be read).
 Result<ServerAddress> locate_server(const LocationOptions& options, const Environment& environment,

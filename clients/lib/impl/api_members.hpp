@@ -198,6 +198,28 @@ void members(V& v, Is<PortTemplates> auto& x) {
   DRIPLINE_MEMBERS(templates, settings);
 }
 
+template <class V>
+void members(V& v, Is<Session> auto& x) {
+  DRIPLINE_MEMBERS(user, role, groups, credential, kind, expires, address);
+  v.later("secret", x.secret);
+}
+
+template <class V>
+void members(V& v, Is<User> auto& x) {
+  DRIPLINE_MEMBERS(name, role, groups, locked, has_password, created, signed_in);
+}
+
+template <class V>
+void members(V& v, Is<Token> auto& x) {
+  DRIPLINE_MEMBERS(user, name, kind, role, groups, created, expires, used, used_from);
+  v.later("secret", x.secret);
+}
+
+template <class V>
+void members(V& v, Is<MachineGroup> auto& x) {
+  DRIPLINE_MEMBERS(name, machines);
+}
+
 #undef DRIPLINE_MEMBER
 #undef DRIPLINE_MEMBERS
 

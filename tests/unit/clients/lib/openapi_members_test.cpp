@@ -77,6 +77,10 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<Traffic>(), described("Traffic"));
   EXPECT_EQ(read_by_the_client<PortTest>(), described("PortTest"));
   EXPECT_EQ(read_by_the_client<RuleVerdict>(), described("RuleVerdict"));
+  EXPECT_EQ(read_by_the_client<Session>(), described("IssuedSession"));
+  EXPECT_EQ(read_by_the_client<User>(), described("User"));
+  EXPECT_EQ(read_by_the_client<Token>(), described("IssuedToken"));
+  EXPECT_EQ(read_by_the_client<MachineGroup>(), described("MachineGroup"));
   EXPECT_EQ(read_by_the_client<PortTemplates>(), described("PortTemplates"));
   EXPECT_EQ(read_by_the_client<PortTemplate>(), described("PortTemplate"));
   EXPECT_EQ(read_by_the_client<PortSetting>(), described("PortSetting"));
