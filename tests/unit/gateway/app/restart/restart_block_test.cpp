@@ -3,6 +3,8 @@
 // left.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <set>
 
 #include "gateway/interpreter/registry.hpp"
@@ -44,7 +46,21 @@ class RestartAfterBlock : public testing::TestWithParam<Part> {
     executed = cut.last_end().executed;
     EXPECT_LE(executed, block);
     cut.path.clear();
+    write_seed(cut, run, block);
     return cut.begin_restart("P", run);
+  }
+  /// For the fuzz target of checkpoints, which adds the seal itself: with DRIPLINE_CHECKPOINT_SEEDS
+  /// the content of the newest checkpoint becomes a file in that folder (tests/fuzz/seeds add).
+  void write_seed(const RestartFixture& cut, const std::string& run, std::uint64_t block) const {
+    const char* to = std::getenv("DRIPLINE_CHECKPOINT_SEEDS");
+    if (to == nullptr) return;
+    auto database = storage::sqlite::Database::open(cut.folder() / "outbox.sqlite").value();
+    const auto kept = report::CheckpointStore::list(database, run).value();
+    const auto bytes = report::CheckpointStore::read(database, run, kept.back().block)->bytes;
+    std::ofstream out(std::filesystem::path(to) / fmt::format("{}-{}", GetParam().control, block),
+                      std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()),
+              static_cast<std::streamsize>(bytes.size() - Digest::kSize));
   }
 };
 
