@@ -120,10 +120,12 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   if (!reader.is_complete() || !is_plausible(state) || !is_plausible(notes)) {
     return snapshot.damage();
   }
+  const std::vector<std::byte> blends_before = run.blender.state();
   if (auto restored = run.blender.restore(blends); !restored) return restored;
   if (!state.uses_compensator) {
     run.compensator.reset({});
   } else if (auto restored = run.compensator.restore(path); !restored) {
+    (void)run.blender.restore(blends_before);  // a snapshot is taken as a whole or not at all
     return restored;
   }
   run.state = std::move(state);
