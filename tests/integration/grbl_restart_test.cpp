@@ -1,0 +1,144 @@
+// A run on a board of the Grbl class that was cut off with its gateway or its server, continued by
+// a restart: the path that the board has done before and after is the path of an undisturbed run.
+// The board is the witness. DRIPLINE_RESTART_KILLS changes how often.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+
+#include "tests/integration/grbl_system.hpp"
+
+namespace dripline::integration {
+namespace {
+
+using test_support::eventually;
+using test_support::GrblBoard;
+
+constexpr double kSpeed = 2;  ///< of the board's time
+constexpr int kFeed = 6000;   ///< a block of 1 mm takes 5 ms at kSpeed
+constexpr int kMoves = 600;
+
+int kills() {
+  const char* wanted = std::getenv("DRIPLINE_RESTART_KILLS");
+  return wanted != nullptr ? std::atoi(wanted) : 2;
+}
+
+class GrblRestart : public GrblSystem {
+ protected:
+  GrblRestart() {
+    start("rs274ngc", {}, kSpeed);
+    system->push("path", straight_program(kMoves, kFeed));
+  }
+  std::vector<double> path() {
+    std::vector<double> points;
+    for (const auto& one : board->with([](GrblBoard& peer) { return peer.done; }))
+      points.push_back(one.at[0]);
+    return points;
+  }
+  /// A run from X0 that is cut off at a random moment; what the board has done then, and the run.
+  template <class Cut>
+  nlohmann::json cut_off(Cut cut) {
+    home_axes();
+    board->with([](GrblBoard& peer) { peer.done.clear(); });
+    const std::string id = start_run("path");
+    EXPECT_TRUE(eventually([&] { return done() > 1; }));
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(std::uniform_int_distribution<>(0, 1500)(random)));
+    cut(id);
+    EXPECT_TRUE(eventually([&] { return rests(); })) << "the buffers of the board run out";
+    return system->wait_ended(id);
+  }
+  void home_axes() {
+    if (board->with([](GrblBoard& peer) { return peer.position()[0]; }) == 0) return;
+    system->push("back", "G21 G90 G0 X0\nM2\n");
+    const auto run = system->wait_ended(start_run("back"));
+    EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
+  }
+  /// The report of the restart's run.
+  nlohmann::json report_of(const std::string& id) {
+    nlohmann::json report;
+    EXPECT_TRUE(eventually([&] {
+      const auto page = system->rest().get("/api/v1/runs/" + id + "/records?kind=message").json();
+      for (const auto& record : page.at("records")) {
+        if (record.value("device", "") == "restart")
+          report = nlohmann::json::parse(record.value("text", ""));
+      }
+      return report.is_object();
+    })) << system->run(id).dump()
+        << system->rest().get("/api/v1/machines/lathe-1").body;
+    return report;
+  }
+  void restart(const nlohmann::json& cut) {
+    const auto before = path();
+    const auto executed = cut.value("executed", std::size_t{0});
+    ASSERT_GE(executed, 1u) << cut.dump();
+    // Of the moves that are on record the board has done each, once and in order.
+    ASSERT_GE(before.size() + 1, executed) << cut.dump();
+    for (std::size_t i = 0; i < before.size(); ++i)
+      ASSERT_NEAR(before[i], static_cast<double>(i + 1), 1e-6);
+    board->with([](GrblBoard& peer) { peer.done.clear(); });
+    std::string refusal;
+    nlohmann::json second;
+    ASSERT_TRUE(eventually([&] {
+      const auto reply = system->rest().post("/api/v1/runs/" + cut.value("id", "") + "/restart",
+                                             nlohmann::json::object());
+      refusal = reply.body;
+      if (reply.status == 201) second = reply.json();
+      return reply.status == 201;
+    })) << refusal;
+    const std::string id = second.value("id", "");
+    const auto report = report_of(id);
+    ASSERT_TRUE(report.is_object());
+    EXPECT_EQ(report["after"]["block"], executed) << report.dump();
+    EXPECT_EQ(report["proof"]["path"], "equal");
+    const double at = report["position"].value("X", -1.0);
+    EXPECT_GE(at, static_cast<double>(before.size()) - 1e-6);
+    EXPECT_LT(at, static_cast<double>(before.size()) + 1) << "an abort ends within a block";
+    EXPECT_TRUE(rests()) << "nothing moves before cycle start";
+    EXPECT_EQ(done(), 0u);
+    command(id, "resume");
+    const auto whole = system->wait_ended(id);
+    EXPECT_EQ(whole.value("state", ""), "completed") << whole.dump();
+    const auto after = path();
+    // Block 1 is the line of modes: block n + 1 ends at X n.
+    const std::size_t rest = kMoves - (executed - 1);
+    ASSERT_GE(after.size(), rest);
+    for (std::size_t i = 0; i < rest; ++i) {
+      ASSERT_NEAR(after[after.size() - rest + i], static_cast<double>(executed + i), 1e-6)
+          << "after block " << executed;
+    }
+    constexpr std::size_t kMaxApproach = 4;
+    EXPECT_LE(after.size(), rest + kMaxApproach);
+    again = std::max(again, before.size() + 1 - executed);
+  }
+  std::mt19937 random{20'261'123};
+  std::size_t again = 0;
+};
+
+TEST_F(GrblRestart, CutsThePathOfAnUndisturbedRun) {
+  int restarts = 0;
+  for (int tries = 0; restarts < kills() && tries < 4 * kills() + 4 && !HasFailure(); ++tries) {
+    SCOPED_TRACE(tries);
+    const bool is_server = tries % 2 == 1;
+    const auto cut = cut_off([&](const std::string& id) {
+      if (is_server) {
+        system->server().kill();
+        system->start_server();
+        system->wait_connected();
+        command(id, "abort");
+        return;
+      }
+      system->gateway().kill();
+      EXPECT_TRUE(eventually([&] { return rests(); }));
+      start_gateway();
+    });
+    if (cut.value("state", "") == "completed") continue;
+    restart(cut);
+    ++restarts;
+  }
+  EXPECT_EQ(restarts, kills());
+  std::printf("at most %zu moves were done again\n", again);
+}
+
+}  // namespace
+}  // namespace dripline::integration
