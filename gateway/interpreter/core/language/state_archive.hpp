@@ -23,8 +23,8 @@
 /// machine; no padding is ever stored, so equal states give equal bytes.
 namespace dripline::interpreter::language {
 
-/// An enumerator after the last one is damage. Of enumerations that are not named here or in the
-/// snapshots of their own folder, the dialect checks the values.
+/// An enumerator below 0 or after the last one is damage. Of enumerations that are not named here
+/// or in the snapshots of their own folder, the dialect checks the values.
 template <class Enum>
 inline constexpr Enum kLast = static_cast<Enum>(0xFF);
 template <>
@@ -295,7 +295,7 @@ void visit_value(Archive& archive, Value& value) {
   if constexpr (std::is_enum_v<Value>) {
     Value read = value;
     archive.number(read);
-    if (read > kLast<Value>) return archive.damage();
+    if (read < Value{} || read > kLast<Value>) return archive.damage();
     value = read;
   } else if constexpr (std::is_arithmetic_v<Value>) {
     archive.number(value);
