@@ -79,7 +79,7 @@ TEST_F(Access, IsGivenToEachRoleOnEachRoute) {
       for (const auto& [verb, operation] : item.items()) {
         std::string method;
         for (const char c : verb) method += static_cast<char>(c - 'a' + 'A');
-        const std::string name = method + " " + pattern;
+        const std::string name = fmt::format("{} {}", method, pattern);
         const int lowest = lowest_role(operation.value("x-permission", "none"));
         seen.insert(operation.value("x-permission", "none"));
         const std::string user = lowest > 3 ? "absent" : std::string("a-") + kRoles[role];

@@ -221,6 +221,7 @@ TEST_F(AccountsTest, AThousandGuessesAtOnceAreNoMoreThanTheLimit) {
   add("anna", Role::Viewer);
   std::atomic<int> looked_at = 0;
   std::vector<std::thread> threads;
+  threads.reserve(8);
   for (int i = 0; i < 8; ++i) {
     threads.emplace_back([&, i] {
       for (int guess = 0; guess < 20; ++guess) {
