@@ -49,6 +49,9 @@ type LaterView = (props: { path: string[]; query: URLSearchParams }) => Componen
 /// The floor comes with the page; the rest is loaded when it is first asked for.
 const kLater: { [view: string]: () => Promise<{ default: LaterView }> } = {
   machine: () => import('../machine/machine'),
+  programs: () => import('../programs/programs'),
+  reports: () => import('../reports/reports'),
+  administration: () => import('../administration/administration'),
 };
 
 function Later({ load, route }: { load: () => Promise<{ default: LaterView }>; route: Route }) {

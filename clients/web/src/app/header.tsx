@@ -6,7 +6,7 @@ import { keepPreferences, preferences, showTheme, type Theme } from './preferenc
 import { addressOf, type Route } from './route';
 
 /// The views of the bar; `machine` belongs to the floor.
-const kViews = ['floor'] as const;
+const kViews = ['floor', 'programs', 'reports', 'administration'] as const;
 
 function skip(event: Event): void {
   event.preventDefault();

@@ -13,7 +13,7 @@ export interface Command {
 
 /// What a failure means to the one who gave a command: without an answer it may have been carried out.
 export function faultText(failure: unknown, isCommand: boolean): string {
-  if (!(failure instanceof ApiError)) return String(failure);
+  if (!(failure instanceof ApiError)) return failure instanceof Error ? failure.message : String(failure);
   if (failure.status === 0) return isCommand ? texts().errors.unknownOutcome : texts().errors.unreachable;
   return failure.message;
 }

@@ -40,5 +40,5 @@ export function bytesText(bytes: number): string {
   const units = ['B', 'KiB', 'MiB', 'GiB', 'TiB'];
   let unit = 0;
   for (; bytes >= 1024 && unit < units.length - 1; ++unit) bytes /= 1024;
-  return `${numberText(bytes, unit === 0 ? 0 : 1)} ${units[unit]}`;
+  return `${numberText(bytes, unit === 0 ? 0 : 1)}\u00a0${units[unit]}`; // the unit stays with its number
 }

@@ -1,5 +1,5 @@
 // A shop in which much is going on, for pictures: a run, a question of a control, an alarm, a stop, a machine that was switched off.
-import { Shop, longProgram, until } from './shop';
+import { Shop, longProgram, measuringProgram, until } from './shop';
 
 const kAsks = 'O0300 (DIAMETERS FROM THE OPERATOR)\nG20 G93 G98\nINPUT (LARGEST DIAMETER) P1\nG0 X[P1]\nM30\n';
 const kStops = 'O0400 (TURN THE PART OVER)\nG21 G90\nG0 X10.\nM0\nG0 X0.\nM30\n';
@@ -46,6 +46,9 @@ export async function exampleShop(): Promise<Shop> {
   await shop.start('mill-2', 'O0200');
   await shop.start('mill-3', 'O0400');
   await shop.start('lathe-1', 'O0300');
+  await shop.push('O0500', measuringProgram(40), 'centurion');
+  await shop.start('lathe-2', 'O0500');
+  await shop.api('PUT', 'ports/line-5', { machine: 'mill-5', address: '/dev/ttyUSB0', template: 'tnc155' });
   await shop.stopMachine('mill-4');
   await until('lathe-1 asks', async () => {
     const machine = await shop.api<{ status: { waits_for: string } | null }>('GET', 'machines/lathe-1');

@@ -1,4 +1,5 @@
-// Pictures of every view at both widths and in both themes, to be looked at: tests/run pictures FOLDER
+// Pictures of every view at both widths and in both themes, to be looked at: tests/run pictures FOLDER [VIEW]. With ONE_SCREEN=1 they show
+// what fits a screen, as those of deploy/docs do.
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { exampleShop } from './example_shop';
@@ -11,6 +12,13 @@ const kPlaces: Record<string, string> = {
   prompt: '#/machine/lathe-1',
   setup: '#/machine/mill-1/setup',
   runs: '#/machine/mill-2/runs',
+  programs: '#/programs',
+  program: '#/programs/O0100',
+  reports: '#/reports',
+  report: '#/reports/RUN?series=Z&lower=-1.9',
+  server: '#/administration/server',
+  ports: '#/administration/ports',
+  audit: '#/administration/audit',
 };
 
 async function main(): Promise<void> {
@@ -21,14 +29,15 @@ async function main(): Promise<void> {
   try {
     for (const [name, place] of Object.entries(kPlaces)) {
       if (process.argv[3] && !name.includes(process.argv[3])) continue;
-      const { page, complaints } = await visit(browser, shop, place);
+      const measured = await shop.api<{ runs: Array<{ id: string }> }>('GET', 'runs?machine=lathe-2&limit=1');
+      const { page, complaints } = await visit(browser, shop, place.replace('RUN', measured?.runs[0]?.id ?? ''));
       await page.waitForLoadState('networkidle', { timeout: 2000 }).catch(() => {}); // the event stream stays open
       for (const theme of kThemes) {
         for (const width of kWidths) {
           await page.emulateMedia({ colorScheme: theme });
           await page.setViewportSize({ width, height: 900 });
           await page.waitForTimeout(400);
-          await page.screenshot({ path: path.join(folder, `${name}-${theme}-${width}.png`), fullPage: name !== 'wall' });
+          await page.screenshot({ path: path.join(folder, `${name}-${theme}-${width}.png`), fullPage: name !== 'wall' && !process.env.ONE_SCREEN });
         }
       }
       if (complaints.length > 0) console.error(name, complaints);

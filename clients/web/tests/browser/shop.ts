@@ -84,8 +84,8 @@ export class Shop {
     }
   }
 
-  async push(name: string, text: string, control: string): Promise<void> {
-    const upload = await this.api<{ id: string }>('POST', 'uploads', { program: name, control });
+  async push(name: string, text: string, control: string, comment?: string): Promise<void> {
+    const upload = await this.api<{ id: string }>('POST', 'uploads', { program: name, control, ...(comment !== undefined && { comment }) });
     if (!upload) throw new Error(`program ${name} is refused`);
     await this.api('PUT', `uploads/${upload.id}/content?offset=0`, text);
     if (!(await this.api('POST', `uploads/${upload.id}/commit`, {}))) throw new Error(`program ${name} is not committed`);
@@ -113,6 +113,12 @@ export class Shop {
 export function longProgram(number: string, blocks: number): string {
   const moves = Array.from({ length: blocks }, (_, i) => `N${(i + 1) * 10} G1 X${(i % 2) * 10}. Y${i % 50}. F600.`);
   return [`${number} (PLATE, SECOND SIDE)`, 'G21 G90 G94', ...moves, 'M30', ''].join('\n');
+}
+
+/// Prints `count` values, as a lathe does that measures its part.
+export function measuringProgram(count: number): string {
+  const lines = Array.from({ length: count }, (_, i) => `DPRNT [X${(10 + i / 10).toFixed(2)} Z${(-2 + Math.sin(i / 4) / 4).toFixed(4)}]`);
+  return ['O0500 (MEASURE THE FACE)', 'G20 G93 G98', 'POPEN P0', ...lines, 'PCLOS', 'M30', ''].join('\n');
 }
 
 export async function until(what: string, holds: () => boolean | Promise<boolean>, limitMs = 20_000): Promise<void> {

@@ -1,0 +1,76 @@
+// The serial ports: how each line is, its test, its monitor, its recording, and its settings.
+import { useEffect, useState } from 'preact/hooks';
+import type { Port, PortTest, Ports as PortList } from '../../generated/api';
+import { get, pathOf, send } from '../api/request';
+import { CommandFault, useCommand } from '../parts/command';
+import { Loading } from '../parts/loading';
+import { SureButton } from '../parts/sure_button';
+import { useLoaded } from '../parts/use_loaded';
+import { download } from '../programs/download';
+import { bytesText, texts } from '../texts/texts';
+import { LineMonitor } from './line_monitor';
+import { PortForm } from './port_form';
+
+const kIntervalMs = 3000;
+
+function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
+  const t = texts().administration;
+  const command = useCommand();
+  const [test, setTest] = useState<PortTest | null>(null);
+  const [shown, setShown] = useState<'monitor' | 'settings' | null>(null);
+  const run = () => command.send(async () => setTest(await send<PortTest>('POST', pathOf('ports', port.name, 'test'))));
+  const remove = async () => {
+    if (await command.send(() => send('DELETE', pathOf('ports', port.name)))) onChanged();
+  };
+  const toggle = (part: 'monitor' | 'settings') => setShown(shown === part ? null : part);
+  const line = port.line;
+  return (
+    <li class="panel">
+      <div class="head">
+        <h3>{port.name}</h3>
+        <span class={`pill ${port.open ? 'running' : port.enabled ? 'alarm' : 'offline'}`}>{port.open ? t.phases[line.phase] : port.enabled ? t.closed : t.disabled}</span>
+      </div>
+      <p class="muted">{port.machine} · {port.address}{port.template && ` · ${port.template}`}</p>
+      {port.fault && <p class="message">{port.fault}</p>}
+      <p>{t.passed(bytesText(port.sent), bytesText(port.received))}{line.waiting_for && ` · ${t.waitsFor(line.waiting_for)}`}</p>
+      <p class="buttons">
+        <button type="button" disabled={command.isBusy} onClick={() => void run()}>{t.test}</button>
+        <button type="button" aria-pressed={shown === 'monitor'} onClick={() => toggle('monitor')}>{t.monitor}</button>
+        <button type="button" aria-pressed={shown === 'settings'} onClick={() => toggle('settings')}>{t.change}</button>
+        <button type="button" onClick={() => void command.send(() => download(pathOf('ports', port.name, 'recording'), `${port.name}.jsonl`))}>{t.recording}</button>
+        <SureButton class="danger" label={t.remove} question={t.removeSure(port.name)} disabled={command.isBusy} onSure={() => void remove()} />
+      </p>
+      {test && (
+        <div class={`notice ${test.passed ? '' : 'bad'}`} role="status">
+          <b>{test.passed ? t.testPassed : t.testFailed}</b>
+          <ul>{test.findings.map((finding) => <li key={finding}>{finding}</li>)}</ul>
+        </div>
+      )}
+      <CommandFault command={command} />
+      {shown === 'monitor' && <LineMonitor port={port.name} />}
+      {shown === 'settings' && <PortForm port={port} onStored={() => { setShown(null); onChanged(); }} />}
+    </li>
+  );
+}
+
+export function Ports() {
+  const t = texts().administration;
+  const ports = useLoaded((signal) => get<PortList>(pathOf('ports'), {}, signal), []);
+  const [count, setCount] = useState(0); // an empty form after each port
+  useEffect(() => {
+    const timer = setInterval(ports.reload, kIntervalMs);
+    return () => clearInterval(timer);
+  }, []);
+  return (
+    <section aria-labelledby="ports">
+      <h2 id="ports">{t.ports}</h2>
+      <Loading of={ports} />
+      {ports.value?.ports.length === 0 && <p class="muted">{t.noPorts}</p>}
+      <ul class="list">{(ports.value?.ports ?? []).map((port) => <PortCard key={port.name} port={port} onChanged={ports.reload} />)}</ul>
+      <details>
+        <summary class="button">{t.add}</summary>
+        <div class="panel"><PortForm key={count} port={null} onStored={() => { setCount(count + 1); ports.reload(); }} /></div>
+      </details>
+    </section>
+  );
+}

@@ -1,0 +1,37 @@
+// How the server is: its health with every reason, and what it keeps.
+import { useEffect } from 'preact/hooks';
+import type { Server } from '../../generated/api';
+import { get, pathOf } from '../api/request';
+import { Loading } from '../parts/loading';
+import { useLoaded } from '../parts/use_loaded';
+import { durationText } from '../live/progress';
+import { dateTimeText, numberText, texts } from '../texts/texts';
+
+/// The server checks itself as often.
+const kIntervalMs = 10_000;
+const kTones = { ok: 'running', degraded: 'waiting', failed: 'alarm' } as const;
+
+export function ServerState() {
+  const t = texts().administration;
+  const server = useLoaded((signal) => get<Server>(pathOf('server'), {}, signal), []);
+  useEffect(() => {
+    const timer = setInterval(server.reload, kIntervalMs);
+    return () => clearInterval(timer);
+  }, []);
+  const { value } = server;
+  if (!value) return <Loading of={server} />;
+  const rows: Array<[string, string]> = [
+    [t.name, value.name], [t.version, value.version], [t.started, `${dateTimeText(value.started)} (${durationText(value.uptime_s)})`], [t.dataFolder, value.data_dir],
+    [t.machines, t.connectedOf(value.machines_connected, value.machines)], [t.programs, numberText(value.programs)], [t.runsActive, numberText(value.runs_active)],
+    [t.ddsDomain, String(value.dds.domain)], [t.rejected, numberText(value.dds.rejected)],
+  ];
+  return (
+    <section class="panel" aria-labelledby="server">
+      <div class="head"><h2 id="server">{t.server}</h2><span class={`pill ${kTones[value.health.status]}`}>{t.health[value.health.status]}</span></div>
+      {value.health.reasons.map((reason) => (
+        <p key={reason.subject + reason.detail} class={`notice ${reason.status === 'failed' ? 'bad' : 'warn'}`}><b>{reason.message}</b> {reason.detail}</p>
+      ))}
+      <dl class="rows">{rows.map(([name, text]) => <div key={name}><dt>{name}</dt><dd>{text}</dd></div>)}</dl>
+    </section>
+  );
+}

@@ -1,0 +1,87 @@
+// One program: its revisions, the text of the chosen one, approval, the start on a machine, comparison.
+import type { ProgramWithRevisions, Revision } from '../../generated/api';
+import { get, pathOf, send, withQuery } from '../api/request';
+import { addressOf } from '../app/route';
+import { CommandFault, useCommand } from '../parts/command';
+import { Loading } from '../parts/loading';
+import { SureButton } from '../parts/sure_button';
+import { useLoaded } from '../parts/use_loaded';
+import { bytesText, dateTimeText, texts } from '../texts/texts';
+import { Compare } from './compare';
+import { download } from './download';
+import { Manage } from './manage';
+import { StartOn } from './start_on';
+import { TextView } from './text_view';
+
+/// A revision that a machine has sent runs nowhere before somebody has looked at it.
+function Approval({ revision, onJudged }: { revision: Revision; onJudged: () => void }) {
+  const t = texts().programs;
+  const command = useCommand();
+  const judge = async (verdict: 'accept' | 'reject') => {
+    if (await command.send(() => send('POST', pathOf('programs', revision.program, 'revisions', revision.revision, verdict)))) onJudged();
+  };
+  return (
+    <div class="notice warn">
+      <p>{t.isPending}</p>
+      <p class="buttons">
+        <SureButton class="primary" label={t.accept} question={t.acceptSure(revision.program, revision.revision)} disabled={command.isBusy} onSure={() => void judge('accept')} />
+        <SureButton class="danger" label={t.reject} question={t.rejectSure(revision.program, revision.revision)} disabled={command.isBusy} onSure={() => void judge('reject')} />
+      </p>
+      <CommandFault command={command} />
+    </div>
+  );
+}
+
+function RevisionList({ revisions, shown }: { revisions: Revision[]; shown: Revision }) {
+  const t = texts().programs;
+  return (
+    <section class="panel" aria-labelledby="revisions">
+      <h2 id="revisions">{t.revisions}</h2>
+      <ul class="list">
+        {revisions.map((r) => (
+          <li key={r.revision}>
+            <a class="target" href={addressOf('programs', [r.program, String(r.revision)])} aria-current={r === shown ? 'true' : undefined}>{t.revisionNumber(r.revision)}</a>
+            {r.held && <span class="pill waiting">{t.pending(1)}</span>}
+            <p class="muted">{dateTimeText(r.created)} · {r.author ?? '–'} · {bytesText(r.size)}{r.comment && ` · ${r.comment}`}</p>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+export function ProgramPage({ name, number }: { name: string; number: number | null }) {
+  const t = texts().programs;
+  const program = useLoaded((signal) => get<ProgramWithRevisions>(pathOf('programs', name), {}, signal), [name]);
+  const command = useCommand();
+  const revisions = [...(program.value?.revisions ?? [])].sort((a, b) => b.revision - a.revision);
+  const shown = revisions.find((r) => r.revision === number) ?? revisions.find((r) => !r.held) ?? revisions[0];
+  const { value } = program;
+  if (!value || !shown) return <><h1>{name}</h1><Loading of={program} /></>;
+  const path = withQuery(pathOf('programs', name, 'content'), { revision: shown.revision });
+  return (
+    <>
+      <div class="machine-head">
+        <h1>{name}</h1>
+        <span class="muted">{[shown.title, shown.control, t.revisionNumber(shown.revision), bytesText(shown.size)].filter(Boolean).join(' · ')}</span>
+      </div>
+      {shown.held && <Approval revision={shown} onJudged={program.reload} />}
+      <div class="program-columns">
+        <div>
+          <TextView program={name} revision={shown.revision} size={shown.size} />
+          <Compare key={shown.revision} revisions={revisions} to={shown} />
+        </div>
+        <div>
+          <section class="panel"><StartOn revision={shown} /></section>
+          <RevisionList revisions={revisions} shown={shown} />
+          <section class="panel">
+            <p class="buttons"><button type="button" onClick={() => void command.send(() => download(path, name))}>{t.download}</button></p>
+            <CommandFault command={command} />
+            <Manage key={name} program={value} />
+            <p class="hint mono">{t.digest} {shown.sha256}</p>
+          </section>
+        </div>
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,35 @@
+// Starts this revision on one of the machines whose control it is for.
+import { useState } from 'preact/hooks';
+import type { Revision } from '../../generated/api';
+import { addressOf } from '../app/route';
+import { useFeed } from '../live/use_feed';
+import { startRun } from '../machine/commands';
+import { CommandFault, useCommand } from '../parts/command';
+import { SureButton } from '../parts/sure_button';
+import { texts } from '../texts/texts';
+
+export function StartOn({ revision }: { revision: Revision }) {
+  const t = texts().programs;
+  const feed = useFeed('machines');
+  const command = useCommand();
+  const [machine, setMachine] = useState('');
+  const fitting = [...feed.machines.values()].filter((m) => m.connected && (revision.control === null || m.control === revision.control));
+  const start = async () => {
+    const request = { machine, program: revision.program, revision: revision.revision, from: '' };
+    if (await command.send(() => startRun(request))) location.hash = addressOf('machine', [machine]);
+  };
+  return (
+    <div class="start-on">
+      <label>
+        {t.startOn}
+        <select value={machine} onChange={(e) => setMachine(e.currentTarget.value)}>
+          <option value="">{fitting.length === 0 ? t.noMachine : '–'}</option>
+          {fitting.map((m) => <option key={m.name} value={m.name}>{m.name} · {texts().states[feed.stateOf(m).word]}</option>)}
+        </select>
+      </label>
+      <SureButton class="primary" label={texts().machine.start} disabled={machine === '' || revision.held || command.isBusy}
+        question={texts().machine.startSure(revision.program, String(revision.revision), machine, '')} onSure={() => void start()} />
+      <CommandFault command={command} />
+    </div>
+  );
+}
