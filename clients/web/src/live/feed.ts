@@ -24,7 +24,7 @@ export class Feed {
   private readonly listeners = new Map<Topic, Set<() => void>>();
   private readonly recordListeners = new Set<(record: ReportRecord) => void>();
   private readonly changed = new Set<Topic>();
-  /// Of which an event has come since the stream was opened: newer than any answer to a request.
+  /// Machines and ids of runs of which an event has come since the stream was opened: newer than any answer to a request.
   private readonly fresh = new Set<string>();
   private flushing = false;
   private ending: AbortController | null = null;
@@ -97,7 +97,7 @@ export class Feed {
       const present = new Set(machines.map((machine) => machine.name));
       for (const name of this.machines.keys()) if (!present.has(name)) this.machines.delete(name);
       for (const machine of machines) if (!this.fresh.has(machine.name)) this.takeMachine(machine);
-      for (const run of runs.reverse()) this.takeRun(run);
+      for (const run of runs.reverse()) if (!this.fresh.has(run.id)) this.takeRun(run);
       this.note('machines');
       this.setLink({ state: 'live' });
     } catch {
@@ -111,7 +111,11 @@ export class Feed {
       this.fresh.add(machine.name);
       this.takeMachine(machine);
     }
-    if (event.name === 'run') this.takeRun(JSON.parse(event.data) as Run);
+    if (event.name === 'run') {
+      const run = JSON.parse(event.data) as Run;
+      this.fresh.add(run.id);
+      this.takeRun(run);
+    }
     if (event.name !== 'record') return;
     const record = JSON.parse(event.data) as ReportRecord;
     for (const listener of this.recordListeners) listener(record);

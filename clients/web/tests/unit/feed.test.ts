@@ -1,0 +1,66 @@
+// The feed against a server in this test's hands: what it knows when answers and events overtake each other.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { Feed } from '../../src/live/feed';
+import { machine, run } from './samples';
+
+/// Answers requests when the test says so; events go to whoever reads the stream.
+class FakeServer {
+  private events!: ReadableStreamDefaultController<Uint8Array>;
+  private readonly waiting: Array<() => void> = [];
+
+  constructor(machines: unknown[], runs: unknown[]) {
+    const answer = (body: unknown) => new Response(JSON.stringify(body));
+    globalThis.fetch = (async (path: string, init: RequestInit) => {
+      if (path.endsWith('/events')) {
+        init.signal!.addEventListener('abort', () => this.events.error(new Error('aborted')));
+        return new Response(new ReadableStream({ start: (controller) => { this.events = controller; } }));
+      }
+      await new Promise<void>((done) => this.waiting.push(done));
+      return answer(path.includes('/machines') ? { machines } : { runs });
+    }) as typeof fetch;
+  }
+
+  send(name: string, data: unknown): void {
+    this.events.enqueue(new TextEncoder().encode(`event: ${name}\ndata: ${JSON.stringify(data)}\n\n`));
+  }
+
+  async isAsked(): Promise<void> {
+    while (this.waiting.length < 2) await new Promise((done) => setTimeout(done, 1));
+  }
+
+  answerAll(): void {
+    this.waiting.splice(0).forEach((answer) => answer());
+  }
+}
+
+(globalThis as { document?: unknown }).document = { hidden: true };
+
+async function until(holds: () => boolean): Promise<void> {
+  while (!holds()) await new Promise((done) => setTimeout(done, 1));
+}
+
+test('an answer that an event has overtaken changes nothing', { timeout: 10_000 }, async () => {
+  const server = new FakeServer([machine({}, { execution: 'ACTIVE' })], [run({ state: 'active' })]);
+  const feed = new Feed();
+  feed.begin();
+  await server.isAsked();
+  server.send('run', run({ state: 'alarmed' }));
+  server.send('machine', machine({}, { execution: 'STOPPED' }));
+  await until(() => feed.machines.size === 1);
+  server.answerAll();
+  await until(() => feed.link.state === 'live');
+  assert.equal(feed.stateOf(feed.machines.get('lathe-1')!).word, 'alarm');
+  feed.end();
+});
+
+test('what no event has told comes from the answers', { timeout: 10_000 }, async () => {
+  const server = new FakeServer([machine({}, { execution: 'STOPPED' })], [run({ state: 'alarmed' })]);
+  const feed = new Feed();
+  feed.begin();
+  await server.isAsked();
+  server.answerAll();
+  await until(() => feed.link.state === 'live');
+  assert.equal(feed.stateOf(feed.machines.get('lathe-1')!).word, 'alarm');
+  feed.end();
+});
