@@ -268,7 +268,8 @@ TEST_F(PullFeedTest, ForeignAnswersAreIgnored) {
 
 TEST_F(PullFeedTest, ACorruptProgramFailsWithTheServersReason) {
   PullFeed feed = make("M30\n");
-  dds::BlockData data{"lathe-1", 7, "run-1", "", dds::BlockStatus::Corrupt, 0, 0, false, {}, {}, {}};
+  dds::BlockData data{"lathe-1", 7,  "run-1", "", dds::BlockStatus::Corrupt, 0, 0,
+                      false,     {}, {},      {}};
   data.reason = "chunk 3 fails its check";
   feed.on_data(data, now);
   const TextWindow window = feed.fetch(0, 0, 1);
