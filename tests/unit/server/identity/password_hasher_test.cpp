@@ -70,6 +70,7 @@ TEST(PasswordHasher, ComputesFewAtOnceAndRefusesTheRest) {
       {.cost = {.passes = 3, .memory = 16 * 1024 * 1024}, .at_once = 2, .waiting = 3});
   std::atomic<int> computed = 0, refused = 0;
   std::vector<std::thread> strangers;
+  strangers.reserve(24);
   for (int i = 0; i < 24; ++i) {
     strangers.emplace_back([&] {
       const auto digest = hasher.hash("correct horse");
