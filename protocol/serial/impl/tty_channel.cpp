@@ -26,6 +26,14 @@ bool is_pty(int descriptor) {
   return number >= kFirst && number <= kLast;
 }
 
+/// The failure of a call on an open port. After a hang-up a read says "end of file" or EIO,
+/// whichever comes first, and every other call says EIO: all are one thing to a user.
+tl::unexpected<Error> lost(const std::string& path, int error) {
+  return fail(
+      Errc::Io, "{}: {}", path,
+      error == 0 || error == EIO ? std::string("hung up") : std::generic_category().message(error));
+}
+
 class TtyChannel final : public Channel {
  public:
   TtyChannel(std::string path, Descriptor descriptor, PortLock lock, const termios& former)
@@ -79,8 +87,7 @@ Result<void> TtyChannel::fill_raw() {
     return {};
   }
   if (got < 0 && (errno == EAGAIN || errno == EINTR)) return {};
-  return fail(Errc::Io, "{}: {}", path_,
-              got == 0 ? std::string("hung up") : std::generic_category().message(errno));
+  return lost(path_, got == 0 ? 0 : errno);
 }
 
 Result<Received> TtyChannel::read(std::span<std::byte> room) {
@@ -130,7 +137,7 @@ Result<std::size_t> TtyChannel::write(std::span<const std::byte> bytes) {
   const ssize_t taken = ::write(descriptor_.get(), bytes.data(), bytes.size());
   if (taken >= 0) return static_cast<std::size_t>(taken);
   if (errno == EAGAIN || errno == EINTR) return std::size_t{0};
-  return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
+  return lost(path_, errno);
 }
 
 std::optional<std::size_t> TtyChannel::unsent() const {
@@ -147,8 +154,7 @@ Result<std::optional<wire::InputLines>> TtyChannel::input_lines() {
                                           .dsr = (bits & TIOCM_DSR) != 0,
                                           .dcd = (bits & TIOCM_CAR) != 0});
   }
-  if (errno == EIO || errno == ENODEV)
-    return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
+  if (errno == EIO || errno == ENODEV) return lost(path_, errno);
   return std::optional<wire::InputLines>();
 }
 
@@ -158,7 +164,7 @@ Result<void> TtyChannel::set_output_lines(wire::OutputLines lines) {
   const bool is_done = (on == 0 || ::ioctl(descriptor_.get(), TIOCMBIS, &on) == 0) &&
                        (off == 0 || ::ioctl(descriptor_.get(), TIOCMBIC, &off) == 0);
   if (is_done || (errno != EIO && errno != ENODEV)) return {};  // a pty has none
-  return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
+  return lost(path_, errno);
 }
 
 Result<void> TtyChannel::apply(const wire::LineSettings& settings) {
@@ -167,10 +173,9 @@ Result<void> TtyChannel::apply(const wire::LineSettings& settings) {
     return fail(done.error().code, "{}: {}", path_, done.error().what);
   // EINVAL: not all settings were applied; the difference is checked below.
   if (::tcsetattr(descriptor_.get(), TCSANOW, &wanted) != 0 && errno != EINVAL)
-    return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
+    return lost(path_, errno);
   termios got{};
-  if (::tcgetattr(descriptor_.get(), &got) != 0)
-    return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
+  if (::tcgetattr(descriptor_.get(), &got) != 0) return lost(path_, errno);
   if (const std::string what = difference(wanted, got); !what.empty() && !is_pty_)
     return fail(Errc::Unsupported, "{}: the device does not take {} of {}", path_, what,
                 wire::short_form(settings));
@@ -210,8 +215,7 @@ Result<std::unique_ptr<Channel>> open_tty(const std::string& path,
   auto lock = PortLock::take(descriptor.get(), device);
   if (!lock) return fail(lock.error());
   termios former{};
-  if (::tcgetattr(descriptor.get(), &former) != 0)
-    return fail(Errc::Io, "{}: {}", path, std::generic_category().message(errno));
+  if (::tcgetattr(descriptor.get(), &former) != 0) return lost(path, errno);
   auto channel =
       std::make_unique<TtyChannel>(path, std::move(descriptor), std::move(*lock), former);
   if (const auto done = channel->apply(settings); !done) return fail(done.error());
