@@ -21,11 +21,13 @@ pid_t helper() {
   return 0;
 }
 
+constexpr double kMillimetersInASecond = 50;
+
 class LinuxCncFaults : public LinuxCncTest {
  protected:
   void start_long_program() {
     begin();
-    for (int i = 1; i <= 390; ++i) program->line(i, 0, 3000);
+    for (int i = 1; i <= 390; ++i) program->line(i, 0, kMillimetersInASecond * 60);
     ASSERT_TRUE(wait([&] { return recorder.blocks.size() > 10; })) << alarm();
   }
   /// One move is one millimeter.
@@ -78,14 +80,39 @@ TEST_F(LinuxCncFaults, ALostHelperIsAnAlarmAndStopsTheAxes) {
   expect_restart();
 }
 
-TEST_F(LinuxCncFaults, AnEndedLinuxCncIsAnAlarm) {
+/// What the motion process has would take seconds.
+TEST_F(LinuxCncFaults, AnEndedTaskIsAnAlarmAndStopsTheAxes) {
+  connect({.seconds_ahead = 60});
   start_long_program();
   linuxcnc->kill("milltask");
   ASSERT_TRUE(wait_over());
   EXPECT_NE(alarm().find("LCN0005 LinuxCNC has ended: the position is unknown"), std::string::npos)
       << alarm();
   runs = false;
+  ASSERT_TRUE(rests());
+  expect_honest_counter();
   EXPECT_NE(refusal(), "") << "nothing starts any more";
+}
+
+/// Nothing is left that could stop the motion process: it has no more than a second.
+TEST_F(LinuxCncFaults, WithoutTaskAndHelperTheAxesStopSoon) {
+  start_long_program();
+  const double at = x();
+  ::kill(helper(), SIGKILL);
+  linuxcnc->kill("milltask");
+  ASSERT_TRUE(wait_over());
+  ASSERT_TRUE(rests());
+  EXPECT_LT(x(), at + kMillimetersInASecond * 2);
+  EXPECT_LT(x(), 389);
+}
+
+/// LinuxCNC has it open, and needs its name no more.
+TEST_F(LinuxCncFaults, AProgramLeavesNoFileBehindWhateverEnds) {
+  const test_support::TemporaryFolder folder;
+  ::setenv("TMPDIR", folder.path().c_str(), 1);
+  start_long_program();
+  ::unsetenv("TMPDIR");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST_F(LinuxCncFaults, AnEndedMotionProcessIsAnAlarm) {

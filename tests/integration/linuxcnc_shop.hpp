@@ -24,10 +24,16 @@ class LinuxCncTest : public testing::Test {
       GTEST_SKIP() << "skipped: " << missing;
     linuxcnc.emplace();
     linuxcnc->start();
-    machine.emplace(LinuxCncMachine::Settings{
-        .sink = recorder, .clock = std::make_shared<SystemClock>(), .machine = stated});
-    machine->connect(linuxcnc->ini());
+    connect();
     turn_on();
+  }
+  /// A back end, instead of the one before.
+  void connect(const machine::linuxcnc::SessionLimits& limits = {}) {
+    machine.emplace(LinuxCncMachine::Settings{.sink = recorder,
+                                              .clock = std::make_shared<SystemClock>(),
+                                              .machine = stated,
+                                              .limits = limits});
+    machine->connect(linuxcnc->ini());
   }
   /// What the operator does at the panel: resets the emergency stop and homes.
   void turn_on() {

@@ -2,7 +2,7 @@
 
 A gateway starts it (helper_link.cpp): python3 -c TEXT INI. It is a program of its own because LinuxCNC's interface is a module for
 Python, and because that module may block for seconds. It holds no state of the program. When stdin ends, the gateway is gone: what
-it has started is aborted.
+it has started is aborted. When LinuxCNC's task ends, what the task has given to the motion process is stopped.
 """
 import json
 import os
@@ -13,6 +13,8 @@ import time
 STATUS_PERIOD = 0.008  # while something changes
 STILL_PERIOD = 0.1  # else: shows that the helper is alive
 COMMAND_WAIT = 2.0
+LEAVE_WAIT = 0.8  # the gateway kills a helper that takes longer than a second
+STANDSTILL_WAIT = 3.0
 
 
 def say(message):
@@ -26,6 +28,7 @@ def give_up(text):
 
 
 try:
+    import hal
     import linuxcnc
 except ImportError as error:
     give_up("the module linuxcnc is missing: %s" % error)
@@ -41,6 +44,27 @@ def process_named(name):
         except OSError:
             continue
     return None
+
+
+def set_pin(name, text):
+    try:
+        hal.set_p(name, text)
+    except (RuntimeError, hal.error):  # a signal of the builder's drives it, which must not undo this
+        hal.disconnect(name)
+        hal.set_p(name, text)
+
+
+def stop_motion():
+    """Without a task there is no command, but the motion goes on with what it has. Its pins stop it: along the path, then the drives."""
+    component = hal.component("dripline-stop-%d" % os.getpid())
+    component.ready()
+    set_pin("motion.feed-inhibit", "1")
+    end, still = time.monotonic() + STANDSTILL_WAIT, 0
+    while still < 5 and time.monotonic() < end:
+        still = still + 1 if hal.get_value("motion.current-vel") == 0 else 0
+        time.sleep(0.004)
+    set_pin("motion.enable", "0")
+    return component  # a component that is collected ends the connection with HAL
 
 
 class Machine:
@@ -59,6 +83,7 @@ class Machine:
             give_up("LinuxCNC is not running here: there is no process %s" % task)
         realtime = process_named("rtapi_app")
         self.lives = [os.pidfd_open(number) for number in (pid, realtime) if number is not None]
+        self.task = self.lives[0]
         try:
             self.stat = linuxcnc.stat()
             self.command = linuxcnc.command()
@@ -69,6 +94,7 @@ class Machine:
         if os.path.realpath(self.stat.ini_filename) != self.ini_path:
             give_up("LinuxCNC runs %s, not %s" % (self.stat.ini_filename, self.ini_path))
         self.has_program = False
+        self.file = None
 
     def wait_for_status(self):
         end = time.monotonic() + 5
@@ -94,6 +120,7 @@ class Machine:
             "axes": s.axis_mask,
             "limits": [[a["min_position_limit"], a["max_position_limit"]] for a in s.axis[:9]],
             "velocity": [self.number("AXIS_" + letter, "MAX_VELOCITY") for letter in "XYZABCUVW"],
+            "acceleration": [self.number("AXIS_" + letter, "MAX_ACCELERATION") for letter in "XYZABCUVW"],
             "rpm": self.number("SPINDLE_0", "MAX_FORWARD_VELOCITY"),
             "read_ahead": int(self.number("TASK", "INTERP_MAX_LEN") or 1000),
         })
@@ -139,6 +166,7 @@ class Machine:
         if what == "run":
             self.to_mode(linuxcnc.MODE_AUTO)
             self.has_program = True
+            self.file = order["file"]
             c.set_optional_stop(False)
             c.set_block_delete(False)
             c.program_open(order["file"])
@@ -178,7 +206,34 @@ class Machine:
     def leave(self):
         if self.has_program:
             self.command.abort()
+            self.remove_program()
+            self.command.wait_complete(LEAVE_WAIT)
         os._exit(0)  # stdout may be gone: nothing to flush
+
+    def remove_program(self):
+        """A gateway that was killed has left it."""
+        try:
+            os.unlink(self.file)
+            os.rmdir(os.path.dirname(self.file))
+        except OSError:
+            pass
+
+    def lose_task(self):
+        """Stops the motion, and reports how far it has come, as the motion process has it."""
+        try:
+            component = stop_motion()
+            self.say_reached()
+            component.exit()
+        except (RuntimeError, hal.error) as error:
+            give_up("LinuxCNC has ended, and the motion it has left cannot be stopped: %s" % error)
+
+    def say_reached(self):
+        status = self.status()
+        status.update(motion=max(0, hal.get_value("motion.program-line")), velocity=0.0)
+        for i, letter in enumerate("xyzabcuvw"):
+            if self.stat.axis_mask >> i & 1:
+                status["at"][i] = hal.get_value("axis.%s.pos-cmd" % letter)
+        say({"status": status})
 
 
 def read_orders(machine, buffer):
@@ -205,6 +260,8 @@ def serve(machine):
     while True:
         ready, _, _ = select.select([0, *machine.lives], [], [], STATUS_PERIOD)
         if any(life in ready for life in machine.lives):
+            if ready == [machine.task]:
+                machine.lose_task()
             give_up("LinuxCNC has ended")
         if 0 in ready:
             buffer, last = read_orders(machine, buffer), None  # what a command has done is reported

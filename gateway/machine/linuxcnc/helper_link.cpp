@@ -51,6 +51,7 @@ class Wires {
     auto out = machine_.exchange(std::as_bytes(std::span(received)), is_dry);
     if (!out.wants_feed) fifo_.reset();
     if (fifo_ && out.has_feed) fifo_->write(out.text);
+    if (fifo_ && out.is_reading) fifo_->remove_name();
     commands_ += out.commands;
     const bool takes = !helper_ || helper_->write(commands_);
     if (out.wants_feed && !out.has_feed) open_feed();

@@ -96,6 +96,7 @@ bool read(Reader& from, HelloReply& to) {
   from.whole("axes", to.axes, 1, (1 << kMaxAxes) - 1);
   from.pairs("limits", to.low, to.high);
   from.numbers("velocity", to.velocity);
+  from.numbers("acceleration", to.acceleration);
   from.number("rpm", to.max_rpm);
   from.whole("read_ahead", to.read_ahead, 0, 1'000'000);
   return from.is_good();

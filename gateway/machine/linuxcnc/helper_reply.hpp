@@ -19,9 +19,9 @@ struct HelloReply {
   double units_per_mm = 1;
   std::uint32_t axes = 0;  ///< a bit for each, X first
   std::array<double, kMaxAxes> low{}, high{};
-  std::array<double, kMaxAxes> velocity{};  ///< per second; 0: unknown
-  double max_rpm = 0;                       ///< 0: unknown
-  int read_ahead = 0;                       ///< [TASK]INTERP_MAX_LEN
+  std::array<double, kMaxAxes> velocity{}, acceleration{};  ///< per second; 0: unknown
+  double max_rpm = 0;                                       ///< 0: unknown
+  int read_ahead = 0;                                       ///< [TASK]INTERP_MAX_LEN
 };
 
 /// Numbers of LinuxCNC's interface.

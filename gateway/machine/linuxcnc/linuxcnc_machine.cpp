@@ -71,6 +71,7 @@ LinuxCncMachine::Outgoing LinuxCncMachine::exchange(std::span<const std::byte> b
           .commands = session_->take_commands(),
           .wants_feed = session_->wants_feed(),
           .has_feed = session_->has_feed(),
+          .is_reading = session_->is_reading(),
           .reopen_reason = session_->reopen_reason()};
 }
 

@@ -28,7 +28,7 @@ class LinuxCncMachine final : public streamed::StreamedMachine {
   struct Outgoing {
     std::string text;      ///< for the FIFO, first
     std::string commands;  ///< for the helper
-    bool wants_feed = false, has_feed = false;
+    bool wants_feed = false, has_feed = false, is_reading = false;
     std::string reopen_reason;
   };
   /// Takes what the helper has written; returns what must be written. To be called every few

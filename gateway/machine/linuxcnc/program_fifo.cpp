@@ -29,10 +29,10 @@ ProgramFifo& ProgramFifo::operator=(ProgramFifo&& other) noexcept {
 }
 
 ProgramFifo::~ProgramFifo() {
-  remove();
+  remove_name();
 }
 
-void ProgramFifo::remove() {
+void ProgramFifo::remove_name() {
   if (folder_.empty()) return;
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);

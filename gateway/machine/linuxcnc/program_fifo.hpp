@@ -12,7 +12,7 @@ namespace dripline::machine::linuxcnc {
 
 /// A program that LinuxCNC reads while it is written: a FIFO in a folder of its own. It is open for
 /// reading here, too, so that neither side waits for the other at the opening, and a reader that
-/// ends is no signal. Removed with the object.
+/// ends is no signal. Its name ends with the object, or before it.
 class ProgramFifo {
  public:
   /// Errors: Io.
@@ -27,11 +27,12 @@ class ProgramFifo {
   /// Writes whole lines, as many as have room; the rest is kept.
   void write(std::string_view text);
   bool has_pending() const { return !pending_.empty(); }
+  /// Once LinuxCNC has opened it: a gateway that is killed leaves nothing behind.
+  void remove_name();
 
  private:
   ProgramFifo() = default;
   explicit ProgramFifo(std::filesystem::path folder);
-  void remove();
 
   std::filesystem::path folder_;
   std::string path_, pending_;

@@ -17,7 +17,10 @@ struct SessionLimits {
   std::chrono::milliseconds flush{5}, dry{30};
   std::size_t bytes_per_second = 1024 * 1024;
   std::size_t lines_ahead = 400;  ///< sent and not executed
-  int garbage = 3;                ///< lines of the helper that are none
+  /// Motion ahead of the axes, without the time that they need to come to rest: it goes on when
+  /// nothing is left that could stop it.
+  double seconds_ahead = 0.75;
+  int garbage = 3;  ///< lines of the helper that are none
 };
 
 /// The conversation with a running LinuxCNC: commands and status through a helper process, motion
@@ -43,6 +46,8 @@ class Session final : public streamed::Device {
   /// A FIFO is needed, from `feed_opened` until this ends.
   bool wants_feed() const { return feed_ != Feed::None; }
   bool has_feed() const { return feed_ > Feed::Wanted; }
+  /// LinuxCNC has opened the FIFO: its name is needed no more.
+  bool is_reading() const { return feed_ >= Feed::Reading; }
   void feed_opened(const std::string& path, SteadyTime now);
   /// Why the helper should be started again; empty: it should not.
   const std::string& reopen_reason() const { return reopen_reason_; }
@@ -113,7 +118,7 @@ class Session final : public streamed::Device {
   void begin_stop(SteadyTime now);
   void abort(SteadyTime now);
   void end_feed();
-  static streamed::TextRules rules_of(const HelloReply& hello);
+  streamed::TextRules rules_of(const HelloReply& hello) const;
   Result<void> check_reference() const;
   std::string with_message(std::string text) const;
   Coordinates in_mm(const Coordinates& values) const;

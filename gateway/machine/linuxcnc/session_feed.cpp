@@ -24,13 +24,15 @@ constexpr std::string_view kEnd = "M2\n%\n";
 
 }  // namespace
 
-TextRules Session::rules_of(const HelloReply& hello) {
+TextRules Session::rules_of(const HelloReply& hello) const {
+  constexpr double kMaxBraking = 4;
   TextRules rules;
   rules.decimals = 6;
   rules.line_limit = 200;
   rules.has_stop_mode = true;
   if (hello.max_rpm > 0) rules.max_rpm = hello.max_rpm;
   rules.max_rpm_setting = " ([SPINDLE_0]MAX_FORWARD_VELOCITY)";
+  double braking = 0;
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     if ((hello.axes >> i & 1U) == 0) continue;
     const bool is_rotary = interpreter::is_rotary(static_cast<interpreter::Axis>(i));
@@ -42,7 +44,11 @@ TextRules Session::rules_of(const HelloReply& hello) {
       axis.travel = TextRules::Range{hello.low[i] * unit, hello.high[i] * unit};
     axis.travel_setting = fmt::format(" ([AXIS_{}]MIN_LIMIT, MAX_LIMIT)", streamed::letter_of(i));
     rules.axes[i] = std::move(axis);
+    // With less ahead LinuxCNC would slow down.
+    if (hello.acceleration[i] > 0)
+      braking = std::max(braking, hello.velocity[i] / hello.acceleration[i]);
   }
+  rules.seconds_ahead = limits_.seconds_ahead + std::min(braking, kMaxBraking);
   return rules;
 }
 
