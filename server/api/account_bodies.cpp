@@ -1,18 +1,19 @@
 #include "server/api/account_bodies.hpp"
 
 #include "server/api/json_object.hpp"
+#include "server/identity/account_limits.hpp"
 
 namespace dripline::api {
 namespace {
 
-using identity::Accounts;
+using Limits = identity::AccountLimits;
 
 constexpr std::size_t kMaxAccountName = 256;  ///< longer ones are refused before they are checked
 
 /// Absent: nullopt, and an empty list is one.
 std::optional<std::set<std::string>> read_groups(JsonObject& object) {
   const bool is_given = object.has("groups");
-  const auto names = object.optional_texts("groups", kMaxAccountName, Accounts::kMaxGroups);
+  const auto names = object.optional_texts("groups", kMaxAccountName, Limits::kMaxGroups);
   if (!is_given) return std::nullopt;
   return std::set<std::string>(names.begin(), names.end());
 }
@@ -42,10 +43,10 @@ Result<identity::SignIn> decode_sign_in(std::string_view body) {
   if (!object) return fail(object.error());
   identity::SignIn request;
   request.user = object->required_text("user", kMaxAccountName);
-  request.password = object->required_text("password", Accounts::kMaxPassword);
+  request.password = object->required_text("password", Limits::kMaxPassword);
   const bool is_bearer = object->optional_flag("bearer").value_or(false);
   request.kind = is_bearer ? identity::CredentialKind::Login : identity::CredentialKind::Page;
-  const auto life = read_time(*object, "hours", request.life, Accounts::kMaxSessionLife);
+  const auto life = read_time(*object, "hours", request.life, Limits::kMaxSessionLife);
   if (auto good = object->finish(); !good) return fail(good.error());
   if (!life) return fail(life.error());
   request.life = *life;
@@ -59,7 +60,7 @@ Result<identity::NewUser> decode_user(std::string_view body) {
   user.name = object->required_text("name", kMaxAccountName);
   const auto role = read_role(*object);
   user.groups = read_groups(*object).value_or(std::set<std::string>());
-  user.password = object->optional_text("password", Accounts::kMaxPassword);
+  user.password = object->optional_text("password", Limits::kMaxPassword);
   if (auto good = object->finish(); !good) return fail(good.error());
   if (!role) return fail(role.error());
   if (!*role) return fail(Errc::Syntax, "member 'role' is missing: a string");
@@ -84,8 +85,8 @@ Result<identity::NewPassword> decode_password(std::string_view body) {
   auto object = JsonObject::parse(body);
   if (!object) return fail(object.error());
   identity::NewPassword password;
-  password.password = object->required_text("password", Accounts::kMaxPassword);
-  password.current = object->optional_text("current", Accounts::kMaxPassword).value_or("");
+  password.password = object->required_text("password", Limits::kMaxPassword);
+  password.current = object->optional_text("current", Limits::kMaxPassword).value_or("");
   if (auto good = object->finish(); !good) return fail(good.error());
   return password;
 }
@@ -97,7 +98,7 @@ Result<identity::NewToken> decode_token(std::string_view body) {
   token.name = object->required_text("name", kMaxAccountName);
   const auto role = read_role(*object);
   token.groups = read_groups(*object);
-  const auto life = read_time(*object, "days", token.life, Accounts::kMaxTokenLife);
+  const auto life = read_time(*object, "days", token.life, Limits::kMaxTokenLife);
   if (auto good = object->finish(); !good) return fail(good.error());
   if (!role) return fail(role.error());
   if (!life) return fail(life.error());

@@ -2,7 +2,9 @@
 
 #include <string_view>
 
-#include "server/identity/accounts.hpp"
+#include "server/identity/sessions.hpp"
+#include "server/identity/tokens.hpp"
+#include "server/identity/users.hpp"
 
 /// The JSON bodies of requests about users and tokens. Pure. Errors: Syntax, LimitExceeded,
 /// Unsupported (an unknown role); each names the member, and none repeats a password.

@@ -93,7 +93,7 @@ Response sign_in(Services& services, const Request& request) {
         "token");
   }
   wanted->address = request.address;
-  const auto issued = services.accounts.sign_in(*wanted);
+  const auto issued = services.accounts.sessions().sign_in(*wanted);
   if (!issued) return refused_sign_in(issued.error());
   using identity::PresentedSecret;
   const auto from = is_page ? PresentedSecret::From::Cookie : PresentedSecret::From::Bearer;
@@ -115,7 +115,7 @@ Response show_session(Services& services, const Request& request) {
 }
 
 Response sign_out(Services& services, const Request& request) {
-  Response response = refused_or_empty(services.accounts.sign_out(*request.caller));
+  Response response = refused_or_empty(services.accounts.sessions().sign_out(*request.caller));
   if (request.caller->kind == identity::CredentialKind::Page)
     response.headers.emplace_back("Set-Cookie", identity::clear_cookie(services.has_tls));
   return response;
@@ -125,48 +125,48 @@ Response sign_out(Services& services, const Request& request) {
 
 Response list_users(Services& services, const Request&) {
   auto list = json::array();
-  for (const auto& user : services.accounts.users()) list.push_back(user_json(user));
+  for (const auto& user : services.accounts.users().list()) list.push_back(user_json(user));
   return json_response(200, {{"users", std::move(list)}});
 }
 
 Response add_user(Services& services, const Request& request) {
   const auto user = decode_user(request.body);
   if (!user) return error_response(user.error());
-  return refused_or<identity::User>(services.accounts.add_user(*request.caller, *user), 201,
+  return refused_or<identity::User>(services.accounts.users().add(*request.caller, *user), 201,
                                     user_json);
 }
 
 Response show_user(Services& services, const Request& request) {
   return refused_or<identity::User>(
-      services.accounts.user(*request.caller, request.parameter("name")), 200, user_json);
+      services.accounts.users().find(*request.caller, request.parameter("name")), 200, user_json);
 }
 
 Response change_user(Services& services, const Request& request) {
   const auto change = decode_user_change(request.body);
   if (!change) return error_response(change.error());
   return refused_or<identity::User>(
-      services.accounts.change_user(*request.caller, request.parameter("name"), *change), 200,
+      services.accounts.users().change(*request.caller, request.parameter("name"), *change), 200,
       user_json);
 }
 
 Response set_password(Services& services, const Request& request) {
   const auto password = decode_password(request.body);
   if (!password) return error_response(password.error());
-  return refused_or_empty(
-      services.accounts.set_password(*request.caller, request.parameter("name"), *password));
+  return refused_or_empty(services.accounts.users().set_password(
+      *request.caller, request.parameter("name"), *password));
 }
 
 Response remove_user(Services& services, const Request& request) {
   return refused_or_empty(
-      services.accounts.remove_user(*request.caller, request.parameter("name")));
+      services.accounts.users().remove(*request.caller, request.parameter("name")));
 }
 
 // -- tokens ---------------------------------------------------------------------------------------
 
 Response list_tokens(Services& services, const Request& request) {
-  const auto user = services.accounts.user(*request.caller, request.parameter("name"));
+  const auto user = services.accounts.users().find(*request.caller, request.parameter("name"));
   if (!user) return refused(user.error());
-  const auto tokens = services.accounts.credentials(*request.caller, user->name);
+  const auto tokens = services.accounts.tokens().list(*request.caller, user->name);
   if (!tokens) return refused(tokens.error());
   auto list = json::array();
   for (const auto& token : *tokens) list.push_back(token_json(token, user->role));
@@ -177,7 +177,7 @@ Response add_token(Services& services, const Request& request) {
   const auto wanted = decode_token(request.body);
   if (!wanted) return error_response(wanted.error());
   const auto issued =
-      services.accounts.add_token(*request.caller, request.parameter("name"), *wanted);
+      services.accounts.tokens().add(*request.caller, request.parameter("name"), *wanted);
   if (!issued) return refused(issued.error());
   json view = token_json(issued->credential, issued->credential.role);
   view["secret"] = issued->secret;
@@ -187,40 +187,40 @@ Response add_token(Services& services, const Request& request) {
 }
 
 Response revoke_token(Services& services, const Request& request) {
-  return refused_or_empty(services.accounts.revoke(*request.caller, request.parameter("name"),
-                                                   request.parameter("token")));
+  return refused_or_empty(services.accounts.tokens().revoke(
+      *request.caller, request.parameter("name"), request.parameter("token")));
 }
 
 // -- groups ---------------------------------------------------------------------------------------
 
 Response list_groups(Services& services, const Request&) {
   auto list = json::array();
-  for (const auto& group : services.accounts.groups()) list.push_back(group_json(group));
+  for (const auto& group : services.accounts.groups().list()) list.push_back(group_json(group));
   return json_response(200, {{"groups", std::move(list)}});
 }
 
 Response save_group(Services& services, const Request& request) {
-  const auto saved = services.accounts.add_group(*request.caller, request.parameter("group"));
+  const auto saved = services.accounts.groups().add(*request.caller, request.parameter("group"));
   if (!saved) return refused(saved.error());
   return json_response(saved->is_new ? 201 : 200, group_json(saved->group));
 }
 
 Response remove_group(Services& services, const Request& request) {
   return refused_or_empty(
-      services.accounts.remove_group(*request.caller, request.parameter("group")));
+      services.accounts.groups().remove(*request.caller, request.parameter("group")));
 }
 
 Response add_machine(Services& services, const Request& request) {
   return refused_or<identity::MachineGroup>(
-      services.accounts.add_machine(*request.caller, request.parameter("group"),
-                                    request.parameter("machine")),
+      services.accounts.groups().add_machine(*request.caller, request.parameter("group"),
+                                             request.parameter("machine")),
       200, group_json);
 }
 
 Response remove_machine(Services& services, const Request& request) {
   return refused_or<identity::MachineGroup>(
-      services.accounts.remove_machine(*request.caller, request.parameter("group"),
-                                       request.parameter("machine")),
+      services.accounts.groups().remove_machine(*request.caller, request.parameter("group"),
+                                                request.parameter("machine")),
       200, group_json);
 }
 

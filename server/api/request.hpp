@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "protocol/base/result.hpp"
-#include "server/identity/accounts.hpp"
+#include "server/identity/caller.hpp"
 
 namespace dripline::api {
 

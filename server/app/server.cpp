@@ -304,7 +304,7 @@ void Server::tidy() {
   } else if (*dropped > 0) {
     process::log_info("dropped {} abandoned uploads", *dropped);
   }
-  parts_->accounts.tidy();
+  parts_->accounts.sessions().tidy();
 }
 
 }  // namespace dripline::app

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "server/api/account_bodies.hpp"
+#include "server/identity/account_limits.hpp"
 
 namespace {
 
@@ -15,17 +16,18 @@ void check(const dripline::Result<T>& decoded) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline;
-  using identity::Accounts;
+  using identity::AccountLimits;
   const std::string_view body(reinterpret_cast<const char*>(data), size);
   const auto sign_in = api::decode_sign_in(body);
   check(sign_in);
-  if (sign_in && (sign_in->password.size() > Accounts::kMaxPassword ||
-                  sign_in->life > Accounts::kMaxSessionLife || sign_in->life.count() < 1)) {
+  if (sign_in && (sign_in->password.size() > AccountLimits::kMaxPassword ||
+                  sign_in->life > AccountLimits::kMaxSessionLife || sign_in->life.count() < 1)) {
     std::abort();
   }
   const auto token = api::decode_token(body);
   check(token);
-  if (token && (token->life > Accounts::kMaxTokenLife || token->life.count() < 1)) std::abort();
+  if (token && (token->life > AccountLimits::kMaxTokenLife || token->life.count() < 1))
+    std::abort();
   check(api::decode_user(body));
   check(api::decode_user_change(body));
   check(api::decode_password(body));

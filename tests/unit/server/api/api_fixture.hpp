@@ -105,16 +105,8 @@ class ApiTest : public ServerTest {
   std::string stored_run(std::uint64_t outputs) {
     const auto revision = push("O0100", "O0100\nM30\n");
     show_machine("lathe-1");
-    Run run;
-    run.id = "run-1";
-    run.machine = "lathe-1";
-    run.program = revision.program;
-    run.revision = revision.number;
-    run.content = revision.content;
-    run.size = revision.size;
-    run.control = "centurion";
+    Run run = run_of(revision, "run-1");
     run.author = "admin";
-    run.created = clock_.now();
     EXPECT_TRUE(store_->runs.create(run));
     storage::RecordBatch batch;
     batch.machine = "lathe-1";
@@ -144,9 +136,9 @@ class ApiTest : public ServerTest {
         accounts_->find({identity::PresentedSecret::From::Bearer, kSecret}, "").value();
     identity::NewUser user{.name = "a-" + role, .role = storage::parse_role(role).value()};
     user.groups = {storage::kAllMachines};
-    (void)accounts_->add_user(admin, user);
-    (void)accounts_->revoke(admin, user.name, "test");
-    const auto issued = accounts_->add_token(admin, user.name, {.name = "test"});
+    (void)accounts_->users().add(admin, user);
+    (void)accounts_->tokens().revoke(admin, user.name, "test");
+    const auto issued = accounts_->tokens().add(admin, user.name, {.name = "test"});
     EXPECT_TRUE(issued) << issued.error().what;
     return issued ? issued->secret : "";
   }
