@@ -6,12 +6,10 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/http/parser.hpp>
-#include <boost/beast/http/string_body.hpp>
 
 #include "protocol/process/log.hpp"
 #include "server/api/impl/http_head.hpp"
+#include "server/api/impl/request_reader.hpp"
 #include "server/api/impl/transport.hpp"
 
 namespace dripline::api {
@@ -19,17 +17,12 @@ namespace {
 
 using namespace std::chrono_literals;
 namespace asio = boost::asio;
-namespace beast = boost::beast;
 namespace http = boost::beast::http;
 using asio::awaitable;
 using boost::system::error_code;
 using Clock = std::chrono::steady_clock;
 using State = ConnectionTable::State;
 
-constexpr std::uint32_t kMaxHead = 16 * 1024;
-constexpr std::size_t kMaxBuffer = 128 * 1024;  ///< bound of pipelined requests in memory
-constexpr std::size_t kReadHead = 4096;
-constexpr std::size_t kReadBody = 64 * 1024;
 constexpr std::size_t kSmallBody = 16 * 1024;  ///< written together with its head
 constexpr std::uint64_t kSlowestBody = 4096;   ///< bytes a second, over a whole body
 constexpr auto kBodyGrace = 30s;
@@ -38,17 +31,6 @@ constexpr auto kDiscardLimit = 5s;  ///< for a refused body to be read away
 constexpr std::uint64_t kDiscardSize = 8ull * 1024 * 1024;
 constexpr int kStreamBuffer = 64 * 1024;  ///< bytes that the kernel buffers for a listener
 
-/// An IPv4 client of a socket for both protocols has its IPv4 address.
-std::string address_text(const asio::ip::tcp::socket& socket) {
-  error_code error;
-  const auto peer = socket.remote_endpoint(error);
-  if (error) return {};
-  const auto& address = peer.address();
-  if (address.is_v6() && address.to_v6().is_v4_mapped())
-    return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
-  return address.to_string();
-}
-
 class Session final : public HttpSession, public std::enable_shared_from_this<Session> {
  public:
   Session(HttpShared& shared, std::unique_ptr<Transport> transport, bool is_reserve)
@@ -56,9 +38,9 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
         limits_(shared.options.limits),
         transport_(std::move(transport)),
         is_reserve_(is_reserve),
-        buffer_(kMaxBuffer),
+        reader_(*transport_),
         woken_(shared.io),
-        address_(address_text(transport_->socket())) {}
+        address_(transport_->peer_address()) {}
 
   void close() override {
     is_closed_ = true;
@@ -81,16 +63,15 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   }
 
  private:
-  using Parser = http::request_parser<http::string_body>;
+  using Parser = RequestReader::Parser;
 
   bool may_continue() const { return !is_closed_ && !shared_.is_stopping; }
 
   /// True: another request may follow.
   awaitable<bool> serve_request(bool is_first, Seat& seat) {
     Parser parser;
-    parser.header_limit(kMaxHead);
-    parser.body_limit(boost::none);  // checked after the token
-    const error_code unread = co_await read_head(parser, is_first);
+    const auto patience = is_first ? limits_.head : limits_.idle;
+    const error_code unread = co_await reader_.read_head(parser, patience, limits_.head);
     if (unread) {
       const auto refused = refusal_of(unread);
       if (refused) co_await refuse(*refused);
@@ -137,36 +118,6 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     co_return co_await send(*answer);
   }
 
-  /// Parses and reads until the head, or all, of the message is there. `until` is asked before each
-  /// read. Errors of the parser; end_of_stream: the client is gone.
-  template <class Until>
-  awaitable<error_code> advance(Parser& parser, bool to_end, Until until) {
-    const auto is_done = [&] { return to_end ? parser.is_done() : parser.is_header_done(); };
-    for (;;) {
-      error_code error;
-      while (buffer_.size() > 0 && !is_done() && !error) {
-        buffer_.consume(parser.put(buffer_.data(), error));
-      }
-      if (is_done()) co_return error_code();
-      if (error && error != http::error::need_more) co_return error;
-      const std::size_t most = to_end ? kReadBody : kReadHead;
-      const std::size_t size = co_await transport_->read(buffer_.prepare(most), until());
-      if (size == 0) co_return http::error::end_of_stream;
-      buffer_.commit(size);
-    }
-  }
-
-  awaitable<error_code> read_head(Parser& parser, bool is_first) {
-    auto end = Clock::now() + (is_first || buffer_.size() > 0 ? limits_.head : limits_.idle);
-    if (buffer_.size() == 0) {
-      const std::size_t size = co_await transport_->read(buffer_.prepare(kReadHead), end);
-      if (size == 0) co_return http::error::end_of_stream;
-      buffer_.commit(size);
-      end = Clock::now() + limits_.head;
-    }
-    co_return co_await advance(parser, false, [end] { return end; });
-  }
-
   /// nullopt when the body was read; else the answer, with a status of 0 when the client is gone.
   awaitable<std::optional<Response>> read_body(Parser& parser, BodyMemory::Share& share) {
     const std::uint64_t most = shared_.options.max_body;
@@ -184,9 +135,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       if (!co_await write("HTTP/1.1 100 Continue\r\n\r\n")) co_return client_gone();
     }
     const auto end = Clock::now() + kBodyGrace + std::chrono::seconds(size / kSlowestBody);
-    parser.eager(true);
-    const error_code error =
-        co_await advance(parser, true, [&] { return std::min(end, Clock::now() + limits_.body); });
+    const error_code error = co_await reader_.read_body(parser, limits_.body, end);
     if (!error) co_return std::nullopt;
     const auto refused = refusal_of(error);
     co_return refused ? refused : client_gone();
@@ -275,9 +224,8 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     const auto end = Clock::now() + kDiscardLimit;
     std::uint64_t discarded = 0;
     while (may_continue() && discarded < kDiscardSize && Clock::now() < end) {
-      buffer_.clear();
       const auto patience = std::min<Clock::time_point>(end, Clock::now() + kFarewell);
-      const std::size_t size = co_await transport_->read(buffer_.prepare(kReadBody), patience);
+      const std::size_t size = co_await reader_.discard(patience);
       if (size == 0) break;
       discarded += size;
     }
@@ -370,7 +318,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   const HttpLimits& limits_;
   std::unique_ptr<Transport> transport_;
   const bool is_reserve_;
-  beast::flat_buffer buffer_;
+  RequestReader reader_;
   Signal woken_;
   const std::string address_;  ///< of the client
   bool is_closed_ = false;

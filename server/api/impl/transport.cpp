@@ -77,6 +77,16 @@ void Transport::close() {
   socket().close(ignored);
 }
 
+std::string Transport::peer_address() {
+  error_code error;
+  const auto peer = socket().remote_endpoint(error);
+  if (error) return {};
+  const auto& address = peer.address();
+  if (address.is_v6() && address.to_v6().is_v4_mapped())
+    return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
+  return address.to_string();
+}
+
 std::unique_ptr<Transport> make_transport(asio::ip::tcp::socket socket, asio::ssl::context* tls) {
   if (tls != nullptr) return std::make_unique<StreamTransport<TlsStream>>(std::move(socket), *tls);
   return std::make_unique<StreamTransport<beast::tcp_stream>>(std::move(socket));

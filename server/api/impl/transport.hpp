@@ -5,6 +5,7 @@
 #include <functional>
 #include <list>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -38,6 +39,8 @@ class Transport {
   virtual boost::asio::awaitable<void> say_goodbye(Limit limit) = 0;
   virtual boost::asio::ip::tcp::socket& socket() = 0;
   void close();
+  /// The other end's. An IPv4 client of a socket for both protocols has its IPv4 address.
+  std::string peer_address();
 
   static constexpr std::size_t kWritePiece = 256 * 1024;
 };
