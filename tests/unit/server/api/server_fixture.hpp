@@ -88,6 +88,19 @@ class ServerTest : public testing::Test {
     machine.first_seen = machine.last_seen = clock_.now();
     EXPECT_TRUE(store_->machines.save(machine));
   }
+  /// A run of `revision` on lathe-1, not stored yet.
+  Run run_of(const storage::Revision& revision, const std::string& id) const {
+    Run run;
+    run.id = id;
+    run.machine = "lathe-1";
+    run.program = revision.program;
+    run.revision = revision.number;
+    run.content = revision.content;
+    run.size = revision.size;
+    run.control = "centurion";
+    run.created = clock_.now();
+    return run;
+  }
 
   test_support::TemporaryFolder folder_;
   test_support::ManualClock clock_;

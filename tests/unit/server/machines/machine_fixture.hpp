@@ -173,15 +173,7 @@ class MachineRuns : public MachineServiceTest {
   std::string stored_run() {
     const auto revision = push("O0100", "M30\n");
     add_machine("lathe-1");
-    Run run;
-    run.id = "old-run";
-    run.machine = "lathe-1";
-    run.program = revision.program;
-    run.revision = revision.number;
-    run.content = revision.content;
-    run.size = revision.size;
-    run.control = "centurion";
-    run.created = clock_.now();
+    const Run run = run_of(revision, "old-run");
     EXPECT_TRUE(store_->runs.create(run));
     return run.id;
   }
