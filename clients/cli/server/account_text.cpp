@@ -18,6 +18,12 @@ std::string when_text(const std::string& time) {
 
 }  // namespace
 
+const std::vector<std::string>& role_names() {
+  static const std::vector<std::string> kRoles{"viewer", "operator", "programmer", "approver",
+                                               "administrator"};
+  return kRoles;
+}
+
 std::string names_text(const std::vector<std::string>& names) {
   return names.empty() ? "none" : printable(fmt::format("{}", fmt::join(names, ", ")));
 }

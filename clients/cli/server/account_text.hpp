@@ -10,6 +10,8 @@
 /// How users and tokens look. Pure.
 namespace dripline::cli {
 
+/// Lowest first.
+const std::vector<std::string>& role_names();
 /// "lathes, mills", or "none".
 std::string names_text(const std::vector<std::string>& names);
 /// A token's groups: "as its user" when it has none of its own.

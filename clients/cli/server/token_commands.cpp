@@ -67,7 +67,7 @@ void add_add(Command group, Context& context) {
       .required();
   add_user_option(command, options);
   command.add_option("--role", options->token.role, "At most this (default: as much as its user)")
-      .check(one_of({"viewer", "operator", "programmer", "approver", "administrator"}));
+      .check(one_of(role_names()));
   command
       .add_option("--group", options->groups,
                   "At most the machines of these groups (default: those of its user)")

@@ -8,12 +8,6 @@
 namespace dripline::cli {
 namespace {
 
-const std::vector<std::string>& roles() {
-  static const std::vector<std::string> kRoles{"viewer", "operator", "programmer", "approver",
-                                               "administrator"};
-  return kRoles;
-}
-
 int print_user(Context& context, const client::Reply<client::User>& user) {
   if (const auto status = finished(context, user)) return *status;
   context.print(user_details(*user));
@@ -118,7 +112,7 @@ void add_add(Command group, Context& context) {
   command.add_option("NAME", options->user.name, "Lower-case letters, digits, '.', '-', '_'")
       .required();
   command.add_option("--role", options->user.role, "What the user may do")
-      .check(one_of(roles()))
+      .check(one_of(role_names()))
       .required();
   command.add_option("--group", options->user.groups, "A group whose machines the user may act on")
       .type_name("GROUP")
@@ -142,7 +136,7 @@ void add_role(Command group, Context& context) {
   auto command = group.add_subcommand("role", "Change the role of a user");
   auto options = std::make_shared<UserRole>();
   command.add_option("NAME", options->name, "The user").required();
-  command.add_option("ROLE", options->role, "The new role").check(one_of(roles())).required();
+  command.add_option("ROLE", options->role, "The new role").check(one_of(role_names())).required();
   add_json_flag(command, context);
   command.footer("Tokens of the user never have more than this role from now on.");
   run_at_server(command, context, options, set_role);
