@@ -1,6 +1,7 @@
 #include "tests/golden/golden_case.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -89,6 +90,27 @@ std::vector<GoldenName> golden_names(std::string_view control) {
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+std::string test_name(const GoldenName& golden) {
+  std::string name = golden.control + "_" + golden.name;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+std::vector<GoldenName> golden_named(std::string_view wanted) {
+  if (!fs::exists(kRoot)) return {};
+  for (const auto& folder : fs::directory_iterator(kRoot)) {
+    const std::string control = folder.path().filename();
+    if (!folder.is_directory() || !wanted.starts_with(test_name({control, {}}))) continue;
+    for (const auto& file : fs::directory_iterator(folder)) {
+      GoldenName golden{control, file.path().stem()};
+      const std::size_t length = control.size() + 1 + golden.name.size();
+      if (length == wanted.size() && test_name(golden) == wanted) return {std::move(golden)};
+    }
+  }
+  return {};
 }
 
 std::vector<GoldenCase> golden_cases(std::string_view control) {

@@ -43,7 +43,11 @@ std::ostream& operator<<(std::ostream& out, const GoldenName& golden);
 
 /// Every case in the tree, or those of one control, in the order of their names.
 std::vector<GoldenName> golden_names(std::string_view control = {});
-/// The same, read.
+/// `control_name`, with an underscore for what a name of gtest cannot have.
+std::string test_name(const GoldenName& golden);
+/// The case with this test name, if there is one.
+std::vector<GoldenName> golden_named(std::string_view test_name);
+/// Those of one control, or all, read.
 std::vector<GoldenCase> golden_cases(std::string_view control = {});
 /// Throws when there is no such file or its form is wrong.
 GoldenCase read_golden_case(std::string_view control, std::string_view name);
