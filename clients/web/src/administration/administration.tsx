@@ -1,15 +1,20 @@
-// What looks after the server: its state, the serial ports, and who changed what.
+// What looks after the server: its state, the serial ports, users, groups of machines, and who changed what.
 import { addressOf } from '../app/route';
+import { Allowed, useRefusal } from '../parts/allowed';
 import { Tabs } from '../parts/tabs';
 import { texts } from '../texts/texts';
 import { AuditTrail } from './audit';
+import { Groups } from './groups';
 import { Ports } from './ports';
 import { ServerState } from './server_state';
+import { Users } from './users';
 
-const kTabs = ['server', 'ports', 'audit'] as const;
+const kTabs = ['server', 'ports', 'users', 'groups', 'audit'] as const;
 
 export default function AdministrationView({ path }: { path: string[] }) {
   const [tab = 'server'] = path;
+  const isAdministrator = useRefusal('administer') === null;
+  const isApprover = useRefusal('approve') === null;
   const t = texts().administration;
   return (
     <>
@@ -17,7 +22,9 @@ export default function AdministrationView({ path }: { path: string[] }) {
       <Tabs label={t.title} tabs={kTabs.map((key) => ({ address: addressOf('administration', [key]), name: t.tabs[key], isShown: key === tab }))} />
       {tab === 'server' && <ServerState />}
       {tab === 'ports' && <Ports />}
-      {tab === 'audit' && <AuditTrail />}
+      {tab === 'users' && (isAdministrator ? <Users chosen={path[1]} /> : <Allowed to="administer">{null}</Allowed>)}
+      {tab === 'groups' && <Groups />}
+      {tab === 'audit' && (isApprover ? <AuditTrail /> : <Allowed to="approve">{null}</Allowed>)}
     </>
   );
 }

@@ -2,6 +2,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { Port, PortTest, Ports as PortList } from '../../generated/api';
 import { get, pathOf, send } from '../api/request';
+import { Allowed, refusalText, useRefusal } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { SureButton } from '../parts/sure_button';
@@ -16,6 +17,8 @@ const kIntervalMs = 3000;
 function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
   const t = texts().administration;
   const command = useCommand();
+  const refusal = useRefusal('administer');
+  const isOff = command.isBusy || refusal !== null;
   const [test, setTest] = useState<PortTest | null>(null);
   const [shown, setShown] = useState<'monitor' | 'settings' | null>(null);
   const run = () => command.send(async () => setTest(await send<PortTest>('POST', pathOf('ports', port.name, 'test'))));
@@ -34,12 +37,13 @@ function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
       {port.fault && <p class="message">{port.fault}</p>}
       <p>{t.passed(bytesText(port.sent), bytesText(port.received))}{line.waiting_for && ` · ${t.waitsFor(line.waiting_for)}`}</p>
       <p class="buttons">
-        <button type="button" disabled={command.isBusy} onClick={() => void run()}>{t.test}</button>
+        <button type="button" disabled={isOff} onClick={() => void run()}>{t.test}</button>
         <button type="button" aria-pressed={shown === 'monitor'} onClick={() => toggle('monitor')}>{t.monitor}</button>
         <button type="button" aria-pressed={shown === 'settings'} onClick={() => toggle('settings')}>{t.change}</button>
         <button type="button" onClick={() => void command.send(() => download(pathOf('ports', port.name, 'recording'), `${port.name}.jsonl`))}>{t.recording}</button>
-        <SureButton class="danger" label={t.remove} question={t.removeSure(port.name)} disabled={command.isBusy} onSure={() => void remove()} />
+        <SureButton class="danger" label={t.remove} question={t.removeSure(port.name)} disabled={isOff} onSure={() => void remove()} />
       </p>
+      {refusal !== null && <p class="hint">{refusalText(refusal)}</p>}
       {test && (
         <div class={`notice ${test.passed ? '' : 'bad'}`} role="status">
           <b>{test.passed ? t.testPassed : t.testFailed}</b>
@@ -48,7 +52,7 @@ function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
       )}
       <CommandFault command={command} />
       {shown === 'monitor' && <LineMonitor port={port.name} />}
-      {shown === 'settings' && <PortForm port={port} onStored={() => { setShown(null); onChanged(); }} />}
+      {shown === 'settings' && <Allowed to="administer"><PortForm port={port} onStored={() => { setShown(null); onChanged(); }} /></Allowed>}
     </li>
   );
 }
@@ -69,7 +73,7 @@ export function Ports() {
       <ul class="list">{(ports.value?.ports ?? []).map((port) => <PortCard key={port.name} port={port} onChanged={ports.reload} />)}</ul>
       <details>
         <summary class="button">{t.add}</summary>
-        <div class="panel"><PortForm key={count} port={null} onStored={() => { setCount(count + 1); ports.reload(); }} /></div>
+        <div class="panel"><Allowed to="administer"><PortForm key={count} port={null} onStored={() => { setCount(count + 1); ports.reload(); }} /></Allowed></div>
       </details>
     </section>
   );

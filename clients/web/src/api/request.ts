@@ -1,10 +1,8 @@
 // One request to the server's API. A request is made once: what changes something is never repeated by the page, since a command
 // whose answer was lost may have been carried out.
-import { authorization, signOut } from './session';
-
 export type Code = 'syntax' | 'conflict' | 'unsupported' | 'limit_exceeded' | 'not_found' | 'busy' | 'timeout' | 'corrupt' | 'io' | 'denied';
 
-/// What the server answered instead. `status` 0: no answer came, so that nobody knows whether a command was carried out.
+/// What the server answered instead. `status` 0: no answer came, so that a command may have been carried out.
 export class ApiError extends Error {
   constructor(readonly status: number, readonly code: Code | null, message: string) {
     super(message);
@@ -29,10 +27,21 @@ export interface Body {
   raw?: Blob | string;
   /// Of the answer: "bytes=0-99".
   range?: string;
+  headers?: Record<string, string>;
+}
+
+/// By this field the server knows a request of its own page from one that another site made the browser send.
+const kPageHeader = { 'X-Dripline': '1' };
+
+const statusListeners = new Set<(status: number) => void>();
+
+/// The status of every answer that is an error.
+export function onStatus(listener: (status: number) => void): void {
+  statusListeners.add(listener);
 }
 
 export async function fetchApi(method: string, path: string, body: Body = {}, signal?: AbortSignal): Promise<Response> {
-  const headers: Record<string, string> = { ...authorization() };
+  const headers: Record<string, string> = { ...kPageHeader, ...body.headers };
   if (body.json !== undefined) headers['Content-Type'] = 'application/json';
   else if (body.raw !== undefined) headers['Content-Type'] = 'application/octet-stream';
   if (body.range !== undefined) headers.Range = body.range;
@@ -46,7 +55,7 @@ export async function fetchApi(method: string, path: string, body: Body = {}, si
   }
   if (response.ok) return response;
   const error = await errorOf(response);
-  if (response.status === 401) signOut();
+  for (const listener of statusListeners) listener(response.status);
   throw error;
 }
 
@@ -59,8 +68,8 @@ async function errorOf(response: Response): Promise<ApiError> {
   }
 }
 
-export async function get<T>(path: string, query: Query = {}, signal?: AbortSignal): Promise<T> {
-  return (await (await fetchApi('GET', withQuery(path, query), {}, signal)).json()) as T;
+export async function get<T>(path: string, query: Query = {}, signal?: AbortSignal, headers: Record<string, string> = {}): Promise<T> {
+  return (await (await fetchApi('GET', withQuery(path, query), { headers }, signal)).json()) as T;
 }
 
 /// The answer's JSON; undefined for one without content.

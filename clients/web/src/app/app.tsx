@@ -1,14 +1,15 @@
 // The frame around every view: who is signed in, which view is shown, and whether what it shows is current.
 import { Component, type ComponentChildren } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import { isSignedIn, onSession } from '../api/session';
+import { beginSession, refreshSession, type SessionState } from '../api/session';
 import { Floor } from '../floor/floor';
 import { feed } from '../live/feed';
+import { useSessionState } from '../parts/allowed';
 import { texts } from '../texts/texts';
 import { Header } from './header';
 import { LinkBanner } from './link_banner';
 import { parseRoute, type Route } from './route';
-import { SignIn } from './sign_in';
+import { SignIn, SignInAgain } from './sign_in';
 
 function useRoute(): Route {
   const [route, setRoute] = useState(() => parseRoute(location.hash));
@@ -20,14 +21,21 @@ function useRoute(): Route {
   return route;
 }
 
-function useSession(): boolean {
-  const [isIn, setIn] = useState(isSignedIn);
-  useEffect(() => onSession(() => setIn(isSignedIn())), []);
+/// The feed follows the session: it reads while somebody is signed in, and keeps what it knows while a session is renewed.
+function useSession(): SessionState {
+  const state = useSessionState();
+  useEffect(() => void beginSession(), []);
   useEffect(() => {
-    if (isIn) feed.begin();
-    return () => feed.end();
-  }, [isIn]);
-  return isIn;
+    if (state.is === 'in') feed.begin();
+    if (state.is === 'expired') feed.pause();
+    if (state.is === 'out') feed.end();
+  }, [state.is]);
+  useEffect(() => {
+    const refresh = () => { if (!document.hidden && state.is === 'in') refreshSession().catch(() => {}); };
+    document.addEventListener('visibilitychange', refresh);
+    return () => document.removeEventListener('visibilitychange', refresh);
+  }, [state.is]);
+  return state;
 }
 
 /// A defect in one view must not take the others away.
@@ -51,6 +59,7 @@ const kLater: { [view: string]: () => Promise<{ default: LaterView }> } = {
   machine: () => import('../machine/machine'),
   programs: () => import('../programs/programs'),
   reports: () => import('../reports/reports'),
+  account: () => import('../account/account'),
   administration: () => import('../administration/administration'),
 };
 
@@ -75,17 +84,19 @@ function View({ route }: { route: Route }) {
 
 export function App() {
   const route = useRoute();
-  const isIn = useSession();
+  const state = useSession();
   const [, redraw] = useState(0); // for another language
-  if (!isIn) return <SignIn />;
+  if (state.is === 'unknown') return <p class="banner connecting" role="status">{texts().link.connecting}</p>;
+  if (state.is === 'out') return <SignIn />;
   const isWall = route.view === 'floor' && route.query.has('wall');
   return (
     <>
       {!isWall && <Header route={route} onLanguage={() => redraw((count) => count + 1)} />}
       <LinkBanner />
       <main id="content" tabIndex={-1} class={isWall ? 'wall' : ''}>
-        <Guard name={location.hash}><View route={route} /></Guard>
+        <Guard name={location.hash}><View key={state.session.user} route={route} /></Guard>
       </main>
+      {state.is === 'expired' && <SignInAgain user={state.session.user} />}
     </>
   );
 }

@@ -1,5 +1,7 @@
 // The bar at the top: the views, the link, and what this browser's user has chosen.
 import { signOut } from '../api/session';
+import { CommandFault, useCommand } from '../parts/command';
+import { useSessionState } from '../parts/allowed';
 import { useFeed } from '../live/use_feed';
 import { languages, loadTexts, texts, type Language } from '../texts/texts';
 import { keepPreferences, preferences, showTheme, type Theme } from './preferences';
@@ -15,6 +17,7 @@ function skip(event: Event): void {
 
 function Settings({ onLanguage }: { onLanguage: () => void }) {
   const t = texts().app;
+  const command = useCommand();
   const chooseLanguage = async (language: Language) => {
     await loadTexts(language);
     keepPreferences({ language });
@@ -40,16 +43,24 @@ function Settings({ onLanguage }: { onLanguage: () => void }) {
             {Object.entries(t.themes).map(([key, name]) => <option key={key} value={key}>{name}</option>)}
           </select>
         </label>
-        <button type="button" onClick={signOut}>{t.signOut}</button>
+        <button type="button" disabled={command.isBusy} onClick={() => void command.send(signOut)}>{t.signOut}</button>
+        <CommandFault command={command} />
       </div>
     </details>
   );
 }
 
+function WhoIsSignedIn({ isShown }: { isShown: boolean }) {
+  const state = useSessionState();
+  if (!('session' in state)) return null;
+  const { user, role } = state.session;
+  return <a class="who" href={addressOf('account')} aria-current={isShown ? 'page' : undefined}>{user} <span>{texts().session.roles[role]}</span></a>;
+}
+
 function LinkState() {
   const { link } = useFeed('link');
   const t = texts().link;
-  return <span class={`link ${link.state}`}>{link.state === 'live' ? t.live : link.state === 'lost' ? t.old : '…'}</span>;
+  return <span class={`link ${link.state}`}>{link.state === 'live' ? t.live : link.state === 'connecting' ? '…' : t.old}</span>;
 }
 
 export function Header({ route, onLanguage }: { route: Route; onLanguage: () => void }) {
@@ -65,6 +76,7 @@ export function Header({ route, onLanguage }: { route: Route; onLanguage: () => 
         ))}
       </nav>
       <LinkState />
+      <WhoIsSignedIn isShown={shown === 'account'} />
       <Settings onLanguage={onLanguage} />
     </header>
   );

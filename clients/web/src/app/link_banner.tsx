@@ -6,12 +6,13 @@ import { texts, timeText } from '../texts/texts';
 export function LinkBanner() {
   const { link } = useFeed('link');
   useEffect(() => {
-    document.documentElement.classList.toggle('old', link.state === 'lost');
+    document.documentElement.classList.toggle('old', link.state === 'lost' || link.state === 'signedOut');
   }, [link.state]);
   const t = texts().link;
   return (
     <div role="status" class={`banner ${link.state}`}>
       {link.state === 'lost' && t.lost(timeText(link.since))}
+      {link.state === 'signedOut' && t.signedOut(timeText(link.since))}
       {link.state === 'connecting' && t.connecting}
     </div>
   );

@@ -2,7 +2,7 @@
 import type { Machine, Run } from '../../generated/api';
 import { stateOf, type Tone } from '../live/machine_state';
 
-/// In the order of the buttons: what needs somebody first.
+/// In the order of the buttons: what needs a person first.
 export const kTones: Tone[] = ['alarm', 'waiting', 'running', 'ready', 'done', 'offline'];
 
 export interface FloorFilter {

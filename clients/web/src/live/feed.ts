@@ -1,19 +1,19 @@
 // What the page knows of the shop, kept current by one event stream: every machine and each one's latest run. Views read it and are
-// told when their part has changed, at most four times a second, so that a thousand busy machines stay fluid.
+// notified when their part has changed, at most four times a second, so that a thousand busy machines stay fluid.
 import type { Machine, Machines, Record as ReportRecord, Run, Runs } from '../../generated/api';
 import { ApiError, get, pathOf } from '../api/request';
 import type { StreamEvent } from './event_parser';
 import { readEvents } from './event_stream';
 import { stateOf, type MachineState } from './machine_state';
 
-export type Link = { state: 'connecting' } | { state: 'live' } | { state: 'lost'; since: Date };
+export type Link = { state: 'connecting' } | { state: 'live' } | { state: 'lost' | 'signedOut'; since: Date };
 
 /// What a view listens to: the list of machines and their states, the link, or one machine.
 export type Topic = 'machines' | 'link' | 'runs' | `machine:${string}`;
 
 const kFlushMs = 250;
 const kDelaysMs = [250, 500, 1000, 2000, 4000];
-const kMostRuns = 1000;
+const kMaxRuns = 1000;
 
 export class Feed {
   readonly machines = new Map<string, Machine>();
@@ -29,19 +29,29 @@ export class Feed {
   private flushing = false;
   private ending: AbortController | null = null;
 
-  /// Until end(): reads, and reconnects whenever the stream ends.
+  /// Until pause() or end(): reads, and reconnects whenever the stream ends.
   begin(): void {
     if (this.ending) return;
     this.ending = new AbortController();
     void this.follow(this.ending.signal);
   }
 
+  /// The session has ended: what is known stays, and is old.
+  pause(): void {
+    this.stop();
+    this.setLink({ state: 'signedOut', since: new Date() });
+  }
+
   end(): void {
-    this.ending?.abort();
-    this.ending = null;
+    this.stop();
     this.machines.clear();
     this.runs.clear();
     this.link = { state: 'connecting' };
+  }
+
+  private stop(): void {
+    this.ending?.abort();
+    this.ending = null;
   }
 
   on(topic: Topic, listener: () => void): () => void {
@@ -80,7 +90,7 @@ export class Feed {
         };
         await readEvents(pathOf('events'), signal, open, (event) => this.take(event));
       } catch (failure) {
-        if (failure instanceof ApiError && failure.status === 401) return; // signed out
+        if (failure instanceof ApiError && failure.status === 401) return; // the session has ended
       }
       if (signal.aborted) return;
       if (this.link.state !== 'lost') this.setLink({ state: 'lost', since: new Date() });
@@ -93,7 +103,7 @@ export class Feed {
   private async load(signal: AbortSignal): Promise<void> {
     try {
       const [{ machines }, { runs }] = await Promise.all([
-        get<Machines>(pathOf('machines'), {}, signal), get<Runs>(pathOf('runs'), { limit: kMostRuns }, signal)]);
+        get<Machines>(pathOf('machines'), {}, signal), get<Runs>(pathOf('runs'), { limit: kMaxRuns }, signal)]);
       const present = new Set(machines.map((machine) => machine.name));
       for (const name of this.machines.keys()) if (!present.has(name)) this.machines.delete(name);
       for (const machine of machines) if (!this.fresh.has(machine.name)) this.takeMachine(machine);
@@ -157,7 +167,7 @@ export class Feed {
   }
 }
 
-/// A page in the background draws no frames, but must not keep what it was told.
+/// A page in the background draws no frames, but must not keep what has changed from its listeners.
 function requestAnimationFrameOrSoon(action: () => void): void {
   if (document.hidden) action();
   else requestAnimationFrame(action);

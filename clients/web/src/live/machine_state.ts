@@ -19,7 +19,7 @@ const kWaits: Record<string, StateWord> = {
   cycle_start: 'waitsForCycleStart', answer: 'waitsForAnswer', text: 'waitsForText', disk: 'waitsForDisk',
 };
 
-/// `run`: the machine's latest one, if it is known. Only it tells an alarm from an abort.
+/// `run`: the machine's latest one, if it is known. It alone distinguishes an alarm from an abort.
 export function stateOf(machine: Machine, run?: Run): MachineState {
   const status = machine.status;
   if (!machine.connected) return { tone: 'offline', word: 'disconnected', message: null };

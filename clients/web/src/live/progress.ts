@@ -19,7 +19,7 @@ export function progressOf(status: Status, run?: Run): Progress | null {
   return { fraction, secondsLeft: status.execution === 'ACTIVE' ? secondsLeft(status, fraction, run) : null };
 }
 
-/// What was executed tells how fast the rest may go; what is buffered lasts as long as it says, at least. Both times come from the shop,
+/// What was executed shows how fast the rest may run; what is buffered lasts as long as it states, at least. Both times come from the shop,
 /// so that this computer's clock does not matter.
 function secondsLeft(status: NonNullable<Status>, fraction: number, run?: Run): number | null {
   const isAllThere = status.sent >= status.total_bytes;

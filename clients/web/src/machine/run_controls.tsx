@@ -2,6 +2,7 @@
 import { useState } from 'preact/hooks';
 import type { Machine } from '../../generated/api';
 import { questionOf } from '../live/machine_state';
+import { Allowed } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { SureButton } from '../parts/sure_button';
 import { texts } from '../texts/texts';
@@ -47,7 +48,7 @@ export function RunControls({ machine }: { machine: Machine }) {
     void command.send(() => commandMachine(machine.name, { action: 'switch', name: 'emergency_stop', value: isPressed ? 1 : 0 }));
   const isOff = !machine.connected || command.isBusy;
   return (
-    <>
+    <Allowed to="operate" machine={machine.name}>
       {question !== null && run !== null && <Answer key={question} run={run} question={question} />}
       <div class="controls" role="group" aria-label={t.run}>
         <button type="button" class="big" disabled={isOff || run === null || status?.execution !== 'ACTIVE'} onClick={() => give('hold')}>{t.hold}</button>
@@ -59,6 +60,6 @@ export function RunControls({ machine }: { machine: Machine }) {
       </div>
       {status?.remote_enable === 'not_given' && <p class="notice">{t.attended}</p>}
       <CommandFault command={command} />
-    </>
+    </Allowed>
   );
 }

@@ -4,6 +4,7 @@ import type { Run, Runs } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { feed } from '../live/feed';
+import { Allowed } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { RunPill } from '../parts/run_pill';
@@ -31,7 +32,9 @@ function Restart({ run, onStarted }: { run: Run; onStarted: () => void }) {
           <input name="at" maxLength={48} autocomplete="off" placeholder={t.restartHint} value={at} onInput={(e) => setAt(e.currentTarget.value)} />
         </label>
         <p class="hint">{t.restartNote}</p>
-        <SureButton class="primary" label={t.restart} question={t.restartSure(run.program, at.trim())} disabled={command.isBusy} onSure={() => void restart()} />
+        <Allowed to="operate" machine={run.machine}>
+          <SureButton class="primary" label={t.restart} question={t.restartSure(run.program, at.trim())} disabled={command.isBusy} onSure={() => void restart()} />
+        </Allowed>
         <CommandFault command={command} />
       </div>
     </details>

@@ -2,20 +2,21 @@
 import { useState } from 'preact/hooks';
 import type { Machine, Programs } from '../../generated/api';
 import { get, pathOf } from '../api/request';
+import { Allowed } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { SureButton } from '../parts/sure_button';
 import { useLoaded } from '../parts/use_loaded';
 import { texts } from '../texts/texts';
 import { startRun } from './commands';
 
-const kMostListed = 1000;
+const kMaxListed = 1000;
 
 export function StartForm({ machine }: { machine: Machine }) {
   const t = texts().machine;
   const command = useCommand();
   const [program, setProgram] = useState('');
   const [from, setFrom] = useState('');
-  const { value } = useLoaded((signal) => get<Programs>(pathOf('programs'), { limit: kMostListed }, signal), []);
+  const { value } = useLoaded((signal) => get<Programs>(pathOf('programs'), { limit: kMaxListed }, signal), []);
   const fitting = (value?.programs ?? []).filter((p) => p.control === null || p.control === machine.control);
   const chosen = fitting.find((p) => p.name === program);
   const start = async () => {
@@ -26,6 +27,7 @@ export function StartForm({ machine }: { machine: Machine }) {
   return (
     <section class="panel" aria-labelledby="start">
       <h2 id="start">{t.start}</h2>
+      <Allowed to="operate" machine={machine.name}>
       <label>
         {t.program}
         <input name="program" list="programs" autocomplete="off" value={program} onInput={(e) => setProgram(e.currentTarget.value)} />
@@ -38,6 +40,7 @@ export function StartForm({ machine }: { machine: Machine }) {
       <SureButton class="big primary" label={t.start} disabled={program === '' || command.isBusy || !machine.connected}
         question={t.startSure(program, chosen ? String(chosen.revision) : t.latest, machine.name, from.trim())} onSure={() => void start()} />
       <CommandFault command={command} />
+      </Allowed>
     </section>
   );
 }

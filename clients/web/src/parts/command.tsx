@@ -6,7 +6,7 @@ import { texts } from '../texts/texts';
 export interface Command {
   isBusy: boolean;
   fault: string | null;
-  /// True: it was carried out. A second one is not sent while the first is under way.
+  /// True: it was carried out. A second one is not sent while the first has no answer.
   send(action: () => Promise<unknown>): Promise<boolean>;
   dismiss(): void;
 }
@@ -14,6 +14,7 @@ export interface Command {
 /// What a failure means to the one who gave a command: without an answer it may have been carried out.
 export function faultText(failure: unknown, isCommand: boolean): string {
   if (!(failure instanceof ApiError)) return failure instanceof Error ? failure.message : String(failure);
+  if (failure.status === 401) return isCommand ? texts().errors.notSentAsSignedOut : texts().errors.signedOut;
   if (failure.status === 0) return isCommand ? texts().errors.unknownOutcome : texts().errors.unreachable;
   return failure.message;
 }

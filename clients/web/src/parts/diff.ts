@@ -5,7 +5,7 @@ export interface DiffLine {
 }
 
 /// Larger differences are shown as removed and added as a whole: the table below is of their product.
-const kMostCells = 4_000_000;
+const kMaxCells = 4_000_000;
 
 export function diffLines(before: string, after: string): DiffLine[] {
   const a = before.split('\n');
@@ -21,9 +21,9 @@ export function diffLines(before: string, after: string): DiffLine[] {
 function diffMiddle(a: string[], b: string[]): DiffLine[] {
   const removed = (text: string): DiffLine => ({ kind: 'removed', text });
   const added = (text: string): DiffLine => ({ kind: 'added', text });
-  if (a.length * b.length > kMostCells) return [...a.map(removed), ...b.map(added)];
+  if (a.length * b.length > kMaxCells) return [...a.map(removed), ...b.map(added)];
   const width = b.length + 1;
-  const common = new Uint16Array((a.length + 1) * width); // fewer than 2^16 lines, by kMostCells
+  const common = new Uint16Array((a.length + 1) * width); // fewer than 2^16 lines, by kMaxCells
   for (let i = a.length - 1; i >= 0; --i) {
     for (let j = b.length - 1; j >= 0; --j) {
       common[i * width + j] = a[i] === b[j] ? common[(i + 1) * width + j + 1]! + 1 : Math.max(common[(i + 1) * width + j]!, common[i * width + j + 1]!);

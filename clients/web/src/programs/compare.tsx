@@ -8,7 +8,7 @@ import { useLoaded } from '../parts/use_loaded';
 import { bytesText, texts } from '../texts/texts';
 
 /// Longer texts are compared by tools that need not hold both.
-const kMostBytes = 2 * 1024 * 1024;
+const kMaxBytes = 2 * 1024 * 1024;
 
 async function textOf(revision: Revision, signal: AbortSignal): Promise<string> {
   const path = withQuery(pathOf('programs', revision.program, 'content'), { revision: revision.revision });
@@ -36,7 +36,7 @@ export function Compare({ revisions, to }: { revisions: Revision[]; to: Revision
           {others.map((r) => <option key={r.revision} value={r.revision}>{t.revisionNumber(r.revision)}</option>)}
         </select>
       </label>
-      {from && (Math.max(from.size, to.size) > kMostBytes ? <p class="notice">{t.tooLong(bytesText(kMostBytes))}</p> : <Difference from={from} to={to} />)}
+      {from && (Math.max(from.size, to.size) > kMaxBytes ? <p class="notice">{t.tooLong(bytesText(kMaxBytes))}</p> : <Difference from={from} to={to} />)}
     </section>
   );
 }

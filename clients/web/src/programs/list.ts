@@ -3,11 +3,11 @@ import type { Program, Programs } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 
 const kPage = 1000;
-const kMost = 20_000;
+const kMax = 20_000;
 
 export async function loadPrograms(signal: AbortSignal): Promise<Program[]> {
   const all: Program[] = [];
-  while (all.length < kMost) {
+  while (all.length < kMax) {
     const { programs } = await get<Programs>(pathOf('programs'), { limit: kPage, offset: all.length }, signal);
     all.push(...programs);
     if (programs.length < kPage) break;

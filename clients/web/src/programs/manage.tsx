@@ -3,6 +3,7 @@ import { useState } from 'preact/hooks';
 import type { ProgramWithRevisions } from '../../generated/api';
 import { ApiError, pathOf, send, withQuery } from '../api/request';
 import { addressOf } from '../app/route';
+import { Allowed } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { SureButton } from '../parts/sure_button';
 import { texts } from '../texts/texts';
@@ -26,7 +27,7 @@ export function Manage({ program }: { program: ProgramWithRevisions }) {
   return (
     <details>
       <summary class="button">{t.manage}</summary>
-      <div class="panel">
+      <div class="panel"><Allowed to="program">
         <label>{t.newName}<input value={to} maxLength={128} onInput={(e) => setTo(e.currentTarget.value)} /></label>
         <p class="buttons">
           <button type="button" disabled={to === '' || command.isBusy} onClick={() => void go(() => send('POST', pathOf('programs', program.name, 'copy'), { json: { to } }), addressOf('programs', [to]))}>{t.copy}</button>
@@ -34,7 +35,7 @@ export function Manage({ program }: { program: ProgramWithRevisions }) {
           <SureButton class="danger" label={isProtected ? t.removeProtected : t.remove} question={t.removeSure(program.name, program.revisions.length)} disabled={command.isBusy} onSure={() => void remove()} />
         </p>
         <CommandFault command={command} />
-      </div>
+      </Allowed></div>
     </details>
   );
 }

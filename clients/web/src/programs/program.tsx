@@ -2,6 +2,7 @@
 import type { ProgramWithRevisions, Revision } from '../../generated/api';
 import { get, pathOf, send, withQuery } from '../api/request';
 import { addressOf } from '../app/route';
+import { Allowed } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { SureButton } from '../parts/sure_button';
@@ -13,7 +14,7 @@ import { Manage } from './manage';
 import { StartOn } from './start_on';
 import { TextView } from './text_view';
 
-/// A revision that a machine has sent runs nowhere before somebody has looked at it.
+/// A revision that a machine has sent runs nowhere before it is accepted.
 function Approval({ revision, onJudged }: { revision: Revision; onJudged: () => void }) {
   const t = texts().programs;
   const command = useCommand();
@@ -23,10 +24,10 @@ function Approval({ revision, onJudged }: { revision: Revision; onJudged: () => 
   return (
     <div class="notice warn">
       <p>{t.isPending}</p>
-      <p class="buttons">
+      <Allowed to="approve"><p class="buttons">
         <SureButton class="primary" label={t.accept} question={t.acceptSure(revision.program, revision.revision)} disabled={command.isBusy} onSure={() => void judge('accept')} />
         <SureButton class="danger" label={t.reject} question={t.rejectSure(revision.program, revision.revision)} disabled={command.isBusy} onSure={() => void judge('reject')} />
-      </p>
+      </p></Allowed>
       <CommandFault command={command} />
     </div>
   );

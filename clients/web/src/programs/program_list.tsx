@@ -1,7 +1,8 @@
-// The programs of the server: search, upload, and the way to each.
+// The programs of the server: search, upload, and a link to each.
 import { useState } from 'preact/hooks';
 import { addressOf } from '../app/route';
 import { feed } from '../live/feed';
+import { Allowed, useRefusal } from '../parts/allowed';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
@@ -15,14 +16,17 @@ export function ProgramList() {
   const t = texts().programs;
   const [search, setSearch] = useState('');
   const [files, setFiles] = useState<Array<{ key: number; file: File }>>([]);
+  const isRefused = useRefusal('program') !== null;
   const programs = useLoaded(loadPrograms, []);
   const found = searchPrograms(programs.value ?? [], search);
   const controls = [...new Set([...(programs.value ?? []), ...feed.machines.values()].map((known) => known.control).filter((c) => c !== null))].sort();
-  const take = (added: File[]) => setFiles((before) => [...before, ...added.map((file, i) => ({ key: before.length + i, file }))]);
+  const take = (added: File[]) => {
+    if (!isRefused) setFiles((before) => [...before, ...added.map((file, i) => ({ key: before.length + i, file }))]);
+  };
   return (
     <>
       <h1>{t.title}</h1>
-      <DropArea onFiles={take} />
+      <Allowed to="program"><DropArea onFiles={take} /></Allowed>
       <ul class="list uploads" aria-label={t.uploads}>
         {files.map(({ key, file }) => <UploadRow key={key} file={file} controls={controls} onStored={programs.reload} />)}
       </ul>

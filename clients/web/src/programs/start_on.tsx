@@ -4,6 +4,7 @@ import type { Revision } from '../../generated/api';
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
 import { startRun } from '../machine/commands';
+import { Allowed } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { SureButton } from '../parts/sure_button';
 import { texts } from '../texts/texts';
@@ -27,8 +28,10 @@ export function StartOn({ revision }: { revision: Revision }) {
           {fitting.map((m) => <option key={m.name} value={m.name}>{m.name} · {texts().states[feed.stateOf(m).word]}</option>)}
         </select>
       </label>
-      <SureButton class="primary" label={texts().machine.start} disabled={machine === '' || revision.held || command.isBusy}
-        question={texts().machine.startSure(revision.program, String(revision.revision), machine, '')} onSure={() => void start()} />
+      <Allowed to="operate" {...(machine !== '' && { machine })}>
+        <SureButton class="primary" label={texts().machine.start} disabled={machine === '' || revision.held || command.isBusy}
+          question={texts().machine.startSure(revision.program, String(revision.revision), machine, '')} onSure={() => void start()} />
+      </Allowed>
       <CommandFault command={command} />
     </div>
   );

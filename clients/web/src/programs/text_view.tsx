@@ -51,7 +51,7 @@ function Lines({ piece, label }: { piece: Piece; label: string }) {
 
 export function TextView(revision: Revision) {
   const t = texts().programs;
-  /// Where the pieces before this one begin: the way back.
+  /// Where this piece and those before it begin.
   const [starts, setStarts] = useState([{ offset: 0, line: 1 }]);
   const start = starts[starts.length - 1]!;
   const piece = useLoaded((signal) => loadPiece(revision, start, signal), [revision.program, revision.revision, start.offset]);

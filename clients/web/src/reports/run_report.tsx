@@ -16,12 +16,12 @@ import { Measured } from './measured';
 
 const kPage = 1000;
 /// A run may report for hours: more is for the exports.
-const kMost = 20_000;
+const kMax = 20_000;
 const kShown = 200;
 
 async function loadRecords(run: string, signal: AbortSignal): Promise<ReportRecord[]> {
   const all: ReportRecord[] = [];
-  while (all.length < kMost) {
+  while (all.length < kMax) {
     const { records } = await get<Records>(pathOf('runs', run, 'records'), { limit: kPage, offset: all.length }, signal);
     all.push(...records);
     if (records.length < kPage) break;
@@ -39,7 +39,7 @@ function RecordTable({ records }: { records: ReportRecord[] }) {
   return (
     <section class="panel" aria-labelledby="all-records">
       <h2 id="all-records">{t.records(numberText(records.length))}</h2>
-      {records.length >= kMost && <p class="notice warn">{t.onlyFirst(numberText(kMost))}</p>}
+      {records.length >= kMax && <p class="notice warn">{t.onlyFirst(numberText(kMax))}</p>}
       <label>
         {t.kind}
         <select value={kind} onChange={(e) => { setKind(e.currentTarget.value); setPage(0); }}>
@@ -76,7 +76,7 @@ export function RunReport({ id, query }: { id: string; query: URLSearchParams })
   const loaded = useLoaded((signal) => get<Run>(pathOf('runs', id), {}, signal), [id]);
   const live = [...feed.runs.values()].find((run) => run.id === id);
   const run = live ?? loaded.value;
-  // A run that goes on reports more: the records are read again when it has ended.
+  // A run that continues reports more: the records are read again when it has ended.
   const records = useLoaded((signal) => loadRecords(id, signal), [id, run?.state]);
   const command = useCommand();
   if (!run) return <><h1>{t.run}</h1><Loading of={loaded} /></>;

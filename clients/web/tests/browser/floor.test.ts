@@ -1,47 +1,22 @@
 // The floor in a real browser: signing in, live cards, the filter, a lost server, hostile names, and its size.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import type { Browser } from 'playwright-core';
-import { findBarriers, openBrowser, visit } from './page';
-import { longProgram, Shop } from './shop';
+import { test } from 'node:test';
+import { assertNoComplaints, findBarriers, shopForTests } from './page';
+import { longProgram } from './shop';
 
 const kHostile = '<img src=x onerror=alert(1)>';
-let shop: Shop;
-let browser: Browser;
 
-before(async () => {
-  shop = new Shop();
-  await shop.startServer();
+const { shop, visit } = shopForTests(async (shop) => {
   await shop.startMachine('mill-1', { control: 'fanuc', description: kHostile });
   await shop.startMachine('mill-10', { control: 'fanuc', description: 'Five axes' });
   await shop.startMachine('lathe-2', { control: 'centurion' });
   await shop.push('O0100', longProgram('O0100', 2000), 'fanuc');
   await shop.push('O0200', 'O0200\nG21 G90\nG1 X1. F100. ZZ5.\nM30\n', 'fanuc');
   await shop.start('mill-1', 'O0100');
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await shop.stop();
-});
-
-test('the token is asked for, a wrong one is refused, and the right one opens the floor', async () => {
-  const { page, complaints } = await visit(browser, shop, '', { isSignedIn: false });
-  const token = page.getByLabel('Token of the server');
-  await token.fill('wrong');
-  await page.getByRole('button', { name: 'Sign in' }).click();
-  await page.getByRole('alert').getByText('does not accept').waitFor();
-  assert.deepEqual(await findBarriers(page), []);
-  await token.fill(shop.token);
-  await page.getByRole('button', { name: 'Sign in' }).click();
-  await page.getByRole('link', { name: 'Open machine mill-1', exact: true }).waitFor();
-  complaints.splice(0, complaints.length, ...complaints.filter((text) => !text.includes('401')));
-  assert.deepEqual(complaints, []);
-  await page.context().close();
 });
 
 test('cards follow the machines and show what others wrote as text', async () => {
-  const { page, complaints } = await visit(browser, shop);
+  const { page, complaints } = await visit();
   const card = page.locator('[data-machine="mill-1"]');
   await card.getByText('Running').waitFor();
   await card.getByText(kHostile).waitFor();
@@ -49,13 +24,12 @@ test('cards follow the machines and show what others wrote as text', async () =>
   const first = await card.locator('.program .muted').textContent();
   await page.waitForFunction((old) => document.querySelector('[data-machine="mill-1"] .program .muted')?.textContent !== old, first);
   assert.deepEqual(await page.locator('.card h2').allTextContents(), ['lathe-2', 'mill-1', 'mill-10']);
-  assert.deepEqual(complaints, []);
+  assertNoComplaints(complaints);
   assert.deepEqual(await findBarriers(page), []);
-  await page.context().close();
 });
 
 test('an alarm is red, says the control\'s words and can be filtered', async () => {
-  const { page } = await visit(browser, shop);
+  const { page } = await visit();
   await shop.start('mill-10', 'O0200');
   const card = page.locator('[data-machine="mill-10"].alarm');
   await card.getByText('Alarm', { exact: true }).waitFor();
@@ -68,22 +42,20 @@ test('an alarm is red, says the control\'s words and can be filtered', async () 
   await page.getByText('No machine fits the filter.').waitFor();
   await page.getByRole('button', { name: 'All' }).click();
   await page.locator('[data-machine="lathe-2"]').waitFor();
-  await page.context().close();
 });
 
-test('the wall mode has no bar, fits and finds its way back', async () => {
-  const { page } = await visit(browser, shop);
+test('the wall mode has no bar, fits, and is left again', async () => {
+  const { page } = await visit();
   await page.getByRole('link', { name: 'Wall mode' }).click();
   await page.getByText('3 machines').waitFor();
   assert.equal(await page.getByRole('navigation').count(), 0);
   assert.deepEqual(await findBarriers(page), []);
   await page.getByRole('link', { name: 'Leave wall mode' }).click();
   await page.getByRole('navigation').waitFor();
-  await page.context().close();
 });
 
-test('a lost server is told with its time, values stay and are marked, and the page comes back by itself', async () => {
-  const { page, complaints } = await visit(browser, shop);
+test('a lost server is reported with its time, values stay and are marked, and the page comes back by itself', async () => {
+  const { page, complaints } = await visit();
   await page.locator('[data-machine="mill-1"]').getByText('O0100').waitFor();
   await shop.stopServer();
   await page.getByText(/Server lost since \d/).waitFor();
@@ -94,23 +66,21 @@ test('a lost server is told with its time, values stay and are marked, and the p
   await page.getByText('Live', { exact: true }).waitFor();
   await page.waitForFunction(() => !document.documentElement.classList.contains('old'));
   await page.locator('[data-machine="mill-1"]').getByText('Running').waitFor();
-  assert.deepEqual(complaints, []);
-  await page.context().close();
+  assertNoComplaints(complaints);
 });
 
 test('German is one choice away, and stays', async () => {
-  const { page } = await visit(browser, shop);
+  const { page } = await visit();
   await page.getByText('Settings').click();
   await page.getByLabel('Language').selectOption('de');
   await page.getByRole('link', { name: 'Halle' }).waitFor();
   await page.reload();
   await page.getByRole('link', { name: 'Halle' }).waitFor();
   assert.equal(await page.evaluate(() => document.documentElement.lang), 'de');
-  await page.context().close();
 });
 
 test('the first view is at most 60 KiB, and comes again as 304', async () => {
-  const { page } = await visit(browser, shop);
+  const { page } = await visit();
   const session = await page.context().newCDPSession(page);
   await session.send('Network.enable');
   let bytes = 0;
@@ -123,5 +93,4 @@ test('the first view is at most 60 KiB, and comes again as 304', async () => {
   const first = await fetch(`${shop.url}/`);
   const again = await fetch(`${shop.url}/`, { headers: { 'If-None-Match': first.headers.get('etag')! } });
   assert.equal(again.status, 304);
-  await page.context().close();
 });

@@ -1,36 +1,26 @@
 // An operator's day at one machine: hold, resume, overrides, abort, start, an answer, the setup, a restart; and a server that is lost
-// while a command is under way.
+// while a command is on its way.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import type { Browser, Page } from 'playwright-core';
-import { findBarriers, openBrowser, visit } from './page';
-import { longProgram, Shop, until } from './shop';
+import { test } from 'node:test';
+import type { Page } from 'playwright-core';
+import { assertNoComplaints, findBarriers, pressTwice, shopForTests } from './page';
+import { longProgram, until } from './shop';
 
 const kHostileLine = '<script>alert(1)</script>';
-let shop: Shop;
-let browser: Browser;
 
-before(async () => {
-  shop = new Shop();
-  await shop.startServer();
+const { shop, visit } = shopForTests(async (shop) => {
   await shop.startMachine('mill-1', { control: 'fanuc', description: 'Vertical' });
   await shop.startMachine('lathe-1', { control: 'centurion' });
   await shop.push('O0100', longProgram('O0100', 2000), 'fanuc');
   await shop.push('O0300', `O0300\nG20 G93 G98\nINPUT (<B>DIAMETER</B>) P1\nPOPEN P0\nDPRNT [${kHostileLine}]\nPCLOS\nM30\n`, 'centurion');
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await shop.stop();
 });
 
 const state = (page: Page, word: string) => page.locator('.machine-head .pill', { hasText: word });
 
 test('a program is started, held, continued, slowed down and aborted', async () => {
-  const { page, complaints } = await visit(browser, shop, '#/machine/mill-1');
+  const { page, complaints } = await visit('#/machine/mill-1');
   await page.getByLabel('Program', { exact: true }).fill('O0100');
-  await page.getByRole('button', { name: 'Start', exact: true }).click();
-  await page.getByRole('button', { name: 'Press again: start O0100, revision 1, on mill-1' }).click();
+  await pressTwice(page.getByRole('button', { name: 'Start', exact: true }), page.getByRole('button', { name: 'Press again: start O0100, revision 1, on mill-1' }));
   await state(page, 'Running').waitFor();
   const executing = page.locator('.blocks [aria-current="step"] .number');
   const first = await executing.textContent();
@@ -43,15 +33,13 @@ test('a program is started, held, continued, slowed down and aborted', async () 
   await page.getByRole('group', { name: 'Feed', exact: true }).getByRole('button', { name: 'Less' }).click();
   await page.getByRole('group', { name: 'Feed', exact: true }).getByText('90 %', { exact: true }).waitFor();
   assert.deepEqual(await findBarriers(page), []);
-  await page.getByRole('button', { name: 'Abort' }).click();
-  await page.getByRole('button', { name: 'Press again: abort O0100' }).click();
+  await pressTwice(page.getByRole('button', { name: 'Abort' }), page.getByRole('button', { name: 'Press again: abort O0100' }));
   await state(page, 'Stopped').waitFor();
-  assert.deepEqual(complaints, []);
-  await page.context().close();
+  assertNoComplaints(complaints);
 });
 
 test('one press aborts nothing', async () => {
-  const { page } = await visit(browser, shop, '#/machine/mill-1');
+  const { page } = await visit('#/machine/mill-1');
   const id = await shop.start('mill-1', 'O0100');
   await state(page, 'Running').waitFor();
   await page.getByRole('button', { name: 'Abort' }).click();
@@ -59,11 +47,10 @@ test('one press aborts nothing', async () => {
   assert.equal((await shop.api<{ state: string }>('GET', `runs/${id}`))?.state, 'active');
   await shop.api('POST', `runs/${id}/commands`, { action: 'abort' });
   await state(page, 'Stopped').waitFor();
-  await page.context().close();
 });
 
 test('a question of the control is answered, and what it prints is shown as text', async () => {
-  const { page, complaints } = await visit(browser, shop, '#/machine/lathe-1');
+  const { page, complaints } = await visit('#/machine/lathe-1');
   await shop.start('lathe-1', 'O0300');
   const answer = page.getByLabel(/The control asks: <B>DIAMETER<\/B>/);
   await answer.fill('2.5');
@@ -71,26 +58,23 @@ test('a question of the control is answered, and what it prints is shown as text
   await answer.press('Enter');
   await page.locator('.records').getByText(kHostileLine).waitFor();
   await state(page, 'Completed').waitFor();
-  assert.deepEqual(complaints, []);
-  await page.context().close();
+  assertNoComplaints(complaints);
 });
 
 test('an aborted run is continued where it was', async () => {
-  const { page } = await visit(browser, shop, '#/machine/mill-1/runs');
+  const { page } = await visit('#/machine/mill-1/runs');
   await page.getByText('Restart').first().click();
-  await page.getByRole('button', { name: 'Restart' }).first().click();
-  await page.getByRole('button', { name: 'Press again: restart O0100' }).click();
+  await pressTwice(page.getByRole('button', { name: 'Restart' }).first(), page.getByRole('button', { name: 'Press again: restart O0100' }));
   await page.locator('.run').first().getByText('Running').waitFor();
   assert.deepEqual(await findBarriers(page), []);
   await page.getByRole('link', { name: 'Now' }).click();
   await state(page, 'Waits for cycle start').waitFor();
   await page.getByRole('button', { name: 'Resume' }).click();
   await state(page, 'Running').waitFor();
-  await page.context().close();
 });
 
 test('a tool is added in the table, and a change that another one overtook is refused and shown', async () => {
-  const { page } = await visit(browser, shop, '#/machine/mill-1/setup');
+  const { page } = await visit('#/machine/mill-1/setup');
   await page.getByRole('button', { name: 'Add a tool' }).click();
   await page.getByRole('textbox', { name: 'Text' }).fill('# by hand\n[[tool]]\nnumber = 1\nlength = 100.0\n');
   await page.getByLabel('Tools, row 1, length').fill('101.5');
@@ -107,11 +91,10 @@ test('a tool is added in the table, and a change that another one overtook is re
   await page.getByText(/^Revision 3,/).waitFor();
   await page.getByRole('button', { name: 'Compare' }).last().click();
   await page.getByText('From revision 1 to 3').waitFor();
-  await page.context().close();
 });
 
 test('a command whose answer is lost is reported and never sent again', async () => {
-  const { page } = await visit(browser, shop, '#/machine/mill-1');
+  const { page } = await visit('#/machine/mill-1');
   await state(page, 'Running').waitFor();
   const commands: string[] = [];
   page.on('request', (request) => { if (request.method() !== 'GET') commands.push(request.url()); });
@@ -124,5 +107,4 @@ test('a command whose answer is lost is reported and never sent again', async ()
   await state(page, 'Running').waitFor();
   await until('the machine runs on', async () => (await shop.api<{ status: { execution: string } }>('GET', 'machines/mill-1'))?.status.execution === 'ACTIVE');
   assert.equal(commands.length, 1);
-  await page.context().close();
 });

@@ -1,8 +1,10 @@
 // A real Chromium that looks at a shop, and what every test wants to know of it: nothing was complained about, and nothing ran.
+import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
-import { chromium, type Browser, type Page } from 'playwright-core';
-import type { Shop } from './shop';
+import { after, afterEach, before } from 'node:test';
+import { chromium, type Browser, type Locator, type Page } from 'playwright-core';
+import { Shop } from './shop';
 
 export const kWidths = [1280, 800] as const;
 export const kThemes = ['light', 'dark'] as const;
@@ -20,9 +22,18 @@ export interface Visit {
   complaints: string[];
 }
 
-/// Signed in unless `isSignedIn` says otherwise.
-export async function visit(browser: Browser, shop: Shop, place = '', options: { language?: string; isSignedIn?: boolean } = {}): Promise<Visit> {
+/// Long enough for a computer that does much else; a condition that holds ends the wait at once.
+const kPatienceMs = 60_000;
+
+export interface VisitOptions {
+  language?: string;
+  /// Signed in as this user; null: as none.
+  user?: string | null;
+}
+
+export async function visit(browser: Browser, shop: Shop, place = '', options: VisitOptions = {}): Promise<Visit> {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: options.language ?? 'en-US', acceptDownloads: true });
+  context.setDefaultTimeout(kPatienceMs);
   const page = await context.newPage();
   const complaints: string[] = [];
   page.on('console', (message) => {
@@ -34,31 +45,70 @@ export async function visit(browser: Browser, shop: Shop, place = '', options: {
     complaints.push(`dialog: ${dialog.message()}`);
     void dialog.dismiss();
   });
-  if (options.isSignedIn ?? true) {
-    await page.addInitScript((token) => sessionStorage.setItem('dripline.token', token), shop.token);
-  }
+  const user = options.user === undefined ? 'admin' : options.user;
+  if (user !== null) await context.addCookies([{ ...(await shop.sessionOf(user)), url: shop.url }]);
   await page.goto(`${shop.url}/${place}`);
   return { page, complaints };
 }
 
-/// What axe-core finds in both themes and at both widths; empty: nothing.
-export async function findBarriers(page: Page): Promise<string[]> {
-  const axe = readFileSync(path.join(process.env.WEB!, 'node_modules/axe-core/axe.min.js'), 'utf8');
-  const found = new Set<string>();
-  for (const theme of kThemes) {
-    for (const width of kWidths) {
-      await page.emulateMedia({ colorScheme: theme });
-      await page.setViewportSize({ width, height: 800 });
-      // Evaluated over the debugger, which the page's own policy does not concern.
-      await page.evaluate(axe);
-      const violations = await page.evaluate(async () => {
-        const axe = (window as unknown as { axe: { run(options: unknown): Promise<{ violations: Array<{ id: string; nodes: Array<{ html: string; failureSummary: string }> }> }> } }).axe;
-        const { violations } = await axe.run({ runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] });
-        return violations.flatMap((v) => v.nodes.map((n) => `${v.id}: ${n.html.slice(0, 200)} ${n.failureSummary}`));
-      });
-      for (const violation of violations) found.add(`${theme} ${width}: ${violation}`);
-      if (await page.evaluate(() => document.documentElement.scrollWidth > innerWidth)) found.add(`${theme} ${width}: wider than the screen`);
+/// A shop and a browser for the tests of a file; what a test has opened is closed after it.
+export function shopForTests(prepare: (shop: Shop) => Promise<void>) {
+  const shop = new Shop();
+  let browser: Browser | undefined;
+  before(async () => {
+    await shop.startServer();
+    await prepare(shop);
+    browser = await openBrowser();
+  });
+  afterEach(async () => {
+    for (const context of browser?.contexts() ?? []) await context.close();
+  });
+  after(async () => {
+    await browser?.close();
+    await shop.stop();
+  });
+  return { shop, visit: (place = '', options: VisitOptions = {}) => visit(browser!, shop, place, options) };
+}
+
+/// Status codes that the console reports although the page expects them.
+export function assertNoComplaints(complaints: string[], expected: number[] = []): void {
+  const isExpected = (text: string) => expected.some((status) => text.includes(`status of ${status}`));
+  assert.deepEqual(complaints.filter((text) => !isExpected(text)), []);
+}
+
+/// Presses a button that asks for a second press; on a busy computer the question may be gone before, and the first press is repeated.
+export async function pressTwice(button: Locator, question: Locator): Promise<void> {
+  for (const end = Date.now() + kPatienceMs; ;) {
+    await button.click();
+    try {
+      await question.click({ timeout: 4000 });
+      return;
+    } catch (failure) {
+      if (Date.now() > end) throw failure;
     }
   }
-  return [...found];
+}
+
+interface AxeWindow extends Window {
+  axe?: { run(options: unknown): Promise<{ violations: Array<{ id: string; nodes: Array<{ html: string; failureSummary: string }> }> }> };
+}
+
+/// What axe-core finds; empty: nothing. Each theme once and each width once: colors do not depend on the width.
+export async function findBarriers(page: Page): Promise<string[]> {
+  const axe = readFileSync(path.join(process.env.WEB!, 'node_modules/axe-core/axe.min.js'), 'utf8');
+  // Evaluated over the debugger, which the page's own policy does not concern.
+  if (!(await page.evaluate(() => 'axe' in window))) await page.evaluate(axe);
+  const found: string[] = [];
+  for (const [i, theme] of kThemes.entries()) {
+    const width = kWidths[i]!;
+    await page.emulateMedia({ colorScheme: theme });
+    await page.setViewportSize({ width, height: 800 });
+    const violations = await page.evaluate(async () => {
+      const { violations } = await (window as AxeWindow).axe!.run({ runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] });
+      return violations.flatMap((v) => v.nodes.map((n) => `${v.id}: ${n.html.slice(0, 200)} ${n.failureSummary}`));
+    });
+    found.push(...violations.map((violation) => `${theme} ${width}: ${violation}`));
+    if (await page.evaluate(() => document.documentElement.scrollWidth > innerWidth)) found.push(`${theme} ${width}: wider than the screen`);
+  }
+  return found;
 }

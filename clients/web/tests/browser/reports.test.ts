@@ -1,32 +1,22 @@
 // What came of the runs, and the server itself: records and charts, exports, hostile report lines, ports, audit.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
-import type { Browser } from 'playwright-core';
-import { findBarriers, openBrowser, visit } from './page';
-import { measuringProgram, Shop, until } from './shop';
+import { test } from 'node:test';
+import { assertNoComplaints, findBarriers, pressTwice, shopForTests } from './page';
+import { measuringProgram, until } from './shop';
 
 const kHostile = '<img src=x onerror=alert(1)>';
-let shop: Shop;
-let browser: Browser;
 let run = '';
 
-before(async () => {
-  shop = new Shop();
-  await shop.startServer();
+const { visit } = shopForTests(async (shop) => {
   await shop.startMachine('lathe-1', { control: 'centurion', speed: 'max' });
   await shop.push('O0500', measuringProgram(40).replace('PCLOS', `DPRNT [${kHostile}]\nPCLOS`), 'centurion');
   run = await shop.start('lathe-1', 'O0500');
   await until('the run has ended', async () => (await shop.api<{ state: string }>('GET', `runs/${run}`))?.state === 'completed');
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await shop.stop();
 });
 
 test('measured values become a chart, and limits count what is outside', async () => {
-  const { page, complaints } = await visit(browser, shop, '#/reports');
+  const { page, complaints } = await visit('#/reports');
   await page.getByRole('rowheader', { name: 'O0500' }).getByRole('link').click();
   await page.locator('.chart canvas').waitFor();
   await page.getByRole('combobox', { name: 'Value' }).selectOption('Z');
@@ -42,41 +32,37 @@ test('measured values become a chart, and limits count what is outside', async (
   await page.reload();
   await page.getByText(/\d+ are outside the limits/).waitFor();
   assert.deepEqual(await findBarriers(page), []);
-  assert.deepEqual(complaints, []);
-  await page.context().close();
+  assertNoComplaints(complaints);
 });
 
 test('report lines that others wrote are shown and do nothing', async () => {
-  const { page, complaints } = await visit(browser, shop, `#/reports/${run}`);
+  const { page, complaints } = await visit(`#/reports/${run}`);
   await page.getByRole('cell', { name: kHostile }).waitFor();
   assert.equal(await page.locator('img').count(), 0);
-  assert.deepEqual(complaints, []);
-  await page.context().close();
+  assertNoComplaints(complaints);
 });
 
 test('a report is exported as CSV and JSON', async () => {
-  const { page } = await visit(browser, shop, `#/reports/${run}`);
+  const { page } = await visit(`#/reports/${run}`);
   for (const format of ['CSV', 'JSON']) {
     const [file] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: format }).click()]);
     assert.match(file.suggestedFilename(), new RegExp(`^O0500-.*\\.${format.toLowerCase()}$`));
     assert.match(readFileSync((await file.path())!, 'utf8'), /X10\.00/);
   }
-  await page.context().close();
 });
 
 test('the server\'s state and who changed what can be read', async () => {
-  const { page, complaints } = await visit(browser, shop, '#/administration');
+  const { page, complaints } = await visit('#/administration');
   await page.getByText('1 of 1 connected').waitFor();
   assert.deepEqual(await findBarriers(page), []);
   await page.getByRole('link', { name: 'Audit trail' }).click();
   await page.getByRole('cell', { name: 'admin' }).first().waitFor();
   assert.deepEqual(await findBarriers(page), []);
-  assert.deepEqual(complaints, []);
-  await page.context().close();
+  assertNoComplaints(complaints);
 });
 
 test('a port is added, tested, changed and removed', async () => {
-  const { page } = await visit(browser, shop, '#/administration/ports');
+  const { page } = await visit('#/administration/ports');
   await page.getByText('Add a port').click();
   await page.getByLabel('Name').fill('line-9');
   await page.getByLabel('Machine').fill('mill-9');
@@ -93,8 +79,6 @@ test('a port is added, tested, changed and removed', async () => {
   assert.deepEqual(await findBarriers(page), []);
   await card.getByRole('button', { name: 'Test' }).click();
   await card.getByText(/The test failed|does-not-exist/).first().waitFor();
-  await card.getByRole('button', { name: 'Remove' }).click();
-  await card.getByRole('button', { name: 'Press again: remove line-9' }).click();
+  await pressTwice(card.getByRole('button', { name: 'Remove' }), card.getByRole('button', { name: 'Press again: remove line-9' }));
   await page.getByText('There is no port yet.').waitFor();
-  await page.context().close();
 });

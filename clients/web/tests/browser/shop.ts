@@ -5,6 +5,8 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 
 const kBin = process.env.DRIPLINE_BIN!;
+/// Of every user of a shop.
+export const kPassword = 'correct horse battery';
 const kDomain = process.env.DDS_DOMAIN ?? '77';
 
 export interface MachineOptions {
@@ -20,10 +22,29 @@ export class Shop {
   url = '';
   private server: ChildProcess | null = null;
   private readonly gateways = new Map<string, ChildProcess>();
+  private readonly sessions = new Map<string, { name: string; value: string }>();
   private readonly network = ['--dds-domain', kDomain, '--dds-tag', `web-${process.pid}`];
 
   get token(): string {
     return readFileSync(path.join(this.folder, 'server/token'), 'utf8').trim();
+  }
+
+  /// The cookie of a session; the user's password is kPassword.
+  async sessionOf(user: string): Promise<{ name: string; value: string }> {
+    const known = this.sessions.get(user);
+    if (known) return known;
+    if (user === 'admin') await this.api('PUT', 'users/admin/password', { password: kPassword });
+    const answer = await fetch(`${this.url}/api/v1/session`, {
+      method: 'POST', headers: { 'X-Dripline': '1' }, body: JSON.stringify({ user, password: kPassword }),
+    });
+    const [, name, value] = /^([^=]+)=([^;]+)/.exec(answer.headers.get('set-cookie') ?? '') ?? [];
+    if (name === undefined || value === undefined) throw new Error(`${user} cannot sign in: ${answer.status}`);
+    this.sessions.set(user, { name, value });
+    return { name, value };
+  }
+
+  async addUser(name: string, role: string, groups: string[] = []): Promise<void> {
+    if (!(await this.api('POST', 'users', { name, role, groups, password: kPassword }))) throw new Error(`user ${name} is refused`);
   }
 
   /// After a stop it listens where it did before.
@@ -121,7 +142,7 @@ export function measuringProgram(count: number): string {
   return ['O0500 (MEASURE THE FACE)', 'G20 G93 G98', 'POPEN P0', ...lines, 'PCLOS', 'M30', ''].join('\n');
 }
 
-export async function until(what: string, holds: () => boolean | Promise<boolean>, limitMs = 20_000): Promise<void> {
+export async function until(what: string, holds: () => boolean | Promise<boolean>, limitMs = 60_000): Promise<void> {
   const end = Date.now() + limitMs;
   while (!(await holds())) {
     if (Date.now() > end) throw new Error(`not within ${limitMs} ms: ${what}`);

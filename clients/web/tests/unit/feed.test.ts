@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { Feed } from '../../src/live/feed';
 import { machine, run } from './samples';
 
-/// Answers requests when the test says so; events go to whoever reads the stream.
+/// Answers requests when the test says so; events go to the readers of the stream.
 class FakeServer {
   private events!: ReadableStreamDefaultController<Uint8Array>;
   private readonly waiting: Array<() => void> = [];
@@ -54,7 +54,7 @@ test('an answer that an event has overtaken changes nothing', { timeout: 10_000 
   feed.end();
 });
 
-test('what no event has told comes from the answers', { timeout: 10_000 }, async () => {
+test('what no event has brought comes from the answers', { timeout: 10_000 }, async () => {
   const server = new FakeServer([machine({}, { execution: 'STOPPED' })], [run({ state: 'alarmed' })]);
   const feed = new Feed();
   feed.begin();

@@ -1,4 +1,4 @@
-// The logic behind the floor: events from any pieces, a machine's state in a word, the progress of a run, the list and its filter.
+// The logic of the floor: events from any pieces, a machine's state in a word, the progress of a run, the list and its filter.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { filterQuery, listFloor, readFilter } from '../../src/floor/filter';
@@ -32,7 +32,7 @@ test('the emergency stop comes before everything', () => {
     { tone: 'alarm', word: 'emergencyStop', message: 'EMERGENCY STOP' });
 });
 
-test('only the run tells an alarm from an abort', () => {
+test('only the run distinguishes an alarm from an abort', () => {
   const stopped = machine({}, { execution: 'STOPPED', message: null });
   assert.deepEqual(stateOf(stopped, run({ state: 'alarmed', reason: 'PS005' })), { tone: 'alarm', word: 'alarm', message: 'PS005' });
   assert.equal(stateOf(stopped, run({ state: 'interrupted' })).word, 'interruptedRun');
@@ -41,7 +41,7 @@ test('only the run tells an alarm from an abort', () => {
 });
 
 for (const [waitsFor, word] of [['cycle_start', 'waitsForCycleStart'], ['answer', 'waitsForAnswer'], ['text', 'waitsForText'], ['disk', 'waitsForDisk'], [null, 'waits']] as const) {
-  test(`WAIT for ${waitsFor} is told as ${word}`, () => {
+  test(`WAIT for ${waitsFor} is shown as ${word}`, () => {
     assert.equal(stateOf(machine({}, { execution: 'WAIT', waits_for: waitsFor })).word, word);
   });
 }

@@ -1,4 +1,4 @@
-// The logic behind the machine's view: the window of a program's text, the tables of a setup, differences, units, records.
+// The logic of the machine's view: the window of a program's text, the tables of a setup, differences, units, records.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { probingOf, recordText } from '../../src/live/record_text';
@@ -74,7 +74,7 @@ test('a new tool has the next number', () => {
   assert.equal(readTables(addRow('', 'variable', [])).length, 1);
 });
 
-test('a difference can be read both ways', () => {
+test('a difference can be read in both directions', () => {
   const before = 'a\nb\nc\nd\ne';
   const after = 'a\nc\nx\nd\ne\nf';
   const lines = diffLines(before, after);
@@ -101,7 +101,7 @@ test('lengths are in the unit of the program, angles in degrees', () => {
   assert.deepEqual(sortAxes(['C', 'Z', 'X']), ['X', 'Z', 'C']);
 });
 
-test('structured records are told in words, broken ones as they are', () => {
+test('structured records become words, broken ones as they are', () => {
   assert.equal(recordText(record({ kind: 'alarm', text: '{"code":"FA0005","text":"PS005 NO DATA"}' })), 'PS005 NO DATA · FA0005');
   assert.equal(recordText(record({ kind: 'run_ended', text: '{"outcome":"completed","reason":"","sent":5}' })), 'completed');
   assert.equal(recordText(record({ kind: 'alarm', text: '{"code":' })), '{"code":');

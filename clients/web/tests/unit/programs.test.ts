@@ -1,4 +1,4 @@
-// The logic behind the programs' view: names, pieces of long texts, parts of a block, search.
+// The logic of the programs' view: names, pieces of long texts, parts of a block, search.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { searchPrograms } from '../../src/programs/list';
@@ -43,7 +43,7 @@ for (const block of ['N10 G1 X1. (A (B) F100', '15 CYCL DEF 1.0 PECKING', '<img 
   });
 }
 
-test('comments, numbers, codes and words are told apart', () => {
+test('comments, numbers, codes and words are distinguished', () => {
   const kinds = partsOf('N10 G1 X1.5 (GO) M3').filter((part) => part.kind !== 'text').map((part) => `${part.kind}:${part.text}`);
   assert.deepEqual(kinds, ['number:N10', 'code:G1', 'word:X1.5', 'comment:(GO)', 'code:M3']);
 });

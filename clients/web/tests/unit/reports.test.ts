@@ -1,4 +1,4 @@
-// The logic behind reports and administration: measured values, limits, the characters of a line, the settings of a port.
+// The logic of reports and administration: measured values, limits, the characters of a line, the settings of a port.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { readableBytes } from '../../src/administration/bytes_text';

@@ -1,8 +1,9 @@
 // The setup of a machine: tools, offsets and variables in tables, all of it as text, its versions, and what a change changes. A change is
-// made from one revision: if somebody else was faster the server refuses it, and both are shown.
+// made from one revision: if another user was faster the server refuses it, and both are shown.
 import { useEffect, useState } from 'preact/hooks';
 import type { Setup } from '../../../generated/api';
 import { ApiError, get, pathOf, send, withQuery } from '../../api/request';
+import { Allowed } from '../../parts/allowed';
 import { CommandFault, useCommand } from '../../parts/command';
 import { DiffView } from '../../parts/diff_view';
 import { Loading } from '../../parts/loading';
@@ -99,10 +100,10 @@ export function MachineSetup({ machine }: { machine: string }) {
           </div>
         )}
         <label>{t.comment}<input name="comment" maxLength={1024} value={comment} onInput={(e) => setComment(e.currentTarget.value)} /></label>
-        <p class="buttons">
+        <Allowed to="set_up" machine={machine}><p class="buttons">
           <button type="button" class="primary" disabled={!isChanged || command.isBusy} onClick={() => void store()}>{t.store}</button>
           <button type="button" disabled={!isChanged} onClick={() => setText(base.text ?? '')}>{t.discard}</button>
-        </p>
+        </p></Allowed>
         <CommandFault command={command} />
       </section>
       <Versions machine={machine} newest={base} onRestore={setText} />
