@@ -118,9 +118,25 @@ Result<void> SqliteStore::probe() {
   });
 }
 
+Result<bool> SqliteStore::copy_to(
+    const std::filesystem::path& file,
+    const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) {
+  return repositories_->connections->read(
+      [&](sqlite::Database& database) -> Result<bool> { return database.copy_to(file, proceed); });
+}
+
 Result<std::string> SqliteStore::identity() {
   return repositories_->connections->read(
       [](sqlite::Database& database) { return database.text("SELECT id FROM identity"); });
+}
+
+Result<std::string> check_copy(const std::filesystem::path& file) {
+  auto database = sqlite::Database::open(file, {.access = sqlite::Access::ReadOnly});
+  if (!database) return fail(database.error());
+  const auto verdict = database->text("PRAGMA quick_check(1)");
+  if (!verdict) return fail(verdict.error());
+  if (*verdict != "ok") return fail(Errc::Corrupt, "database {}: {}", file.string(), *verdict);
+  return database->text("SELECT id FROM identity");
 }
 
 }  // namespace dripline::storage

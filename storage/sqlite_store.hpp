@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stop_token>
 
@@ -39,6 +40,10 @@ class SqliteStore final : public Store {
                      const std::stop_token& stop = {});
   /// Writes something small onto the disk, and reads it. Errors: Io (a full disk), Corrupt, Busy.
   Result<void> probe();
+  /// A copy of the file as it is now, while everything works; see sqlite::Database::copy_to. Until
+  /// it is complete the log of changes (the file beside, "-wal") grows with what is written.
+  Result<bool> copy_to(const std::filesystem::path& file,
+                       const std::function<bool(std::uint64_t, std::uint64_t)>& proceed);
   /// Made together with the database and never changed: 32 hexadecimal digits.
   Result<std::string> identity();
 
@@ -47,5 +52,9 @@ class SqliteStore final : public Store {
   explicit SqliteStore(std::unique_ptr<Repositories> repositories);
   std::unique_ptr<Repositories> repositories_;
 };
+
+/// A file that no process uses, as a backup's copy is: searches the whole of it for damage.
+/// Returns its identity. Errors: Corrupt, Io.
+Result<std::string> check_copy(const std::filesystem::path& file);
 
 }  // namespace dripline::storage

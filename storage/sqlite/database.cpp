@@ -1,6 +1,7 @@
 #include "storage/sqlite/database.hpp"
 
 #include <sqlite3.h>
+#include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Exception.h>
 #include <SQLiteCpp/Statement.h>
@@ -135,6 +136,33 @@ std::int64_t Database::last_insert_id() const {
 
 bool Database::in_transaction() const {
   return sqlite3_get_autocommit(connection_->sqlite.getHandle()) == 0;
+}
+
+Result<bool> Database::copy_to(const std::filesystem::path& file,
+                               const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) {
+  constexpr int kPagesPerStep = 1024;
+  const std::string what = fmt::format("copying {} to {}", connection_->file, file.string());
+  try {
+    const auto page_bytes = integer("PRAGMA page_size");
+    if (!page_bytes) return fail(page_bytes.error());
+    SQLite::Database copy(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    copy.exec("PRAGMA journal_mode = OFF; PRAGMA synchronous = FULL");
+    SQLite::Backup backup(copy, connection_->sqlite);
+    const auto bytes = [&](int pages) {
+      return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(*page_bytes);
+    };
+    int status = SQLITE_OK;
+    while (status != SQLITE_DONE) {
+      status = backup.executeStep(kPagesPerStep);
+      if (status == SQLITE_BUSY || status == SQLITE_LOCKED)
+        return fail(Errc::Busy, "{}: the database is in use", what);
+      const auto total = bytes(backup.getTotalPageCount());
+      if (!proceed(total - bytes(backup.getRemainingPageCount()), total)) return false;
+    }
+    return true;
+  } catch (const SQLite::Exception& exception) {
+    return fail(error_of(exception, what));
+  }
 }
 
 Result<void> Database::set_synchronous(Synchronous synchronous) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -60,6 +61,13 @@ class Database {
 
   /// From any thread: what the connection executes now soon ends with an error.
   void interrupt();
+
+  /// Copies the file, page by page, as it is now (inside a Snapshot: as it was at its begin), while
+  /// other connections read and write. `proceed(done, total)`, in bytes, is asked every few MiB;
+  /// false ends the copying. An existing file is overwritten; the copy is on disk when this
+  /// returns. False: it was ended, and the copy is worth nothing.
+  Result<bool> copy_to(const std::filesystem::path& file,
+                       const std::function<bool(std::uint64_t, std::uint64_t)>& proceed);
 
   const std::string& file() const;
 

@@ -11,6 +11,7 @@ protocol/process: protocol/base protocol/process
 protocol/serial: protocol/base protocol/wire protocol/serial
 protocol/dds: protocol/base protocol/dds
 storage/sqlite: protocol/base storage/sqlite
+storage/backup: protocol/base storage
 storage: protocol/base storage
 gateway/interpreter/core: protocol/base gateway/interpreter/core
 gateway/interpreter/stages: protocol/base gateway/interpreter/core gateway/interpreter/stages
