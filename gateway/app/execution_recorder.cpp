@@ -19,6 +19,7 @@ void ExecutionRecorder::begin(const report::ActiveRun& run, ProgressOf feed_prog
   alarm_.reset();
   has_ended_ = was_aborted_ = false;
   parts_.execution_probe.reset();
+  if (parts_.motion_journal != nullptr) parts_.motion_journal->begin(run.run);
   parts_.outbox.begin_run(run);
   append({}, {RecordKind::RunStarted,
               {},
@@ -88,6 +89,15 @@ void ExecutionRecorder::count() {
   if (counted_ != reached_) parts_.journal.write(reached_);
   counted_ = reached_;
   parts_.execution_probe.finish();
+}
+
+void ExecutionRecorder::on_given(const machine::GivenAction& action) {
+  if (parts_.motion_journal == nullptr || !feed_progress_) return;
+  const interpreter::Origin& origin = action.origin;
+  const FeedProgress now = feed_progress_(origin.block);
+  parts_.motion_journal->write({{now.sent, now.accepted, origin.block, origin.line, origin.sequence,
+                                 origin.offset, now.path},
+                                action});
 }
 
 void ExecutionRecorder::on_block_executed(const interpreter::Origin& origin) {

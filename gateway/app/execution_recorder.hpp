@@ -7,6 +7,7 @@
 #include "gateway/app/execution_probe.hpp"
 #include "gateway/app/run_texts.hpp"
 #include "gateway/machine/execution_sink.hpp"
+#include "gateway/report/motion_journal.hpp"
 #include "gateway/report/outbox.hpp"
 #include "gateway/report/run_journal.hpp"
 #include "protocol/base/clock.hpp"
@@ -24,6 +25,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
     std::string machine;
     report::Outbox& outbox;
     report::RunJournal& journal;
+    report::MotionJournal* motion_journal = nullptr;  ///< null: the machine is never ahead
     ExecutionProbe& execution_probe;
     const Clock& clock;
     /// Receives what is printed at a device, besides the record; may be empty.
@@ -71,6 +73,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
     message_.clear();
   }
 
+  void on_given(const machine::GivenAction& action) override;
   void on_block_executed(const interpreter::Origin& origin) override;
   void on_motion_starts(const interpreter::Origin& origin) override;
   void on_output(const interpreter::Output& output) override;

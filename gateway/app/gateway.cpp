@@ -13,6 +13,7 @@ Gateway::Gateway(Parts parts)
       recorder_({.machine = parts_.options.machine,
                  .outbox = parts_.outbox,
                  .journal = parts_.journal,
+                 .motion_journal = parts_.motion_journal,
                  .execution_probe = parts_.execution_probe,
                  .clock = parts_.clock,
                  .on_output =
@@ -37,6 +38,7 @@ Gateway::Gateway(Parts parts)
              .clock = parts_.clock,
              .outbox = parts_.outbox,
              .journal = parts_.journal,
+             .motion_journal = parts_.motion_journal,
              .machine = *machine_,
              .recorder = recorder_,
              .memory = memory_,

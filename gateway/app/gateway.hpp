@@ -29,6 +29,7 @@ class Gateway {
     dds::GatewayEndpoint& endpoint;
     report::Outbox& outbox;
     report::RunJournal& journal;
+    report::MotionJournal* motion_journal = nullptr;  ///< null: a machine that is ahead of nothing
     ExecutionProbe& execution_probe;
     const Clock& clock;
     machine::MotionFactory make_motion;  ///< makes what moves the machine

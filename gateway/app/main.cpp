@@ -206,6 +206,8 @@ Result<void> run(const GatewayOptions& options) {
   if (!outbox) return fail(outbox.error());
   auto journal = report::RunJournal::open(folder->journal());
   if (!journal) return fail(journal.error());
+  auto motion_journal = report::MotionJournal::open(folder->motion_journal());
+  if (!motion_journal) return fail(motion_journal.error());
   auto execution_probe = options.execution_probe ? ExecutionProbe::open(*options.execution_probe)
                                                  : Result<ExecutionProbe>(ExecutionProbe());
   if (!execution_probe) return fail(execution_probe.error());
@@ -232,6 +234,7 @@ Result<void> run(const GatewayOptions& options) {
                    .endpoint = **endpoint,
                    .outbox = *outbox,
                    .journal = *journal,
+                   .motion_journal = &*motion_journal,
                    .execution_probe = *execution_probe,
                    .clock = clock,
                    .make_motion = *std::move(motion),

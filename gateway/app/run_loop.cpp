@@ -19,6 +19,11 @@ constexpr milliseconds kCommitRetry{500};
 constexpr milliseconds kSyncInterval{1000};
 constexpr std::uint64_t kCheckpointBlocks = 1'000'000;  ///< between two checkpoints at most
 
+std::string uncertain_text(const RunEnding& ending) {
+  if (ending.in_hand.empty()) return {};
+  return fmt::format(" (the machine may have gone on to block {})", last_block(ending.in_hand));
+}
+
 }  // namespace
 
 /// The setup of this gateway with the server's tools, offsets and variables in their place. That of
@@ -310,7 +315,7 @@ void RunLoop::end(dds::RunOutcome outcome, const std::string& reason) {
       is_completed ? dds::Execution::ProgramCompleted : dds::Execution::Stopped;
   parts_.run.last_message = text.reason;
   report_memory();
-  stage_ending(is_completed);
+  stage_ending(outcome);
   parts_.recorder.end(std::move(text));
   parts_.consent.end_wait();
   parts_.run.is_ending = true;
@@ -371,13 +376,16 @@ Result<void> RunLoop::recover() {
   const auto entry = parts_.journal.read();
   if (entry && entry->run == run->run && entry->progress.executed >= progress.executed)
     progress = entry->progress;
-  process::log_warning("run interrupted at block {} machine={} run={} program={}",
-                       progress.executed, parts_.options.machine, run->run, run->program);
-  parts_.run.last_execution = dds::Execution::Stopped;
-  parts_.run.last_message =
-      fmt::format("run {} was interrupted at block {}", run->run, progress.executed);
   RunEnding ending;
   ending.executed = progress;
+  settle_interrupted(run->run, ending);
+  progress = ending.executed;
+  process::log_warning("run interrupted at block {}{} machine={} run={} program={}",
+                       progress.executed, uncertain_text(ending), parts_.options.machine, run->run,
+                       run->program);
+  parts_.run.last_execution = dds::Execution::Stopped;
+  parts_.run.last_message = fmt::format("run {} was interrupted at block {}{}", run->run,
+                                        progress.executed, uncertain_text(ending));
   ending.time_us = parts_.clock.now().time_since_epoch().count();
   ending.memory = parts_.memory.digest();
   parts_.outbox.checkpoints().stage_ending(run->run, encode(run->run, std::move(ending)));

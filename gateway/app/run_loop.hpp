@@ -34,6 +34,7 @@ class RunLoop {
     const Clock& clock;
     report::Outbox& outbox;
     report::RunJournal& journal;
+    report::MotionJournal* motion_journal = nullptr;  ///< null: the machine is never ahead
     machine::MotionBackend& machine;
     ExecutionRecorder& recorder;
     ControlMemory& memory;
@@ -47,7 +48,8 @@ class RunLoop {
   explicit RunLoop(Parts parts) : parts_(std::move(parts)) {}
 
   /// Before anything else: ends the run that a former process was executing as interrupted at the
-  /// block it executed last. Errors: those of the outbox.
+  /// block it executed last: waits until a device that had motion in hand shows where it rests, if
+  /// it does within kRestWait. Errors: those of the outbox.
   Result<void> recover();
 
   /// Errors: Busy (the emergency stop), those of the setup, of the machine and of the outbox; no
@@ -78,6 +80,7 @@ class RunLoop {
   bool waits_for_machine() const;
 
   static constexpr std::chrono::milliseconds kSlice{8};  ///< of work between two looks at the inbox
+  static constexpr std::chrono::seconds kRestWait{10};
   static constexpr std::chrono::milliseconds kLongestStep{100};  ///< real time never jumps by more
 
  private:
@@ -99,7 +102,9 @@ class RunLoop {
   void show_restart();
   void check_program(SteadyTime now);
   void report_memory();
-  void stage_ending(bool is_completed);
+  void stage_ending(dds::RunOutcome outcome);
+  InHand in_hand(const std::string& run, std::uint64_t executed) const;
+  void settle_interrupted(const std::string& run, RunEnding& ending);
   void check_end();
   std::string overdue_reason() const;
   void commit_state();

@@ -1,5 +1,6 @@
 #include "gateway/app/run_loop.hpp"
 
+#include <thread>
 #include <utility>
 
 #include "protocol/process/log.hpp"
@@ -29,6 +30,7 @@ Result<std::optional<RestartPlan>> RunLoop::plan_of(const report::ActiveRun& run
                             .control = run.control,
                             .size = run.size,
                             .conditions = conditions_of(origin),
+                            .rests_at = parts_.machine.rests_at(),
                             .memory = parts_.memory.digest()});
   if (!plan) return fail(plan.error().code, "restart: {}", plan.error().what);
   return std::optional(*std::move(plan));
@@ -93,9 +95,29 @@ void RunLoop::show_restart() {
   session.size_feed(parts_.options.speed.factor);
 }
 
+InHand RunLoop::in_hand(const std::string& run, std::uint64_t executed) const {
+  if (parts_.motion_journal == nullptr) return {};
+  return motion_of(parts_.motion_journal->read(run, executed));
+}
+
+/// A device goes on with what it has when its gateway is killed, and stops soon.
+void RunLoop::settle_interrupted(const std::string& run, RunEnding& ending) {
+  ending.in_hand = in_hand(run, ending.executed.executed);
+  if (ending.in_hand.empty()) return;
+  const SteadyTime limit = parts_.clock.steady_now() + kRestWait;
+  auto at = parts_.machine.rests_at();
+  for (; !at && parts_.clock.steady_now() < limit; at = parts_.machine.rests_at()) {
+    (void)parts_.machine.poll(machine::Seconds{0}, 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  if (at) ending.stopped_at = parts_.machine.status().position;
+  (void)settle(ending.in_hand, at, ending.executed);
+}
+
 /// Before the record of the run's end, and in the same transaction.
-void RunLoop::stage_ending(bool is_completed) {
+void RunLoop::stage_ending(dds::RunOutcome outcome) {
   if (!parts_.keeps_checkpoints) return;
+  const bool is_completed = outcome == dds::RunOutcome::Completed;
   RunSession& session = *parts_.run.session;
   if (!is_completed) session.want_checkpoint();
   RunEnding ending;
@@ -105,6 +127,10 @@ void RunLoop::stage_ending(bool is_completed) {
   ending.stopped_at = parts_.machine.status().position;
   ending.memory = parts_.memory.digest();
   const std::string& run = session.run().run;
+  if (!is_completed) ending.in_hand = in_hand(run, ending.executed.executed);
+  // An aborted machine shows where it rests, and the operator may move it away.
+  if (outcome == dds::RunOutcome::Aborted)
+    (void)settle(ending.in_hand, parts_.machine.rests_at(), ending.executed);
   parts_.outbox.checkpoints().stage_ending(run, encode(run, std::move(ending)));
 }
 

@@ -17,6 +17,7 @@ class StateFolder {
 
   std::filesystem::path outbox() const { return folder_ / "outbox.sqlite"; }
   std::filesystem::path journal() const { return folder_ / "run.journal"; }
+  std::filesystem::path motion_journal() const { return folder_ / "motion.journal"; }
 
  private:
   StateFolder(std::filesystem::path folder, FileLock lock)

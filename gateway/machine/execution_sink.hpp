@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/machine/given_action.hpp"
 
 namespace dripline::machine {
 
@@ -10,6 +11,9 @@ namespace dripline::machine {
 class ExecutionSink {
  public:
   virtual ~ExecutionSink() = default;
+  /// Of a device that executes ahead of its reports: what it may get from now on, in order, about
+  /// half a second of motion more than it may have.
+  virtual void on_given(const GivenAction&) {}
   /// A move, a dwell or a probe is about to begin: the last moment to write to disk what was
   /// reported before it.
   virtual void on_motion_starts(const interpreter::Origin&) {}

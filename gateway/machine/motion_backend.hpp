@@ -125,6 +125,9 @@ class MotionBackend {
   /// Distinguishes slowing down from standstill in Held, or after `abort`.
   virtual bool is_moving() const = 0;
   virtual MachineStatus status() const = 0;
+  /// Where the axes rest, after a motion that was cut off too; nothing: they move, or have lost
+  /// their position.
+  virtual std::optional<GivenAction::Point> rests_at() const { return std::nullopt; }
 };
 
 /// Makes a back end that reports to `sink`, which outlives it. A device was opened before.

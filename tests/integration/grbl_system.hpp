@@ -25,6 +25,13 @@ class GrblSystem : public MotionSystem {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));  // 6 s at speed 20
     return traveled() == before;
   }
+  /// A program of its own moves them back to X 0.
+  void home_axes() {
+    if (board->with([](test_support::GrblBoard& peer) { return peer.position()[0]; }) == 0) return;
+    system->push("back", "G21 G90 G0 X0\nM2\n");
+    const auto run = system->wait_ended(start_run("back"));
+    EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
+  }
   std::size_t done() {
     return board->with([](test_support::GrblBoard& peer) { return peer.done.size(); });
   }

@@ -23,7 +23,8 @@ class MotionSystem : public testing::Test {
     system.emplace(System::Options{.speed = "1x",
                                    .server_arguments = {},
                                    .gateway_arguments = std::move(arguments),
-                                   .control = control});
+                                   .control = control,
+                                   .gateway_environment = gateway_environment});
     system->start_server();
     start_gateway();
   }
@@ -61,6 +62,7 @@ class MotionSystem : public testing::Test {
     EXPECT_EQ(finished.status, 0) << finished.output;
   }
 
+  std::vector<std::string> gateway_environment;  ///< NAME=value, before `start_system`
   std::optional<System> system;
 };
 

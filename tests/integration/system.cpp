@@ -178,6 +178,15 @@ nlohmann::json System::run(const std::string& id) const {
   return run.is_object() ? run : nlohmann::json::object();
 }
 
+nlohmann::json System::restart_report(const std::string& id) const {
+  nlohmann::json report;
+  const auto page = rest().get("/api/v1/runs/" + id + "/records?kind=message").json();
+  for (const auto& record : page.at("records"))
+    if (record.value("device", "") == "restart")
+      report = nlohmann::json::parse(record.value("text", ""));
+  return report;
+}
+
 nlohmann::json System::wait_ended(const std::string& id, std::chrono::milliseconds limit) const {
   nlohmann::json last = nlohmann::json::object();
   const bool ended = eventually([&] { return has_ended(last = run(id)); }, limit);

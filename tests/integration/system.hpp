@@ -55,6 +55,8 @@ class System {
   nlohmann::json wait_ended(const std::string& id,
                             std::chrono::milliseconds limit = std::chrono::seconds(60)) const;
   std::vector<std::string> report_lines(const std::string& id) const;
+  /// What a restart reports before cycle start; null: nothing yet.
+  nlohmann::json restart_report(const std::string& id) const;
 
   /// What the simulated machine truly did in its last run, from a file that only its lowest level
   /// writes. An effect on disk and a count in memory cannot change at one instant, so the truth

@@ -127,8 +127,13 @@ Details details_of(const Json& report) {
   Details details;
   details.add("restart of", fmt::format("{} of {}", report.at("restart_of").get<std::string>(),
                                         report.at("program").get<std::string>()));
+  const auto cut_off_at = report.at("cut_off_at").get<std::uint64_t>();
+  const auto on_record = report.value("on_record", cut_off_at);
   details.add("cut off after",
-              fmt::format("block {}", report.at("cut_off_at").get<std::uint64_t>()));
+              on_record == cut_off_at
+                  ? fmt::format("block {}", cut_off_at)
+                  : fmt::format("block {}, as the axes show; on record is block {}", cut_off_at,
+                                on_record));
   details.add("continues after", block_text(report.at("after")));
   details.add("checkpoint", fmt::format("block {}", report.at("checkpoint").get<std::uint64_t>()));
   add_proof(details, report);

@@ -15,7 +15,7 @@ using report::Bytes;
 
 namespace {
 
-constexpr std::uint32_t kFormat = 2;
+constexpr std::uint32_t kFormat = 3;
 
 /// What bytes are, and of what.
 struct Label {

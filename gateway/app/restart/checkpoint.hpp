@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gateway/app/restart/delivered_state.hpp"
+#include "gateway/app/restart/in_hand.hpp"
 #include "gateway/feed/line_feed.hpp"
 #include "gateway/interpreter/core/interpreter.hpp"
 #include "gateway/report/checkpoint_store.hpp"
@@ -56,6 +57,7 @@ struct RunEnding {
   /// Where the axes came to rest; absent after a kill, when it is not known.
   std::optional<interpreter::Position> stopped_at;
   std::string memory;  ///< digest of what the control had kept
+  InHand in_hand;      ///< what may have been executed besides, or a part of it
 };
 report::Bytes encode(std::string_view run, RunEnding ending);
 Result<RunEnding> decode_ending(std::string_view run, const report::Bytes& bytes);

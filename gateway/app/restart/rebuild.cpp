@@ -31,6 +31,7 @@ Rebuild::Rebuild(Parts parts) : parts_(std::move(parts)) {
   report_.original = parts_.plan.original;
   report_.at = parts_.plan.at;
   report_.cut_off_at = parts_.plan.ending.executed.executed;
+  report_.on_record = parts_.plan.on_record;
   report_.machine = parts_.machine.status().position;
   report_.stopped_at = parts_.plan.ending.stopped_at;
 }

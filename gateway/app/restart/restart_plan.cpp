@@ -40,9 +40,41 @@ std::string changes(const report::ActiveRun& original, const Conditions& then,
   return text;
 }
 
+std::string axes_text(const machine::GivenAction::Point& at, const InHand& in_hand) {
+  std::string text;
+  for (const interpreter::Axis axis : interpreter::kAllAxes) {
+    const auto i = static_cast<std::size_t>(axis);
+    const bool moves = std::ranges::any_of(in_hand, [i](const auto& entry) {
+      return entry.action.kind == machine::GivenAction::Kind::Motion &&
+             entry.action.from[i] != entry.action.end[i];
+    });
+    if (at[i] != 0 || moves) text += fmt::format(" {} {:.3f}", interpreter::letter(axis), at[i]);
+  }
+  return text;
+}
+
+/// Nothing is cut twice, or left out, without being asked: where the axes do not tell, the operator
+/// names the block.
+Result<void> settle_place(RestartPlan& plan,
+                          const std::optional<machine::GivenAction::Point>& rests_at) {
+  plan.on_record = plan.ending.executed.executed;
+  if (plan.at.kind != Kind::Executed) return {};
+  if (settle(plan.ending.in_hand, rests_at, plan.ending.executed)) return {};
+  const std::uint64_t executed = plan.ending.executed.executed;
+  const std::uint64_t last = last_block(plan.ending.in_hand);
+  return fail(Errc::Conflict,
+              "run {} has executed block {} on record, but its machine may have done up to {} "
+              "blocks more; the axes are{}, which does not show how many: look at the part and "
+              "name the block that continues, block={} to block={}",
+              plan.original.run, executed, last - executed,
+              rests_at ? axes_text(*rests_at, plan.ending.in_hand) : " at a place not known",
+              executed + 1, last + 1);
+}
+
 Result<void> check_place(const RestartPlan& plan) {
   const auto target = plan.known_target();
-  const std::uint64_t executed = plan.ending.executed.executed;
+  const std::uint64_t executed =
+      std::max(plan.ending.executed.executed, last_block(plan.ending.in_hand));
   if (plan.at.kind == Kind::Block && plan.at.number == 0)
     return fail(Errc::LimitExceeded, "block=0: blocks are counted from 1");
   if (target && *target > executed) {
@@ -112,6 +144,7 @@ Result<RestartPlan> plan_restart(storage::sqlite::Database& database,
     return fail(Errc::Conflict, "run {} was completed: there is nothing left to continue",
                 argument.run);
   }
+  if (auto settled = settle_place(plan, present.rests_at); !settled) return fail(settled.error());
   const std::string changed = changes(plan.original, plan.conditions, plan.ending, present);
   if (!changed.empty())
     return fail(Errc::Conflict, "changed since run {}: {}", argument.run, changed);

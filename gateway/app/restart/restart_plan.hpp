@@ -12,8 +12,9 @@ namespace dripline::gateway {
 struct PresentState {
   std::string revision, control;
   std::uint64_t size = 0;
-  Conditions conditions;  ///< of a start at the first block
-  std::string memory;     ///< digest of what the control keeps
+  Conditions conditions;                                ///< of a start at the first block
+  std::optional<machine::GivenAction::Point> rests_at;  ///< the axes, where that is known
+  std::string memory;                                   ///< digest of what the control keeps
 };
 
 /// A restart that can begin: the run that was cut off, and its checkpoints.
@@ -21,7 +22,8 @@ struct RestartPlan {
   report::ActiveRun original;
   RestartPlace at;
   Conditions conditions;
-  RunEnding ending;
+  RunEnding ending;             ///< settled by where the axes rest, for a restart after it
+  std::uint64_t on_record = 0;  ///< the block executed last, as the run has it
   std::vector<report::StoredCheckpoint> checkpoints;  ///< ascending, without their bytes
 
   /// The last block that is not executed again, where that is known before looking.
@@ -30,8 +32,9 @@ struct RestartPlan {
   std::size_t nearest(std::uint64_t block) const;
 };
 
-/// Errors: NotFound (no checkpoints of the run), Conflict (it has not ended, was completed, or is
-/// of another revision, setup or memory: named), LimitExceeded (the place is after the block
+/// Errors: NotFound (no checkpoints of the run), Conflict (it has not ended, was completed, is of
+/// another revision, setup or memory: named; or what the machine had in hand may be executed or
+/// not), LimitExceeded (the place is after the block
 /// executed last), Corrupt.
 Result<RestartPlan> plan_restart(storage::sqlite::Database& database,
                                  const RestartArgument& argument, const PresentState& present);

@@ -140,6 +140,7 @@ std::string to_json(const RestartReport& report) {
   json["revision"] = report.original.revision;
   json["at"] = report.at.text;
   json["cut_off_at"] = report.cut_off_at;
+  json["on_record"] = report.on_record;
   json["after"] = origin_json(report.after.block, report.after.line, report.after.sequence);
   json["checkpoint"] = report.checkpoint;
   json["proof"] = proof_json(report);

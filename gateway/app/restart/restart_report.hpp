@@ -16,7 +16,8 @@ struct RestartReport {
   report::ActiveRun original;
   RestartPlace at;
   std::uint64_t cut_off_at = 0;  ///< the block that the original run executed last
-  interpreter::Origin after;     ///< the last block that is not executed again
+  std::uint64_t on_record = 0;  ///< as its record has it; the axes may show that it was a later one
+  interpreter::Origin after;    ///< the last block that is not executed again
   std::uint64_t checkpoint = 0;  ///< block that the look-through began after
   /// The state's digest was that of a checkpoint's, at this block; absent: there was none to
   /// compare with.

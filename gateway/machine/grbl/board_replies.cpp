@@ -71,6 +71,7 @@ void BoardSession::end_homing(SteadyTime now) {
 
 void BoardSession::on(const AlarmReply& alarm, SteadyTime now) {
   last_alarm_ = fmt::format(" {} ({})", alarm.code, alarm_text(alarm.code));
+  keeps_position_ = false;
   if (phase_ != Phase::Ready || stop_ != Stop::None) return;
   end_homing(now);
   if (is_active_)
@@ -82,6 +83,7 @@ void BoardSession::on(const Greeting& greeting, SteadyTime now) {
   const bool is_expected = phase_ == Phase::Resetting || phase_ == Phase::Waking;
   const Stop stop = std::exchange(stop_, Stop::None);
   const bool was_ready = phase_ == Phase::Ready;
+  if (phase_ != Phase::Resetting) keeps_position_ = false;
   if (phase_ == Phase::Silent) return;
   drop_lines();
   report_.reset();

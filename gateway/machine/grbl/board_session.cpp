@@ -22,6 +22,7 @@ void BoardSession::opened(SteadyTime now) {
   wants_reopen_ = false;
   stop_ = Stop::None;
   phase_ = Phase::Waking;
+  keeps_position_ = true;
   not_ready_ = "the board has not answered yet";
   phase_began_ = now;
   next_poll_ = now;
@@ -284,6 +285,7 @@ Result<void> BoardSession::reference(bool is_homing, SteadyTime now) {
   if (!is_at_rest || stop_ != Stop::None || counter_.unanswered_lines() > 0)
     return fail(Errc::Busy, "the board is not at rest");
   send_system(is_homing ? "$H" : "$X");
+  if (is_homing) keeps_position_ = false;
   homing_limit_ = now + (is_homing ? limits_.homing : limits_.answer);
   return {};
 }
@@ -323,6 +325,7 @@ void BoardSession::stop(bool is_emergency, SteadyTime now) {
 }
 
 void BoardSession::reset_board(SteadyTime now) {
+  if (!report_ || !report_->rests()) keeps_position_ = false;
   drop_output();  // lines that have not left must not reach a board that was reset
   real_time(kSoftReset);
   splitter_.reset();

@@ -70,6 +70,7 @@ class BoardSession final : public streamed::Device {
   bool is_empty() const override { return counter_.unanswered_lines() == 0 && tracker_.is_empty(); }
   bool is_at_rest() const override { return report_ && report_->state == BoardState::Idle; }
   const Coordinates& position() const override { return position_; }
+  bool keeps_position() const override { return keeps_position_; }
   void drop_probe() override { probe_.reset(); }
   std::optional<streamed::ProbeEnd> probe() const override;
   void raise(std::string_view id, std::string text, SteadyTime now) override;
@@ -158,6 +159,7 @@ class BoardSession final : public streamed::Device {
   std::optional<StatusReport> report_;
   Coordinates position_{};
   bool has_position_ = false;
+  bool keeps_position_ = false;  ///< the board has not restarted since the line was opened
   std::optional<AxisValues> work_offset_;
   std::optional<ModesReply> modes_;
   std::optional<ProbeReply> probe_;

@@ -30,6 +30,7 @@ void Session::opened(SteadyTime now) {
   command_number_ = done_number_ = awaited_ = must_obey_ = shown_number_ = 0;
   sent_overrides_ = {};
   trouble_ = "LinuxCNC has not answered yet";
+  keeps_position_ = true;
   if (feed_ == Feed::Stopping) feed_began_ = now;
   if (is_emergency_)
     must_obey_ = command(R"("do":"emergency")");
@@ -160,6 +161,7 @@ void Session::on(const StatusReply& status, SteadyTime now) {
   status_ = status;
   shown_number_ = done_number_;
   position_ = in_mm(status.at);
+  if (!status.is_homed || status.is_homing) keeps_position_ = false;
   if (is_changed) changed_at_ = now;
   const bool is_obeyed = done_number_ >= awaited_;
   if (feed_ == Feed::Opening && is_obeyed && status.interpreter != InterpreterState::Idle) {

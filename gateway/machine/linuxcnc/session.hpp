@@ -65,6 +65,9 @@ class Session final : public streamed::Device {
   bool is_empty() const override { return in_flight_.empty(); }
   bool is_at_rest() const override;
   const Coordinates& position() const override { return position_; }
+  bool keeps_position() const override {
+    return keeps_position_ && status_ && status_->interpreter == InterpreterState::Idle;
+  }
   void drop_probe() override {}
   std::optional<streamed::ProbeEnd> probe() const override;
   void raise(std::string_view id, std::string text, SteadyTime now) override;
@@ -133,6 +136,7 @@ class Session final : public streamed::Device {
   streamed::TextRules rules_;
   std::optional<StatusReply> status_;
   Coordinates position_{};
+  bool keeps_position_ = false;  ///< homed all the time since the helper was started
   std::string trouble_ = "LinuxCNC is not connected", reopen_reason_;
   std::optional<streamed::DeviceFault> fault_;
   std::string last_error_;  ///< LinuxCNC's, of this program

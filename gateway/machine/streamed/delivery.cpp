@@ -75,8 +75,9 @@ Seconds StreamedMachine::poll(Seconds, std::size_t max_actions) {
     is_allowed_ = max_actions > 0;
     const bool has_program = is_active_ || is_allowed_;  // not while it waits for cycle start
     set_active(has_program && !is_over());
-    while (deliver(lock)) {
-    }
+    do {
+      announce(lock);
+    } while (deliver(lock));
     pump(lock);
     set_active(has_program && !is_over());
   }
@@ -338,10 +339,13 @@ bool StreamedMachine::finish_front(Lock& lock) {
   const Origin origin = action.origin;
   const bool ends_block = action.ends_block;
   const bool may_stop = action.may_stop_after;
+  const double seconds = action.seconds;
   queued_seconds_ = queue_.size() == 1 ? 0 : std::max(0.0, queued_seconds_ - action.seconds);
   if (const auto* motion = std::get_if<Motion>(&action.body)) queued_lines_ -= motion->lines.size();
   queue_.pop_front();
   if (next_ > 0) --next_;
+  if (announced_ > 0) --announced_, announced_seconds_ -= seconds;
+  if (announced_ == 0) announced_seconds_ = 0;
   has_started_ = false;
   if (!ends_block) return true;
   executed_ = origin.block;
@@ -354,7 +358,8 @@ bool StreamedMachine::finish_front(Lock& lock) {
 
 void StreamedMachine::discard() {
   queue_.clear();
-  next_ = 0;
+  next_ = announced_ = 0;
+  announced_seconds_ = 0;
   queued_seconds_ = 0;
   queued_lines_ = 0;
   ahead_.clear();

@@ -59,6 +59,8 @@ class Device {
   virtual bool is_at_rest() const = 0;
   /// In machine coordinates.
   virtual const Coordinates& position() const = 0;
+  /// `position` is that of before the link was opened: neither lost nor taken for right.
+  virtual bool keeps_position() const = 0;
   virtual void drop_probe() = 0;
   virtual std::optional<ProbeEnd> probe() const = 0;
   virtual void raise(std::string_view id, std::string text, SteadyTime now) = 0;

@@ -2,9 +2,26 @@
 
 #include <cmath>
 
+#include "gateway/machine/streamed/arc_path.hpp"
+
 namespace dripline::machine::streamed {
 
 using interpreter::Origin;
+
+namespace {
+
+GivenAction::Arc shape_of(const ArcPath& path) {
+  return {.first = path.first,
+          .second = path.second,
+          .center_first = path.center_first,
+          .center_second = path.center_second,
+          .start_radius = path.start_radius,
+          .end_radius = path.end_radius,
+          .start = path.start,
+          .sweep = path.sweep};
+}
+
+}  // namespace
 
 void QueueBuilder::begin(const TextRules& rules, const Coordinates& at) {
   commands_->begin(rules);
@@ -74,8 +91,13 @@ void QueueBuilder::on_line(const interpreter::Line& event) {
 
 void QueueBuilder::on_arc(const interpreter::Arc& event) {
   const bool is_clockwise = event.turn == interpreter::Turn::Clockwise;
+  const Coordinates from = motion_.at();
+  const std::size_t before = made_.size();
   add_motion(event, is_clockwise ? MotionKind::Clockwise : MotionKind::Counterclockwise,
              &MotionWriter::arc);
+  if (made_.size() == before) return;
+  auto* motion = std::get_if<Motion>(&made_.back().body);
+  if (motion != nullptr) motion->arc = shape_of(arc_path(from, motion->end, event));
 }
 
 void QueueBuilder::on_thread(const interpreter::Thread& event) {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "gateway/machine/given_action.hpp"
 #include "gateway/machine/machine_status.hpp"
 #include "gateway/machine/streamed/command_writer.hpp"
 #include "gateway/machine/streamed/motion_writer.hpp"
@@ -19,6 +20,7 @@ struct Motion {
   Coordinates from{}, end{};
   double length = 0;  ///< of the path
   MotionKind kind = MotionKind::None;
+  std::optional<GivenAction::Arc> arc = {};
   std::size_t sent = 0;           ///< of the lines
   std::uint64_t last_serial = 0;  ///< of the last line, when all are sent
 };

@@ -1,16 +1,54 @@
 // What may be sent ahead of the axes.
 #include <cmath>
+#include <limits>
 
 #include "gateway/machine/streamed/streamed_machine.hpp"
 
 namespace dripline::machine::streamed {
+
+namespace {
+
+/// What is on record of an action before the device gets it.
+GivenAction given(const Action& action) {
+  GivenAction given;
+  given.origin = action.origin;
+  given.ends_block = action.ends_block;
+  if (std::holds_alternative<BlockEnd>(action.body)) given.kind = GivenAction::Kind::BlockEnd;
+  const auto* motion = std::get_if<Motion>(&action.body);
+  if (motion == nullptr) return given;
+  given.kind = GivenAction::Kind::Motion;
+  given.from = motion->from;
+  given.end = motion->end;
+  given.arc = motion->arc;
+  return given;
+}
+
+}  // namespace
+
+/// What the device may get until the owner is here again: on record before it is sent, and not much
+/// more, so that it is known after a kill what can have been executed.
+void StreamedMachine::announce(Lock& lock) {
+  constexpr double kOwnerAway = 0.5;
+  const auto& ahead = device_.rules().seconds_ahead;
+  const double limit = ahead ? *ahead + kOwnerAway : std::numeric_limits<double>::infinity();
+  std::vector<GivenAction> actions;
+  for (std::size_t i = announced_; i < queue_.size() && announced_seconds_ < limit; ++i) {
+    actions.push_back(given(queue_[i]));
+    announced_seconds_ += queue_[i].seconds;
+  }
+  if (actions.empty()) return;
+  lock.unlock();
+  for (const GivenAction& action : actions) sink_.on_given(action);
+  lock.lock();
+  announced_ += actions.size();
+}
 
 void StreamedMachine::pump(const Lock&) {
   if (!is_released_ || !may_begin()) return;
   if (!has_begun_ && !check_position(expected_)) return;
   has_begun_ = true;
   if (!device_.prepare(now())) return;
-  for (; next_ < queue_.size(); ++next_) {
+  for (; next_ < announced_; ++next_) {
     Action& action = queue_[next_];
     const bool must_wait = is_single_block_ && action.origin.block != queue_.front().origin.block;
     if (!must_wait && std::holds_alternative<BlockEnd>(action.body)) continue;

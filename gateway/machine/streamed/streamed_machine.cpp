@@ -242,6 +242,13 @@ MachineState StreamedMachine::current_state() const {
   return is_busy ? MachineState::Running : MachineState::Idle;
 }
 
+std::optional<GivenAction::Point> StreamedMachine::rests_at() const {
+  const Lock lock(mutex_);
+  if (!device_.is_connected() || !device_.is_at_rest() || !device_.keeps_position())
+    return std::nullopt;
+  return device_.position();
+}
+
 MachineState StreamedMachine::state() const {
   const Lock lock(mutex_);
   return current_state();

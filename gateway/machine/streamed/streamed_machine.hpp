@@ -57,6 +57,7 @@ class StreamedMachine : public MotionBackend {
   MachineState state() const override;
   bool is_moving() const override;
   MachineStatus status() const override;
+  std::optional<GivenAction::Point> rests_at() const override;
 
   static constexpr std::size_t kMaxActions = 1024;  ///< that are not sent yet
   static constexpr std::size_t kMaxLines = 16 * kMaxActions;
@@ -79,6 +80,7 @@ class StreamedMachine : public MotionBackend {
   bool is_over() const;
   bool may_begin() const;
   bool check_position(const Coordinates& expected);
+  void announce(Lock& lock);
   bool deliver(Lock& lock);
   bool deliver_executed(Lock& lock);
   bool deliver_passed(Lock& lock);
@@ -113,7 +115,9 @@ class StreamedMachine : public MotionBackend {
   mutable std::mutex mutex_;  ///< guards all below
   Device& device_;
   std::deque<Action> queue_;
-  std::size_t next_ = 0;  ///< the first action that is not completely sent
+  std::size_t next_ = 0;       ///< the first action that is not completely sent
+  std::size_t announced_ = 0;  ///< actions that the sink knows of, from the first: those before it
+  double announced_seconds_ = 0;
   double queued_seconds_ = 0;
   std::size_t queued_lines_ = 0;
   struct Ahead {
