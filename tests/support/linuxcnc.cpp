@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -59,13 +60,21 @@ LinuxCnc::LinuxCnc() {
 }
 
 LinuxCnc::~LinuxCnc() {
+  stop();
+}
+
+void LinuxCnc::stop() {
   if (!process_) return;
   const std::string pid = read_file(folder_.path() / "display.pid");
   if (!pid.empty()) ::kill(std::atoi(pid.c_str()), SIGTERM);
   (void)process_->wait(std::chrono::seconds(15));
+  process_.reset();
+  fs::remove(folder_.path() / "display.pid");
 }
 
 void LinuxCnc::start() {
+  begin_ = 0;
+  fs::remove(folder_.path() / "witness.txt");
   // Each has a home of its own: the part with the motors listens there.
   process_.emplace(std::vector<std::string>{"/usr/bin/env", "TMPDIR=" + folder_.path().string(),
                                             folder_.path() / "start", ini()},
@@ -86,6 +95,7 @@ std::string LinuxCnc::log() const {
 std::vector<LinuxCnc::Sample> LinuxCnc::samples() const {
   std::vector<Sample> samples;
   std::ifstream file(folder_.path() / "witness.txt");
+  file.seekg(static_cast<std::streamoff>(begin_));
   for (std::string line; std::getline(file, line) && !file.eof();) {
     std::istringstream words(line);
     Sample sample;
@@ -105,9 +115,32 @@ std::vector<std::array<double, 3>> LinuxCnc::ends() const {
   return ends;
 }
 
+/// From a whole line on.
+void LinuxCnc::forget() {
+  constexpr std::uintmax_t kLine = 200;
+  const auto path = folder_.path() / "witness.txt";
+  const auto size = fs::exists(path) ? fs::file_size(path) : 0;
+  begin_ = size > kLine ? size - kLine : 0;
+  std::ifstream file(path);
+  file.seekg(static_cast<std::streamoff>(begin_));
+  std::string part;
+  if (begin_ > 0 && std::getline(file, part)) begin_ += part.size() + 1;
+}
+
 std::array<double, 3> LinuxCnc::position() const {
-  const auto all = samples();
-  return all.empty() ? std::array<double, 3>{} : all.back().at;
+  LinuxCnc::Sample last;
+  constexpr std::streamoff kTail = 400;
+  std::ifstream file(folder_.path() / "witness.txt", std::ios::ate);
+  const std::streamoff size = file.tellg();
+  file.seekg(std::max<std::streamoff>(0, size - kTail));
+  std::string line;
+  if (size > kTail) std::getline(file, line);
+  while (std::getline(file, line) && !file.eof()) {
+    std::istringstream words(line);
+    Sample sample;
+    if (words >> sample.line >> sample.at[0] >> sample.at[1] >> sample.at[2]) last = sample;
+  }
+  return last.at;
 }
 
 bool LinuxCnc::rests(std::chrono::milliseconds time) const {

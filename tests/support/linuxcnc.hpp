@@ -26,8 +26,9 @@ class LinuxCnc {
   LinuxCnc(const LinuxCnc&) = delete;
   LinuxCnc& operator=(const LinuxCnc&) = delete;
 
-  /// Waits until it is up; failures are those of gtest.
+  /// Waits until it is up; failures are those of gtest. Once more after its end.
   void start();
+  void stop();
   /// Kills one of its processes: "milltask", "rtapi_app".
   void kill(const std::string& process) const;
   std::string ini() const { return folder_.path() / "mill.ini"; }
@@ -37,8 +38,9 @@ class LinuxCnc {
     long line = 0;  ///< in motion
     std::array<double, 3> at{};
   };
-  /// Everything since the start, without repetitions.
+  /// Everything since the start or `forget`, without repetitions.
   std::vector<Sample> samples() const;
+  void forget();
   /// Where the axes were when the line in motion changed, and where they are now.
   std::vector<std::array<double, 3>> ends() const;
   std::array<double, 3> position() const;
@@ -47,6 +49,7 @@ class LinuxCnc {
 
  private:
   TemporaryFolder folder_;
+  std::uintmax_t begin_ = 0;  ///< in the witness's file
   std::optional<ChildProcess> process_;
 };
 
