@@ -14,6 +14,12 @@ constexpr std::size_t kMaxBuffer = 128 * 1024;  ///< bound of pipelined requests
 constexpr std::size_t kReadHead = 4096;
 constexpr std::size_t kReadBody = 64 * 1024;
 
+/// No lambda of the coroutine: its type would be part of the coroutine's frame, which gcc refuses
+/// in a joined source.
+bool is_parsed(const RequestReader::Parser& parser, bool to_end) {
+  return to_end ? parser.is_done() : parser.is_header_done();
+}
+
 }  // namespace
 
 RequestReader::RequestReader(Transport& transport) : transport_(transport), buffer_(kMaxBuffer) {}
@@ -28,13 +34,12 @@ awaitable<std::size_t> RequestReader::fill(std::size_t most, Time until) {
 /// is part of a condition, so each is a statement.
 awaitable<RequestReader::ErrorCode> RequestReader::advance(Parser& parser, bool to_end,
                                                            Limit silence, Time end) {
-  const auto is_done = [&] { return to_end ? parser.is_done() : parser.is_header_done(); };
   for (;;) {
     ErrorCode error;
-    while (buffer_.size() > 0 && !is_done() && !error) {
+    while (buffer_.size() > 0 && !is_parsed(parser, to_end) && !error) {
       buffer_.consume(parser.put(buffer_.data(), error));
     }
-    if (is_done()) co_return ErrorCode();
+    if (is_parsed(parser, to_end)) co_return ErrorCode();
     if (error && error != http::error::need_more) co_return error;
     const Time until = std::min<Time>(end, Clock::now() + silence);
     const std::size_t size = co_await fill(to_end ? kReadBody : kReadHead, until);
