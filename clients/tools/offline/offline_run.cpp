@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace dripline::interpreter {
-namespace {
+namespace offline_parts {  // members of OfflineRun::Parts
 
 /// Blocks between two looks at the limit.
 constexpr std::uint64_t kStride = 65'536;
@@ -44,8 +44,8 @@ class Diagnostics final : public EventSink {
 
 constexpr std::string_view kEndlessId = "OFF0001";
 
-/// The last event of a program that goes round and round.
-void tell_endless(const Interpreter& interpreter, std::uint64_t repeated, EventSink& sink) {
+/// The last event of a program that repeats for ever.
+void report_endless(const Interpreter& interpreter, std::uint64_t repeated, EventSink& sink) {
   const Origin& origin = interpreter.origin();
   sink.on_alarm({origin,
                  {kEndlessId,
@@ -116,60 +116,91 @@ Result<void> answer_question(Interpreter& interpreter, SetupAnswers& answers) {
   return interpreter.answer(*answer);
 }
 
-/// Steps until the program has ended or raised its alarm, or the gate has stopped it.
-Result<StepState> run(Interpreter& interpreter, SetupAnswers& answers, const OfflineLimits& limits,
-                      const StopGate& gate, EventSink& sink, const Diagnostics& diagnostics) {
-  const std::uint64_t stride = limits.stop ? 1 : kStride;
-  while (interpreter.blocks() < limits.max_blocks) {
-    const std::uint64_t left = limits.max_blocks - interpreter.blocks();
-    const StepState state = interpreter.step(std::min(left, stride));
-    if (gate.has_stopped()) return StepState::Ran;
-    const bool has_ended = state == StepState::Ended || state == StepState::Alarmed;
-    if (!has_ended && diagnostics.repeated > limits.max_repeated_blocks) {
-      tell_endless(interpreter, diagnostics.repeated, sink);
-      return StepState::Alarmed;
-    }
-    switch (state) {
-      case StepState::Ended:
-      case StepState::Alarmed:
-        return state;
-      case StepState::Ran:
-        break;
-      case StepState::NeedsText:
-        return fail(Errc::Io, "line {}: the text of the program is not all there",
-                    interpreter.origin().line);
-      case StepState::NeedsAnswer:
-        if (auto answered = answer_question(interpreter, answers); !answered) {
-          return fail(answered.error());
-        }
-        break;
+}  // namespace offline_parts
+
+struct OfflineRun::Parts {
+  Parts(const Setup& setup, std::vector<std::int64_t> pins, EventSink& sink, OfflineLimits bounds)
+      : limits(bounds),
+        tee(sink, diagnostics),
+        gate(tee, bounds.stop.value_or(StopPoint{})),
+        answers(setup, std::move(pins), diagnostics) {}
+
+  Result<bool> step(std::uint64_t max_blocks);
+
+  OfflineLimits limits;
+  offline_parts::Diagnostics diagnostics;
+  EventTee tee;
+  StopGate gate;
+  offline_parts::SetupAnswers answers;
+  std::unique_ptr<Interpreter> interpreter;
+  bool has_ended = false;
+};
+
+Result<bool> OfflineRun::Parts::step(std::uint64_t max_blocks) {
+  if (interpreter->blocks() >= limits.max_blocks) {
+    return fail(Errc::LimitExceeded,
+                "line {}: stopped after {} blocks, the limit of an offline run",
+                interpreter->origin().line, limits.max_blocks);
+  }
+  const std::uint64_t left = limits.max_blocks - interpreter->blocks();
+  const StepState state = interpreter->step(std::min({left, max_blocks, limits.stop ? 1 : left}));
+  has_ended = state == StepState::Ended;
+  if (gate.has_stopped() || has_ended || state == StepState::Alarmed) return true;
+  if (diagnostics.repeated > limits.max_repeated_blocks) {
+    offline_parts::report_endless(*interpreter, diagnostics.repeated, tee);
+    return true;
+  }
+  if (state == StepState::NeedsText) {
+    return fail(Errc::Io, "line {}: the text of the program is not all there",
+                interpreter->origin().line);
+  }
+  if (state == StepState::NeedsAnswer) {
+    if (auto answered = offline_parts::answer_question(*interpreter, answers); !answered) {
+      return fail(answered.error());
     }
   }
-  return fail(Errc::LimitExceeded, "line {}: stopped after {} blocks, the limit of an offline run",
-              interpreter.origin().line, limits.max_blocks);
+  return false;
 }
 
-}  // namespace
+OfflineRun::OfflineRun(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+OfflineRun::OfflineRun(OfflineRun&&) noexcept = default;
+OfflineRun& OfflineRun::operator=(OfflineRun&&) noexcept = default;
+OfflineRun::~OfflineRun() = default;
+
+Result<OfflineRun> OfflineRun::begin(const Dialect& dialect, const Setup& setup,
+                                     ProgramSource& source, EventSink& sink, OfflineLimits limits) {
+  auto pins = setup.control.integers("pins");
+  if (!pins) return fail(pins.error());
+  auto parts = std::make_unique<Parts>(setup, *std::move(pins), sink, limits);
+  EventSink& first = limits.stop ? static_cast<EventSink&>(parts->gate) : parts->tee;
+  auto interpreter = dialect.make(setup, source, first);
+  if (!interpreter) return fail(interpreter.error());
+  parts->interpreter = *std::move(interpreter);
+  return OfflineRun(std::move(parts));
+}
+
+Result<bool> OfflineRun::step(std::uint64_t max_blocks) {
+  return parts_->step(max_blocks);
+}
+
+OfflineOutcome OfflineRun::outcome() const {
+  return {.ended = parts_->has_ended,
+          .has_stopped = parts_->gate.has_stopped(),
+          .blocks = parts_->interpreter->blocks(),
+          .warnings = parts_->diagnostics.warnings,
+          .alarm = parts_->diagnostics.alarm,
+          .alarm_program = parts_->diagnostics.program};
+}
 
 Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,
                                    ProgramSource& source, EventSink& sink, OfflineLimits limits) {
-  auto pins = setup.control.integers("pins");
-  if (!pins) return fail(pins.error());
-  Diagnostics diagnostics;
-  EventTee tee(sink, diagnostics);
-  StopGate gate(tee, limits.stop.value_or(StopPoint{}));
-  EventSink& first = limits.stop ? static_cast<EventSink&>(gate) : tee;
-  auto interpreter = dialect.make(setup, source, first);
-  if (!interpreter) return fail(interpreter.error());
-  SetupAnswers answers(setup, *std::move(pins), diagnostics);
-  const auto state = run(**interpreter, answers, limits, gate, tee, diagnostics);
-  if (!state) return fail(state.error());
-  return OfflineOutcome{.ended = *state == StepState::Ended,
-                        .has_stopped = gate.has_stopped(),
-                        .blocks = (*interpreter)->blocks(),
-                        .warnings = diagnostics.warnings,
-                        .alarm = diagnostics.alarm,
-                        .alarm_program = diagnostics.program};
+  auto run = OfflineRun::begin(dialect, setup, source, sink, limits);
+  if (!run) return fail(run.error());
+  for (;;) {
+    const auto is_over = run->step(offline_parts::kStride);
+    if (!is_over) return fail(is_over.error());
+    if (*is_over) return run->outcome();
+  }
 }
 
 }  // namespace dripline::interpreter

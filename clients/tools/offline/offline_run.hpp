@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "gateway/interpreter/registry.hpp"
@@ -68,6 +69,27 @@ struct OfflineOutcome {
 Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,
                                    ProgramSource& source, EventSink& sink,
                                    OfflineLimits limits = {});
+
+/// The same in pieces, for a caller that does something else between them. What it was begun with
+/// must outlive it.
+class OfflineRun {
+ public:
+  static Result<OfflineRun> begin(const Dialect& dialect, const Setup& setup, ProgramSource& source,
+                                  EventSink& sink, OfflineLimits limits = {});
+  OfflineRun(OfflineRun&&) noexcept;
+  OfflineRun& operator=(OfflineRun&&) noexcept;
+  ~OfflineRun();
+
+  /// Executes up to `max_blocks`. True: the run is over. Errors: as run_offline; it is over then.
+  Result<bool> step(std::uint64_t max_blocks);
+  OfflineOutcome outcome() const;
+
+ private:
+  struct Parts;
+  explicit OfflineRun(std::unique_ptr<Parts> parts);
+
+  std::unique_ptr<Parts> parts_;
+};
 
 /// Delivers every event to two sinks, one after the other. Both must outlive it.
 class EventTee final : public EventRelay<EventTee> {
