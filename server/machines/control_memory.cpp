@@ -1,74 +1,11 @@
 #include "server/machines/control_memory.hpp"
 
-#include <algorithm>
-#include <vector>
-
 #include "gateway/interpreter/core/called_program_names.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "protocol/base/names.hpp"
+#include "server/machines/stored_programs.hpp"
 
 namespace dripline::machines {
-
-namespace {
-
-using interpreter::ProgramIndex;
-using interpreter::ProgramLookup;
-using interpreter::TextWindow;
-
-/// A run's program and those it calls, as the library has them.
-class StoredPrograms final : public interpreter::ProgramSource {
- public:
-  StoredPrograms(const storage::Store& store, const storage::Run& run) : store_(store), run_(run) {
-    texts_.push_back({{}, run.content, run.size});
-  }
-
-  TextWindow fetch(ProgramIndex program, std::uint64_t offset, std::size_t min_bytes) override {
-    const Text& text = texts_.at(program);
-    TextWindow window;
-    window.state = TextWindow::State::Ready;
-    window_.clear();
-    if (offset < text.size) {
-      auto bytes =
-          store_.programs.read_content(text.content, offset, std::max(min_bytes, kMaxWindow));
-      if (!bytes) {
-        window.state = TextWindow::State::Failed;
-        window.reason = bytes.error().what;
-        return window;
-      }
-      window_ = *std::move(bytes);
-    }
-    window.text = {reinterpret_cast<const char*>(window_.data()), window_.size()};
-    window.reaches_end = offset + window_.size() >= text.size;
-    return window;
-  }
-
-  ProgramLookup find(std::string_view name) override {
-    for (std::size_t i = 1; i < texts_.size(); ++i) {
-      if (texts_[i].name == name) return found(i);
-    }
-    const auto revision = resolve_called_program(store_.programs, run_, std::string(name));
-    if (!revision) return {ProgramLookup::State::NotFound, 0};
-    texts_.push_back({std::string(name), revision->content, revision->size});
-    return found(texts_.size() - 1);
-  }
-
- private:
-  struct Text {
-    std::string name;
-    Digest content;
-    std::uint64_t size = 0;
-  };
-  static ProgramLookup found(std::size_t index) {
-    return {ProgramLookup::State::Found, static_cast<ProgramIndex>(index)};
-  }
-
-  const storage::Store& store_;
-  const storage::Run& run_;
-  std::vector<Text> texts_;
-  std::vector<std::byte> window_;
-};
-
-}  // namespace
 
 Result<void> check_control_memory(const storage::Store& store, const storage::Run& run) {
   const auto dialect = interpreter::find_dialect(run.control);
