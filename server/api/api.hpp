@@ -17,6 +17,7 @@
 #include "server/library/run_history.hpp"
 #include "server/library/setups.hpp"
 #include "server/machines/machine_control.hpp"
+#include "server/paths/program_paths.hpp"
 #include "server/ports/port_control.hpp"
 
 namespace dripline::api {
@@ -34,6 +35,7 @@ struct Services {
   library::Setups& setups;
   machines::MachineControl& machines;
   library::RunHistory& runs;
+  paths::ProgramPaths& paths;
   library::AuditTrail& audit;
   identity::Accounts& accounts;
   EventHub& events;

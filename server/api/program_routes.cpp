@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -221,6 +223,49 @@ Response send_content(Services& services, const Request& request) {
   return response;
 }
 
+/// Millimeters. Errors: Syntax, LimitExceeded.
+Result<double> read_tolerance(const std::optional<std::string>& text) {
+  if (!text) return 0.0;
+  double value = 0;
+  const auto read = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (read.ec != std::errc{} || read.ptr != text->data() + text->size() || !std::isfinite(value))
+    return fail(Errc::Syntax, "query parameter 'tolerance' is '{}': a number", *text);
+  if (value < 0 || value > paths::kMaxTolerance) {
+    return fail(Errc::LimitExceeded, "query parameter 'tolerance' is {}: 0 to {} mm", *text,
+                paths::kMaxTolerance);
+  }
+  return value;
+}
+
+Response refused_path(const Error& error) {
+  constexpr int kUnavailable = 503;
+  if (error.code != Errc::Busy) return error_response(error);
+  Response response = error_response(kUnavailable, error);
+  response.headers.emplace_back("Retry-After", "2");
+  return response;
+}
+
+Response send_path(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto number = query.number("revision", std::numeric_limits<std::int64_t>::max());
+  const auto machine = query.text("machine");
+  const auto tolerance = read_tolerance(query.text("tolerance"));
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  if (!tolerance) return error_response(tolerance.error());
+  const auto revision = services.programs.revision(request.parameter("name"), number);
+  if (!revision) return error_response(revision.error());
+  auto opened = services.paths.open(
+      {.revision = *revision, .machine = machine.value_or(""), .tolerance = *tolerance});
+  if (!opened) return refused_path(opened.error());
+  Response response;
+  response.content_type = "application/octet-stream";
+  response.headers = {{"Dripline-Revision", std::to_string(revision->number)}};
+  response.source = [reader = std::shared_ptr<paths::PathReader>(*std::move(opened))] {
+    return reader->next();
+  };
+  return response;
+}
+
 }  // namespace
 
 void add_program_routes(Router& router, Services& services) {
@@ -234,6 +279,7 @@ void add_program_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/programs/{name}/revisions/{number}/reject",
              with(services, reject_revision));
   router.add("GET", "/api/v1/programs/{name}/content", with(services, send_content));
+  router.add("GET", "/api/v1/programs/{name}/path", with(services, send_path));
 }
 
 }  // namespace dripline::api

@@ -42,6 +42,7 @@ constexpr std::array kRoutes{
     RoutePermission{"POST", "/api/v1/programs/{name}/revisions/{number}/accept", Approve},
     RoutePermission{"POST", "/api/v1/programs/{name}/revisions/{number}/reject", Approve},
     RoutePermission{"GET", "/api/v1/programs/{name}/content", View},
+    RoutePermission{"GET", "/api/v1/programs/{name}/path", View},
     RoutePermission{"POST", "/api/v1/uploads", Program},
     RoutePermission{"GET", "/api/v1/uploads/{id}", Program},
     RoutePermission{"PUT", "/api/v1/uploads/{id}/content", Program},

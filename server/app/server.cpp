@@ -101,6 +101,7 @@ struct Server::Parts {
         accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, users),
         programs(*store, clock, catalog, audit),
         runs(*store),
+        paths(*store, clock),
         setups(store->setups, catalog, audit),
         machine_service(*store, clock, machine_options(), machine_listener()),
         ports(*store, programs, clock,
@@ -111,6 +112,7 @@ struct Server::Parts {
              .setups = setups,
              .machines = machines,
              .runs = runs,
+             .paths = paths,
              .audit = audit,
              .accounts = accounts,
              .events = events,
@@ -167,6 +169,7 @@ struct Server::Parts {
   identity::Accounts accounts;
   library::Programs programs;
   library::RunHistory runs;
+  paths::ProgramPaths paths;
   library::Setups setups;
   api::EventHub events;
   machines::MachineService machine_service;

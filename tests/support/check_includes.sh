@@ -34,7 +34,8 @@ server/library: protocol/base protocol/process storage gateway/interpreter serve
 server/identity: protocol/base protocol/process storage server/library server/identity
 server/machines: protocol storage gateway/interpreter server/library server/machines
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
-server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/api
+server/paths: protocol/base storage gateway/interpreter clients/tools/offline server/library server/machines server/paths
+server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/api
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
 clients/lib: protocol/base clients/lib

@@ -31,10 +31,12 @@ class ApiTest : public ServerTest {
   }
 
   void make_api(ports::PortControl* ports) {
+    paths_ = std::make_unique<paths::ProgramPaths>(*store_, clock_);
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .setups = *setups_,
                                                     .machines = machines_,
                                                     .runs = *runs_,
+                                                    .paths = *paths_,
                                                     .audit = *audit_,
                                                     .accounts = *accounts_,
                                                     .events = events_,
@@ -148,6 +150,7 @@ class ApiTest : public ServerTest {
   FakePorts ports_;
   library::Health health_{clock_};
   api::EventHub events_;
+  std::unique_ptr<paths::ProgramPaths> paths_;
   std::unique_ptr<api::Api> api_;
 };
 

@@ -227,6 +227,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_described("GET", "/api/v1/programs", get("/api/v1/programs"));
   expect_described("GET", "/api/v1/programs/{name}", get("/api/v1/programs/O0100"));
   expect_described("GET", "/api/v1/programs/{name}/content", get("/api/v1/programs/O0100/content"));
+  expect_described("GET", "/api/v1/programs/{name}/path", get("/api/v1/programs/O0100/path"));
   const auto upload = post("/api/v1/uploads", {{"program", "O2"}, {"control", "centurion"}});
   expect_described("POST", "/api/v1/uploads", upload);
   const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");

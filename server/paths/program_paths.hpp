@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "protocol/base/clock.hpp"
+#include "protocol/base/result.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::paths {
+
+inline constexpr double kMaxTolerance = 1000;  ///< mm
+
+struct PathRequest {
+  storage::Revision revision;
+  std::string machine = {};  ///< whose setup applies; empty: the control's defaults
+  double tolerance = 0;      ///< mm, at most kMaxTolerance; see PathEncoder
+};
+
+/// The tool path of one program, a piece at a time: interprets as far as the piece needs, and
+/// nothing while no piece is asked for. Ends its interpretation when it is destroyed. One thread at
+/// a time, which may wait for storage.
+class PathReader {
+ public:
+  virtual ~PathReader() = default;
+  /// Frames (README.md); nullopt after the last one. Never empty. A fault of the program is in the
+  /// last frame. Errors: Io, Corrupt (its text).
+  virtual Result<std::optional<std::string>> next() = 0;
+};
+
+/// Interprets stored programs for their tool paths. Any thread; what it was made of must outlive
+/// the readers.
+class ProgramPaths {
+ public:
+  ProgramPaths(const storage::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
+
+  /// Errors: Busy (kMaxReaders are open), Unsupported (no control is known, or the machine's setup
+  /// is not for it), and those of the setup.
+  Result<std::unique_ptr<PathReader>> open(const PathRequest& request);
+
+  static constexpr int kMaxReaders = 4;
+
+ private:
+  const storage::Store& store_;
+  const Clock& clock_;
+  const std::shared_ptr<std::atomic<int>> readers_ = std::make_shared<std::atomic<int>>(0);
+};
+
+}  // namespace dripline::paths
