@@ -59,6 +59,7 @@ const kLater: { [view: string]: () => Promise<{ default: LaterView }> } = {
   machine: () => import('../machine/machine'),
   programs: () => import('../programs/programs'),
   reports: () => import('../reports/reports'),
+  path: () => import('../path/path'),
   account: () => import('../account/account'),
   administration: () => import('../administration/administration'),
 };

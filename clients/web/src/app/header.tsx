@@ -7,8 +7,9 @@ import { languages, loadTexts, texts, type Language } from '../texts/texts';
 import { keepPreferences, preferences, showTheme, type Theme } from './preferences';
 import { addressOf, type Route } from './route';
 
-/// The views of the bar; `machine` belongs to the floor.
+/// The views of the bar, and those that belong to one of them.
 const kViews = ['floor', 'programs', 'reports', 'administration'] as const;
+const kParents: { [view: string]: string } = { machine: 'floor', path: 'programs' };
 
 function skip(event: Event): void {
   event.preventDefault();
@@ -65,7 +66,7 @@ function LinkState() {
 
 export function Header({ route, onLanguage }: { route: Route; onLanguage: () => void }) {
   const t = texts().app;
-  const shown = route.view === 'machine' ? 'floor' : route.view;
+  const shown = kParents[route.view] ?? route.view;
   return (
     <header class="bar">
       <a class="skip" href="#content" onClick={skip}>{t.skip}</a>

@@ -11,8 +11,11 @@ export interface LengthUnit {
   digits: number;
 }
 
+export const kInch: LengthUnit = { name: 'inch', perMm: 1 / kMmPerInch, digits: 4 };
+export const kMillimeter: LengthUnit = { name: 'mm', perMm: 1, digits: 3 };
+
 export function unitOf(modes: ActiveModes): LengthUnit {
-  return modes?.units === 'inch' ? { name: 'inch', perMm: 1 / kMmPerInch, digits: 4 } : { name: 'mm', perMm: 1, digits: 3 };
+  return modes?.units === 'inch' ? kInch : kMillimeter;
 }
 
 /// Of an axis: rotary ones are in degrees, whatever the unit.

@@ -76,7 +76,10 @@ export function ProgramPage({ name, number }: { name: string; number: number | n
           <section class="panel"><StartOn revision={shown} /></section>
           <RevisionList revisions={revisions} shown={shown} />
           <section class="panel">
-            <p class="buttons"><button type="button" onClick={() => void command.send(() => download(path, name))}>{t.download}</button></p>
+            <p class="buttons">
+              {shown.control !== null && <a class="button" href={addressOf('path', [name, String(shown.revision)])}>{t.path}</a>}
+              <button type="button" onClick={() => void command.send(() => download(path, name))}>{t.download}</button>
+            </p>
             <CommandFault command={command} />
             <Manage key={name} program={value} />
             <p class="hint mono">{t.digest} {shown.sha256}</p>

@@ -4,6 +4,26 @@ import { Shop, longProgram, measuringProgram, until } from './shop';
 const kAsks = 'O0300 (DIAMETERS FROM THE OPERATOR)\nG20 G93 G98\nINPUT (LARGEST DIAMETER) P1\nG0 X[P1]\nM30\n';
 const kStops = 'O0400 (TURN THE PART OVER)\nG21 G90\nG0 X10.\nM0\nG0 X0.\nM30\n';
 
+/// A pocket in spirals, each deeper, with a drilled pattern around it.
+function spiralProgram(): string {
+  const lines = ['O0600 (POCKET AND HOLES)', 'G21 G90 G94 G17 G54', 'T1 M6 (END MILL)', 'S4000 M3', 'G0 X0. Y0. Z5.'];
+  for (const depth of [-3, -6, -9, -12]) {
+    lines.push('G0 X0. Y0.', `G1 Z${depth}. F200.`);
+    for (let i = 1; i <= 240; ++i) {
+      const [radius, angle] = [i / 6, i / 8];
+      lines.push(`G1 X${(radius * 1.4 * Math.cos(angle)).toFixed(3)} Y${(radius * Math.sin(angle)).toFixed(3)} F900.`);
+    }
+    lines.push('G0 Z5.');
+  }
+  lines.push('T2 M6 (DRILL)', 'S2500 M3');
+  for (let i = 0; i < 12; ++i) {
+    const angle = (i * Math.PI) / 6;
+    lines.push(`G${i === 0 ? '81' : ''} X${(75 * Math.cos(angle)).toFixed(3)} Y${(58 * Math.sin(angle)).toFixed(3)}${i === 0 ? ' Z-18. R2. F150.' : ''}`.replace('G X', 'X'));
+  }
+  lines.push('G80', 'G0 Z20.', 'G0 X90. Y0.', 'G1 Z-2. F300.', 'G3 X90. Y0. I-90. J0. F2000.', 'G0 Z20.', 'M30', '');
+  return lines.join('\n');
+}
+
 const kSetup = `units = "mm"
 
 [[tool]]          # face mill
@@ -36,6 +56,7 @@ export async function exampleShop(): Promise<Shop> {
   await shop.startMachine('mill-4', { control: 'fanuc', description: 'Test bench' });
   await shop.startMachine('lathe-1', { control: 'centurion', description: 'Turning, probe' });
   await shop.startMachine('lathe-2', { control: 'centurion' });
+  await shop.api('PUT', 'machine-groups/cell-1');
   await shop.push('O0100', longProgram('O0100', 3000), 'fanuc');
   await shop.push('O0200', 'O0200 (WITH AN ERROR)\nG21 G90\nG1 X1. F100. ZZ5.\nM30\n', 'fanuc');
   await shop.push('O0300', kAsks, 'centurion');
@@ -46,8 +67,13 @@ export async function exampleShop(): Promise<Shop> {
   await shop.start('mill-2', 'O0200');
   await shop.start('mill-3', 'O0400');
   await shop.start('lathe-1', 'O0300');
+  for (const machine of ['mill-1', 'mill-2', 'lathe-1']) await shop.api('PUT', `machine-groups/cell-1/machines/${machine}`);
   await shop.push('O0500', measuringProgram(40), 'centurion');
   await shop.start('lathe-2', 'O0500');
+  await shop.push('O0600', spiralProgram(), 'fanuc');
+  await shop.addUser('anna', 'programmer', ['cell-1']);
+  await shop.addUser('otto', 'operator', ['cell-1']);
+  await shop.addUser('vera', 'viewer');
   await shop.api('PUT', 'ports/line-5', { machine: 'mill-5', address: '/dev/ttyUSB0', template: 'tnc155' });
   await shop.stopMachine('mill-4');
   await until('lathe-1 asks', async () => {

@@ -14,11 +14,17 @@ const kPlaces: Record<string, string> = {
   runs: '#/machine/mill-2/runs',
   programs: '#/programs',
   program: '#/programs/O0100',
+  path: '#/path/O0600?machine=mill-1&line=60',
+  lathe: '#/path/O0500',
   reports: '#/reports',
   report: '#/reports/RUN?series=Z&lower=-1.9',
   server: '#/administration/server',
   ports: '#/administration/ports',
+  users: '#/administration/users/anna',
+  groups: '#/administration/groups',
   audit: '#/administration/audit',
+  account: '#/account',
+  signin: '#/floor',
 };
 
 async function main(): Promise<void> {
@@ -30,7 +36,7 @@ async function main(): Promise<void> {
     for (const [name, place] of Object.entries(kPlaces)) {
       if (process.argv[3] && !name.includes(process.argv[3])) continue;
       const measured = await shop.api<{ runs: Array<{ id: string }> }>('GET', 'runs?machine=lathe-2&limit=1');
-      const { page, complaints } = await visit(browser, shop, place.replace('RUN', measured?.runs[0]?.id ?? ''));
+      const { page, complaints } = await visit(browser, shop, place.replace('RUN', measured?.runs[0]?.id ?? ''), name === 'signin' ? { user: null } : {});
       await page.waitForLoadState('networkidle', { timeout: 2000 }).catch(() => {}); // the event stream stays open
       for (const theme of kThemes) {
         for (const width of kWidths) {
