@@ -55,7 +55,7 @@ function Facts({ path, onChoose }: { path: LoadedPath; onChoose: (line: number) 
       {end.other_axes > 0 && <p class="notice warn">{t.otherAxes(numberText(end.other_axes))}</p>}
       {polyline.tolerance > 0 && <p class="notice">{t.simplified(lengthOf(polyline.tolerance, end.inch))}</p>}
       <dl class="rows">{rows.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
-      <Extents end={end} />
+      {Object.keys(end.extents).length > 0 ? <Extents end={end} /> : <p class="notice">{t.nothingMoves}</p>}
       {end.tools.length > 0 && (
         <>
           <h3>{t.tools}</h3>

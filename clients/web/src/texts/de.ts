@@ -292,6 +292,7 @@ export const de: Texts = {
     feedLength: 'Weg im Vorschub',
     rapidLength: 'Weg im Eilgang',
     points: 'Gezeigte Punkte',
+    nothingMoves: 'Das Programm bewegt keine Achse.',
     axis: 'Achse',
     least: 'Kleinster',
     most: 'Größter',

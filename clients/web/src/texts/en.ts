@@ -294,6 +294,7 @@ export const en = {
     feedLength: 'Feed distance',
     rapidLength: 'Rapid distance',
     points: 'Points shown',
+    nothingMoves: 'The program moves no axis.',
     axis: 'Axis',
     least: 'Smallest',
     most: 'Largest',
