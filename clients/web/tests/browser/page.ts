@@ -93,6 +93,26 @@ interface AxeWindow extends Window {
   axe?: { run(options: unknown): Promise<{ violations: Array<{ id: string; nodes: Array<{ html: string; failureSummary: string }> }> }> };
 }
 
+/// Boxes that lie on each other, or leave the screen: what no font and no pixel can cause. Runs in the page.
+function findCollisions(): string[] {
+  const kSlack = 2; // px
+  const found: string[] = [];
+  if (document.documentElement.scrollWidth > innerWidth) found.push('wider than the screen');
+  const boxes = [...document.querySelectorAll('main :is(.panel, .card, .notice, button, input, select, h1, h2)')]
+    .filter((element) => element.checkVisibility() && !element.closest('.visually-hidden, .scroll, .code, .records, .diff')) // cut, or scrolled
+    .map((element) => ({ element, box: element.getBoundingClientRect() }))
+    .filter(({ box }) => box.width > kSlack && box.height > kSlack);
+  for (const [i, a] of boxes.entries()) {
+    for (const b of boxes.slice(i + 1)) {
+      if (a.element.contains(b.element) || b.element.contains(a.element)) continue;
+      const width = Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left);
+      const height = Math.min(a.box.bottom, b.box.bottom) - Math.max(a.box.top, b.box.top);
+      if (width > kSlack && height > kSlack) found.push(`${a.element.outerHTML.slice(0, 80)} lies on ${b.element.outerHTML.slice(0, 80)}`);
+    }
+  }
+  return found;
+}
+
 /// What axe-core finds; empty: nothing. Each theme once and each width once: colors do not depend on the width.
 export async function findBarriers(page: Page): Promise<string[]> {
   const axe = readFileSync(path.join(process.env.WEB!, 'node_modules/axe-core/axe.min.js'), 'utf8');
@@ -108,7 +128,7 @@ export async function findBarriers(page: Page): Promise<string[]> {
       return violations.flatMap((v) => v.nodes.map((n) => `${v.id}: ${n.html.slice(0, 200)} ${n.failureSummary}`));
     });
     found.push(...violations.map((violation) => `${theme} ${width}: ${violation}`));
-    if (await page.evaluate(() => document.documentElement.scrollWidth > innerWidth)) found.push(`${theme} ${width}: wider than the screen`);
+    found.push(...(await page.evaluate(findCollisions)).map((collision) => `${theme} ${width}: ${collision}`));
   }
   return found;
 }
