@@ -29,6 +29,29 @@ struct ServerInfo {
   } dds;
 };
 
+/// The server's backups, newest first, and what it does with them now.
+struct Backups {
+  struct Backup {
+    std::string id, made, made_by;
+    std::uint64_t size = 0, added = 0;  ///< bytes; `added`: those that no earlier backup had
+    std::string verified;               ///< when its bytes were last found good
+  };
+  struct Work {
+    std::string kind, backup, phase;
+    std::uint64_t done = 0, total = 0;
+  };
+  struct Outcome {
+    std::string kind, backup, time, error;
+  };
+  std::string folder;
+  std::uint64_t every_hours = 0;
+  bool overdue = false;
+  std::vector<Backup> backups;
+  std::vector<std::string> damaged;
+  std::optional<Work> work;
+  std::optional<Outcome> last;
+};
+
 /// A program's latest revision, as listings give it. Held: no revision of it is approved yet.
 struct Program {
   std::string name;

@@ -147,6 +147,7 @@ template Reply<Token> Client::fetch(HttpRequest, std::string_view);
 template Reply<MachineGroup> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<User>> Client::fetch_list(const std::string&, const char*);
 template Reply<std::vector<Token>> Client::fetch_list(const std::string&, const char*);
+template Reply<Backups> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<MachineGroup>> Client::fetch_list(const std::string&, const char*);
 template Reply<Port> Client::fetch(HttpRequest, std::string_view);
 template Reply<PortTest> Client::fetch(HttpRequest, std::string_view);
@@ -161,6 +162,22 @@ Reply<void> Client::health() {
 
 Reply<ServerInfo> Client::server() {
   return fetch<ServerInfo>(get(path_of("server")));
+}
+
+Reply<Backups> Client::backups() {
+  return fetch<Backups>(get(path_of("backups")));
+}
+
+Reply<Backups> Client::make_backup() {
+  return fetch<Backups>(with_method("POST", path_of("backups")));
+}
+
+Reply<Backups> Client::verify_backup(std::string_view id) {
+  return fetch<Backups>(with_method("POST", path_of("backups", id) + "/verify"));
+}
+
+Reply<void> Client::remove_backup(std::string_view id) {
+  return perform(with_method("DELETE", path_of("backups", id)));
 }
 
 Reply<std::vector<Program>> Client::programs(Page page) {

@@ -138,6 +138,11 @@ class Client {
 
   Reply<void> health();
   Reply<ServerInfo> server();
+  Reply<Backups> backups();
+  /// These begin it; `Backups::work` and `last` tell how it goes.
+  Reply<Backups> make_backup();
+  Reply<Backups> verify_backup(std::string_view id);
+  Reply<void> remove_backup(std::string_view id);
 
   Reply<std::vector<Program>> programs(Page page);
   Reply<ProgramHistory> program(std::string_view name);

@@ -23,6 +23,8 @@ Api::Api(Services services)
   add_memory_routes(router_, services_);
   add_port_routes(router_, services_);
   add_account_routes(router_, services_);
+  add_backup_routes(router_, services_);
+  add_metrics_routes(router_, services_);
   router_.change_routes([this](Router::Route& route) { protect(route); });
 }
 

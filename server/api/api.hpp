@@ -12,6 +12,7 @@
 #include "server/api/router.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/library/audit_trail.hpp"
+#include "server/library/backups.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/run_history.hpp"
@@ -44,6 +45,7 @@ struct Services {
   std::function<std::uint64_t()> dds_rejected;
   ports::PortControl* ports = nullptr;  ///< null: a server without serial ports
   library::Health* health = nullptr;    ///< null: always ok
+  library::Backups* backups = nullptr;  ///< null: a server that makes none
   bool has_tls = false;                 ///< the sockets in front of it do
 };
 
@@ -100,6 +102,8 @@ void add_setup_routes(Router& router, Services& services);
 void add_memory_routes(Router& router, Services& services);
 void add_port_routes(Router& router, Services& services);
 void add_account_routes(Router& router, Services& services);
+void add_backup_routes(Router& router, Services& services);
+void add_metrics_routes(Router& router, Services& services);
 
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer
 /// `limit` (default 100) and `offset`.

@@ -15,6 +15,12 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/server", View},
     RoutePermission{"GET", "/api/v1/audit", Approve},
     RoutePermission{"GET", "/api/v1/events", View},
+    RoutePermission{"GET", "/api/v1/metrics", View},
+
+    RoutePermission{"GET", "/api/v1/backups", Administer},
+    RoutePermission{"POST", "/api/v1/backups", Administer},
+    RoutePermission{"DELETE", "/api/v1/backups/{id}", Administer},
+    RoutePermission{"POST", "/api/v1/backups/{id}/verify", Administer},
 
     RoutePermission{"POST", "/api/v1/session", Open},
     RoutePermission{"GET", "/api/v1/session", SignedIn},

@@ -9,6 +9,7 @@
 #include "protocol/process/log.hpp"
 #include "protocol/process/service_manager.hpp"
 #include "protocol/process/stop_signals.hpp"
+#include "server/app/restore.hpp"
 #include "server/app/server.hpp"
 #include "server/app/settings.hpp"
 
@@ -54,8 +55,17 @@ void serve_until(const sigset_t& signals, Server& server, const Clock& clock) {
   }
 }
 
+int restore(const Settings& settings) {
+  ::umask(S_IRWXG | S_IRWXO);
+  const auto restored = restore_backup(settings);
+  if (!restored) return complain(restored.error());
+  fmt::print("backup {} is in {}: start dncd with it\n", *restored, settings.state);
+  return 0;
+}
+
 int run(const Settings& settings) {
   keep_memory_small();
+  if (!settings.restore.empty()) return restore(settings);
   const sigset_t signals = process::block_stop_signals();
   ::umask(S_IRWXG | S_IRWXO);  // programs, reports, the log and the token are the owner's alone
   const process::LogOptions log{.file = settings.log,

@@ -11,6 +11,7 @@
 #include "server/api/http_server.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/library/audit_trail.hpp"
+#include "server/library/backups.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
@@ -92,12 +93,14 @@ api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
 /// In the order of their making; each may use those above it.
 struct Server::Parts {
   Parts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
-        const Settings& settings, const Clock& system_clock, const storage::AccountData& users)
+        std::optional<backup::BackupFolder> backup_folder, const Settings& settings,
+        const Clock& system_clock, const storage::AccountData& users)
       : clock(system_clock),
         folder(std::move(state_folder)),
         store(std::move(opened)),
         health(clock),
         audit(store->audit, clock),
+        backups(make_backups(std::move(backup_folder), settings)),
         accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, users),
         programs(*store, clock, catalog, audit),
         runs(*store),
@@ -125,6 +128,7 @@ struct Server::Parts {
              .dds_rejected = [this] { return machine_service.rejected().messages; },
              .ports = &ports,
              .health = &health,
+             .backups = backups.get(),
              .has_tls = !settings.tls_key.empty()}),
         tidied(clock.steady_now()) {}
 
@@ -132,6 +136,28 @@ struct Server::Parts {
     machines::MachineService::Options options;
     options.on_fault = records_watch();
     return options;
+  }
+
+  std::unique_ptr<library::Backups> make_backups(std::optional<backup::BackupFolder> to,
+                                                 const Settings& settings) {
+    if (!to) return nullptr;
+    library::Backups::Options options;
+    options.every = std::chrono::hours(settings.backup_every_hours);
+    options.retention = {.every = std::chrono::days(settings.backup_keep_days),
+                         .weekly = std::chrono::weeks(settings.backup_keep_weeks)};
+    backup::Source source{.folder = folder.path(),
+                          .database = StateFolder::kDatabase,
+                          .files = StateFolder::files(),
+                          .made_by = fmt::format("dncd {}", DRIPLINE_VERSION),
+                          .copy = [this](const std::filesystem::path& copy, const auto& proceed) {
+                            return store->copy_to(copy, proceed);
+                          }};
+    return std::make_unique<library::Backups>(library::Backups::Parts{.folder = *std::move(to),
+                                                                      .source = std::move(source),
+                                                                      .audit = audit,
+                                                                      .health = health,
+                                                                      .clock = clock},
+                                              options);
   }
 
   /// Of machines with gateways and of those at the ends of lines.
@@ -166,6 +192,7 @@ struct Server::Parts {
   library::Health health;
   library::DialectCatalog catalog;
   library::AuditTrail audit;
+  std::unique_ptr<library::Backups> backups;  ///< null: none are made
   identity::Accounts accounts;
   library::Programs programs;
   library::RunHistory runs;
@@ -253,8 +280,14 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!token) return fail(token.error());
   const auto users = (*store)->accounts.load();
   if (!users) return fail(users.error());
-  std::unique_ptr<Server> server(
-      new Server(std::make_unique<Parts>(*folder, *std::move(store), settings, clock, *users)));
+  std::optional<backup::BackupFolder> backups;
+  if (!settings.backups.empty()) {
+    auto opened = backup::BackupFolder::open(settings.backups);
+    if (!opened) return fail(opened.error());
+    backups = *std::move(opened);
+  }
+  std::unique_ptr<Server> server(new Server(std::make_unique<Parts>(
+      *folder, *std::move(store), std::move(backups), settings, clock, *users)));
   Parts& parts = *server->parts_;
   if (auto used = parts.accounts.use_local_secret(*token, settings.recover_admin); !used)
     return fail(used.error());

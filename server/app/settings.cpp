@@ -134,6 +134,7 @@ using process::text_value;
 using process::yes_no_value;
 using Row = process::SettingRow<Settings>;
 
+constexpr std::uint64_t kHoursOfYear = 8760;
 constexpr std::uint64_t kLongestMs = 600'000;
 constexpr std::uint64_t kMaxConnections = 800;  ///< DDS waits with select(): below 1,000 files
 
@@ -171,6 +172,16 @@ constexpr std::array kRows{
         number_value<10, kLongestMs, &Settings::discovery_interval_ms>()},
     Row{"lease-ms", "NUMBER", "ms", "", "Consider a gateway disconnected after this much silence",
         number_value<100, kLongestMs, &Settings::lease_ms>()},
+    Row{"backups", "DIR", "", "none",
+        "Folder of the backups, best on another disk; without it none are made",
+        text_value<&Settings::backups>()},
+    Row{"backup-every-hours", "NUMBER", "h", "",
+        "Make a backup this often; 0: only on request (dnc server backup)",
+        number_value<0, kHoursOfYear, &Settings::backup_every_hours>()},
+    Row{"backup-keep-days", "NUMBER", "d", "", "Keep every backup of the last days",
+        number_value<1, 3650, &Settings::backup_keep_days>()},
+    Row{"backup-keep-weeks", "NUMBER", "", "", "Keep one backup of each of the last weeks",
+        number_value<0, 520, &Settings::backup_keep_weeks>()},
     Row{"log", "FILE", "", "standard error", "Log file", text_value<&Settings::log>()},
     Row{"log-level", "LEVEL", "", "",
         "Lowest level that is logged: debug, info, warn, error or off",
@@ -238,6 +249,10 @@ CommandLine read_command_line(int argc, const char* const* argv) {
                    "Start with an empty database if this folder's database is missing");
   program.add_flag("--recover-admin", line.settings.recover_admin,
                    "Make user admin an active administrator again, with this folder's token");
+  program
+      .add_option("--restore", line.settings.restore,
+                  "Bring this backup (or: newest) of --backups into the state folder, and end")
+      ->type_name("BACKUP");
   process::SettingsReader reader(std::span<const Row>(kRows), line.settings);
   reader.declare(program);
   try {

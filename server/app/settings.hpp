@@ -29,10 +29,17 @@ struct Settings {
   std::string log_level = "info";
   std::uint32_t log_mb = 10;
   std::uint32_t log_files = 5;
+  std::string backups;  ///< folder of the backups; empty: none are made
+  std::uint32_t backup_every_hours = 24;
+  std::uint32_t backup_keep_days = 14;
+  std::uint32_t backup_keep_weeks = 26;
+  std::string restore;               ///< on the command line alone: a backup, or kNewestBackup
   bool begin_empty = false;          ///< on the command line alone, for one start
   bool recover_admin = false;        ///< likewise
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
 };
+
+inline constexpr const char* kNewestBackup = "newest";
 
 /// Sets what a TOML file holds: the settings of dncd and its serial ports, whose files are looked
 /// for in `folder`. Errors: Syntax (also an unknown key, a wrong type), LimitExceeded, NotFound;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "protocol/base/result.hpp"
 
@@ -36,16 +37,22 @@ class StateFolder {
   Result<void> announce(const Announcement& announcement) const;
   void withdraw() const;
 
-  std::filesystem::path database() const { return path_ / "dripline.sqlite"; }
+  static constexpr const char* kDatabase = "dripline.sqlite";
+
+  std::filesystem::path database() const { return path_ / kDatabase; }
+  /// What a backup holds beside the database.
+  static std::vector<std::string> files() { return {kToken, kIdentity}; }
   /// What passed over serial lines last.
   std::filesystem::path recordings() const { return path_ / "recordings"; }
-  std::filesystem::path token_file() const { return path_ / "token"; }
+  std::filesystem::path token_file() const { return path_ / kToken; }
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  static constexpr const char* kToken = "token";
+  static constexpr const char* kIdentity = "database.id";
   explicit StateFolder(std::filesystem::path path) : path_(std::move(path)) {}
   /// The identity of the database that belongs here.
-  std::filesystem::path identity_file() const { return path_ / "database.id"; }
+  std::filesystem::path identity_file() const { return path_ / kIdentity; }
   std::filesystem::path announcement_file() const { return path_ / "dncd.json"; }
   Result<void> make_token() const;
 

@@ -34,7 +34,7 @@ class ChunkFiles {
 
  private:
   std::filesystem::path path_of(const Digest& digest) const;
-  const std::filesystem::path folder_;
+  std::filesystem::path folder_;
 };
 
 }  // namespace dripline::backup

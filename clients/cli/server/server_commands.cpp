@@ -1,4 +1,5 @@
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/backup_commands.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
@@ -44,6 +45,7 @@ void add_server_commands(Command app, Context& context) {
   auto status = group.add_subcommand("status", "Show version, uptime and counts");
   add_json_flag(status, context);
   run_at_server(status, context, show_status);
+  add_backup_commands(group, context);
 }
 
 }  // namespace dripline::cli

@@ -43,6 +43,26 @@ void members(V& v, Is<ServerInfo> auto& x) {
   DRIPLINE_MEMBERS(dds);
 }
 
+template <class V>
+void members(V& v, Is<Backups::Backup> auto& x) {
+  DRIPLINE_MEMBERS(id, made, made_by, size, added, verified);
+}
+
+template <class V>
+void members(V& v, Is<Backups::Work> auto& x) {
+  DRIPLINE_MEMBERS(kind, backup, phase, done, total);
+}
+
+template <class V>
+void members(V& v, Is<Backups::Outcome> auto& x) {
+  DRIPLINE_MEMBERS(kind, backup, time, error);
+}
+
+template <class V>
+void members(V& v, Is<Backups> auto& x) {
+  DRIPLINE_MEMBERS(folder, every_hours, overdue, backups, damaged, work, last);
+}
+
 /// What programs and revisions share.
 template <class V, class P>
 void content_members(V& v, P& x) {

@@ -37,7 +37,8 @@ TEST_F(DncCompletion, OffersTheVerbsThatAreThere) {
   EXPECT_EQ(words({"ru"}), "run\n");
   EXPECT_EQ(words({"run", "re"}), "restart\nresume\n");
   EXPECT_NE(words({""}).find("completion\n"), std::string::npos);
-  EXPECT_EQ(words({"--server", "x", "server", ""}), "status\n");
+  EXPECT_EQ(words({"--server", "x", "server", ""}),
+            "status\nbackup\nbackups\nverify\nremove-backup\n");
 }
 
 TEST_F(DncCompletion, OffersTheOptionsOfAVerbAndOfTheWholeProgram) {

@@ -56,6 +56,10 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<ServerInfo::Health::Reason>(),
             described("Server/properties/health/properties/reasons/items"));
   EXPECT_EQ(read_by_the_client<ServerInfo::Dds>(), described("Server/properties/dds"));
+  EXPECT_EQ(read_by_the_client<Backups>(), described("Backups"));
+  EXPECT_EQ(read_by_the_client<Backups::Backup>(), described("Backup"));
+  EXPECT_EQ(read_by_the_client<Backups::Work>(), described("Backups/properties/work"));
+  EXPECT_EQ(read_by_the_client<Backups::Outcome>(), described("Backups/properties/last"));
   EXPECT_EQ(read_by_the_client<Program>(), described("Program"));
   EXPECT_EQ(read_by_the_client<Revision>(), described("CommittedRevision"));
   EXPECT_EQ(read_by_the_client<Upload>(), described("Upload"));

@@ -48,7 +48,29 @@ class ApiTest : public ServerTest {
                                                               .dds_domain = 3},
                                                     .dds_rejected = [] { return std::uint64_t{4}; },
                                                     .ports = ports,
-                                                    .health = &health_});
+                                                    .health = &health_,
+                                                    .backups = backups_.get()});
+  }
+
+  /// Made when they are asked for, in a folder beside the store.
+  void set_up_backups() {
+    auto folder = backup::BackupFolder::open(folder_.path() / "backups");
+    ASSERT_TRUE(folder) << folder.error().what;
+    backup::Source source{.folder = folder_.path(),
+                          .database = "store.sqlite",
+                          .files = {},
+                          .made_by = "dncd 1",
+                          .copy = [this](const std::filesystem::path& copy, const auto& proceed) {
+                            return store_->copy_to(copy, proceed);
+                          }};
+    backups_ = std::make_unique<library::Backups>(
+        library::Backups::Parts{.folder = *std::move(folder),
+                                .source = std::move(source),
+                                .audit = *audit_,
+                                .health = health_,
+                                .clock = clock_},
+        library::Backups::Options{.every = std::chrono::hours(0)});
+    make_api(&ports_);
   }
 
   api::Response call(const std::string& method, const std::string& target, const Call& call = {}) {
@@ -149,6 +171,7 @@ class ApiTest : public ServerTest {
   FakeMachines machines_;
   FakePorts ports_;
   library::Health health_{clock_};
+  std::unique_ptr<library::Backups> backups_;
   api::EventHub events_;
   std::unique_ptr<paths::ProgramPaths> paths_;
   std::unique_ptr<api::Api> api_;

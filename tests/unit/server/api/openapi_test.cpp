@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "tests/support/child_process.hpp"
 #include "tests/support/json_schema.hpp"
 #include "tests/unit/server/api/api_fixture.hpp"
 
@@ -69,6 +70,23 @@ class OpenApi : public ApiTest {
     EXPECT_EQ(test_support::schema_violation(document_, document_["components"]["schemas"][schema],
                                              Json::parse(line)),
               "");
+  }
+  void expect_backups_described() {
+    set_up_backups();
+    const auto backups = [this] { return get("/api/v1/backups"); };
+    const auto wait = [&](auto holds) {
+      EXPECT_TRUE(test_support::eventually([&] { return holds(json(backups())); }));
+    };
+    expect_described("POST", "/api/v1/backups", call("POST", "/api/v1/backups"));
+    wait([](const Json& state) { return state["work"].is_null() && !state["last"].is_null(); });
+    expect_described("GET", "/api/v1/backups", backups());
+    const std::string id = json(backups())["backups"][0]["id"];
+    expect_described("POST", "/api/v1/backups/{id}/verify",
+                     call("POST", "/api/v1/backups/" + id + "/verify"));
+    wait([](const Json& state) { return state["backups"][0]["verified"].is_string(); });
+    expect_described("GET", "/api/v1/backups", backups());
+    expect_described("DELETE", "/api/v1/backups/{id}", call("DELETE", "/api/v1/backups/" + id));
+    expect_described("GET", "/api/v1/metrics", get("/api/v1/metrics"));
   }
   void expect_accounts_described() {
     const std::string user = "/api/v1/users/{name}";
@@ -271,6 +289,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
                    post("/api/v1/programs/O20/rename", {{"to", "O21"}}));
   expect_described("DELETE", "/api/v1/programs/{name}", call("DELETE", "/api/v1/programs/O2"));
   expect_accounts_described();
+  expect_backups_described();
   for (const auto& route : api_->router().routes()) {
     EXPECT_TRUE(covered_.contains(route.method + " " + route.pattern))
         << route.method << " " << route.pattern << " is not covered by this test";
