@@ -141,7 +141,7 @@ Response list_metrics(Services& services, const Request& request) {
             seconds(services.facts.started));
   if (services.health != nullptr) add_health(out, services.health->state());
   out.gauge("dripline_programs", "Programs in the library.", static_cast<double>(*programs));
-  out.gauge("dripline_runs_active", "Runs that go on.", static_cast<double>(*active));
+  out.gauge("dripline_runs_active", "Runs in progress.", static_cast<double>(*active));
   out.counter("dripline_dds_rejected_messages_total", "DDS messages that were not accepted.",
               static_cast<double>(services.dds_rejected()));
   add_machines(out, services.machines.machines());

@@ -162,7 +162,7 @@ void Backups::refresh() {
 }
 
 /// With the mutex taken. One missed interval is a server that was switched off over night; two are
-/// a backup that nobody has noticed to be missing.
+/// a backup that is missing unnoticed.
 bool Backups::is_overdue() const {
   if (options_.every.count() == 0) return false;
   const UtcTime newest = list_.backups.empty() ? started_ : list_.backups.back().made;

@@ -12,13 +12,13 @@
 
 namespace dripline::library {
 
-/// Backups of the server's state folder while it works: at an interval and when somebody asks, one
+/// Backups of the server's state folder while it works: at an interval and on request, one
 /// at a time, on a thread of its own. Old ones are removed, and the newest is read again now and
 /// then. What is wrong with them is a finding of the server's health. Any thread.
 class Backups {
  public:
   struct Options {
-    std::chrono::hours every{24};  ///< 0: only when somebody asks
+    std::chrono::hours every{24};  ///< 0: only on request
     backup::Retention retention = {};
     std::chrono::hours verify_every{24 * 7};
     std::chrono::milliseconds look_every{10'000};  ///< whether something is due
@@ -48,20 +48,21 @@ class Backups {
     std::string folder;
     std::chrono::hours every{0};
     backup::BackupFolder::List list;
-    std::optional<Work> work;     ///< what goes on now
+    std::optional<Work> work;     ///< in progress
     std::optional<Outcome> last;  ///< since the server was started
     bool is_overdue = false;      ///< the newest is older than it should be
   };
 
   Backups(Parts parts, const Options& options);
-  /// Ends what goes on; a backup that is not complete does not count.
+  /// Ends what is in progress; a backup that is not complete does not count.
   ~Backups();
   Backups(const Backups&) = delete;
   Backups& operator=(const Backups&) = delete;
 
   State state() const;
 
-  /// These return at once; state() tells how it goes. Errors: Busy (something goes on), NotFound.
+  /// These return at once; state() tells how it goes. Errors: Busy (another is in progress),
+  /// NotFound.
   Result<void> begin_make(const storage::Actor& who);
   Result<void> begin_verify(const storage::Actor& who, const std::string& id);
   /// Errors: Busy, NotFound, Conflict (it is the only one), Io.

@@ -26,7 +26,7 @@ tl::unexpected<Error> ended() {
   return fail(Errc::Conflict, "the work was ended before it was complete");
 }
 
-/// Goes away with its scope.
+/// Removed with its scope.
 struct ScratchFile {
   explicit ScratchFile(fs::path file) : path(std::move(file)) { remove(); }
   ~ScratchFile() { remove(); }

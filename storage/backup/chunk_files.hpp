@@ -27,7 +27,7 @@ class ChunkFiles {
   Result<std::uint64_t> put(std::span<const std::byte> plain, std::vector<Digest>& digests);
   /// The plain bytes, checked. Errors: Corrupt (also: missing), Io.
   Result<std::vector<std::byte>> get(const Digest& digest, std::uint64_t size) const;
-  /// A damaged one goes away, so that the next backup stores it again.
+  /// Removes a damaged one, so that the next backup stores it again.
   void discard(const Digest& digest);
   /// Removes all but `wanted`, and what a kill has left. Returns the bytes that became free.
   Result<std::uint64_t> keep_only(const std::set<Digest>& wanted);

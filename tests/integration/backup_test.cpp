@@ -36,7 +36,7 @@ class BackupOfAServer : public testing::Test {
   std::filesystem::path backups() const { return system.folder() / "backups"; }
 
   json state() const { return system.rest().get("/api/v1/backups").json(); }
-  /// Waits until nothing goes on; the outcome.
+  /// Waits until nothing is in progress; the outcome.
   json ended() const {
     json now;
     EXPECT_TRUE(eventually([&] {

@@ -47,7 +47,7 @@ int print_outcome(Context& context, const client::Reply<Backups>& state,
   if (is_over && !state->last->error.empty()) return complain({Errc::Io, state->last->error});
   if (const auto status = finished(context, state)) return *status;
   if (!is_over) {
-    context.print("It goes on at the server: dnc server backups\n");
+    context.print("In progress at the server: dnc server backups\n");
     return kExitOk;
   }
   for (const auto& backup : state->backups) {
@@ -110,7 +110,7 @@ int remove(Context& context, client::Client& client, const BackupCommand& comman
 void add_backup_commands(Command server, Context& context) {
   auto made = server.add_subcommand("backup", "Make a backup of the server while it works");
   auto make_options = std::make_shared<BackupCommand>();
-  made.add_flag("--detach", make_options->is_detached, "Return at once; it goes on at the server");
+  made.add_flag("--detach", make_options->is_detached, "Return at once; the server continues");
   add_json_flag(made, context);
   run_at_server(made, context, make_options, make);
 
@@ -122,7 +122,7 @@ void add_backup_commands(Command server, Context& context) {
   auto verify_options = std::make_shared<BackupCommand>();
   verified.add_option("BACKUP", verify_options->id, "The backup; the newest by default");
   verified.add_flag("--detach", verify_options->is_detached,
-                    "Return at once; it goes on at the server");
+                    "Return at once; the server continues");
   add_json_flag(verified, context);
   run_at_server(verified, context, verify_options, verify);
 
