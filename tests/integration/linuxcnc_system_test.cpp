@@ -13,8 +13,6 @@ namespace {
 using test_support::eventually;
 using test_support::LinuxCnc;
 
-constexpr int kFeed = 2400;
-
 class LinuxCncSystem : public MotionSystem {
  protected:
   void start(const std::string& control) {
@@ -61,7 +59,7 @@ TEST_F(LinuxCncSystem, AProgramOfATnc155RunsOnALinuxCncMill) {
 TEST_F(LinuxCncSystem, AKilledGatewayLeavesNoMotionAndClaimsNothing) {
   start("rs274ngc");
   if (IsSkipped() || HasFatalFailure()) return;
-  system->push("path", straight_program(380, kFeed));
+  system->push("path", straight_program(380, 2400));
   turn_on("path");
   std::mt19937 random(20'261'123);
   for (int kill = 0; kill < 3; ++kill) {
