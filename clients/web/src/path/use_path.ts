@@ -55,6 +55,7 @@ export function usePath({ program, revision, size, machine }: PathInput, onMore:
     });
     const read = async () => {
       const tolerance = size > kLongProgram ? kLongTolerance : null;
+      next.polyline.tolerance = tolerance ?? 0;
       const response = await fetchApi('GET', withQuery(pathOf('programs', program, 'path'), { revision, machine, tolerance }), {}, ending.signal);
       const reader = response.body!.getReader();
       for (;;) {
