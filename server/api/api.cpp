@@ -24,7 +24,7 @@ Api::Api(Services services)
   add_port_routes(router_, services_);
   add_account_routes(router_, services_);
   add_backup_routes(router_, services_);
-  add_metrics_routes(router_, services_);
+  add_metrics_routes(router_, services_, times_);
   router_.change_routes([this](Router::Route& route) { protect(route); });
 }
 
@@ -66,6 +66,15 @@ Response Api::handle(Request request) const {
 }
 
 Response Api::route(Request request) const {
+  const Router::Route* const found = router_.find(request);
+  const std::string name = found == nullptr ? "none" : found->method + " " + found->pattern;
+  const auto begun = services_.clock.steady_now();
+  Response response = answer(std::move(request));
+  times_.add(name, services_.clock.steady_now() - begun);
+  return response;
+}
+
+Response Api::answer(Request request) const {
   try {
     return router_.handle(std::move(request));
   } catch (const std::exception& e) {  // no memory, or a defect of ours; the server must not end

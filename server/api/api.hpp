@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "protocol/base/clock.hpp"
 #include "server/api/access_control.hpp"
 #include "server/api/event_hub.hpp"
+#include "server/api/request_times.hpp"
 #include "server/api/router.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/library/audit_trail.hpp"
@@ -28,6 +30,7 @@ struct ServerFacts {
   std::string name, version, data_dir;
   UtcTime started;
   std::uint32_t dds_domain = 0;
+  std::optional<UtcTime> certificate_expires = {};  ///< nullopt: without TLS
 };
 
 /// The services that the handlers use; all must outlive the Api.
@@ -72,11 +75,14 @@ class Api {
   static constexpr std::uint64_t kMaxBody = kMaxPiece + 64 * 1024;
 
  private:
+  /// Notes how long it took.
   Response route(Request request) const;
+  Response answer(Request request) const;
 
   void protect(Router::Route& route);
 
   Services services_;
+  mutable RequestTimes times_;
   AccessControl access_;
   Router router_;
 };
@@ -103,7 +109,7 @@ void add_memory_routes(Router& router, Services& services);
 void add_port_routes(Router& router, Services& services);
 void add_account_routes(Router& router, Services& services);
 void add_backup_routes(Router& router, Services& services);
-void add_metrics_routes(Router& router, Services& services);
+void add_metrics_routes(Router& router, Services& services, const RequestTimes& times);
 
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer
 /// `limit` (default 100) and `offset`.

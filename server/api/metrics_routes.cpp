@@ -124,7 +124,13 @@ void add_ports(MetricsText& out, const std::vector<ports::PortView>& views) {
     out.sample(static_cast<double>(view.received), {{"port", view.port.name}});
 }
 
-Response list_metrics(Services& services, const Request& request) {
+void add_requests(MetricsText& out, const RequestTimes& times) {
+  out.histogram("dripline_http_request_seconds", "How long answers took, without their bodies.");
+  for (const auto& [route, taken] : times.all())
+    out.distribution(RequestTimes::kBounds, taken.counts, taken.sum, "route", route);
+}
+
+Response list_metrics(Services& services, const RequestTimes& times, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
   const auto programs = services.programs.count();
@@ -146,6 +152,11 @@ Response list_metrics(Services& services, const Request& request) {
               static_cast<double>(services.dds_rejected()));
   add_machines(out, services.machines.machines());
   if (services.ports != nullptr) add_ports(out, services.ports->ports());
+  add_requests(out, times);
+  if (services.facts.certificate_expires) {
+    out.gauge("dripline_certificate_expiry_timestamp_seconds", "When the TLS certificate expires.",
+              seconds(*services.facts.certificate_expires));
+  }
   if (services.backups != nullptr) add_backups(out, services.backups->state());
   add_disk(out, services.facts.data_dir);
   add_process(out);
@@ -158,8 +169,10 @@ Response list_metrics(Services& services, const Request& request) {
 
 }  // namespace
 
-void add_metrics_routes(Router& router, Services& services) {
-  router.add("GET", "/api/v1/metrics", with(services, list_metrics));
+void add_metrics_routes(Router& router, Services& services, const RequestTimes& times) {
+  router.add("GET", "/api/v1/metrics", [&services, &times](const Request& request) {
+    return list_metrics(services, times, request);
+  });
 }
 
 }  // namespace dripline::api

@@ -36,6 +36,19 @@ void MetricsText::sample(double value, Labels labels) {
   text_ += fmt::format(" {}\n", value);
 }
 
+void MetricsText::distribution(std::span<const double> bounds,
+                               std::span<const std::uint64_t> counts, double sum,
+                               std::string_view label, std::string_view value) {
+  const std::string labels = fmt::format("{}=\"{}\"", label, escaped(value));
+  std::uint64_t total = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    total += counts[i];
+    const std::string bound = i < bounds.size() ? fmt::format("{}", bounds[i]) : "+Inf";
+    text_ += fmt::format("{}_bucket{{{},le=\"{}\"}} {}\n", name_, labels, bound, total);
+  }
+  text_ += fmt::format("{0}_sum{{{1}}} {2}\n{0}_count{{{1}}} {3}\n", name_, labels, sum, total);
+}
+
 void MetricsText::gauge(std::string_view name, std::string_view help, double value) {
   begin(name, help, "gauge");
   sample(value);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +22,12 @@ class MetricsText {
   /// A family with one sample.
   void gauge(std::string_view name, std::string_view help, double value);
   void counter(std::string_view name, std::string_view help, double value);
+
+  /// The samples of one histogram of the family that `histogram` began. `counts` has one more
+  /// than there are `bounds`: what was over the last of them.
+  void histogram(std::string_view name, std::string_view help) { begin(name, help, "histogram"); }
+  void distribution(std::span<const double> bounds, std::span<const std::uint64_t> counts,
+                    double sum, std::string_view label, std::string_view value);
 
   std::string take() { return std::move(text_); }
 

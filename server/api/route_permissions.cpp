@@ -11,6 +11,7 @@ using enum MachineIn;
 
 constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/health", Open},
+    RoutePermission{"GET", "/api/v1/ready", Open},
     RoutePermission{"GET", "/api/v1/openapi.json", Open},
     RoutePermission{"GET", "/api/v1/server", View},
     RoutePermission{"GET", "/api/v1/audit", Approve},

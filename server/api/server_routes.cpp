@@ -24,6 +24,15 @@ nlohmann::json health_json(const library::Health::State& state, Audience audienc
   return {{"status", library::to_string(state.level)}, {"reasons", std::move(reasons)}};
 }
 
+/// Whether work that is given to the server now would be stored. Degraded is ready, but for a store
+/// that lets nobody in.
+bool is_ready(const library::Health::State& state) {
+  using Level = library::Health::Level;
+  return state.level != Level::Failed &&
+         std::ranges::none_of(state.findings,
+                              [](const auto& finding) { return finding.subject == "store"; });
+}
+
 Response describe_server(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
@@ -89,8 +98,14 @@ Response too_many_listeners() {
 }
 
 void add_server_routes(Router& router, Services& services) {
+  constexpr int kUnavailable = 503;
+  router.add("GET", "/api/v1/ready", [&](const Request&) {
+    const auto state = health_of(services);
+    auto body = health_json(state, Audience::Anybody);
+    body["ready"] = is_ready(state);
+    return json_response(is_ready(state) ? 200 : kUnavailable, body);
+  });
   router.add("GET", "/api/v1/health", [&](const Request&) {
-    constexpr int kUnavailable = 503;
     const auto state = health_of(services);
     const bool is_failed = state.level == library::Health::Level::Failed;
     return json_response(is_failed ? kUnavailable : 200, health_json(state, Audience::Anybody));

@@ -8,6 +8,7 @@
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/process/log.hpp"
 #include "server/api/api.hpp"
+#include "server/api/certificate.hpp"
 #include "server/api/http_server.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/library/audit_trail.hpp"
@@ -76,6 +77,13 @@ Result<api::HttpOptions> http_options(const Settings& settings) {
   return options;
 }
 
+/// Without TLS, and where the server will refuse to start anyway: nullopt.
+std::optional<UtcTime> expiry_of(const Settings& settings) {
+  if (settings.tls_certificate.empty()) return std::nullopt;
+  const auto expiry = api::certificate_expiry(settings.tls_certificate);
+  return expiry ? std::optional(*expiry) : std::nullopt;
+}
+
 /// The page is asked first: it needs no token.
 api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
   return {.handle = [&api](api::Request request) { return api.handle(std::move(request)); },
@@ -96,6 +104,7 @@ struct Server::Parts {
         std::optional<backup::BackupFolder> backup_folder, const Settings& settings,
         const Clock& system_clock, const storage::AccountData& users)
       : clock(system_clock),
+        certificate_expires(expiry_of(settings)),
         folder(std::move(state_folder)),
         store(std::move(opened)),
         health(clock),
@@ -124,7 +133,8 @@ struct Server::Parts {
                        .version = DRIPLINE_VERSION,
                        .data_dir = folder.path().string(),
                        .started = clock.now(),
-                       .dds_domain = settings.dds_domain},
+                       .dds_domain = settings.dds_domain,
+                       .certificate_expires = certificate_expires},
              .dds_rejected = [this] { return machine_service.rejected().messages; },
              .ports = &ports,
              .health = &health,
@@ -187,6 +197,7 @@ struct Server::Parts {
   }
 
   const Clock& clock;
+  std::optional<UtcTime> certificate_expires;  ///< nullopt: without TLS
   StateFolder folder;
   std::unique_ptr<storage::SqliteStore> store;
   library::Health health;
@@ -228,6 +239,8 @@ struct Server::Parts {
     if (!is_announced) announce();
     ports.open_due();
     accounts.store_uses();
+    if (certificate_expires)
+      health.report("", library::judge_certificate(*certificate_expires, clock.now()));
     return sound;
   }
 

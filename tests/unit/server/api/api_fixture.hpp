@@ -43,7 +43,7 @@ class ApiTest : public ServerTest {
                                                     .clock = clock_,
                                                     .facts = {.name = "office",
                                                               .version = "1",
-                                                              .data_dir = "/data",
+                                                              .data_dir = folder_.path().string(),
                                                               .started = clock_.now(),
                                                               .dds_domain = 3},
                                                     .dds_rejected = [] { return std::uint64_t{4}; },

@@ -193,6 +193,24 @@ TEST_F(ApiHandlers, TellHowTheServerIs) {
   EXPECT_EQ(json(get("/api/v1/server"))["health"]["reasons"][0]["detail"], "40 MiB of /secret");
 }
 
+TEST_F(ApiHandlers, AreReadyWhileWorkWouldBeStored) {
+  using Level = library::Health::Level;
+  const auto ready = [this] {
+    return call("GET", "/api/v1/ready", {.body = {}, .headers = {}, .token = ""});
+  };
+  EXPECT_EQ(ready().status, 200);
+  health_.report("", {Level::Degraded, "disk", "the disk is nearly full", ""});
+  EXPECT_EQ(ready().status, 200) << "it needs attention, but works";
+  EXPECT_EQ(json(ready())["ready"], true);
+  health_.report("", {Level::Degraded, "store", "the store is occupied", ""});
+  EXPECT_EQ(ready().status, 503);
+  EXPECT_EQ(json(ready())["ready"], false);
+  health_.report("", {Level::Ok, "store", "", ""});
+  EXPECT_EQ(ready().status, 200);
+  health_.report("", {Level::Failed, "damage", "the database is damaged", ""});
+  EXPECT_EQ(ready().status, 503);
+}
+
 TEST_F(ApiHandlers, DefuseFormulasInCsvButNotNumbers) {
   const std::string run = stored_run(0);
   storage::RecordBatch batch;

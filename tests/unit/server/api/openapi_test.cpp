@@ -240,6 +240,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_described("GET", "/api/v1/health", get("/api/v1/health"));
   health_.report("", {library::Health::Level::Failed, "store", "not written", "disk full"});
   expect_described("GET", "/api/v1/health", get("/api/v1/health"));
+  expect_described("GET", "/api/v1/ready", get("/api/v1/ready"));
   expect_described("GET", "/api/v1/openapi.json", get("/api/v1/openapi.json"));
   expect_described("GET", "/api/v1/server", get("/api/v1/server"));
   expect_described("GET", "/api/v1/programs", get("/api/v1/programs"));
