@@ -8,6 +8,14 @@
 
 namespace dripline::machine {
 
+/// By itself, as clang takes a nested class with initializers for one without a default.
+struct GivenArc {
+  std::size_t first = 0, second = 1;  ///< axes of its plane
+  double center_first = 0, center_second = 0;
+  double start_radius = 0, end_radius = 0;
+  double start = 0, sweep = 0;  ///< radians, counterclockwise positive
+};
+
 /// A part of a program that a device was given, or will be, ahead of what it has reported: as much
 /// of it as shows later, from where the axes rest, how far they have come. A plain value.
 struct GivenAction {
@@ -17,12 +25,7 @@ struct GivenAction {
     BlockEnd,  ///< of a block whose end is not that of an action
     Other,     ///< begins when everything before it was reported, and so does all that follows
   };
-  struct Arc {
-    std::size_t first = 0, second = 1;  ///< axes of its plane
-    double center_first = 0, center_second = 0;
-    double start_radius = 0, end_radius = 0;
-    double start = 0, sweep = 0;  ///< radians, counterclockwise positive
-  };
+  using Arc = GivenArc;
   interpreter::Origin origin;
   Kind kind = Kind::Other;
   bool ends_block = false;

@@ -104,6 +104,7 @@ TEST_F(PathsTest, ACalledProgramComesFromTheLibrary) {
 TEST_F(PathsTest, OnlySoManyAreReadAtATimeAndAnEndedOneMakesRoom) {
   const auto revision = stored("O1", "O1\nM30\n");
   std::vector<std::unique_ptr<PathReader>> readers;
+  readers.reserve(ProgramPaths::kMaxReaders);
   for (int i = 0; i < ProgramPaths::kMaxReaders; ++i)
     readers.push_back(paths_.open({.revision = revision}).value());
   const auto refused = paths_.open({.revision = revision});
