@@ -1,9 +1,9 @@
 #include "protocol/base/digest.hpp"
 
-#include <fmt/format.h>
 #include <isa-l/crc.h>
 #include <openssl/evp.h>
 
+#include "protocol/base/hex.hpp"
 #include "protocol/base/invariant.hpp"
 
 namespace dripline {
@@ -47,30 +47,15 @@ Digest sha256(std::string_view text) {
 }
 
 std::string Digest::hex() const {
-  std::string text;
-  text.reserve(2 * kSize);
-  for (const std::byte b : bytes) text += fmt::format("{:02x}", std::to_integer<int>(b));
-  return text;
+  return hex_text(bytes);
 }
 
 Result<Digest> parse_digest(std::string_view hex) {
-  const auto nibble = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-  };
-  if (hex.size() != 2 * Digest::kSize) {
-    return fail(Errc::Syntax, "a SHA-256 digest has 64 hexadecimal digits, got {}", hex.size());
-  }
   Digest digest;
-  for (std::size_t i = 0; i < Digest::kSize; ++i) {
-    const int high = nibble(hex[2 * i]);
-    const int low = nibble(hex[2 * i + 1]);
-    if (high < 0 || low < 0) return fail(Errc::Syntax, "'{}' is not a hexadecimal digest", hex);
-    digest.bytes[i] = static_cast<std::byte>(high << 4 | low);
-  }
-  return digest;
+  if (parse_hex(hex, digest.bytes)) return digest;
+  if (hex.size() != 2 * Digest::kSize)
+    return fail(Errc::Syntax, "a SHA-256 digest has 64 hexadecimal digits, got {}", hex.size());
+  return fail(Errc::Syntax, "'{}' is not a hexadecimal digest", hex);
 }
 
 // ISA-L uses the carry-less multiplication of the processor (58 GB/s here; zlib 6 GB/s): every
