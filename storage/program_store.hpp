@@ -10,6 +10,7 @@
 #include "protocol/base/result.hpp"
 #include "storage/actor.hpp"
 #include "storage/page.hpp"
+#include "storage/revision_state.hpp"
 
 namespace dripline::storage {
 
@@ -24,16 +25,23 @@ struct Revision {
   UtcTime created;
   bool is_held = false;             ///< a machine sent it; it runs nowhere until it is accepted
   std::optional<UtcTime> accepted;  ///< when a revision that was held was accepted
+  RevisionState state = RevisionState::Draft;
+  std::optional<UtcTime> released, withdrawn;  ///< when; absent: never
 
   /// Since when it may run; of a held revision only when it was stored.
   UtcTime in_force_since() const { return accepted.value_or(created); }
+  bool was_withdrawn_at(UtcTime time) const { return withdrawn && *withdrawn <= time; }
+  bool was_released_at(UtcTime time) const {
+    return released && *released <= time && !was_withdrawn_at(time);
+  }
 };
 
 struct ProgramSummary {
   Revision latest;              ///< a held one only when the program has no other
   std::uint64_t revisions = 0;  ///< held ones included
   bool is_removed = false;
-  std::uint64_t held = 0;  ///< revisions that wait for acceptance
+  std::uint64_t held = 0;                      ///< revisions that wait for acceptance
+  std::optional<std::uint64_t> released = {};  ///< the latest revision that is released
 };
 
 /// A program that gets another name, or a copy of one.

@@ -10,6 +10,7 @@
 #include "protocol/base/digest.hpp"
 #include "protocol/base/result.hpp"
 #include "storage/page.hpp"
+#include "storage/revision_state.hpp"
 
 namespace dripline::storage {
 
@@ -56,6 +57,8 @@ struct Run {
   std::optional<UtcTime> started, ended;
   std::uint64_t outputs = 0;           ///< stored report lines
   std::optional<std::uint64_t> setup;  ///< the machine's setup it was started with
+  RunAllowance allowed_as = RunAllowance::Open;
+  std::optional<std::uint64_t> approval = {};  ///< the Decision that released its revision
 };
 
 struct RunFilter {
@@ -78,7 +81,8 @@ class RunStore {
   virtual ~RunStore() = default;
 
   /// Errors: Busy (the machine has an unfinished run; named), NotFound (machine or revision),
-  /// Conflict (the content is not the revision's, the revision is held, or the id was used before).
+  /// Conflict (the content is not the revision's, the revision is held, was withdrawn, or is not
+  /// released although the run is allowed as one that is; or the id was used before).
   virtual Result<void> create(const Run& run) = 0;
   /// Errors: NotFound.
   virtual Result<Run> find(const std::string& id) = 0;

@@ -7,6 +7,7 @@
 
 #include "storage/impl/account_repository.hpp"
 #include "storage/impl/program_repository.hpp"
+#include "storage/impl/release_repository.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/upload_repository.hpp"
 
@@ -57,7 +58,8 @@ struct SqliteStore::Repositories {
         ports(*connections),
         setups(*connections, clock),
         audit(*connections),
-        accounts(*connections) {}
+        accounts(*connections),
+        releases(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -69,6 +71,7 @@ struct SqliteStore::Repositories {
   SetupRepository setups;
   AuditRepository audit;
   AccountRepository accounts;
+  ReleaseRepository releases;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -82,7 +85,8 @@ Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions&
 SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
     : Store{repositories->programs, repositories->uploads, repositories->machines,
             repositories->runs,     repositories->records, repositories->ports,
-            repositories->setups,   repositories->audit,   repositories->accounts},
+            repositories->setups,   repositories->audit,   repositories->accounts,
+            repositories->releases},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

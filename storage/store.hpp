@@ -6,13 +6,14 @@
 #include "storage/port_store.hpp"
 #include "storage/program_store.hpp"
 #include "storage/record_store.hpp"
+#include "storage/release_store.hpp"
 #include "storage/run_store.hpp"
 #include "storage/setup_store.hpp"
 #include "storage/upload_store.hpp"
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: nine interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: ten interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -26,6 +27,7 @@ struct Store {
   SetupStore& setups;
   AuditStore& audit;
   AccountStore& accounts;
+  ReleaseStore& releases;
 };
 
 }  // namespace dripline::storage

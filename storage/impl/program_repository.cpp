@@ -134,9 +134,10 @@ Result<void> rename_program(sqlite::Database& database, const ProgramMove& move,
 Result<std::vector<ProgramSummary>> ProgramRepository::list(Page page) {
   static const std::string kSql =
       "SELECT " + kRevisionColumns +
-      ", visible.revisions, visible.held "
+      ", visible.revisions, visible.held, visible.released "
       "FROM (SELECT program, count(*) AS revisions, sum(standing = 'held') AS held, "
-      "      coalesce(max(iif(standing = 'accepted', number, NULL)), max(number)) AS latest "
+      "      coalesce(max(iif(standing = 'accepted', number, NULL)), max(number)) AS latest, "
+      "      max(iif(state = 'released', number, NULL)) AS released "
       "      FROM revision JOIN program ON program.id = revision.program WHERE " +
       kRevisionVisible +
       "      GROUP BY program) AS visible "
@@ -149,7 +150,10 @@ Result<std::vector<ProgramSummary>> ProgramRepository::list(Page page) {
     return Result<std::vector<ProgramSummary>>(sqlite::all_rows(
         database, kSql,
         [](const sqlite::Statement& row) {
-          return ProgramSummary{read_revision(row), row.number(11), false, row.number(12)};
+          ProgramSummary program{read_revision(row), row.number(14), false, row.number(15)};
+          if (const auto released = row.optional_integer(16))
+            program.released = static_cast<std::uint64_t>(*released);
+          return program;
         },
         page.limit, page.offset));
   });

@@ -8,7 +8,8 @@ namespace dripline::storage {
 const std::string kRevisionColumns =
     "program.name, revision.number, revision.sha256, coalesce(content.size, 0), revision.control, "
     "revision.comment, revision.author, revision.created_us, revision.standing = 'held', "
-    "revision.accepted_us, named.sha256 ";
+    "revision.accepted_us, named.sha256, revision.state, revision.released_us, "
+    "revision.withdrawn_us ";
 const std::string kRevisionTables =
     "FROM revision JOIN program ON program.id = revision.program "
     "LEFT JOIN content ON content.sha256 = revision.sha256 "
@@ -28,6 +29,10 @@ Revision read_revision(const sqlite::Statement& row) {
   revision.created = row.time(7);
   revision.is_held = row.integer(8) != 0;
   revision.accepted = row.optional_time(9);
+  // The schema allows only these words; a row with another one is damaged and runs nowhere.
+  revision.state = parse_revision_state(row.text(11)).value_or(RevisionState::Withdrawn);
+  revision.released = row.optional_time(12);
+  revision.withdrawn = row.optional_time(13);
   return revision;
 }
 
@@ -112,8 +117,10 @@ Result<std::optional<Revision>> find_same(sqlite::Database& database, const Uplo
     if (decision == "held" && !upload.is_held) break;
     auto known = newest(database, upload.program, decision);
     if (!known) return fail(known.error());
-    // One whose row is damaged is not repeated: the upload becomes a new one.
+    // One whose row is damaged, or that was withdrawn, is not repeated: the upload becomes a new
+    // one.
     if (!*known || (*known)->named != (*known)->revision.content) continue;
+    if ((*known)->revision.state == RevisionState::Withdrawn) continue;
     const auto row = find_content(database, (*known)->revision.content);
     if (!row) return fail(row.error());
     if (*row && (*row)->id == content) return std::optional(std::move((*known)->revision));

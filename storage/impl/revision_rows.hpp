@@ -28,7 +28,7 @@ Result<Revision> find_revision(sqlite::Database& database, const std::string& pr
                                std::optional<std::uint64_t> number);
 
 /// Makes `content` a new revision of the upload's program, or returns the latest one when that has
-/// this very content (the newest held one, if the upload is held).
+/// this very content and was not withdrawn (the newest held one, if the upload is held).
 Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
                                   std::int64_t content, UtcTime now);
 

@@ -11,7 +11,9 @@ const std::string kSelect =
     "0), "
     "run.control, run.state, run.sent, run.accepted, run.executed, run.line, run.sequence, "
     "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
-    "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS revision.sha256 FROM run "
+    "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS revision.sha256, "
+    "run.allowed_as, "
+    "run.approval FROM run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
     "LEFT JOIN content ON content.sha256 = run.sha256 ";
@@ -46,6 +48,9 @@ Run read_run(const sqlite::Statement& row) {
   if (const auto setup = row.optional_integer(21)) {
     run.setup = static_cast<std::uint64_t>(*setup);
   }
+  run.allowed_as = parse_run_allowance(row.text(23)).value_or(RunAllowance::Released);
+  if (const auto approval = row.optional_integer(24))
+    run.approval = static_cast<std::uint64_t>(*approval);
   return run;
 }
 
@@ -72,6 +77,16 @@ Result<std::int64_t> known_machine(sqlite::Database& database, const std::string
   return **machine;
 }
 
+/// What was judged before may have been withdrawn since.
+Result<void> check_state(const Run& run, RevisionState state) {
+  const bool must_be_released = run.allowed_as == RunAllowance::Released;
+  const bool is_allowed =
+      must_be_released ? state == RevisionState::Released : state != RevisionState::Withdrawn;
+  if (is_allowed) return {};
+  return fail(Errc::Conflict, "program {} revision {} is {}", run.program, run.revision,
+              to_string(state));
+}
+
 /// The run's content must be its revision's: what is fed is what was approved.
 Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) {
   struct Found {
@@ -79,17 +94,19 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
     Digest content;
     bool is_held;
     Digest named;
+    RevisionState state;
   };
   const auto found = sqlite::first_row(
       database,
-      "SELECT program.id, revision.sha256, revision.standing = 'held', content.sha256 FROM "
-      "revision "
+      "SELECT program.id, revision.sha256, revision.standing = 'held', content.sha256, "
+      "revision.state FROM revision "
       "JOIN program ON program.id = revision.program "
       "LEFT JOIN content ON content.id = revision.content "
       "WHERE program.name = ?1 AND revision.number = ?2 "
       "AND revision.number > program.removed_through AND revision.standing <> 'rejected'",
       [](const sqlite::Statement& row) {
-        return Found{row.integer(0), read_digest(row, 1), row.integer(2) != 0, read_digest(row, 3)};
+        return Found{row.integer(0), read_digest(row, 1), row.integer(2) != 0, read_digest(row, 3),
+                     parse_revision_state(row.text(4)).value_or(RevisionState::Withdrawn)};
       },
       run.program, run.revision);
   if (!found) return fail(found.error());
@@ -103,6 +120,7 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
                 "before it is run",
                 run.program, run.revision);
   }
+  if (auto allowed = check_state(run, (*found)->state); !allowed) return fail(allowed.error());
   if ((*found)->content != run.content) {
     return fail(Errc::Conflict, "run {}: content {} is not that of {} revision {}", run.id,
                 run.content.hex(), run.program, run.revision);
@@ -129,13 +147,15 @@ Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPla
       database,
       "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
       "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
-      "ended_us, setup, sha256) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, "
+      "ended_us, setup, sha256, allowed_as, approval) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
+      "?10, ?11, ?12, ?13, "
       "?14, "
-      "?15, ?16, ?17, ?18, ?19, ?20)",
+      "?15, ?16, ?17, ?18, ?19, ?20, ?21, ?22)",
       run.id, place.machine, place.program, run.revision, run.control, to_string(run.state),
       run.counters.sent, run.counters.accepted, run.counters.executed, run.line, run.sequence,
       run.reason, run.executed_content, run.content_verified, run.author, run.created, run.started,
-      run.ended, run.setup, std::span<const std::byte>(run.content.bytes));
+      run.ended, run.setup, std::span<const std::byte>(run.content.bytes),
+      to_string(run.allowed_as), run.approval);
 }
 
 }  // namespace

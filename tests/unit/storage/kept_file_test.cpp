@@ -107,9 +107,22 @@ TEST_P(KeptFile, HasAccountsSinceVersion7) {
   EXPECT_EQ(accounts->groups.at(1).machines, std::set<std::string>{"m1"});
 }
 
+TEST_P(KeptFile, HasStatesOfRevisionsSinceVersion8) {
+  reopen();
+  const bool has_them = std::string_view(GetParam()) >= "v8.sql";
+  const auto first = store_->programs.revision("p.nc", 1);
+  EXPECT_EQ(first->state, has_them ? RevisionState::Withdrawn : RevisionState::Draft);
+  EXPECT_EQ(store_->programs.revision("p.nc", 2)->state, RevisionState::Draft);
+  EXPECT_EQ(store_->runs.find("r1")->allowed_as, RunAllowance::Open);
+  const auto decisions = store_->releases.decisions("p.nc", 1);
+  ASSERT_EQ(decisions->size(), has_them ? 1u : 0u);
+  if (!has_them) return;
+  EXPECT_EQ(decisions->front().comment, "scrap");
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
-                                         "v7.sql"),
+                                         "v7.sql", "v8.sql"),
                          [](const auto& i) { return std::string(i.param, 2); });
 
 }  // namespace
