@@ -61,6 +61,7 @@ struct Program {
   std::string control, comment, author, created;
   bool held = false;
   std::string accepted;
+  std::string state, released, withdrawn;  ///< as of a Revision
   std::uint64_t held_revisions = 0;
 };
 
@@ -70,9 +71,23 @@ struct Revision {
   std::string sha256;
   std::string title;  ///< the name in its first block
   std::string control, comment, author, created;
-  bool held = false;       ///< came from a machine and is pending approval
-  std::string accepted;    ///< when it was approved
+  bool held = false;                ///< came from a machine and is pending approval
+  std::string accepted;             ///< when it was approved
+  std::string state;                ///< draft, in_review, approved, released, withdrawn
+  std::string released, withdrawn;  ///< when; empty: never
   bool unchanged = false;  ///< answer to a commit: the latest revision already had this content
+};
+
+/// What was decided about a revision.
+struct Decision {
+  std::uint64_t id = 0;
+  std::string step, state, time, who, comment;
+  std::string text, signature;  ///< what is signed, and by whom: Ed25519
+};
+struct RevisionStates {
+  std::string state;
+  std::vector<Decision> steps;
+  std::string public_key;
 };
 
 struct ProgramHistory {
@@ -167,7 +182,9 @@ struct Run {
   std::optional<bool> content_verified;
   std::string author, created, started, ended;
   std::uint64_t outputs = 0;
-  std::optional<std::uint64_t> setup;  ///< the machine's setup it was started with
+  std::optional<std::uint64_t> setup;     ///< the machine's setup it was started with
+  std::string allowed_as;                 ///< open, released, prove_out
+  std::optional<std::uint64_t> approval;  ///< the Decision that released its revision
 };
 
 /// The tools, offsets and parameters that a machine's control has before a program starts.

@@ -141,6 +141,8 @@ Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* me
   return list;
 }
 
+template Reply<Revision> Client::fetch(HttpRequest, std::string_view);
+template Reply<RevisionStates> Client::fetch(HttpRequest, std::string_view);
 template Reply<Session> Client::fetch(HttpRequest, std::string_view);
 template Reply<User> Client::fetch(HttpRequest, std::string_view);
 template Reply<Token> Client::fetch(HttpRequest, std::string_view);
@@ -209,11 +211,6 @@ Reply<ProgramHistory> Client::rename_program(std::string_view from, const std::s
 Reply<Revision> Client::accept_revision(std::string_view name, std::uint64_t revision) {
   return fetch<Revision>(with_method(
       "POST", fmt::format("{}/revisions/{}/accept", path_of("programs", name), revision)));
-}
-
-Reply<void> Client::reject_revision(std::string_view name, std::uint64_t revision) {
-  return perform(with_method(
-      "POST", fmt::format("{}/revisions/{}/reject", path_of("programs", name), revision)));
 }
 
 Reply<Content> Client::content(const ContentRange& range) {

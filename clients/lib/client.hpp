@@ -153,7 +153,16 @@ class Client {
                                std::optional<std::uint64_t> revision);
   Reply<ProgramHistory> rename_program(std::string_view from, const std::string& to);
   Reply<Revision> accept_revision(std::string_view name, std::uint64_t revision);
-  Reply<void> reject_revision(std::string_view name, std::uint64_t revision);
+  struct DecisionRequest {
+    std::string program;
+    std::uint64_t revision = 0;
+    std::string comment;
+  };
+  /// `step`: submit, approve, release, withdraw.
+  Reply<Revision> decide(std::string_view step, const DecisionRequest& request);
+  /// The revision, a draft again; nullopt: it came from a machine and is hidden.
+  Reply<std::optional<Revision>> reject_revision(const DecisionRequest& request);
+  Reply<RevisionStates> revision_states(std::string_view name, std::uint64_t revision);
   /// Returns fewer bytes than requested only at the end of the content.
   Reply<Content> content(const ContentRange& range);
 

@@ -15,6 +15,7 @@ Api::Api(Services services)
                .has_tls = services_.has_tls}) {
   add_server_routes(router_, services_);
   add_program_routes(router_, services_);
+  add_release_routes(router_, services_);
   add_upload_routes(router_, services_);
   add_machine_routes(router_, services_);
   add_run_routes(router_, services_);

@@ -17,6 +17,7 @@
 #include "server/library/backups.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
+#include "server/library/releases.hpp"
 #include "server/library/run_history.hpp"
 #include "server/library/setups.hpp"
 #include "server/machines/machine_control.hpp"
@@ -36,6 +37,7 @@ struct ServerFacts {
 /// The services that the handlers use; all must outlive the Api.
 struct Services {
   library::Programs& programs;
+  library::Releases& releases;
   library::Setups& setups;
   machines::MachineControl& machines;
   library::RunHistory& runs;
@@ -100,6 +102,7 @@ std::string_view openapi_text();
 
 void add_server_routes(Router& router, Services& services);
 void add_program_routes(Router& router, Services& services);
+void add_release_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);
 void add_run_routes(Router& router, Services& services);
@@ -117,6 +120,8 @@ storage::Page read_page(QueryReader& query);
 /// Gives a command to a run or a machine, and notes it in the audit trail.
 Response carry_out(Services& services, const Request& request,
                    const machines::CommandRequest& command);
+/// Of a path with `{number}`. Errors: Syntax.
+Result<std::uint64_t> revision_number(const Request& request);
 /// The answer when the hub has kMaxSubscriptions listeners.
 Response too_many_listeners();
 

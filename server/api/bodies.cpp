@@ -7,6 +7,7 @@
 #include "protocol/base/names.hpp"
 #include "server/api/json_object.hpp"
 #include "server/api/request.hpp"
+#include "server/library/releases.hpp"
 #include "server/machines/start_point.hpp"
 
 namespace dripline::api {
@@ -120,6 +121,15 @@ Result<CopyBody> decode_copy(std::string_view body) {
   if (auto good = object->finish(); !good) return fail(good.error());
   if (auto good = check_program_name(copy.to); !good) return fail(good.error());
   return copy;
+}
+
+Result<std::string> decode_decision(std::string_view body) {
+  if (body.empty()) return std::string();
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  auto comment = object->optional_text("comment", library::Releases::kMaxComment).value_or("");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return comment;
 }
 
 Result<std::string> decode_rename(std::string_view body) {

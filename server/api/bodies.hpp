@@ -29,6 +29,8 @@ struct CopyBody {
   std::optional<std::uint64_t> revision;
 };
 Result<CopyBody> decode_copy(std::string_view body);
+/// `{comment?}`, or nothing.
+Result<std::string> decode_decision(std::string_view body);
 /// The new name.
 Result<std::string> decode_rename(std::string_view body);
 

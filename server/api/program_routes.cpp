@@ -58,6 +58,13 @@ Response abandon_upload(Services& services, const Request& request) {
 
 }  // namespace
 
+Result<std::uint64_t> revision_number(const Request& request) {
+  const std::string& text = request.parameter("number");
+  const auto number = parse_unsigned(text);
+  if (!number) return fail(Errc::Syntax, "revision '{}' is not a whole number", text);
+  return number;
+}
+
 void add_upload_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/uploads", with(services, begin_upload));
   router.add("GET", "/api/v1/uploads/{id}", [&](const Request& request) {
@@ -139,25 +146,12 @@ Response remove_program(Services& services, const Request& request) {
       services.programs.remove(request.parameter("name"), request.who, protection));
 }
 
-Result<std::uint64_t> revision_number(const Request& request) {
-  const std::string& text = request.parameter("number");
-  const auto number = parse_unsigned(text);
-  if (!number) return fail(Errc::Syntax, "revision '{}' is not a whole number", text);
-  return number;
-}
-
 Response accept_revision(Services& services, const Request& request) {
   const auto number = revision_number(request);
   if (!number) return error_response(number.error());
   const auto accepted = services.programs.accept(request.parameter("name"), *number, request.who);
   if (!accepted) return error_response(accepted.error());
   return json_response(200, revision_json(*accepted, services.programs.title(*accepted)));
-}
-
-Response reject_revision(Services& services, const Request& request) {
-  const auto number = revision_number(request);
-  if (!number) return error_response(number.error());
-  return empty_response(services.programs.reject(request.parameter("name"), *number, request.who));
 }
 
 /// Reads `range` of the content piece by piece.
@@ -276,8 +270,6 @@ void add_program_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/programs/{name}/rename", with(services, rename_program));
   router.add("POST", "/api/v1/programs/{name}/revisions/{number}/accept",
              with(services, accept_revision));
-  router.add("POST", "/api/v1/programs/{name}/revisions/{number}/reject",
-             with(services, reject_revision));
   router.add("GET", "/api/v1/programs/{name}/content", with(services, send_content));
   router.add("GET", "/api/v1/programs/{name}/path", with(services, send_path));
 }

@@ -88,6 +88,7 @@ Response start_run(Services& services, const Request& request) {
   auto start = decode_start(request.body);
   if (!start) return error_response(start.error());
   start->author = request.who.name;
+  start->role = request.caller->role;
   const auto run = services.machines.start(*start);
   if (!run) return error_response(run.error());
   services.audit.write(
@@ -108,6 +109,7 @@ Response restart_run(Services& services, const Request& request) {
   start.program = original->program;
   start.revision = original->revision;
   start.author = request.who.name;
+  start.role = request.caller->role;
   start.restart = {original->id, *at};
   const auto run = services.machines.start(start);
   if (!run) return error_response(run.error());

@@ -157,7 +157,10 @@ json revision_json(const storage::Revision& revision, const std::string& title) 
           {"author", optional_text(revision.author)},
           {"created", to_iso8601(revision.created)},
           {"held", revision.is_held},
-          {"accepted", optional_time(revision.accepted)}};
+          {"accepted", optional_time(revision.accepted)},
+          {"state", storage::to_string(revision.state)},
+          {"released", optional_time(revision.released)},
+          {"withdrawn", optional_time(revision.withdrawn)}};
 }
 
 json program_json(const storage::ProgramSummary& program, const std::string& title) {
@@ -207,7 +210,9 @@ json run_json(const storage::Run& run) {
           {"started", optional_time(run.started)},
           {"ended", optional_time(run.ended)},
           {"outputs", run.outputs},
-          {"setup", run.setup ? json(*run.setup) : json(nullptr)}};
+          {"setup", run.setup ? json(*run.setup) : json(nullptr)},
+          {"allowed_as", storage::to_string(run.allowed_as)},
+          {"approval", run.approval ? json(*run.approval) : json(nullptr)}};
 }
 
 json setup_json(const storage::SetupRevision& setup) {

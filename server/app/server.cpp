@@ -3,6 +3,8 @@
 #include <unistd.h>
 #include <array>
 #include <atomic>
+#include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "protocol/dds/endpoint.hpp"
@@ -16,6 +18,7 @@
 #include "server/library/control_catalog.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
+#include "server/library/releases.hpp"
 #include "server/machines/machine_registry.hpp"
 #include "server/machines/machine_service.hpp"
 #include "server/ports/line_machines.hpp"
@@ -84,6 +87,19 @@ std::optional<UtcTime> expiry_of(const Settings& settings) {
   return expiry ? std::optional(*expiry) : std::nullopt;
 }
 
+Result<library::ReleasePolicy> read_policy(const Settings& settings) {
+  if (settings.policy.empty()) return library::ReleasePolicy::parse("");
+  std::ifstream file(settings.policy, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf()))
+    return fail(Errc::NotFound, "policy: file '{}' cannot be read", settings.policy);
+  auto policy = library::ReleasePolicy::parse(text.str());
+  if (!policy) return fail(Errc::Denied, "policy {}: {}", settings.policy, policy.error().what);
+  process::log_info("policy {}: machines run {} revisions", settings.policy,
+                    policy->runs_released_only ? "released" : "all");
+  return policy;
+}
+
 /// The page is asked first: it needs no token.
 api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
   return {.handle = [&api](api::Request request) { return api.handle(std::move(request)); },
@@ -98,11 +114,19 @@ api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
 
 }  // namespace
 
+/// What is read before anything is made.
+struct Server::Loaded {
+  storage::AccountData users;
+  library::ReleasePolicy policy;
+  SigningKey key;
+  std::string identity;  ///< of the database
+};
+
 /// In the order of their making; each may use those above it.
 struct Server::Parts {
   Parts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
         std::optional<backup::BackupFolder> backup_folder, const Settings& settings,
-        const Clock& system_clock, const storage::AccountData& users)
+        const Clock& system_clock, const Loaded& loaded)
       : clock(system_clock),
         certificate_expires(expiry_of(settings)),
         folder(std::move(state_folder)),
@@ -110,17 +134,25 @@ struct Server::Parts {
         health(clock),
         audit(store->audit, clock),
         backups(make_backups(std::move(backup_folder), settings)),
-        accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, users),
+        accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, loaded.users),
         programs(*store, clock, catalog, audit),
+        releases({.decisions = store->releases,
+                  .programs = store->programs,
+                  .clock = clock,
+                  .key = loaded.key,
+                  .database = loaded.identity},
+                 loaded.policy),
         runs(*store),
-        paths(*store, clock),
+        paths({.store = *store, .releases = releases, .clock = clock}),
         setups(store->setups, catalog, audit),
-        machine_service(*store, clock, machine_options(), machine_listener()),
-        ports(*store, programs, clock,
+        machine_service({.store = *store, .releases = releases, .clock = clock}, machine_options(),
+                        machine_listener()),
+        ports({.store = *store, .releases = releases, .clock = clock}, programs,
               {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
               api::publish_to(events)),
         machines(store->runs, machine_service, ports.machines()),
         api({.programs = programs,
+             .releases = releases,
              .setups = setups,
              .machines = machines,
              .runs = runs,
@@ -206,6 +238,7 @@ struct Server::Parts {
   std::unique_ptr<library::Backups> backups;  ///< null: none are made
   identity::Accounts accounts;
   library::Programs programs;
+  library::Releases releases;
   library::RunHistory runs;
   paths::ProgramPaths paths;
   library::Setups setups;
@@ -278,6 +311,8 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   const auto options = http_options(settings);
   if (!options) return fail(options.error());
   if (auto safe = check_network(settings); !safe) return fail(safe.error());
+  const auto policy = read_policy(settings);
+  if (!policy) return fail(policy.error());
   auto folder = StateFolder::open(settings.state);
   if (!folder) return fail(folder.error());
   if (auto is_there = folder->expect_database(settings.begin_empty); !is_there)
@@ -293,14 +328,19 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!token) return fail(token.error());
   const auto users = (*store)->accounts.load();
   if (!users) return fail(users.error());
+  const auto seed = folder->signing_seed();
+  if (!seed) return fail(seed.error());
+  const auto key = SigningKey::of(*seed);
+  if (!key) return fail(Errc::Denied, "{}: {}", folder->signing_file().string(), key.error().what);
   std::optional<backup::BackupFolder> backups;
   if (!settings.backups.empty()) {
     auto opened = backup::BackupFolder::open(settings.backups);
     if (!opened) return fail(opened.error());
     backups = *std::move(opened);
   }
+  const Loaded loaded{*users, *policy, *key, *identity};
   std::unique_ptr<Server> server(new Server(std::make_unique<Parts>(
-      *folder, *std::move(store), std::move(backups), settings, clock, *users)));
+      *folder, *std::move(store), std::move(backups), settings, clock, loaded)));
   Parts& parts = *server->parts_;
   if (auto used = parts.accounts.use_local_secret(*token, settings.recover_admin); !used)
     return fail(used.error());

@@ -26,6 +26,7 @@ class Server {
   std::string status() const;
 
  private:
+  struct Loaded;
   struct Parts;
   explicit Server(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;

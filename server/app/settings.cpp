@@ -148,6 +148,9 @@ constexpr std::array kRows{
         text_value<&Settings::tls_certificate>()},
     Row{"tls-key", "FILE", "", "", "Private key of the certificate (PEM)",
         text_value<&Settings::tls_key>()},
+    Row{"policy", "FILE", "", "what is pushed may run",
+        "Which revisions machines run, and who submits, approves and releases them (TOML)",
+        text_value<&Settings::policy>()},
     Row{"http-connections", "NUMBER", "", "",
         "Connections to the REST API at once; a new one replaces the one that has been idle "
         "longest",

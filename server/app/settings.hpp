@@ -16,6 +16,7 @@ struct Settings {
   std::string state;  ///< default: default_state_folder (protocol/base/private_folder.hpp)
   std::string http = "127.0.0.1:8430";
   std::string tls_certificate, tls_key;
+  std::string policy;  ///< file; empty: what is pushed may run
   std::uint32_t http_connections = 512;
   std::uint32_t http_connections_per_address = 256;
   std::uint32_t http_event_streams = 256;

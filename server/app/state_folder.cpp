@@ -16,7 +16,7 @@
 namespace dripline::app {
 namespace {
 
-constexpr std::size_t kTokenBytes = 32;
+constexpr std::size_t kSecretBytes = 32;
 
 tl::unexpected<Error> fail_with_errno(const std::filesystem::path& path) {
   return fail(Errc::Io, "{}: {}", path.string(), std::generic_category().message(errno));
@@ -47,6 +47,23 @@ Result<void> replace_private_file(const std::filesystem::path& path, const std::
   return {};
 }
 
+/// The first line of a file that only its owner can read; made of random digits when it is missing.
+Result<std::string> secret_in(const std::filesystem::path& path, std::string_view remedy) {
+  struct stat facts {};
+  if (::stat(path.c_str(), &facts) != 0) {
+    if (auto made = replace_private_file(path, random_hex(kSecretBytes) + "\n"); !made)
+      return fail(made.error());
+    if (::stat(path.c_str(), &facts) != 0) return fail_with_errno(path);
+  }
+  if ((facts.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
+    return fail(Errc::Denied, "{} can be read by others: chmod 600 it{}", path.string(), remedy);
+  }
+  std::ifstream file(path);
+  std::string secret;
+  std::getline(file, secret);
+  return secret;
+}
+
 }  // namespace
 
 Result<StateFolder> StateFolder::open(const std::string& path) {
@@ -57,24 +74,16 @@ Result<StateFolder> StateFolder::open(const std::string& path) {
 }
 
 Result<std::string> StateFolder::token() const {
-  struct stat facts {};
-  if (::stat(token_file().c_str(), &facts) != 0) {
-    if (auto made = make_token(); !made) return fail(made.error());
-    if (::stat(token_file().c_str(), &facts) != 0) return fail_with_errno(token_file());
-  }
-  if ((facts.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
-    return fail(Errc::Denied, "{} can be read by others: chmod 600 it, or remove it for a new one",
-                token_file().string());
-  }
-  std::ifstream file(token_file());
-  std::string token;
-  std::getline(file, token);
+  auto token = secret_in(token_file(), ", or remove it for a new one");
   constexpr std::size_t kShortest = 32;
-  if (token.size() < kShortest) {
-    return fail(Errc::Denied, "{} holds a token of {} characters: at least {}",
-                token_file().string(), token.size(), kShortest);
-  }
-  return token;
+  if (!token || token->size() >= kShortest) return token;
+  return fail(Errc::Denied, "{} holds a token of {} characters: at least {}", token_file().string(),
+              token->size(), kShortest);
+}
+
+Result<std::string> StateFolder::signing_seed() const {
+  // Without it no decision that was signed before verifies: it is to be restored from a backup.
+  return secret_in(signing_file(), "");
 }
 
 Result<void> StateFolder::expect_database(bool begin_empty) const {
@@ -110,10 +119,6 @@ Result<void> StateFolder::remember_database(const std::string& identity) const {
               "{} is not the database this folder has had ({}, expected {}): put the right one "
               "back, or remove {} to continue with this one",
               database().string(), identity, known, identity_file().string());
-}
-
-Result<void> StateFolder::make_token() const {
-  return replace_private_file(token_file(), random_hex(kTokenBytes) + "\n");
 }
 
 Result<void> StateFolder::announce(const Announcement& announcement) const {

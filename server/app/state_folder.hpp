@@ -21,6 +21,10 @@ class StateFolder {
   /// Errors: Io, Denied (others may read or change it).
   Result<std::string> token() const;
 
+  /// The seed of the key that decisions are signed with; made like the token. Errors: those of
+  /// `token`.
+  Result<std::string> signing_seed() const;
+
   /// Before the database is opened: one that this folder has had must be there. `begin_empty`: it
   /// is known to be lost, and a new one is wanted. Errors: Corrupt (missing or empty), Busy
   /// (wanted, but it is there), Io.
@@ -41,20 +45,22 @@ class StateFolder {
 
   std::filesystem::path database() const { return path_ / kDatabase; }
   /// What a backup holds beside the database.
-  static std::vector<std::string> files() { return {kToken, kIdentity}; }
+  static std::vector<std::string> files() { return {kToken, kIdentity, kSigningKey}; }
   /// What passed over serial lines last.
   std::filesystem::path recordings() const { return path_ / "recordings"; }
   std::filesystem::path token_file() const { return path_ / kToken; }
+  /// Whoever has it can sign as this server.
+  std::filesystem::path signing_file() const { return path_ / kSigningKey; }
   const std::filesystem::path& path() const { return path_; }
 
  private:
   static constexpr const char* kToken = "token";
   static constexpr const char* kIdentity = "database.id";
+  static constexpr const char* kSigningKey = "signing.key";
   explicit StateFolder(std::filesystem::path path) : path_(std::move(path)) {}
   /// The identity of the database that belongs here.
   std::filesystem::path identity_file() const { return path_ / kIdentity; }
   std::filesystem::path announcement_file() const { return path_ / "dncd.json"; }
-  Result<void> make_token() const;
 
   std::filesystem::path path_;
 };

@@ -120,7 +120,8 @@ BlockFeed::Turn BlockFeed::answer(const dds::BlockRequest& request) {
 BlockFeed::Turn BlockFeed::send_bytes(dds::BlockRequest request, const Content& content) {
   const std::uint64_t wanted =
       std::min<std::uint64_t>(request.length, content.size - request.offset);
-  auto read = programs_.read_content(content.digest, request.offset, std::min(wanted, kTurnBytes));
+  auto read = sources_.store.programs.read_content(content.digest, request.offset,
+                                                   std::min(wanted, kTurnBytes));
   if (!read) {
     if (read.error().code == Errc::Busy) return {.rest = std::move(request), .must_pause = true};
     return refuse(request, {status_of(read.error()), read.error()});
@@ -194,7 +195,7 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
   const auto no_run = [&](std::string why) {
     return refuse_with(dds::BlockStatus::NoSuchRun, {Errc::NotFound, std::move(why)});
   };
-  const auto run = runs_.find(request.run);
+  const auto run = sources_.store.runs.find(request.run);
   if (!run && run.error().code == Errc::NotFound) return no_run(run.error().what);
   if (!run) return refuse_with(status_of(run.error()), run.error());
   if (run->machine != request.machine) {
@@ -206,7 +207,7 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
   if (request.program.empty() || request.program == run->program) {
     return Content{.digest = run->content, .size = run->size};
   }
-  const auto revision = resolve_called_program(programs_, *run, request.program);
+  const auto revision = resolve_called_program(sources_, *run, request.program);
   if (!revision) {
     const bool is_missing = revision.error().code == Errc::NotFound;
     const auto status = is_missing ? dds::BlockStatus::NoSuchProgram : status_of(revision.error());

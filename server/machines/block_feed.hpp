@@ -8,8 +8,8 @@
 #include <string>
 
 #include "protocol/dds/endpoint.hpp"
+#include "server/machines/run_sources.hpp"
 #include "server/machines/worker_pool.hpp"
-#include "storage/store.hpp"
 
 namespace dripline::machines {
 
@@ -23,8 +23,8 @@ class BlockFeed {
   static constexpr std::uint64_t kTurnBytes = 256 * 1024;
 
   /// All must outlive the feed's last task, that is, the pool must be stopped first.
-  BlockFeed(const storage::Store& store, dds::ServerEndpoint& endpoint, WorkerPool& pool)
-      : programs_(store.programs), runs_(store.runs), endpoint_(endpoint), pool_(pool) {}
+  BlockFeed(const RunSources& sources, dds::ServerEndpoint& endpoint, WorkerPool& pool)
+      : sources_(sources), endpoint_(endpoint), pool_(pool) {}
 
   /// Any thread; returns at once. A request that is waiting already is not taken twice; a new
   /// session of the gateway replaces what the old one asked for.
@@ -67,8 +67,7 @@ class BlockFeed {
   tl::expected<Content, Refusal> content(const dds::BlockRequest& request);
   tl::expected<Content, Refusal> look_up(const dds::BlockRequest& request);
 
-  storage::ProgramStore& programs_;
-  storage::RunStore& runs_;
+  const RunSources sources_;
   dds::ServerEndpoint& endpoint_;
   WorkerPool& pool_;
   std::mutex mutex_;

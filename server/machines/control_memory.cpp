@@ -7,14 +7,14 @@
 
 namespace dripline::machines {
 
-Result<void> check_control_memory(const storage::Store& store, const storage::Run& run) {
+Result<void> check_control_memory(const RunSources& sources, const storage::Run& run) {
   const auto dialect = interpreter::find_dialect(run.control);
   if (!dialect || (*dialect)->check_memory == nullptr) return {};
-  const auto stored = store.setups.find(run.machine, std::nullopt);
+  const auto stored = sources.store.setups.find(run.machine, std::nullopt);
   if (!stored) return {};  // its gateway has its own setup
   const auto setup = interpreter::parse_control_data(stored->text, (*dialect)->units);
   if (!setup) return fail(setup.error());
-  StoredPrograms source(store, run);
+  StoredPrograms source(sources, run);
   const auto verdict = (*dialect)->check_memory(*setup, source);
   if (!verdict) return fail(verdict.error());
   if (!verdict->is_binding || verdict->refused.empty()) return {};
@@ -23,12 +23,12 @@ Result<void> check_control_memory(const storage::Store& store, const storage::Ru
               run.machine, run.program, refused.line, refused.text);
 }
 
-Result<storage::Revision> resolve_called_program(storage::ProgramStore& store,
-                                                 const storage::Run& run, const std::string& name) {
+Result<storage::Revision> resolve_called_program(const RunSources& sources, const storage::Run& run,
+                                                 const std::string& name) {
   if (auto good = check_program_name(name); !good)
     return fail(Errc::NotFound, "{}", good.error().what);
   for (const auto& candidate : interpreter::called_program_names(name)) {
-    auto revisions = store.revisions(candidate);
+    auto revisions = sources.store.programs.revisions(candidate);
     if (!revisions) {
       if (revisions.error().code == Errc::NotFound) continue;
       return fail(revisions.error());
@@ -36,15 +36,18 @@ Result<storage::Revision> resolve_called_program(storage::ProgramStore& store,
     const storage::Revision* pinned = nullptr;
     for (const auto& revision : *revisions) {
       const bool fits = revision.control.empty() || revision.control == run.control;
-      if (revision.is_held || revision.in_force_since() > run.created || !fits) continue;
+      if (!fits || !library::Releases::may_call(revision, run)) continue;
       if (pinned == nullptr || revision.number > pinned->number) pinned = &revision;
     }
-    if (pinned != nullptr) return *pinned;
+    if (pinned == nullptr) continue;
+    if (auto good = sources.releases.check_call(*pinned, run); !good) return fail(good.error());
+    return *pinned;
   }
-  return fail(
-      Errc::NotFound,
-      "program '{}' called by '{}' was not in the library for control {} when the run began", name,
-      run.program, run.control);
+  return fail(Errc::NotFound,
+              "program '{}' called by '{}' was not {} for control {} when the run began", name,
+              run.program,
+              run.allowed_as == storage::RunAllowance::Released ? "released" : "in the library",
+              run.control);
 }
 
 }  // namespace dripline::machines

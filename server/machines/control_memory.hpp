@@ -3,21 +3,20 @@
 #include <string>
 
 #include "protocol/base/result.hpp"
-#include "storage/program_store.hpp"
-#include "storage/run_store.hpp"
-#include "storage/store.hpp"
+#include "server/machines/run_sources.hpp"
 
 namespace dripline::machines {
 
 /// Whether the machine's control can keep the run's program, with all it calls, in its own memory.
 /// Checked only where the control keeps its programs by the machine's newest setup; what is
 /// drip-fed has no such limits. Errors: LimitExceeded, in the control's words.
-Result<void> check_control_memory(const storage::Store& store, const storage::Run& run);
+Result<void> check_control_memory(const RunSources& sources, const storage::Run& run);
 
-/// The revision a run uses for the name a program called: the newest one that existed when the run
-/// was created, so that every request of a run, also after a restart of the server, gets the same
-/// text. Errors: NotFound, naming what was searched for.
-Result<storage::Revision> resolve_called_program(storage::ProgramStore& store,
-                                                 const storage::Run& run, const std::string& name);
+/// The revision a run uses for the name a program called: the newest one that existed, and that it
+/// was allowed to call, when the run was created, so that every request of a run, also after a
+/// restart of the server, gets the same text. Errors: NotFound, naming what was searched for,
+/// Corrupt (Releases::check_call).
+Result<storage::Revision> resolve_called_program(const RunSources& sources, const storage::Run& run,
+                                                 const std::string& name);
 
 }  // namespace dripline::machines

@@ -8,6 +8,7 @@
 
 #include "protocol/base/result.hpp"
 #include "protocol/dds/message.hpp"
+#include "server/library/releases.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::machines {
@@ -67,10 +68,15 @@ struct StartRequest {
   std::string program;
   std::optional<std::uint64_t> revision;  ///< absent: the latest
   std::string author;
+  storage::Role role = storage::Role::Viewer;  ///< of the author; a control that asks has none
   StartPoint from = {};
   StartHead head = StartHead::Ask;
   StartMemory memory = StartMemory::Ask;
   std::optional<RestartRequest> restart = {};  ///< then nothing of the three before
+
+  library::Releases::Wish wish() const {
+    return {.machine = machine, .program = program, .revision = revision, .role = role};
+  }
 };
 
 struct CommandRequest {
@@ -99,9 +105,9 @@ class MachineControl {
   virtual Result<MachineView> machine(const std::string& name) const = 0;
   /// Returns the run when the gateway has accepted it. Errors: NotFound (machine, program,
   /// revision), Unsupported (the program is for another control; `head` for a gateway), Conflict
-  /// (the rest of the program relies on what is not sent), Busy (the machine has a run, or the
-  /// gateway refused: the run's state is then Refused), Timeout (not connected, or no answer in
-  /// time).
+  /// (the rest of the program relies on what is not sent; nothing of it may run there), Busy (the
+  /// machine has a run, or the gateway refused: the run's state is then Refused), Timeout (not
+  /// connected, or no answer in time).
   virtual Result<storage::Run> start(const StartRequest& request) = 0;
   /// Errors: NotFound (run, machine), Conflict (it has ended), Busy (refused, with the
   /// gateway's reason), Timeout (not connected, or no answer in time: the outcome is unknown).

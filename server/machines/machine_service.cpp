@@ -19,7 +19,7 @@ bool has_ended(const storage::Run& run) {
 }  // namespace
 
 MachineService::Parts::Parts(MachineService& service, dds::ServerEndpoint& endpoint)
-    : blocks(service.store_, endpoint, service.pool_),
+    : blocks(service.sources_, endpoint, service.pool_),
       records({.store = service.store_,
                .endpoint = endpoint,
                .pool = service.pool_,
@@ -46,16 +46,16 @@ CommandDispatcher::Options MachineService::command_options() const {
   return options;
 }
 
-MachineService::MachineService(const storage::Store& store, const Clock& clock, Options options,
-                               MachineListener listener)
-    : store_(store),
-      clock_(clock),
+MachineService::MachineService(const RunSources& sources, Options options, MachineListener listener)
+    : sources_(sources),
+      store_(sources.store),
+      clock_(sources.clock),
       options_(std::move(options)),
       listener_(std::move(listener)),
       pool_(options.workers),
-      registry_({.machines = store.machines,
-                 .runs = store.runs,
-                 .clock = clock,
+      registry_({.machines = store_.machines,
+                 .runs = store_.runs,
+                 .clock = clock_,
                  .pool = pool_,
                  .on_change = [this](const MachineView& view) { listener_.on_machine(view); }}) {}
 
@@ -167,8 +167,9 @@ Result<MachineView> MachineService::connected_machine(const std::string& name) c
 
 Result<storage::Run> MachineService::make_run(const StartRequest& request,
                                               const MachineView& view) {
-  auto revision = store_.programs.revision(request.program, request.revision);
-  if (!revision) return fail(revision.error());
+  const auto admitted = sources_.releases.admit(request.wish());
+  if (!admitted) return fail(admitted.error());
+  const storage::Revision* const revision = &admitted->revision;
   if (!revision->control.empty() && revision->control != view.machine.control) {
     return fail(Errc::Unsupported,
                 "program '{}' revision {} is for control {}; machine '{}' is a {}",
@@ -185,6 +186,8 @@ Result<storage::Run> MachineService::make_run(const StartRequest& request,
   run.size = revision->size;
   run.control = view.machine.control;
   run.author = request.author;
+  run.allowed_as = admitted->allowed_as;
+  run.approval = admitted->approval;
   return run;
 }
 
@@ -208,13 +211,15 @@ Result<void> MachineService::check_restart(const StartRequest& request, const st
                            original->state == storage::RunState::Interrupted;
   if (!was_cut_off)
     return fail(Errc::Conflict, "run {} was not cut off: it is {}", original->id, state);
-  const auto latest = store_.programs.revision(run.program, std::nullopt);
+  auto newest = request.wish();
+  newest.revision.reset();
+  const auto latest = sources_.releases.admit(newest);
   if (!latest) return fail(latest.error());
-  if (latest->number != original->revision) {
+  if (latest->revision.number != original->revision) {
     return fail(Errc::Conflict,
                 "program '{}' has revision {} since run {}, which is of revision {}: start it with "
                 "--from, or make the old content the latest again",
-                run.program, latest->number, original->id, original->revision);
+                run.program, latest->revision.number, original->id, original->revision);
   }
   if (run.setup == original->setup) return {};
   const auto text = [](const std::optional<std::uint64_t>& number) {
@@ -236,7 +241,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   if (auto same = check_protocol(*view); !same) return fail(same.error());
   auto run = make_run(request, *view);
   if (!run) return run;
-  if (auto fits = check_control_memory(store_, *run); !fits) return fail(fits.error());
+  if (auto fits = check_control_memory(sources_, *run); !fits) return fail(fits.error());
   // No run begins that could not continue: the list of its chunks is checked before.
   if (auto sound = store_.programs.verify_content(run->content); !sound) {
     return fail(sound.error().code, "program '{}' revision {}: {}", run->program, run->revision,

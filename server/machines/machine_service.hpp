@@ -14,12 +14,13 @@
 #include "server/machines/machine_registry.hpp"
 #include "server/machines/record_ingest.hpp"
 #include "server/machines/run_reconciler.hpp"
+#include "server/machines/run_sources.hpp"
 #include "server/machines/worker_pool.hpp"
 
 namespace dripline::machines {
 
 /// Feeds the machines and keeps what they report. Wiring:
-///     MachineService feeds(store, clock, options, listener);
+///     MachineService feeds(sources, options, listener);
 ///     auto endpoint = ServerEndpoint::open(network, feeds.handlers());
 ///     feeds.begin(std::move(*endpoint));      // nothing is handled before
 ///     ... feeds.end();                        // leaves DDS
@@ -32,8 +33,7 @@ class MachineService final : public MachineControl {
     /// At every try: why a machine's records cannot be stored; empty: they can again. Any thread.
     std::function<void(const std::string& machine, const std::string& fault)> on_fault = {};
   };
-  MachineService(const storage::Store& store, const Clock& clock, Options options,
-                 MachineListener listener);
+  MachineService(const RunSources& sources, Options options, MachineListener listener);
   ~MachineService() override;
 
   /// Valid while the service lives; what arrives before begin() is dropped, and the gateways
@@ -79,6 +79,7 @@ class MachineService final : public MachineControl {
   Result<void> check_restart(const StartRequest& request, const storage::Run& run);
   Result<storage::Run> conclude_start(const storage::Run& run, const Result<void>& outcome);
 
+  const RunSources sources_;
   const storage::Store& store_;
   const Clock& clock_;
   const Options options_;

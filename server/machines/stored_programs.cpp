@@ -18,8 +18,8 @@ ProgramLookup found_at(std::size_t index) {
 
 }  // namespace
 
-StoredPrograms::StoredPrograms(const storage::Store& store, const storage::Run& run)
-    : store_(store), run_(run) {
+StoredPrograms::StoredPrograms(const RunSources& sources, const storage::Run& run)
+    : sources_(sources), run_(run) {
   texts_.push_back({{}, run.content, run.size});
 }
 
@@ -31,7 +31,7 @@ TextWindow StoredPrograms::fetch(ProgramIndex program, std::uint64_t offset,
   window_.clear();
   if (offset < text.size) {
     auto bytes =
-        store_.programs.read_content(text.content, offset, std::max(min_bytes, kMaxWindow));
+        sources_.store.programs.read_content(text.content, offset, std::max(min_bytes, kMaxWindow));
     if (!bytes) {
       window.state = TextWindow::State::Failed;
       window.reason = bytes.error().what;
@@ -48,7 +48,7 @@ ProgramLookup StoredPrograms::find(std::string_view name) {
   for (std::size_t i = 1; i < texts_.size(); ++i) {
     if (texts_[i].name == name) return found_at(i);
   }
-  const auto revision = resolve_called_program(store_.programs, run_, std::string(name));
+  const auto revision = resolve_called_program(sources_, run_, std::string(name));
   if (!revision) return {ProgramLookup::State::NotFound, 0};
   texts_.push_back({std::string(name), revision->content, revision->size});
   return found_at(texts_.size() - 1);

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "gateway/interpreter/core/program_source.hpp"
-#include "storage/store.hpp"
+#include "server/machines/run_sources.hpp"
 
 namespace dripline::machines {
 
 /// A run's program and those it calls, as the library has them: for the server's own looks at a
 /// program. Memory is one window, whatever the size of the program; reads the store in `fetch`, so
-/// it belongs to a thread that may wait. The store and the run must outlive it.
+/// it belongs to a thread that may wait. The run must outlive it.
 class StoredPrograms final : public interpreter::ProgramSource {
  public:
-  StoredPrograms(const storage::Store& store, const storage::Run& run);
+  StoredPrograms(const RunSources& sources, const storage::Run& run);
 
   interpreter::TextWindow fetch(interpreter::ProgramIndex program, std::uint64_t offset,
                                 std::size_t min_bytes) override;
@@ -26,7 +26,7 @@ class StoredPrograms final : public interpreter::ProgramSource {
     std::uint64_t size = 0;
   };
 
-  const storage::Store& store_;
+  const RunSources sources_;
   const storage::Run& run_;
   std::vector<Text> texts_;
   std::vector<std::byte> window_;

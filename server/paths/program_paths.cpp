@@ -60,7 +60,7 @@ class Seat {
 class Reader final : public PathReader {
  public:
   struct Parts {
-    const storage::Store& store;
+    machines::RunSources sources;
     storage::Run run;  ///< that the program would be, for the programs it calls
     interpreter::Setup setup;
     const interpreter::Dialect& dialect;
@@ -69,7 +69,7 @@ class Reader final : public PathReader {
   Reader(Seat seat, Parts parts)
       : seat_(std::move(seat)),
         parts_(std::move(parts)),
-        source_(parts_.store, parts_.run),
+        source_(parts_.sources, parts_.run),
         encoder_(parts_.setup.start, parts_.tolerance),
         summary_(parts_.setup.start) {}
 
@@ -173,7 +173,7 @@ Result<std::unique_ptr<PathReader>> ProgramPaths::open(const PathRequest& reques
   if (!dialect) return fail(Errc::Unsupported, "{}", dialect.error().what);
   interpreter::Setup setup;
   if (!request.machine.empty()) {
-    const auto stored = store_.setups.find(request.machine, std::nullopt);
+    const auto stored = sources_.store.setups.find(request.machine, std::nullopt);
     if (!stored && stored.error().code != Errc::NotFound) return fail(stored.error());
     auto data = stored ? interpreter::parse_control_data(stored->text, (*dialect)->units)
                        : Result<interpreter::Setup>(interpreter::Setup{});
@@ -191,9 +191,9 @@ Result<std::unique_ptr<PathReader>> ProgramPaths::open(const PathRequest& reques
   run.content = revision.content;
   run.size = revision.size;
   run.control = revision.control;
-  run.created = clock_.now();
+  run.created = sources_.clock.now();
   auto reader =
-      std::make_unique<Reader>(*std::move(seat), Reader::Parts{.store = store_,
+      std::make_unique<Reader>(*std::move(seat), Reader::Parts{.sources = sources_,
                                                                .run = std::move(run),
                                                                .setup = std::move(setup),
                                                                .dialect = **dialect,

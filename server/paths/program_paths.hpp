@@ -6,9 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
-#include "storage/store.hpp"
+#include "server/machines/run_sources.hpp"
 
 namespace dripline::paths {
 
@@ -35,7 +34,7 @@ class PathReader {
 /// the readers.
 class ProgramPaths {
  public:
-  ProgramPaths(const storage::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
+  explicit ProgramPaths(const machines::RunSources& sources) : sources_(sources) {}
 
   /// Errors: Busy (kMaxReaders are open), Unsupported (no control is known, or the machine's setup
   /// is not for it), and those of the setup.
@@ -44,8 +43,7 @@ class ProgramPaths {
   static constexpr int kMaxReaders = 4;
 
  private:
-  const storage::Store& store_;
-  const Clock& clock_;
+  const machines::RunSources sources_;
   const std::shared_ptr<std::atomic<int>> readers_ = std::make_shared<std::atomic<int>>(0);
 };
 

@@ -48,14 +48,13 @@ std::string message_of(const PortView& port, const std::optional<SendProgress>& 
 
 }  // namespace
 
-LineMachines::LineMachines(const storage::Store& store, const Clock& clock,
-                           const LineDirectory& directory,
+LineMachines::LineMachines(const machines::RunSources& sources, const LineDirectory& directory,
                            const machines::MachineListener& listener)
-    : store_(store),
-      clock_(clock),
+    : store_(sources.store),
+      clock_(sources.clock),
       directory_(directory),
       listener_(listener),
-      runs_(store, clock) {}
+      runs_(sources) {}
 
 machines::MachineView LineMachines::view_of(const PortLine& line) const {
   const PortView port = line.view();

@@ -20,7 +20,7 @@ class LineMachines final : public machines::MachineControl {
   /// How long `start` and `command` wait for the line's thread.
   static constexpr std::chrono::seconds kAnswerLimit{10};
 
-  LineMachines(const storage::Store& store, const Clock& clock, const LineDirectory& directory,
+  LineMachines(const machines::RunSources& sources, const LineDirectory& directory,
                const machines::MachineListener& listener);
 
   std::vector<machines::MachineView> machines() const override;

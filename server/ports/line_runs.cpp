@@ -172,8 +172,9 @@ Result<std::optional<storage::Run>> broken_run(storage::RunStore& store, const s
 
 Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
                                       const storage::Machine& machine) {
-  const auto revision = store_.programs.revision(request.program, request.revision);
-  if (!revision) return fail(revision.error());
+  const auto admitted = sources_.releases.admit(request.wish());
+  if (!admitted) return fail(admitted.error());
+  const storage::Revision* const revision = &admitted->revision;
   if (auto fits = check_control(*revision, machine); !fits) return fail(fits.error());
   storage::Run run;
   run.created = clock_.now();
@@ -185,7 +186,9 @@ Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
   run.size = revision->size;
   run.control = machine.control.empty() ? revision->control : machine.control;
   run.author = request.author;
-  if (auto fits = machines::check_control_memory(store_, run); !fits) return fail(fits.error());
+  run.allowed_as = admitted->allowed_as;
+  run.approval = admitted->approval;
+  if (auto fits = machines::check_control_memory(sources_, run); !fits) return fail(fits.error());
   if (auto sound = store_.programs.verify_content(run.content); !sound) return fail(sound.error());
   if (auto created = store_.runs.create(run); !created) return fail(created.error());
   return run;

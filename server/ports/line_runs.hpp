@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "server/machines/machine_control.hpp"
+#include "server/machines/run_sources.hpp"
 #include "server/ports/line_records.hpp"
 #include "server/ports/line_session.hpp"
 
@@ -24,10 +25,12 @@ Result<void> check_control(const storage::Revision& revision, const storage::Mac
 /// machine at a time.
 class LineRuns {
  public:
-  LineRuns(const storage::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
+  explicit LineRuns(const machines::RunSources& sources)
+      : sources_(sources), store_(sources.store), clock_(sources.clock) {}
 
   /// A run that is Ordered. Errors: NotFound, Unsupported (the program is for another control),
-  /// Conflict (nothing but held revisions), Busy (the machine has a run).
+  /// Conflict (nothing but held revisions, or nothing that may run there), Busy (the machine has a
+  /// run).
   Result<storage::Run> create(const machines::StartRequest& request,
                               const storage::Machine& machine);
   /// What is to be sent for it. Reads the program up to there. Errors: NotFound (no such line, byte
@@ -43,6 +46,7 @@ class LineRuns {
   Result<void> give_up_unfinished(const std::string& machine, LineRecords& records);
 
  private:
+  const machines::RunSources sources_;
   const storage::Store& store_;
   const Clock& clock_;
 };

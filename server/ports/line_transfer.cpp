@@ -45,23 +45,26 @@ Result<void> check_ready(PortLine& line) {
 }
 
 /// What of the library is meant. Errors: as PortControl::send.
-Result<std::vector<storage::Revision>> chosen(storage::ProgramStore& store,
+Result<std::vector<storage::Revision>> chosen(library::Releases& releases, const PortView& port,
                                               const storage::Machine& machine,
                                               const std::vector<ProgramChoice>& programs) {
   std::vector<storage::Revision> revisions;
   for (const auto& choice : programs) {
-    auto revision = store.revision(choice.program, choice.revision);
-    if (!revision) {
+    // Whoever starts it at the control, and when, is not known: nothing is proved out this way.
+    auto admitted = releases.admit(
+        {.machine = port.port.machine, .program = choice.program, .revision = choice.revision});
+    if (!admitted) {
       return fail(with_control_words(
-          revision.error(), machine.control,
-          revision.error().code == Errc::NotFound ? Refusal::NoSuchProgram : Refusal::None));
+          admitted.error(), machine.control,
+          admitted.error().code == Errc::NotFound ? Refusal::NoSuchProgram : Refusal::None));
     }
-    if (revision->is_held) {
-      return fail(Errc::Conflict, "program '{}' revision {} waits for acceptance",
-                  revision->program, revision->number);
+    auto& revision = admitted->revision;
+    if (revision.is_held) {
+      return fail(Errc::Conflict, "program '{}' revision {} waits for acceptance", revision.program,
+                  revision.number);
     }
-    if (auto fits = check_control(*revision, machine); !fits) return fail(fits.error());
-    revisions.push_back(*std::move(revision));
+    if (auto fits = check_control(revision, machine); !fits) return fail(fits.error());
+    revisions.push_back(std::move(revision));
   }
   return revisions;
 }
@@ -144,8 +147,9 @@ std::string what_it_does(const PortView& port) {
 }
 
 Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
-                                   const storage::Store& store,
+                                   const machines::RunSources& sources,
                                    const std::vector<ProgramChoice>& programs) {
+  const storage::Store& store = sources.store;
   const PortView port = line->view();
   storage::Machine machine;
   if (auto known = store.machines.find(port.port.machine)) machine = *std::move(known);
@@ -153,7 +157,7 @@ Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
   if (auto fits = check_protocol(store.setups, port.port.machine, port.settings.flow); !fits) {
     return fail(fits.error());
   }
-  const auto revisions = chosen(store.programs, machine, programs);
+  const auto revisions = chosen(sources.releases, port, machine, programs);
   if (!revisions) return fail(revisions.error());
   const auto job = job_of(store.programs, port, machine, *revisions);
   if (!job) return fail(job.error());

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "server/machines/run_sources.hpp"
 #include "server/ports/port_line.hpp"
 
 /// Programs to a control's memory and out of it, without a run. The functions wait for the line's
@@ -14,7 +15,7 @@ inline constexpr std::chrono::seconds kTransferAnswerLimit{10};
 
 /// Promises: PortControl.
 Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
-                                   const storage::Store& store,
+                                   const machines::RunSources& sources,
                                    const std::vector<ProgramChoice>& programs);
 Result<void> receive_program(const std::shared_ptr<PortLine>& line);
 Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::string& reason);

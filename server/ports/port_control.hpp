@@ -103,9 +103,9 @@ class PortControl {
   /// Sends programs to the control as one text, as they stand and without a run: a control that
   /// takes programs into its memory has them then. Several must bear O numbers; the whole is framed
   /// as the line's settings say. Returns when the line has taken the job; `port` shows its
-  /// progress. Errors: NotFound (port, program), Conflict (held), Unsupported (another control's;
-  /// several on a line whose protocol names one; a protocol as of `save`), Syntax (no number),
-  /// LimitExceeded, Busy, Timeout.
+  /// progress. Errors: NotFound (port, program), Conflict (held, or may not run there), Unsupported
+  /// (another control's; several on a line whose protocol names one; a protocol as of `save`),
+  /// Syntax (no number), LimitExceeded, Busy, Timeout.
   virtual Result<PortTransfer> send(const std::string& name,
                                     const std::vector<ProgramChoice>& programs) = 0;
   /// Asks the control for a program, over a protocol whose receiver begins (XMODEM), for about two

@@ -139,7 +139,7 @@ Result<std::shared_ptr<PortLine>> PortService::find_line(const std::string& name
 Result<PortTransfer> PortService::send(const std::string& name,
                                        const std::vector<ProgramChoice>& programs) {
   const auto line = find_line(name);
-  return line ? send_programs(*line, store_, programs) : fail(line.error());
+  return line ? send_programs(*line, sources_, programs) : fail(line.error());
 }
 
 Result<void> PortService::receive(const std::string& name) {

@@ -31,15 +31,16 @@ std::uint64_t next_epoch(const storage::Store& store, const Clock& clock) {
 
 }  // namespace
 
-PortService::PortService(const storage::Store& store, library::Programs& programs,
-                         const Clock& clock, Options options, machines::MachineListener listener)
-    : store_(store),
+PortService::PortService(const machines::RunSources& sources, library::Programs& programs,
+                         Options options, machines::MachineListener listener)
+    : sources_(sources),
+      store_(sources.store),
       programs_(programs),
-      clock_(clock),
+      clock_(sources.clock),
       options_(std::move(options)),
       listener_(std::move(listener)),
-      epoch_(next_epoch(store, clock)),
-      line_machines_(store, clock, *this, listener_),
+      epoch_(next_epoch(store_, clock_)),
+      line_machines_(sources, *this, listener_),
       pool_(options_.workers) {}
 
 PortService::~PortService() {

@@ -18,7 +18,7 @@
 namespace dripline::ports {
 
 /// The ports of the server. Wiring:
-///     PortService ports(store, programs, clock, options, listener);
+///     PortService ports(sources, programs, options, listener);
 ///     ports.begin(configured);        // opens what is stored, and what the settings file has
 ///     ... MachineRouter machines(store.runs, gateways, ports.machines());
 ///     ... ports.end();
@@ -34,8 +34,8 @@ class PortService final : public PortControl, private LineDirectory {
     /// Why records of a machine cannot be stored, at every try; empty: they can again.
     std::function<void(const std::string& machine, const std::string& fault)> on_fault = {};
   };
-  PortService(const storage::Store& store, library::Programs& programs, const Clock& clock,
-              Options options, machines::MachineListener listener);
+  PortService(const machines::RunSources& sources, library::Programs& programs, Options options,
+              machines::MachineListener listener);
   ~PortService() override;
 
   /// Unfinished runs of the server before this start end Interrupted. A stored port that cannot be
@@ -100,6 +100,7 @@ class PortService final : public PortControl, private LineDirectory {
   void on_store_fault(const std::string& machine, const std::string& fault);
   static PortView view_of(const Entry& entry);
 
+  const machines::RunSources sources_;
   const storage::Store& store_;
   library::Programs& programs_;
   const Clock& clock_;

@@ -82,6 +82,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
   const std::string& name = entry.port.machine;
   RemoteRequestHandler::Parts calls{
       .store = store_,
+      .releases = sources_.releases,
       .machines = line_machines_,
       .directory = *this,
       .clock = clock_,

@@ -6,6 +6,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/server/program_transfer.hpp"
+#include "clients/cli/server/release_commands.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -29,6 +30,9 @@ Cell held_cell(std::uint64_t held) {
 /// The decision about a revision: only one that is not held can be run.
 Cell standing_cell(const client::Program& program, const client::Revision& revision) {
   if (revision.held) return {"held", Style::Busy};
+  if (revision.state == "released") return {"released", Style::Good};
+  if (!revision.state.empty() && revision.state != "draft")
+    return {state_text(revision.state), Style::Busy};
   if (revision.revision == program.revision) return {"latest", Style::Good};
   return "";
 }
@@ -120,27 +124,17 @@ int accept_revision(Context& context, client::Client& client, const RevisionComm
   return kExitOk;
 }
 
-int reject_revision(Context& context, client::Client& client, const RevisionCommand& command) {
-  auto rejected = client.reject_revision(command.program, command.revision);
-  if (!rejected) return complain(rejected.error());
-  context.print(fmt::format("Rejected {} revision {}; it is hidden and will never run.\n",
-                            command.program, command.revision));
-  return kExitOk;
-}
-
-void add_judgment(Command group, Context& context, const char* verb, const char* help,
-                  int (*action)(Context&, client::Client&, const RevisionCommand&)) {
-  auto command = group.add_subcommand(verb, help);
+void add_accept(Command group, Context& context) {
+  auto command = group.add_subcommand("accept", "Approve a pending revision, so that it can run");
   auto options = std::make_shared<RevisionCommand>();
   command.add_option("NAME", options->program, "The program").required();
   command.add_option("REV", options->revision, "Its revision").required();
-  command.footer(fmt::format(
+  command.footer(
       "A program that an operator sent from a control is stored as a revision pending approval: it "
       "is listed\nand can be pulled, but no run takes it before it is accepted. The decision is in "
       "the audit trail.\n\nExample:\n  dnc program pull O0200 --revision 3 -o received.nc\n  dnc "
-      "program {} O0200 3",
-      verb));
-  run_at_server(command, context, options, action);
+      "program accept O0200 3");
+  run_at_server(command, context, options, accept_revision);
 }
 
 void add_push(Command group, Context& context) {
@@ -231,10 +225,8 @@ void add_program_commands(Command app, Context& context) {
   add_json_flag(list, context);
   run_at_server(list, context, list_programs);
   add_show(group, context);
-  add_judgment(group, context, "accept", "Approve a pending revision, so that it can run",
-               accept_revision);
-  add_judgment(group, context, "reject", "Reject a pending revision and hide it permanently",
-               reject_revision);
+  add_accept(group, context);
+  add_release_commands(group, context);
   add_remove(group, context);
   add_copy(group, context);
   add_rename(group, context);

@@ -67,6 +67,12 @@ int list(Context& context, client::Client& client, const ListCommand& command) {
   return kExitOk;
 }
 
+/// Nothing under a policy that asks for nothing.
+std::string allowance_text(const client::Run& run) {
+  if (run.allowed_as == "prove_out") return "to prove out what is not released";
+  return run.approval ? fmt::format("released by step {}", *run.approval) : "";
+}
+
 Details run_details(const client::Run& run) {
   Details details;
   details.add("run", run.id);
@@ -75,6 +81,7 @@ Details run_details(const client::Run& run) {
   details.add("machine", run.machine);
   details.add("program", fmt::format("{} revision {}", run.program, run.revision));
   details.add("setup", run.setup ? fmt::format("{} of the server", *run.setup) : "the gateway's");
+  details.add("allowed", allowance_text(run));
   details.add("control", run.control);
   details.add("content", run.sha256);
   details.add("verified", run.content_verified ? (*run.content_verified ? "yes" : "NO") : "");

@@ -69,6 +69,9 @@ void content_members(V& v, P& x) {
   DRIPLINE_MEMBERS(size, sha256, title, control, comment, author, created);
   v.later("held", x.held);
   DRIPLINE_MEMBERS(accepted);
+  v.later("state", x.state);
+  v.later("released", x.released);
+  v.later("withdrawn", x.withdrawn);
 }
 
 template <class V>
@@ -130,6 +133,18 @@ void members(V& v, Is<Run> auto& x) {
   DRIPLINE_MEMBERS(id, machine, program, revision, sha256, size, control, state, sent, accepted,
                    executed, line, sequence, reason, content_verified, author, created, started,
                    ended, outputs, setup);
+  v.later("allowed_as", x.allowed_as);
+  v.later("approval", x.approval);
+}
+
+template <class V>
+void members(V& v, Is<Decision> auto& x) {
+  DRIPLINE_MEMBERS(id, step, state, time, who, comment, text, signature);
+}
+
+template <class V>
+void members(V& v, Is<RevisionStates> auto& x) {
+  DRIPLINE_MEMBERS(state, steps, public_key);
 }
 
 template <class V>

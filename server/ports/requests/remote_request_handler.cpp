@@ -217,7 +217,7 @@ void RemoteRequestHandler::restart(const std::string& block) {
 }
 
 void RemoteRequestHandler::send_listing(bool is_request) {
-  const auto programs = parts_.store.programs.list({.limit = kMaxPrograms});
+  const auto programs = this->programs();
   if (!programs) return refuse(programs.error().what, is_request);
   const std::string control = this->control();
   auto lines = listing(*programs, control);
@@ -248,6 +248,10 @@ void RemoteRequestHandler::send_next() {
     return line->refuse("");
   }
   const auto& revision = (*offers_)[next_offer_++];
+  // It may have been withdrawn since the list was made.
+  const auto admitted = parts_.releases.admit(
+      {.machine = parts_.machine, .program = revision.program, .revision = revision.number});
+  if (!admitted) return refuse(admitted.error().what, true);
   line->note(fmt::format("the control asked: program {} revision {} is offered", revision.program,
                          revision.number));
   SendJob job;
@@ -271,6 +275,19 @@ Result<void> RemoteRequestHandler::check_last_run() const {
 }
 
 /// Those of this asking sequence. Errors: those of the store, Unsupported (no control is known).
+Result<std::vector<storage::ProgramSummary>> RemoteRequestHandler::programs() const {
+  auto all = parts_.store.programs.list({.limit = kMaxPrograms});
+  if (!all) return all;
+  std::vector<storage::ProgramSummary> offered;
+  for (auto& program : *all) {
+    auto revision = parts_.releases.offered(program, parts_.machine);
+    if (!revision) continue;
+    program.latest = *std::move(revision);
+    offered.push_back(std::move(program));
+  }
+  return offered;
+}
+
 Result<void> RemoteRequestHandler::list_offers() {
   const SteadyTime now = parts_.clock.steady_now();
   const auto silence = now - std::exchange(asked_at_, now);
@@ -281,7 +298,7 @@ Result<void> RemoteRequestHandler::list_offers() {
     return fail(Errc::Unsupported, "machine '{}' has no control: no program can be offered to it",
                 parts_.machine);
   }
-  const auto programs = parts_.store.programs.list({.limit = kMaxPrograms});
+  const auto programs = this->programs();
   if (!programs) return fail(programs.error());
   offers_ = numbered_programs(*programs, control);
   next_offer_ = 0;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "server/library/control_catalog.hpp"
+#include "server/library/releases.hpp"
 #include "server/ports/line_machines.hpp"
 #include "server/ports/line_records.hpp"
 #include "server/ports/requests/rule_set.hpp"
@@ -27,6 +28,7 @@ class RemoteRequestHandler {
 
   struct Parts {
     const storage::Store& store;
+    library::Releases& releases;
     LineMachines& machines;
     const LineDirectory& directory;
     const Clock& clock;
@@ -60,6 +62,8 @@ class RemoteRequestHandler {
   void send_next();
   Result<void> check_last_run() const;
   Result<void> list_offers();
+  /// The library's programs, each with the revision that this machine gets as its latest.
+  Result<std::vector<storage::ProgramSummary>> programs() const;
   /// `refusal`: what the control has a message of its own for.
   void refuse(const std::string& why, bool is_request,
               library::Refusal refusal = library::Refusal::None) const;

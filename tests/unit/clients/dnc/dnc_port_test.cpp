@@ -296,6 +296,40 @@ TEST_F(DncPort, ShowsWhatWaitsForAcceptanceAndJudgesIt) {
   EXPECT_EQ(dnc({"program", "reject", "O1", "4"}).status, 1);
 }
 
+TEST_F(DncPort, TakesARevisionThroughItsStates) {
+  const std::string path = "/api/v1/programs/O1/revisions/2/";
+  auto revision = test_support::revision_json("O1", "program", 2, "two\n");
+  for (const std::string step : {"submit", "approve", "release", "withdraw", "reject"}) {
+    revision["state"] = step == "submit" ? "in_review" : "approved";
+    server.set_answer("POST " + path + step, revision);
+    const auto done = dnc({"program", step, "O1", "2", "--comment", "because"});
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_TRUE(done.out.starts_with(step == "submit" ? "O1 revision 2 is in review, sha256 "
+                                                      : "O1 revision 2 is approved, sha256 "))
+        << done.out;
+    EXPECT_EQ(server.calls().back(), "POST " + path + step + " {\"comment\":\"because\"}");
+  }
+  server.set_answer("GET " + path + "states", json{{"state", "in_review"},
+                                                   {"public_key", std::string(64, 'a')},
+                                                   {"steps",
+                                                    {{{"id", 7},
+                                                      {"step", "submit"},
+                                                      {"state", "in_review"},
+                                                      {"time", "2026-11-21T07:40:06.123456Z"},
+                                                      {"who", "anna"},
+                                                      {"comment", "deeper \u001b[31mgroove"},
+                                                      {"text", "step submit\n"},
+                                                      {"signature", std::string(128, 'b')}}}}});
+  const auto shown = dnc({"program", "states", "O1", "2"});
+  EXPECT_EQ(shown.status, 0) << shown.err;
+  EXPECT_NE(shown.out.find("O1 revision 2 is in review"), std::string::npos);
+  EXPECT_NE(shown.out.find("anna"), std::string::npos);
+  EXPECT_EQ(shown.out.find('\x1b'), std::string::npos) << "a comment moves no cursor";
+  const auto listed = dnc({"program", "states", "O1", "2", "--json"});
+  EXPECT_NE(listed.out.find(std::string(128, 'b')), std::string::npos) << listed.out;
+  EXPECT_EQ(dnc({"program", "submit", "O1", "3"}).status, 1);
+}
+
 json transfer_json(const std::string& state, std::uint64_t sent, const json& reason) {
   return {{"id", "transfer-1"}, {"programs", {"O1 revision 2", "O2 revision 1"}},
           {"size", 640},        {"sent", sent},

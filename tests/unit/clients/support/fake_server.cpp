@@ -138,6 +138,7 @@ class FakeServer::Impl {
     server_.Post(ports, give);
     server_.Delete(ports, give);
     server_.Post(R"(/api/v1/programs/.*)", give);
+    server_.Get(R"(/api/v1/programs/[^/]+/revisions/.*)", give);
     const std::string setups = R"(/api/v1/machines/[\w-]+/setups?)";
     server_.Get(setups, give);
     server_.Put(setups, give);

@@ -18,7 +18,10 @@ json revision_json(const std::string& program, const std::string& name_key, std:
           {"author", "test"},
           {"created", "2026-11-21T07:40:06.123456Z"},
           {"held", false},
-          {"accepted", nullptr}};
+          {"accepted", nullptr},
+          {"state", "draft"},
+          {"released", nullptr},
+          {"withdrawn", nullptr}};
 }
 
 json machine_json(const std::string& name) {
@@ -91,7 +94,9 @@ json run_json(const std::string& id, const std::string& state) {
           {"started", "2026-11-21T07:40:01Z"},
           {"ended", state == "completed" ? json("2026-11-21T07:41:06Z") : json(nullptr)},
           {"outputs", 3},
-          {"setup", nullptr}};
+          {"setup", nullptr},
+          {"allowed_as", "open"},
+          {"approval", nullptr}};
 }
 
 }  // namespace dripline::test_support

@@ -31,8 +31,10 @@ class ApiTest : public ServerTest {
   }
 
   void make_api(ports::PortControl* ports) {
-    paths_ = std::make_unique<paths::ProgramPaths>(*store_, clock_);
+    paths_ = std::make_unique<paths::ProgramPaths>(
+        machines::RunSources{.store = *store_, .releases = *releases_, .clock = clock_});
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
+                                                    .releases = *releases_,
                                                     .setups = *setups_,
                                                     .machines = machines_,
                                                     .runs = *runs_,

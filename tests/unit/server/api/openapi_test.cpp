@@ -184,6 +184,16 @@ class OpenApi : public ApiTest {
                      call("POST", "/api/v1/programs/O3/revisions/1/accept"));
     expect_described("POST", path + "reject",
                      call("POST", "/api/v1/programs/O3/revisions/2/reject"));
+    // Accepted, it is a draft like any other.
+    const Call comment{.body = R"({"comment":"why"})", .headers = {}};
+    for (const std::string step :
+         {"submit", "approve", "reject", "submit", "approve", "release", "withdraw"}) {
+      const auto decided = call("POST", "/api/v1/programs/O3/revisions/1/" + step, comment);
+      EXPECT_EQ(decided.status, 200) << step << decided.body;
+      expect_described("POST", path + step, decided);
+    }
+    expect_described("GET", path + "states", get("/api/v1/programs/O3/revisions/1/states"));
+    expect_described("GET", "/api/v1/release-policy", get("/api/v1/release-policy"));
   }
 
   Json document_;

@@ -8,6 +8,7 @@
 #include "server/library/audit_trail.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/programs.hpp"
+#include "server/library/releases.hpp"
 #include "server/library/run_history.hpp"
 #include "server/library/setups.hpp"
 #include "storage/sqlite_store.hpp"
@@ -50,6 +51,7 @@ class ServerTest : public testing::Test {
 
   void reopen() {
     setups_.reset();
+    releases_.reset();
     runs_.reset();
     programs_.reset();
     audit_.reset();
@@ -61,6 +63,19 @@ class ServerTest : public testing::Test {
     programs_ = std::make_unique<library::Programs>(*store_, clock_, catalog_, *audit_);
     runs_ = std::make_unique<library::RunHistory>(*store_);
     setups_ = std::make_unique<library::Setups>(store_->setups, catalog_, *audit_);
+    use_policy("");
+  }
+  /// The policy's text, from now on.
+  void use_policy(const std::string& toml) {
+    auto policy = library::ReleasePolicy::parse(toml);
+    ASSERT_TRUE(policy) << policy.error().what;
+    releases_ = std::make_unique<library::Releases>(
+        library::Releases::Parts{.decisions = store_->releases,
+                                 .programs = store_->programs,
+                                 .clock = clock_,
+                                 .key = SigningKey::of(std::string(64, '7')).value(),
+                                 .database = store_->identity().value()},
+        *std::move(policy));
   }
 
   std::string begin(const std::string& program, const std::string& control = "centurion") {
@@ -110,6 +125,7 @@ class ServerTest : public testing::Test {
   std::unique_ptr<library::Programs> programs_;
   std::unique_ptr<library::RunHistory> runs_;
   std::unique_ptr<library::Setups> setups_;
+  std::unique_ptr<library::Releases> releases_;
 };
 
 }  // namespace dripline::server_test

@@ -5,6 +5,7 @@
 
 #include "server/app/settings.hpp"
 #include "server/library/control_catalog.hpp"
+#include "server/library/release_policy.hpp"
 #include "server/ports/port_settings.hpp"
 #include "server/ports/requests/rule_reader.hpp"
 
@@ -30,6 +31,13 @@ TEST(Examples, PortsAreTakenByTheServersSettingsAndFitTheirTemplates) {
     EXPECT_TRUE(rules) << port.name << ": " << rules.error().what;
   }
   EXPECT_EQ(wire::short_form(ports::effective_settings(settings.ports[1]).value()), "9600e71");
+}
+
+TEST(Examples, ThePolicyIsTaken) {
+  const auto policy = library::ReleasePolicy::parse(read("deploy/examples/policy.toml"));
+  ASSERT_TRUE(policy) << policy.error().what;
+  EXPECT_TRUE(policy->runs_released_only);
+  EXPECT_TRUE(policy->rule(storage::RevisionStep::Approve).needs_four_eyes);
 }
 
 TEST(Examples, BaudOfAPortOverridesItsLine) {

@@ -30,8 +30,9 @@ class MachineServiceTest : public ServerTest {
         .on_machine = [this](const machines::MachineView& view) { keep(machines_, view); },
         .on_run = [this](const storage::Run& run) { keep(runs_, run); },
         .on_record = [this](const storage::Record& record) { keep(records_, record); }};
-    service_ =
-        std::make_unique<machines::MachineService>(store, clock_, options, std::move(listener));
+    service_ = std::make_unique<machines::MachineService>(
+        machines::RunSources{.store = store, .releases = *releases_, .clock = clock_}, options,
+        std::move(listener));
     network_ = service_->handlers();
     auto begun = service_->begin(std::make_unique<test_support::FakeServerEndpoint>(written_));
     ASSERT_TRUE(begun) << begun.error().what;

@@ -33,7 +33,8 @@ class PathsTest : public server_test::ServerTest {
     return reader ? read(**reader) : DecodedPath();
   }
 
-  ProgramPaths paths_{*store_, clock_};
+  ProgramPaths paths_{
+      machines::RunSources{.store = *store_, .releases = *releases_, .clock = clock_}};
 };
 
 TEST_F(PathsTest, AProgramBecomesPointsBetweenBeginAndEnd) {

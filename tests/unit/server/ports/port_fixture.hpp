@@ -42,8 +42,9 @@ class PortServiceTest : public ServerTest {
                                              const std::lock_guard lock(notified_mutex_);
                                              records_.push_back(record);
                                            }};
-    ports_ = std::make_unique<ports::PortService>(store, *programs_, system_clock_, options,
-                                                  std::move(listener));
+    ports_ = std::make_unique<ports::PortService>(
+        machines::RunSources{.store = store, .releases = *releases_, .clock = system_clock_},
+        *programs_, options, std::move(listener));
     const auto begun = ports_->begin(configured);
     ASSERT_TRUE(begun) << begun.error().what;
   }

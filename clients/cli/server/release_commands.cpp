@@ -1,0 +1,118 @@
+#include "clients/cli/server/release_commands.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "clients/cli/text/standard_output.hpp"
+#include "clients/cli/text/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+using DecisionCommand = client::Client::DecisionRequest;
+
+int print_decided(Context& context, const client::Reply<client::Revision>& revision) {
+  if (!revision) return complain(revision.error());
+  context.print(fmt::format("{} revision {} is {}, sha256 {}\n", revision->program,
+                            revision->revision, state_text(revision->state),
+                            short_id(revision->sha256)));
+  return kExitOk;
+}
+
+int submit(Context& context, client::Client& client, const DecisionCommand& command) {
+  return print_decided(context, client.decide("submit", command));
+}
+int approve(Context& context, client::Client& client, const DecisionCommand& command) {
+  return print_decided(context, client.decide("approve", command));
+}
+int release(Context& context, client::Client& client, const DecisionCommand& command) {
+  return print_decided(context, client.decide("release", command));
+}
+int withdraw(Context& context, client::Client& client, const DecisionCommand& command) {
+  return print_decided(context, client.decide("withdraw", command));
+}
+
+int reject(Context& context, client::Client& client, const DecisionCommand& command) {
+  const auto rejected = client.reject_revision(command);
+  if (!rejected) return complain(rejected.error());
+  if (*rejected) return print_decided(context, client::Reply<client::Revision>(**rejected));
+  context.print(fmt::format("Rejected {} revision {}; it is hidden and will never run.\n",
+                            command.program, command.revision));
+  return kExitOk;
+}
+
+int states(Context& context, client::Client& client, const DecisionCommand& command) {
+  auto found = client.revision_states(command.program, command.revision);
+  if (const auto status = finished(context, found)) return *status;
+  context.print(fmt::format("{} revision {} is {}\n", printable(command.program), command.revision,
+                            state_text(found->state)));
+  if (found->steps.empty()) return kExitOk;
+  Table table({right("STEP"), "WHAT", "TIME", "WHO", "COMMENT"});
+  for (const auto& step : found->steps) {
+    table.add({std::to_string(step.id), printable(step.step), time_text(step.time),
+               printable(step.who), printable(step.comment)});
+  }
+  context.print("\n");
+  context.print(table);
+  return kExitOk;
+}
+
+using Action = int (*)(Context&, client::Client&, const DecisionCommand&);
+struct Verb {
+  const char* name;
+  const char* help;
+  Action action;
+  const char* footer;
+};
+
+constexpr std::array kVerbs{
+    Verb{"submit", "Submit a draft for review", submit,
+         "A pushed revision is a draft. The server's policy decides which steps there are, who may "
+         "take them, and whether\nmachines run released revisions only.\n\nExample:\n  dnc program "
+         "submit O0200 3 --comment \"deeper groove\""},
+    Verb{"approve", "Approve a revision that is in review", approve,
+         "Where the policy asks for four eyes, not by who pushed the text.\n\nExample:\n  dnc "
+         "program approve O0200 3"},
+    Verb{"reject", "Reject a revision: hide a pending one, make another a draft again", reject,
+         "A program that an operator sent from a control is pending approval: rejected, it is "
+         "hidden permanently.\nOne that is in review or approved becomes a draft.\n\nExample:\n  "
+         "dnc program reject O0200 3 --comment \"wrong offset\""},
+    Verb{"release", "Release an approved revision", release,
+         "Under the policy release, machines run released revisions only; a run names the step "
+         "that released it.\n\nExample:\n  dnc program release O0200 3"},
+    Verb{"withdraw", "Withdraw a revision; it never runs again", withdraw,
+         "A run that has begun keeps it to its end.\n\nExample:\n  dnc program withdraw O0200 2 "
+         "--comment \"cuts into the chuck\""},
+};
+
+void add_revision_options(Command command, const std::shared_ptr<DecisionCommand>& options) {
+  command.add_option("NAME", options->program, "The program").required();
+  command.add_option("REV", options->revision, "Its revision").required();
+}
+
+}  // namespace
+
+std::string state_text(const std::string& state) {
+  std::string text = printable(state);
+  std::ranges::replace(text, '_', ' ');
+  return text;
+}
+
+void add_release_commands(Command group, Context& context) {
+  for (const Verb& verb : kVerbs) {
+    auto command = group.add_subcommand(verb.name, verb.help);
+    auto options = std::make_shared<DecisionCommand>();
+    add_revision_options(command, options);
+    command.add_option("--comment", options->comment, "State why; kept with the decision");
+    command.footer(verb.footer);
+    run_at_server(command, context, options, verb.action);
+  }
+  auto command = group.add_subcommand("states", "Show what was decided about a revision");
+  auto options = std::make_shared<DecisionCommand>();
+  add_revision_options(command, options);
+  add_json_flag(command, context);
+  command.footer("--json has the signed texts, their Ed25519 signatures and the server's key.");
+  run_at_server(command, context, options, states);
+}
+
+}  // namespace dripline::cli

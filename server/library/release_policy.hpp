@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "protocol/base/digest.hpp"
+#include "storage/account_store.hpp"
+#include "storage/revision_state.hpp"
+
+namespace dripline::library {
+
+/// From which states a step may be taken, and by whom.
+struct StepRule {
+  std::set<storage::RevisionState> from;
+  storage::Role role = storage::Role::Approver;  ///< at least
+  bool needs_four_eyes = false;                  ///< not by who pushed these bytes
+  bool needs_comment = false;
+};
+
+/// What machines may run, and how a revision becomes that. A value. Its file:
+///
+///     runs = "release"              # released revisions only; "open" (the default): what is
+///     pushed [prove_out] machines = ["mill-3"]         # these run drafts too, when a person role
+///     = "programmer"           # of at least this role starts them [approve]                     #
+///     and likewise submit, reject, release, withdraw from = ["in_review"] role = "approver"
+///     four_eyes = true
+///     comment = true
+struct ReleasePolicy {
+  bool runs_released_only = false;
+  std::set<std::string> prove_out_machines;
+  storage::Role prove_out_role = storage::Role::Programmer;
+  std::array<StepRule, storage::kRevisionSteps> rules;
+  Digest digest;  ///< of the text it was read from
+
+  const StepRule& rule(storage::RevisionStep step) const {
+    return rules.at(static_cast<std::size_t>(step));
+  }
+
+  /// An empty text is the default. Errors: Syntax (also an unknown key, a state from which the step
+  /// makes no sense, a role below the one that the API asks for); they name key and line.
+  static Result<ReleasePolicy> parse(std::string_view toml);
+};
+
+}  // namespace dripline::library

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+#include "protocol/base/signature.hpp"
+#include "server/library/release_policy.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::library {
+
+/// What is signed of a decision: everything that was stored of it, and the database it is in.
+std::string decision_text(const storage::Decision& decision, const std::string& database);
+
+/// Decides which revision a machine gets, and takes revisions through their states. Every decision
+/// is signed with the server's key, and a run of a released revision begins only when all of them
+/// verify. Whatever opens a program for a machine asks here: starts, restarts, requests from
+/// controls, transfers, and the programs that a run calls. Any thread.
+class Releases {
+ public:
+  struct Parts {
+    storage::ReleaseStore& decisions;
+    storage::ProgramStore& programs;
+    const Clock& clock;
+    SigningKey key;
+    std::string database;  ///< its identity
+  };
+  Releases(Parts parts, ReleasePolicy policy)
+      : parts_(std::move(parts)), policy_(std::move(policy)) {}
+  const ReleasePolicy& policy() const { return policy_; }
+  const PublicKey& public_key() const { return parts_.key.public_key(); }
+
+  struct Request {
+    std::string program;
+    std::uint64_t revision = 0;
+    storage::RevisionStep step = storage::RevisionStep::Submit;
+    std::string comment;
+    storage::Actor who;
+    storage::Role role = storage::Role::Viewer;
+  };
+  /// Errors: NotFound, Denied (the role, four eyes), Conflict (not from this state, held), Syntax
+  /// (no comment), LimitExceeded (its length).
+  Result<storage::Revision> decide(const Request& request);
+  /// What is signed of it.
+  std::string text_of(const storage::Decision& decision) const {
+    return decision_text(decision, parts_.database);
+  }
+  /// Oldest first. Errors: NotFound.
+  Result<std::vector<storage::Decision>> decisions(const std::string& program,
+                                                   std::uint64_t revision) {
+    return parts_.decisions.decisions(program, revision);
+  }
+
+  struct Wish {
+    std::string machine, program;
+    std::optional<std::uint64_t> revision = {};  ///< absent: the latest that the machine may run
+    storage::Role role = storage::Role::Viewer;  ///< of who asks; a control has none
+  };
+  struct Admission {
+    storage::Revision revision;
+    storage::RunAllowance allowed_as = storage::RunAllowance::Open;
+    std::optional<std::uint64_t> approval = {};  ///< the decision that released it
+  };
+  /// Errors: NotFound, Conflict (nothing of it may run there: its state is named), Corrupt (a
+  /// decision is not signed by this server).
+  Result<Admission> admit(const Wish& wish);
+  /// What a request from the machine's control gets of a program; absent: nothing of it.
+  std::optional<storage::Revision> offered(const storage::ProgramSummary& program,
+                                           const std::string& machine);
+  /// Whether a run may call this revision. Judged as of the run's beginning, so that a run keeps
+  /// what it began with.
+  static bool may_call(const storage::Revision& revision, const storage::Run& run);
+  /// Errors: Corrupt.
+  Result<void> check_call(const storage::Revision& revision, const storage::Run& run);
+
+  static constexpr std::size_t kMaxComment = 1024;
+
+ private:
+  bool proves_out(const Wish& wish) const;
+  Result<storage::Revision> wanted(const Wish& wish);
+  Result<storage::Decision> verify(const storage::Revision& revision);
+
+  Parts parts_;
+  const ReleasePolicy policy_;
+};
+
+}  // namespace dripline::library

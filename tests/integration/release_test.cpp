@@ -1,0 +1,81 @@
+// A revision on its way to a machine with the real programs: two people, one policy, one lathe.
+#include <gtest/gtest.h>
+#include <fstream>
+
+#include "tests/integration/system.hpp"
+
+namespace dripline::integration {
+namespace {
+
+using test_support::Finished;
+
+class Release : public testing::Test {
+ protected:
+  Release() {
+    const auto policy = system.folder() / "policy.toml";
+    std::ofstream(policy) << "runs = \"release\"\n[approve]\nfour_eyes = true\n";
+    system.add_server_argument("--policy");
+    system.add_server_argument(policy.string());
+    system.start_server();
+    for (const std::string name : {"anna", "bert"}) {
+      good(admin("user add " + name + " --role approver --group all"));
+      const auto made = admin("token add t --user " + name + " 2>/dev/null");
+      std::ofstream(system.folder() / name) << made.output;
+    }
+  }
+  Finished run_shell(const std::string& command) {
+    return test_support::run_to_end({"/bin/sh", "-c", command}, system.folder() / "dnc.out");
+  }
+  Finished admin(const std::string& arguments) {
+    return run_shell(program_path("dnc") + " --state " + system.server_state().string() + " " +
+                     arguments);
+  }
+  Finished as(const std::string& name, const std::string& arguments) {
+    return run_shell(program_path("dnc") + " --server " + system.url() + " --token-file " +
+                     (system.folder() / name).string() + " " + arguments);
+  }
+  static void good(const Finished& done) { EXPECT_EQ(done.status, 0) << done.output; }
+  static void refused(const Finished& done, const std::string& part) {
+    EXPECT_NE(done.status, 0) << done.output;
+    EXPECT_NE(done.output.find(part), std::string::npos) << done.output;
+  }
+
+  System system;
+};
+
+TEST_F(Release, TakesTwoPeopleAndOutlivesARestartOfTheServer) {
+  system.start_gateway();
+  system.wait_connected();
+  const auto file = system.folder() / "O1";
+  std::ofstream(file) << "G00 X1.\nM30\n";
+  good(as("anna", "program push " + file.string() + " --name O1 --control centurion"));
+  refused(as("anna", "run start lathe-1 O1"), "is draft");
+  good(as("anna", "program submit O1 1"));
+  refused(as("anna", "program approve O1 1"), "asks for another");
+  good(as("bert", "program approve O1 1"));
+  refused(as("bert", "run start lathe-1 O1"), "is approved");
+  good(as("bert", "program release O1 1 --comment first"));
+  system.server().signal(15);
+  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);
+  system.start_server();
+  system.wait_connected();
+  const auto started = as("anna", "run start lathe-1 O1 --json");
+  ASSERT_EQ(started.status, 0) << started.output;
+  const auto run = system.wait_ended(nlohmann::json::parse(started.output)["id"]);
+  EXPECT_EQ(run["state"], "completed");
+  EXPECT_EQ(run["allowed_as"], "released");
+  EXPECT_EQ(run["approval"], 3);
+  good(as("bert", "program withdraw O1 1"));
+  refused(as("anna", "run start lathe-1 O1"), "is withdrawn");
+}
+
+TEST_F(Release, APolicyThatIsNotUnderstoodKeepsTheServerFromStarting) {
+  system.server().signal(15);
+  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);
+  std::ofstream(system.folder() / "policy.toml") << "runs = \"realease\"\n";
+  system.launch_server();
+  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 2);
+}
+
+}  // namespace
+}  // namespace dripline::integration
