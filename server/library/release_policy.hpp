@@ -19,14 +19,12 @@ struct StepRule {
   bool needs_comment = false;
 };
 
-/// What machines may run, and how a revision becomes that. A value. Its file:
-///
-///     runs = "release"              # released revisions only; "open" (the default): what is
-///     pushed [prove_out] machines = ["mill-3"]         # these run drafts too, when a person role
-///     = "programmer"           # of at least this role starts them [approve]                     #
-///     and likewise submit, reject, release, withdraw from = ["in_review"] role = "approver"
-///     four_eyes = true
-///     comment = true
+/// What machines may run, and how a revision becomes that. A value. Its keys:
+/// - `runs`: "release" (released revisions only) or "open" (the default: what is pushed).
+/// - `[prove_out]`: `machines` run drafts too, when a person of at least `role` starts them.
+/// - `[submit]`, `[approve]`, `[reject]`, `[release]`, `[withdraw]`: `from` (states), `role`,
+///   `four_eyes`, `comment`.
+/// An example with all of them: deploy/examples/policy.toml.
 struct ReleasePolicy {
   bool runs_released_only = false;
   std::set<std::string> prove_out_machines;

@@ -111,8 +111,9 @@ Result<storage::Revision> Releases::wanted(const Wish& wish) {
   return parts_.programs.revision(wish.program, found->number);
 }
 
-/// The decision that released it. All decisions about it must be this server's.
-Result<storage::Decision> Releases::verify(const storage::Revision& revision) {
+/// The decision that released it, for a run that began at `moment`. All decisions about it must be
+/// this server's.
+Result<storage::Decision> Releases::verify(const storage::Revision& revision, UtcTime moment) {
   const auto decisions = parts_.decisions.decisions(revision.program, revision.number);
   if (!decisions) return fail(decisions.error());
   for (const auto& decision : *decisions) {
@@ -128,11 +129,25 @@ Result<storage::Decision> Releases::verify(const storage::Revision& revision) {
   }
   const auto release =
       std::ranges::find(*decisions, storage::RevisionStep::Release, &storage::Decision::step);
-  if (release != decisions->end()) return *release;
-  return fail(Errc::Corrupt,
-              "program {} revision {} is released, but nobody's decision says so: the database was "
-              "changed",
-              revision.program, revision.number);
+  const auto withdrawal =
+      std::ranges::find(*decisions, storage::RevisionStep::Withdraw, &storage::Decision::step);
+  if (release == decisions->end()) {
+    return fail(Errc::Corrupt,
+                "program {} revision {} is released, but no decision released it: the database was "
+                "changed",
+                revision.program, revision.number);
+  }
+  if (withdrawal != decisions->end() && withdrawal->time <= moment) {
+    return fail(Errc::Corrupt,
+                "program {} revision {} is released, but decision {} withdrew it: the database was "
+                "changed",
+                revision.program, revision.number, withdrawal->id);
+  }
+  if (release->program == revision.program) return *release;
+  return fail(Errc::Conflict,
+              "program {} revision {} was released as {}: rename it back, or copy it and release "
+              "the copy",
+              revision.program, revision.number, release->program);
 }
 
 Result<Releases::Admission> Releases::admit(const Wish& wish) {
@@ -143,7 +158,7 @@ Result<Releases::Admission> Releases::admit(const Wish& wish) {
   if (revision->state == RevisionState::Withdrawn) return fail(Errc::Conflict, "{}", what);
   if (!policy_.runs_released_only) return Admission{*std::move(revision)};
   if (revision->state == RevisionState::Released) {
-    const auto approval = verify(*revision);
+    const auto approval = verify(*revision, UtcTime::max());
     if (!approval) return fail(approval.error());
     return Admission{*std::move(revision), RunAllowance::Released, approval->id};
   }
@@ -175,7 +190,7 @@ bool Releases::may_call(const storage::Revision& revision, const storage::Run& r
 
 Result<void> Releases::check_call(const storage::Revision& revision, const storage::Run& run) {
   if (run.allowed_as != RunAllowance::Released) return {};
-  const auto approval = verify(revision);
+  const auto approval = verify(revision, run.created);
   if (!approval) return fail(approval.error());
   if (approval->time <= run.created) return {};
   return fail(Errc::Corrupt,

@@ -64,8 +64,9 @@ class Releases {
     storage::RunAllowance allowed_as = storage::RunAllowance::Open;
     std::optional<std::uint64_t> approval = {};  ///< the decision that released it
   };
-  /// Errors: NotFound, Conflict (nothing of it may run there: its state is named), Corrupt (a
-  /// decision is not signed by this server).
+  /// Errors: NotFound, Conflict (nothing of it may run there: its state is named; it was released
+  /// under another name), Corrupt (a decision is not signed by this server, or they contradict the
+  /// state).
   Result<Admission> admit(const Wish& wish);
   /// What a request from the machine's control gets of a program; absent: nothing of it.
   std::optional<storage::Revision> offered(const storage::ProgramSummary& program,
@@ -73,7 +74,7 @@ class Releases {
   /// Whether a run may call this revision. Judged as of the run's beginning, so that a run keeps
   /// what it began with.
   static bool may_call(const storage::Revision& revision, const storage::Run& run);
-  /// Errors: Corrupt.
+  /// Errors: Corrupt, Conflict (released under another name).
   Result<void> check_call(const storage::Revision& revision, const storage::Run& run);
 
   static constexpr std::size_t kMaxComment = 1024;
@@ -81,7 +82,7 @@ class Releases {
  private:
   bool proves_out(const Wish& wish) const;
   Result<storage::Revision> wanted(const Wish& wish);
-  Result<storage::Decision> verify(const storage::Revision& revision);
+  Result<storage::Decision> verify(const storage::Revision& revision, UtcTime moment);
 
   Parts parts_;
   const ReleasePolicy policy_;

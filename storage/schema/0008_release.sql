@@ -21,7 +21,7 @@ CREATE TABLE revision_step (
   address    TEXT NOT NULL,
   comment    TEXT NOT NULL,
   policy     BLOB NOT NULL CHECK (length(policy) = 32),     -- SHA-256 of the policy's text that was in force
-  signature  BLOB NOT NULL CHECK (length(signature) = 64),  -- Ed25519, by the server (server/library/release_statement.hpp)
+  signature  BLOB NOT NULL CHECK (length(signature) = 64),  -- Ed25519, by the server (server/library/releases.hpp)
   FOREIGN KEY (program, revision) REFERENCES revision (program, number)
 ) STRICT;
 CREATE INDEX revision_step_by_revision ON revision_step (program, revision, id);

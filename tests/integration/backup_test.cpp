@@ -2,6 +2,7 @@
 // DRIPLINE_KILLS changes how often (20 by default).
 #include <gtest/gtest.h>
 #include <cstdlib>
+#include <fstream>
 #include <random>
 #include <thread>
 
@@ -20,6 +21,13 @@ std::string report_program(std::uint64_t lines) {
   std::string text;
   test_support::write_report_program(lines, 3, [&](std::string_view piece) { text += piece; });
   return text;
+}
+
+std::string first_line(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
 }
 
 class BackupOfAServer : public testing::Test {
@@ -90,6 +98,28 @@ TEST_F(BackupOfAServer, BringsTheShopBackOnAnotherDisk) {
     return system.rest().get("/api/v1/machines/lathe-1").json()["status"].value("outbox", 99u);
   };
   EXPECT_TRUE(eventually([&] { return waiting() == 0; })) << waiting();
+}
+
+/// What was released before the loss still runs, and the key stays its owner's alone.
+TEST_F(BackupOfAServer, KeepsTheKeyThatDecisionsAreSignedWith) {
+  const auto key = [&] { return system.server_state() / "signing.key"; };
+  const std::string seed = first_line(key());
+  const auto revision = "/api/v1/programs/O0300/revisions/1/";
+  for (const std::string step : {"submit", "approve", "release"})
+    EXPECT_EQ(system.rest().post(revision + step, json::object()).status, 200) << step;
+  back_up();
+  const auto policy = system.folder() / "policy.toml";
+  std::ofstream(policy) << "runs = \"release\"\n";
+  system.add_server_argument("--policy");
+  system.add_server_argument(policy.string());
+  restore_newest();
+  EXPECT_EQ(first_line(key()), seed);
+  using enum std::filesystem::perms;
+  EXPECT_EQ(std::filesystem::status(key()).permissions(), owner_read | owner_write);
+  system.wait_connected();
+  const json run = system.wait_ended(system.start_run("O0300"));
+  EXPECT_EQ(run["allowed_as"], "released");
+  EXPECT_EQ(run["approval"], 3);
 }
 
 TEST_F(BackupOfAServer, IsMadeWhileARunGoesOn) {

@@ -57,32 +57,37 @@ int states(Context& context, client::Client& client, const DecisionCommand& comm
   return kExitOk;
 }
 
-using Action = int (*)(Context&, client::Client&, const DecisionCommand&);
-struct Verb {
+using DecisionAction = int (*)(Context&, client::Client&, const DecisionCommand&);
+struct DecisionVerb {
   const char* name;
   const char* help;
-  Action action;
+  DecisionAction action;
   const char* footer;
 };
 
-constexpr std::array kVerbs{
-    Verb{"submit", "Submit a draft for review", submit,
-         "A pushed revision is a draft. The server's policy decides which steps there are, who may "
-         "take them, and whether\nmachines run released revisions only.\n\nExample:\n  dnc program "
-         "submit O0200 3 --comment \"deeper groove\""},
-    Verb{"approve", "Approve a revision that is in review", approve,
-         "Where the policy asks for four eyes, not by who pushed the text.\n\nExample:\n  dnc "
-         "program approve O0200 3"},
-    Verb{"reject", "Reject a revision: hide a pending one, make another a draft again", reject,
-         "A program that an operator sent from a control is pending approval: rejected, it is "
-         "hidden permanently.\nOne that is in review or approved becomes a draft.\n\nExample:\n  "
-         "dnc program reject O0200 3 --comment \"wrong offset\""},
-    Verb{"release", "Release an approved revision", release,
-         "Under the policy release, machines run released revisions only; a run names the step "
-         "that released it.\n\nExample:\n  dnc program release O0200 3"},
-    Verb{"withdraw", "Withdraw a revision; it never runs again", withdraw,
-         "A run that has begun keeps it to its end.\n\nExample:\n  dnc program withdraw O0200 2 "
-         "--comment \"cuts into the chuck\""},
+constexpr std::array kDecisionVerbs{
+    DecisionVerb{
+        "submit", "Submit a draft for review", submit,
+        "A pushed revision is a draft. The server's policy decides which steps there are, who may "
+        "take them, and whether\nmachines run released revisions only.\n\nExample:\n  dnc program "
+        "submit O0200 3 --comment \"deeper groove\""},
+    DecisionVerb{
+        "approve", "Approve a revision that is in review", approve,
+        "Where the policy asks for four eyes, not by who pushed the text.\n\nExample:\n  dnc "
+        "program approve O0200 3"},
+    DecisionVerb{
+        "reject", "Reject a revision: hide a pending one, make another a draft again", reject,
+        "A program that an operator sent from a control is pending approval: rejected, it is "
+        "hidden permanently.\nOne that is in review or approved becomes a draft.\n\nExample:\n  "
+        "dnc program reject O0200 3 --comment \"wrong offset\""},
+    DecisionVerb{
+        "release", "Release an approved revision", release,
+        "Under the policy release, machines run released revisions only; a run names the step "
+        "that released it.\n\nExample:\n  dnc program release O0200 3"},
+    DecisionVerb{
+        "withdraw", "Withdraw a revision; it never runs again", withdraw,
+        "A run that has begun keeps it to its end.\n\nExample:\n  dnc program withdraw O0200 2 "
+        "--comment \"cuts into the chuck\""},
 };
 
 void add_revision_options(Command command, const std::shared_ptr<DecisionCommand>& options) {
@@ -99,7 +104,7 @@ std::string state_text(const std::string& state) {
 }
 
 void add_release_commands(Command group, Context& context) {
-  for (const Verb& verb : kVerbs) {
+  for (const DecisionVerb& verb : kDecisionVerbs) {
     auto command = group.add_subcommand(verb.name, verb.help);
     auto options = std::make_shared<DecisionCommand>();
     add_revision_options(command, options);

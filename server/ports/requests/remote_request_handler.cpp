@@ -274,7 +274,6 @@ Result<void> RemoteRequestHandler::check_last_run() const {
               (*run)->id, (*run)->program);
 }
 
-/// Those of this asking sequence. Errors: those of the store, Unsupported (no control is known).
 Result<std::vector<storage::ProgramSummary>> RemoteRequestHandler::programs() const {
   auto all = parts_.store.programs.list({.limit = kMaxPrograms});
   if (!all) return all;
@@ -288,6 +287,7 @@ Result<std::vector<storage::ProgramSummary>> RemoteRequestHandler::programs() co
   return offered;
 }
 
+/// Those of this asking sequence. Errors: those of the store, Unsupported (no control is known).
 Result<void> RemoteRequestHandler::list_offers() {
   const SteadyTime now = parts_.clock.steady_now();
   const auto silence = now - std::exchange(asked_at_, now);

@@ -229,7 +229,7 @@ CREATE TABLE revision_step (
   address    TEXT NOT NULL,
   comment    TEXT NOT NULL,
   policy     BLOB NOT NULL CHECK (length(policy) = 32),     -- SHA-256 of the policy's text that was in force
-  signature  BLOB NOT NULL CHECK (length(signature) = 64),  -- Ed25519, by the server (server/library/release_statement.hpp)
+  signature  BLOB NOT NULL CHECK (length(signature) = 64),  -- Ed25519, by the server (server/library/releases.hpp)
   FOREIGN KEY (program, revision) REFERENCES revision (program, number)
 ) STRICT;
 INSERT INTO revision_step VALUES(1,1,1,'p.nc',X'82fd126da9155a17a769ba10a60e7fa955e96af4fb37dca49e5dbe7d1468d450','withdraw',1700000000000011,'anna','dashboard','192.0.2.7','scrap',X'0000000000000000000000000000000000000000000000000000000000000000',X'00000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000');

@@ -153,6 +153,8 @@ TEST_P(TamperedRelease, DoesNotRun) {
   use_policy("runs = \"release\"");
   release("P", "M2\n");
   push("P", "M3\n");
+  release("P", "M4\n");
+  decide("P", 3, RevisionStep::Withdraw);
   ASSERT_TRUE(admit("P"));
   change(GetParam().sql);
   const auto admitted = admit("P");
@@ -178,12 +180,23 @@ INSTANTIATE_TEST_SUITE_P(
         Tampering{"step", "UPDATE revision_step SET step = 'approve' WHERE step = 'submit'"},
         Tampering{"policy", "UPDATE revision_step SET policy = zeroblob(32)"},
         Tampering{"signature", "UPDATE revision_step SET signature = zeroblob(64)"},
+        Tampering{"withdrawal_undone",
+                  "UPDATE revision SET state = 'released', withdrawn_us = NULL WHERE number = 3"},
         Tampering{"release_removed", "DELETE FROM revision_step WHERE step = 'release'"},
         Tampering{"other_bytes",
                   "UPDATE revision SET sha256 = (SELECT sha256 FROM revision WHERE "
                   "number = 2), content = (SELECT content FROM revision WHERE "
                   "number = 2) WHERE number = 1"}),
     [](const auto& i) { return std::string(i.param.name); });
+
+TEST_F(ReleasesTest, AnotherNameIsNotWhatWasReleased) {
+  use_policy("runs = \"release\"");
+  release("P", "M2\n");
+  ASSERT_TRUE(programs_->rename({.from = "P", .to = "Q", .who = "cam"}));
+  EXPECT_EQ(admit("Q").error().code, Errc::Conflict);
+  ASSERT_TRUE(programs_->rename({.from = "Q", .to = "P", .who = "cam"}));
+  EXPECT_TRUE(admit("P"));
+}
 
 TEST_F(ReleasesTest, AnotherServersKeyReleasesNothingHere) {
   use_policy("runs = \"release\"");
