@@ -133,6 +133,7 @@ struct OfflineRun::Parts {
   StopGate gate;
   offline_parts::SetupAnswers answers;
   std::unique_ptr<Interpreter> interpreter;
+  std::vector<AskedQuestion> asked;
   bool has_ended = false;
 };
 
@@ -155,6 +156,9 @@ Result<bool> OfflineRun::Parts::step(std::uint64_t max_blocks) {
                 interpreter->origin().line);
   }
   if (state == StepState::NeedsAnswer) {
+    const std::size_t kind = interpreter->question().index();
+    if (std::ranges::find(asked, kind, &AskedQuestion::kind) == asked.end())
+      asked.push_back({kind, interpreter->origin()});
     if (auto answered = offline_parts::answer_question(*interpreter, answers); !answered) {
       return fail(answered.error());
     }
@@ -189,7 +193,8 @@ OfflineOutcome OfflineRun::outcome() const {
           .blocks = parts_->interpreter->blocks(),
           .warnings = parts_->diagnostics.warnings,
           .alarm = parts_->diagnostics.alarm,
-          .alarm_program = parts_->diagnostics.program};
+          .alarm_program = parts_->diagnostics.program,
+          .asked = parts_->asked};
 }
 
 Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "gateway/interpreter/registry.hpp"
 #include "gateway/interpreter/stages/event_filter.hpp"
@@ -50,6 +51,12 @@ struct OfflineLimits {
   std::optional<StopPoint> stop = {};  ///< the run ends after that block
 };
 
+/// A kind of question that a run was asked, as the index of its alternative of `Question`.
+struct AskedQuestion {
+  std::size_t kind = 0;
+  Origin origin;  ///< of the first one
+};
+
 struct OfflineOutcome {
   bool ended = false;  ///< the end of the program was reached; otherwise `alarm` has the reason
   bool has_stopped = false;  ///< or the run met the limits' stop point
@@ -57,6 +64,7 @@ struct OfflineOutcome {
   std::uint64_t warnings = 0;
   std::optional<Diagnostic> alarm;
   ProgramIndex alarm_program = kMainProgram;  ///< whose line the alarm names
+  std::vector<AskedQuestion> asked = {};      ///< each kind once, in their order
 };
 
 /// Runs a program to its end as fast as it goes, and answers its questions from the setup: probes

@@ -1,0 +1,291 @@
+#include "clients/tools/comparison/motion_comparison.hpp"
+
+#include <gtest/gtest.h>
+#include <random>
+#include <set>
+
+#include "clients/tools/offline/trace_writer.hpp"
+#include "tests/golden/golden_case.hpp"
+
+namespace dripline::comparison {
+namespace {
+
+using interpreter::MemorySource;
+
+struct Text {
+  std::string_view control;
+  std::string text;
+};
+
+const interpreter::Dialect& dialect(std::string_view control) {
+  const auto found = interpreter::find_dialect(control);
+  EXPECT_TRUE(found);
+  return **found;
+}
+
+MotionResult compare(const Text& a, const Text& b, MotionOptions options = {},
+                     const interpreter::Setup& setup = {}) {
+  MemorySource first(a.text), second(b.text);
+  const auto result = compare_motion({dialect(a.control), setup, first},
+                                     {dialect(b.control), setup, second}, options);
+  EXPECT_TRUE(result) << result.error().what;
+  return result ? *result : MotionResult{};
+}
+MotionResult compare_fanuc(const std::string& a, const std::string& b, MotionOptions options = {}) {
+  return compare({"fanuc", a}, {"fanuc", b}, options);
+}
+
+std::vector<std::string> words_of(const MotionResult& result) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < kDifferenceCount; ++i) {
+    if (result.counts[i] > 0) words.emplace_back(word_of(static_cast<Difference>(i)));
+  }
+  return words;
+}
+using Words = std::vector<std::string>;
+
+const std::string kPart = "G21 G90\nG0 X0 Y0 Z5.\nS1000 M3\nG1 Z-1. F100\nX10.\nY10.\nM5\nM30\n";
+
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+TEST(MotionComparison, AnotherTextOfTheSameMovesIsTheSameMotion) {
+  const auto result =
+      compare_fanuc(kPart,
+                    "(A)\nG21 G90\nG0 X0 Y0 Z5.0\nS1000\nM3\nG91 G1 Z-6. F100\nX10.\nY10.\n"
+                    "M5\nM30\n");
+  EXPECT_TRUE(result.is_unconditional())
+      << (result.places.empty() ? "" : result.places[0].first_text);
+  EXPECT_EQ(result.first_actions, result.second_actions);
+}
+
+TEST(MotionComparison, AChangedCoordinateIsAPathWithBothLines) {
+  const auto result = compare_fanuc(kPart, "(A)\n" + replaced(kPart, "X10.\n", "X10.5\n"));
+  EXPECT_FALSE(result.is_same);
+  ASSERT_EQ(result.places.size(), 2u);  // the move to it, and the one from it
+  EXPECT_EQ(words_of(result), Words{"path"});
+  EXPECT_EQ(result.places[0].first.line, 5u);
+  EXPECT_EQ(result.places[0].second.line, 6u);
+  EXPECT_NEAR(result.places[0].distance, 0.5, 1e-9);
+  EXPECT_NEAR(result.max_distance, 0.5, 1e-9);
+}
+
+struct OneChange {
+  std::string_view name, from, to;
+  std::string expected;
+};
+class MotionDifference : public testing::TestWithParam<OneChange> {};
+TEST_P(MotionDifference, IsNamed) {
+  const auto result = compare_fanuc(kPart, replaced(kPart, GetParam().from, GetParam().to));
+  EXPECT_EQ(words_of(result), Words{GetParam().expected});
+  ASSERT_FALSE(result.places.empty());
+  EXPECT_NE(result.places[0].first_text + result.places[0].second_text, "");
+}
+INSTANTIATE_TEST_SUITE_P(
+    , MotionDifference,
+    testing::Values(
+        OneChange{"feed", "F100", "F120", "feed"}, OneChange{"speed", "S1000", "S900", "speed"},
+        OneChange{"spindle", "M3", "M4", "speed"}, OneChange{"tool", "M5", "T2 M6\nM5", "tool"},
+        OneChange{"coolant", "M5", "M8\nM5", "coolant"},
+        OneChange{"dwell", "M5", "G4 X1.\nM5", "dwell"}, OneChange{"stop", "M5", "M0\nM5", "stop"},
+        OneChange{"function", "M5", "M77\nM5", "function"},
+        OneChange{"exact_stop", "X10.\n", "G9 X10.\n", "exact_stop"},
+        OneChange{"output", "M5", "POPEN\nDPRNT[X]\nM5", "output"},
+        OneChange{"a_move_more", "M5", "X3.\nM5", "path"},
+        OneChange{"order", "X10.\nY10.\nM5\n", "X10.\nM5\nY10.\n", "order"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(MotionComparison, APathWithinTheToleranceIsTheSame) {
+  const std::string other = replaced(kPart, "X10.\n", "X10.001\n");
+  EXPECT_TRUE(compare_fanuc(kPart, other, {.tolerance = 0.0011}).is_same);
+  EXPECT_FALSE(compare_fanuc(kPart, other, {.tolerance = 0.0009}).is_same);
+}
+
+TEST(MotionComparison, AnArcByItsRadiusIsTheArcByItsCenter) {
+  const std::string a = "G21\nG0 X0 Y0\nG2 X10. Y10. I10. J0 F100\nM30\n";
+  EXPECT_TRUE(compare_fanuc(a, replaced(a, "I10. J0", "R10.")).is_unconditional());
+  EXPECT_FALSE(compare_fanuc(a, replaced(a, "I10. J0", "R10.5")).is_same);
+  EXPECT_FALSE(compare_fanuc(a, replaced(a, "I10. J0", "R-10.")).is_same);
+  EXPECT_FALSE(compare_fanuc(a, replaced(a, "G2 X10. Y10. I10. J0", "G1 X10. Y10.")).is_same);
+}
+
+TEST(MotionComparison, AMoveSplitInTwoIsADifference) {
+  EXPECT_FALSE(compare_fanuc(kPart, replaced(kPart, "X10.\n", "X5.\nX10.\n")).is_same);
+}
+
+TEST(MotionComparison, ARapidForAFeedIsAPath) {
+  EXPECT_EQ(words_of(compare_fanuc(kPart, replaced(kPart, "X10.\n", "G0 X10.\nG1\n"))).front(),
+            "path");
+}
+
+/// One contour with an arc, written for three controls.
+TEST(MotionComparison, HoldsAcrossControls) {
+  const Text plain{"tnc155",
+                   "0 BEGIN PGM 1 MM\n1 TOOL DEF 1 L+0 R+0\n2 TOOL CALL 1 Z S1000\n"
+                   "3 L X+0 Y+0 Z+50 R0 F9999 M3\n4 L X+0 Y+0 Z-1 R0 F100 M\n"
+                   "5 L X+10 R0 F M\n6 CC X+10 Y+10\n7 C X+20 Y+10 DR+ R0 F M\n8 END PGM 1 MM\n"};
+  const Text ngc{"rs274ngc",
+                 "G21 G90 G94 G17\nT1 M6\nS1000 M3\nG1 X0 Y0 Z50 F9999\nZ-1 F100\n"
+                 "X10\nG3 X20 Y10 I0 J10\nM2\n"};
+  const auto result = compare(plain, ngc);
+  for (const auto& place : result.places)
+    ADD_FAILURE() << place.first.line << " " << place.first_text << " / " << place.second.line
+                  << " " << place.second_text;
+  EXPECT_TRUE(result.is_same);
+  EXPECT_TRUE(result.across_controls);
+}
+
+TEST(MotionComparison, WhatDependsOnTheMachineIsACondition) {
+  const std::string ask = "G21\nG0 X1.\nG31 Z-5. F10\nM30\n";
+  auto result = compare_fanuc(ask, "(A)\n" + ask);
+  EXPECT_TRUE(result.is_same);
+  EXPECT_FALSE(result.is_unconditional());
+  ASSERT_FALSE(result.conditions.empty());
+  EXPECT_EQ(word_of(result.conditions[0].kind), "probe");
+  EXPECT_EQ(result.conditions[0].place.line, 3u);
+
+  result = compare_fanuc("G21\nG0 X#500\nM30\n", "G21\nG0 X#500 (A)\nM30\n");
+  ASSERT_EQ(result.conditions.size(), 2u);
+  EXPECT_EQ(result.conditions[0].text, "#500");
+  EXPECT_TRUE(result.conditions[1].is_second);
+}
+
+TEST(MotionComparison, AVariableThatTheProgramHasSetIsNoCondition) {
+  const std::string text =
+      "O0100\nG21\n#1=5.\nG0 X[#1+1.]\nWHILE[#1 GT 1]DO1\n#1=#1-1\nEND1\nM30\n";
+  const auto result = compare_fanuc(text, text);
+  EXPECT_TRUE(result.is_unconditional())
+      << (result.conditions.empty() ? "" : result.conditions[0].text);
+}
+
+TEST(MotionComparison, AnAlarmIsNeverTheSameWithoutSayingSo) {
+  const std::string bad = "G21\nG0 X1.\nG1 X2.\nM30\n";  // no feed
+  auto result = compare_fanuc(bad, bad);
+  EXPECT_TRUE(result.is_same);
+  EXPECT_FALSE(result.is_unconditional());
+  result = compare_fanuc(bad, replaced(bad, "G1 X2.", "G1 X2. F9"));
+  EXPECT_FALSE(result.is_same);
+  EXPECT_TRUE(result.differences.has(Difference::Alarm));
+}
+
+TEST(MotionComparison, MovesPutInAreOnePlaceAndTheRestIsCompared) {
+  std::string a = "G21 G90\nG1 F100\n", b = a;
+  for (int i = 0; i < 9000; ++i)
+    a += "X" + std::to_string(i % 777) + ". Y" + std::to_string(i) + ".\n";
+  b = a;
+  std::string more;
+  for (int i = 0; i < 5000; ++i) more += "Z" + std::to_string(i + 1) + ".\n";
+  const auto middle = b.find("X400. Y400.");
+  b.insert(middle, more + "Z0\n");
+  b = replaced(b, "Y8000.", "Y8000.5");
+  const auto result = compare_fanuc(a, b);
+  ASSERT_EQ(result.place_count, 3u);
+  EXPECT_GE(result.places[0].second_actions, 5000u);
+  EXPECT_NEAR(result.places[1].distance, 0.5, 1e-9);
+}
+
+TEST(MotionComparison, AProgramMovedAsAWholeIsCountedAndKeptBounded) {
+  std::string a = "G21 G90\nG1 F100\n", b;
+  for (int i = 0; i < 100'000; ++i)
+    a += "X" + std::to_string(i % 777) + "." + std::to_string(i % 7) + "\n";
+  b = "G52 X1.\n" + a;
+  const auto result = compare_fanuc(a, b, {.max_places = 10});
+  EXPECT_FALSE(result.is_same);
+  EXPECT_EQ(result.places.size(), 10u);
+}
+
+TEST(MotionComparison, EveryGoldenProgramIsTheSameMotionAsItself) {
+  int compared = 0;
+  for (const auto& golden : interpreter::golden_cases()) {
+    const auto found = interpreter::find_dialect(golden.control);
+    if (!found) continue;  // cases of other things than programs
+    const auto setup = setup_of(golden, **found);
+    const std::string text = golden.program();
+    MemorySource first(text, loader_of(golden)), second(text, loader_of(golden));
+    const auto result = compare_motion({**found, setup, first}, {**found, setup, second});
+    ASSERT_TRUE(result) << golden.file;
+    EXPECT_TRUE(result->is_same) << golden.file;
+    const bool has_alarm = verdict_of(golden).has_value();
+    EXPECT_FALSE(has_alarm && result->is_unconditional()) << golden.file;
+    ++compared;
+  }
+  EXPECT_GT(compared, 700);
+}
+
+/// The actions of a trace: all but what does not move the machine.
+std::string actions_of(const interpreter::GoldenCase& golden, const interpreter::Dialect& control,
+                       const std::string& text) {
+  MemorySource source(text, loader_of(golden));
+  std::string trace;
+  const auto setup = setup_of(golden, control);
+  {
+    interpreter::TraceWriter writer([&](std::string_view lines) { trace += lines; }, setup.start);
+    if (!interpreter::run_offline(control, setup, source, writer,
+                                  {.max_blocks = 100'000, .max_repeated_blocks = 10'000}))
+      return {};
+  }
+  std::string kept;
+  for (std::size_t at = 0; at < trace.size();) {
+    const std::size_t end = trace.find('\n', at) + 1;
+    const std::string_view line(trace.data() + at, end - at);
+    const bool is_move =
+        line.starts_with("{\"event\":\"rapid\"") || line.starts_with("{\"event\":\"feed\"") ||
+        line.starts_with("{\"event\":\"arc\"") || line.starts_with("{\"event\":\"thread\"");
+    if (is_move) kept += line;
+    at = end;
+  }
+  return kept;
+}
+
+/// Places of digits in words of axes.
+std::vector<std::size_t> axis_digits(const std::string& text) {
+  std::vector<std::size_t> places;
+  bool in_word = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (std::string_view("XYZABCUVWIJKR").find(c) != std::string_view::npos)
+      in_word = true;
+    else if (in_word && c >= '0' && c <= '9')
+      places.push_back(i);
+    else if (std::string_view("+-. ").find(c) == std::string_view::npos)
+      in_word = false;
+  }
+  return places;
+}
+
+TEST(MotionComparison, AChangedNumberThatMovesIsNeverTheSameMotion) {
+  std::mt19937 random(20'240'117);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same tries each time
+  const auto cases = interpreter::golden_cases();
+  int changed = 0, moved = 0;
+  for (int tries = 0; changed < 1000 && tries < 20'000; ++tries) {
+    const auto& golden = cases[random() % cases.size()];
+    const auto found = interpreter::find_dialect(golden.control);
+    if (!found) continue;
+    const std::string text = golden.program();
+    const auto places = axis_digits(text);
+    if (places.empty()) continue;
+    std::string other = text;
+    char& digit = other[places[random() % places.size()]];
+    digit = static_cast<char>('0' + (digit - '0' + 1 + static_cast<int>(random() % 9)) % 10);
+    const std::string before = actions_of(golden, **found, text);
+    const std::string after = actions_of(golden, **found, other);
+    if (before.empty() || after.empty()) continue;
+    ++changed;
+    if (before == after) continue;
+    ++moved;
+    const auto setup = setup_of(golden, **found);
+    MemorySource first(text, loader_of(golden)), second(other, loader_of(golden));
+    const auto result = compare_motion({**found, setup, first}, {**found, setup, second},
+                                       {.tolerance = 0, .max_blocks = 100'000});
+    ASSERT_TRUE(result) << golden.file;
+    EXPECT_FALSE(result->is_same) << golden.file << "\n" << other;
+  }
+  EXPECT_EQ(changed, 1000);
+  EXPECT_GT(moved, 600);
+}
+
+}  // namespace
+}  // namespace dripline::comparison
