@@ -93,6 +93,7 @@ void add_token_commands(Command app, Context& context);
 void add_group_commands(Command app, Context& context);
 void add_check_command(Command app, Context& context);
 void add_trace_command(Command app, Context& context);
+void add_diff_command(Command app, Context& context);
 void add_edit_command(Command app, Context& context);
 void add_approximate_command(Command app, Context& context);
 void add_forecast_command(Command app, Context& context);

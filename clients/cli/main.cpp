@@ -28,6 +28,7 @@ Examples:
   dnc --server https://dnc.shop:8443 --ca shop-ca.pem --token-file ~/.dnc-token machine list
   dnc check shaft.nc
   dnc trace --control centurion --setup lathe.toml shaft.nc
+  dnc diff --motion shaft.nc shaft-new.nc
   dnc convert shaft.ptp -o shaft.nc
   dnc edit 15.h --delete 5..7
 
@@ -103,6 +104,7 @@ int run(int argc, char** argv) {
   add_group_commands(dnc, context);
   add_check_command(dnc, context);
   add_trace_command(dnc, context);
+  add_diff_command(dnc, context);
   add_edit_command(dnc, context);
   add_forecast_command(dnc, context);
   add_touch_command(dnc, context);
