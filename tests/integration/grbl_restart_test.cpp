@@ -126,5 +126,43 @@ TEST_F(GrblRestart, CutsThePathOfAnUndisturbedRun) {
   EXPECT_EQ(restarts, kills());
 }
 
+/// The second restart continues the first one's run, and knows what that has done.
+TEST_F(GrblRestart, OfARestartContinuesWhereThatWasCutOff) {
+  const auto kill = [&](const std::string&) {
+    system->gateway().kill();
+    EXPECT_TRUE(eventually([&] { return rests(); }));
+    start_gateway();
+  };
+  auto cut = cut_off(kill);
+  ASSERT_EQ(cut.value("state", ""), "interrupted") << cut.dump();
+  const auto done_before = path().size();
+  std::string refusal, again;
+  ASSERT_TRUE(eventually([&] {
+    const auto reply = system->rest().post("/api/v1/runs/" + cut.value("id", "") + "/restart",
+                                           nlohmann::json::object());
+    refusal = reply.body;
+    if (reply.status == 201) again = reply.json().value("id", "");
+    return reply.status == 201;
+  })) << refusal;
+  EXPECT_EQ(report_of(again)["after"]["block"], done_before + 1);
+  command(again, "resume");
+  ASSERT_TRUE(eventually([&] { return path().size() > done_before + 20; }));
+  kill(again);
+  cut = system->wait_ended(again);
+  EXPECT_EQ(cut.value("state", ""), "interrupted") << cut.dump();
+  // The approach is not part of the path: what counts is where the axes are.
+  const auto at = board->with([](GrblBoard& peer) { return peer.position()[0]; });
+  EXPECT_EQ(cut.value("executed", std::size_t{0}), static_cast<std::size_t>(at + 0.005) + 1)
+      << cut.dump();
+  board->with([&](GrblBoard& peer) {
+    peer.done.clear();
+    for (int x = 1; x <= static_cast<int>(at + 0.005); ++x) {
+      peer.done.emplace_back();
+      peer.done.back().at[0] = x;
+    }
+  });
+  restart(cut);
+}
+
 }  // namespace
 }  // namespace dripline::integration
