@@ -249,6 +249,17 @@ class LinuxCncPrograms : public LinuxCncTest {
   }
 };
 
+/// Whether one sample that is 0.05 mm beside its place is noticed: along an axis, of which the path
+/// may go along one, and by chance pass on another.
+bool notices_a_twentieth(const Path& path, const std::vector<LinuxCnc::Sample>& samples) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    auto changed = samples;
+    changed[samples.size() / 2].at[axis] += 0.05;
+    if (!path.difference(changed).empty()) return true;
+  }
+  return false;
+}
+
 TEST_F(LinuxCncPrograms, AreOnePathForBothInterpreters) {
   LinuxCncItself itself(linuxcnc->ini());
   int executed = 0;
@@ -266,8 +277,7 @@ TEST_F(LinuxCncPrograms, AreOnePathForBothInterpreters) {
     EXPECT_EQ(path.difference(samples), "") << "LinuxCNC by itself";
     EXPECT_EQ(path.difference(path_of([&] { run(text); })), "") << "our interpreter";
     ++executed;
-    for (double& at : samples[samples.size() / 2].at) at += 0.05;
-    EXPECT_NE(path.difference(samples), "") << "a twentieth of a millimeter is seen";
+    EXPECT_TRUE(notices_a_twentieth(path, samples));
     samples.resize(samples.size() / 2);
     EXPECT_NE(path.difference(samples), "") << "and half a program";
   }
