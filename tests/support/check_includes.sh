@@ -6,13 +6,14 @@ cd "$(dirname "$0")/../.."
 # folder (longest prefix wins): folders it may include
 table='
 protocol/base: protocol/base
+protocol/audit: protocol/base protocol/audit
 protocol/wire: protocol/base protocol/wire
 protocol/process: protocol/base protocol/process
 protocol/serial: protocol/base protocol/wire protocol/serial
 protocol/dds: protocol/base protocol/dds
 storage/sqlite: protocol/base storage/sqlite
 storage/backup: protocol/base storage
-storage: protocol/base storage
+storage: protocol/base protocol/audit storage
 gateway/interpreter/core: protocol/base gateway/interpreter/core
 gateway/interpreter/stages: protocol/base gateway/interpreter/core gateway/interpreter/stages
 gateway/interpreter/dialects/centurion: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/centurion
@@ -30,7 +31,7 @@ gateway/machine/grbl: protocol/base protocol/wire protocol/serial gateway/interp
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite
-server/library: protocol/base protocol/process storage gateway/interpreter server/library
+server/library: protocol/base protocol/audit protocol/process storage gateway/interpreter server/library
 server/identity: protocol/base protocol/process storage server/library server/identity
 server/machines: protocol storage gateway/interpreter server/library server/machines
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
@@ -40,7 +41,7 @@ server/web: protocol/base server/api server/web
 server/app: protocol storage server
 clients/lib: protocol/base clients/lib
 clients/tools: protocol/base protocol/wire gateway/interpreter clients/tools
-clients/cli: protocol/base protocol/wire protocol/serial gateway/interpreter clients
+clients/cli: protocol/base protocol/audit protocol/wire protocol/serial gateway/interpreter clients
 '
 declare -A allowed_by
 while IFS=: read -r row folders; do
