@@ -8,37 +8,6 @@
 
 namespace dripline::storage {
 
-Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry) {
-  return sqlite::run(
-      database,
-      "INSERT INTO audit (time_us, who, action, subject, detail, credential, address) "
-      "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
-      entry.time, entry.who.name, entry.action, entry.subject, entry.detail, entry.who.credential,
-      entry.who.address);
-}
-
-Result<void> AuditRepository::add(const AuditEntry& entry) {
-  return connections_.write([&](sqlite::Database& database) { return add_audit(database, entry); });
-}
-
-Result<std::vector<AuditEntry>> AuditRepository::list(Page page) {
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(
-        database,
-        "SELECT time_us, who, action, subject, detail, credential, address FROM audit "
-        "ORDER BY id DESC "
-        "LIMIT ?1 OFFSET ?2",
-        [](const sqlite::Statement& row) {
-          return AuditEntry{row.time(0),
-                            {row.text(1), row.text(5), row.text(6)},
-                            row.text(2),
-                            row.text(3),
-                            row.text(4)};
-        },
-        page.limit, page.offset);
-  });
-}
-
 namespace {
 
 const std::string kSelect =
@@ -328,7 +297,7 @@ Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,
   if (!is_finished(ending.state)) {
     return fail(Errc::Syntax, "run {}: {} is not an end", ending.run, to_string(ending.state));
   }
-  return sqlite::run(
+  const auto ended = sqlite::run(
       database,
       "UPDATE run SET state = ?2, sent = max(sent, ?3), accepted = max(accepted, ?4), "
       "executed = max(executed, ?5), line = ?6, sequence = ?7, reason = ?8, "
@@ -338,6 +307,8 @@ Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,
       ending.run, to_string(ending.state), ending.counters.sent, ending.counters.accepted,
       ending.counters.executed, ending.line, ending.sequence, ending.reason,
       ending.executed_content, ending.content_verified, ending.ended, machine);
+  if (!ended || database.changes() == 0) return ended;
+  return add_run_end(database, ending.run);
 }
 
 Result<void> add_outputs(sqlite::Database& database, std::int64_t machine,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "storage/audit_store.hpp"
+#include "storage/impl/audit_repository.hpp"
 #include "storage/impl/connections.hpp"
 #include "storage/machine_store.hpp"
 #include "storage/port_store.hpp"
@@ -12,20 +12,6 @@
 /// The repositories without a state of their own; each has a .cpp with its SQL. Thread-safe.
 
 namespace dripline::storage {
-
-/// Inside the caller's transaction.
-Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry);
-
-class AuditRepository final : public AuditStore {
- public:
-  explicit AuditRepository(Connections& connections) : connections_(connections) {}
-
-  Result<void> add(const AuditEntry& entry) override;
-  Result<std::vector<AuditEntry>> list(Page page) override;
-
- private:
-  Connections& connections_;
-};
 
 /// Inside the caller's transaction: the machine's row id, made when it is new (a gateway's records
 /// may come before its announcement). Errors: Syntax and LimitExceeded for a new name.

@@ -169,7 +169,8 @@ Result<void> RunRepository::create(const Run& run) {
     if (!is_finished(run.state)) {
       if (auto idle = check_idle(database, *machine, run.machine); !idle) return idle;
     }
-    return insert_run(database, run, {*machine, *program});
+    auto inserted = insert_run(database, run, {*machine, *program});
+    return inserted ? add_run_end(database, run.id) : inserted;
   });
 }
 
@@ -232,10 +233,12 @@ Result<void> RunRepository::set_state(const std::string& id, RunState state,
                          "WHERE id = ?1 AND state = 'ordered'",
                          id, clock_.now());
     }
-    return sqlite::run(database,
-                       "UPDATE run SET state = ?2, reason = ?3, "
-                       "ended_us = max(?4, coalesce(started_us, created_us)) WHERE id = ?1",
-                       id, to_string(state), reason, clock_.now());
+    const auto ended =
+        sqlite::run(database,
+                    "UPDATE run SET state = ?2, reason = ?3, "
+                    "ended_us = max(?4, coalesce(started_us, created_us)) WHERE id = ?1",
+                    id, to_string(state), reason, clock_.now());
+    return ended ? add_run_end(database, id) : ended;
   });
 }
 

@@ -6,15 +6,19 @@ function(dripline_embed_schema OUTPUT)
     math(EXPR version "${version} + 1")
     get_filename_component(name ${file} NAME_WE)
     file(READ ${CMAKE_CURRENT_SOURCE_DIR}/${file} sql)
-    string(APPEND rows "    {${version}, \"${name}\", R\"schema(${sql})schema\"},\n")
+    string(APPEND rows "    {${version}, \"${name}\", R\"schema(${sql})schema\", step_after(${version})},\n")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
   endforeach()
   file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 // Generated from storage/schema/*.sql.
-#include "storage/impl/connections.hpp"
+#include "storage/impl/audit_repository.hpp"
 
 namespace dripline::storage {
 namespace {
+
+constexpr auto step_after(int version) {
+  return version == 9 ? &begin_chain : nullptr;
+}
 
 constexpr sqlite::Migration kMigrations[] = {
 @rows@};

@@ -74,6 +74,12 @@ Result<void> apply(Database& database, const Migration& migration) {
     return fail(done.error().code, "migration {} of {}: {}", migration.name, database.file(),
                 done.error().what);
   }
+  if (migration.then != nullptr) {
+    if (auto done = migration.then(database); !done) {
+      return fail(done.error().code, "migration {} of {}: {}", migration.name, database.file(),
+                  done.error().what);
+    }
+  }
   if (auto done = database.execute(fmt::format("PRAGMA user_version = {}", migration.version));
       !done) {
     return done;

@@ -44,6 +44,8 @@ struct Migration {
   std::uint32_t version = 0;  ///< 1, 2, 3 ... without gaps
   std::string_view name;
   std::string_view sql;
+  /// What SQL alone cannot do, after it and in the same transaction; null: nothing.
+  Result<void> (*then)(Database& database) = nullptr;
 };
 
 /// Brings the file to the newest version: each step in one transaction together with its

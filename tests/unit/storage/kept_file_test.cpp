@@ -1,6 +1,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "protocol/audit/verifier.hpp"
 #include "storage/sqlite/database.hpp"
 #include "tests/unit/storage/store_fixture.hpp"
 
@@ -52,7 +53,7 @@ TEST_P(KeptFile, KeepsEverythingInIt) {
   ASSERT_EQ(records->size(), 3u);
   EXPECT_EQ(records->at(1).text, "X2");
   EXPECT_EQ(store_->machines.find("m1")->last_record, 3u);
-  EXPECT_EQ(store_->audit.list({})->at(0).action, "push");
+  EXPECT_EQ(store_->audit.list({})->back().action, "push");
 }
 
 TEST_P(KeptFile, CanBeGoneOnWith) {
@@ -97,7 +98,7 @@ TEST_P(KeptFile, HasAccountsSinceVersion7) {
   EXPECT_EQ(accounts->users.size(), has_them ? 3u : 0u);
   EXPECT_EQ(accounts->credentials.size(), has_them ? 2u : 0u);
   EXPECT_EQ(accounts->groups.at(0).name, kAllMachines) << "always there";
-  EXPECT_EQ(store_->audit.list({})->at(0).who.address, "");
+  EXPECT_EQ(store_->audit.list({})->back().who.address, "");
   if (!has_them) return;
   const User& anna = accounts->users.at(1);
   EXPECT_EQ(anna.role, Role::Operator);
@@ -120,9 +121,25 @@ TEST_P(KeptFile, HasStatesOfRevisionsSinceVersion8) {
   EXPECT_EQ(decisions->front().comment, "scrap");
 }
 
+/// What was there before version 9 is chained when the file becomes one.
+TEST_P(KeptFile, HasAChainOfItsEntriesAndRuns) {
+  reopen();
+  const auto entries = store_->audit.chained(0, 100);
+  ASSERT_TRUE(entries) << entries.error().what;
+  ASSERT_EQ(entries->size(), 2u);
+  EXPECT_EQ(entries->at(1).entry.action, "run.end");
+  EXPECT_EQ(entries->at(1).run_fault, "");
+  EXPECT_EQ(store_->audit.run_without_end().value(), std::nullopt);
+  audit::Verifier verifier(store_->identity().value(), {});
+  for (const auto& chained : *entries) verifier.take(chained.entry, chained.digest);
+  EXPECT_FALSE(verifier.first_fault()) << verifier.first_fault()->what;
+  const bool has_checkpoint = std::string_view(GetParam()) >= "v9.sql";
+  EXPECT_EQ(store_->audit.checkpoints(0, 10)->size(), has_checkpoint ? 1u : 0u);
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
-                                         "v7.sql", "v8.sql"),
+                                         "v7.sql", "v8.sql", "v9.sql"),
                          [](const auto& i) { return std::string(i.param, 2); });
 
 }  // namespace
