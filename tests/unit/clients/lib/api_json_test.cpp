@@ -105,15 +105,16 @@ TEST(ApiJson, ReadsAHistory) {
   const auto json = nlohmann::json::parse(
       R"({"name":"p","revision":1,"size":4,"sha256":"ab","control":null,"comment":null,"title":null,
           "author":null,"created":"t","held":false,"accepted":null,"held_revisions":1,
-          "revisions":[{"program":"p","revision":1,"size":4,
+          "state":"released","released":"t","withdrawn":null,"revisions":[{"program":"p","revision":1,"size":4,
           "sha256":"ab","control":null,"comment":"c","title":"FLANGE","author":null,"created":"t",
-          "held":true,"accepted":"u"}]})");
+          "held":true,"accepted":"u","state":"draft","released":null,"withdrawn":null}]})");
   const auto history = from_json<ProgramHistory>(json);
   ASSERT_TRUE(history) << history.error().what;
   EXPECT_EQ(history->program.revisions, 1u);
   EXPECT_EQ(history->revisions.at(0).comment, "c");
   EXPECT_TRUE(history->revisions.at(0).held);
   EXPECT_EQ(history->program.held_revisions, 1u);
+  EXPECT_EQ(history->program.state, "released");
   EXPECT_EQ(nlohmann::json(to_json_value(*history)), json);
 }
 
