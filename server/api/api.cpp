@@ -14,6 +14,7 @@ Api::Api(Services services)
                .ports = services_.ports,
                .has_tls = services_.has_tls}) {
   add_server_routes(router_, services_);
+  add_audit_routes(router_, services_);
   add_program_routes(router_, services_);
   add_release_routes(router_, services_);
   add_upload_routes(router_, services_);

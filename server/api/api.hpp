@@ -13,6 +13,7 @@
 #include "server/api/request_times.hpp"
 #include "server/api/router.hpp"
 #include "server/identity/accounts.hpp"
+#include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
 #include "server/library/health.hpp"
@@ -43,6 +44,7 @@ struct Services {
   library::RunHistory& runs;
   paths::ProgramPaths& paths;
   library::AuditTrail& audit;
+  library::AuditChain& chain;
   identity::Accounts& accounts;
   EventHub& events;
   const Clock& clock;
@@ -101,6 +103,7 @@ std::string_view openapi_text();
 // The handlers, a file for each kind of resource. `services` must outlive the router.
 
 void add_server_routes(Router& router, Services& services);
+void add_audit_routes(Router& router, Services& services);
 void add_program_routes(Router& router, Services& services);
 void add_release_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);

@@ -73,6 +73,20 @@ void add_backups(MetricsText& out, const library::Backups::State& state) {
             seconds(known.back().made));
 }
 
+/// Nothing before the trail was verified once.
+void add_audit(MetricsText& out, const library::AuditChain::State& state) {
+  if (state.verification) {
+    out.gauge("dripline_audit_chain_ok", "1: the audit trail is as it was written.",
+              number(!state.verification->fault));
+    out.gauge("dripline_audit_entries", "Entries of the audit trail.",
+              static_cast<double>(state.verification->entries));
+  }
+  if (state.checkpoint) {
+    out.gauge("dripline_audit_checkpoint_timestamp_seconds",
+              "When the audit trail was signed last.", seconds(state.checkpoint->time));
+  }
+}
+
 /// One family after the other, as the format demands, so the machines are gone through for each.
 void add_machines(MetricsText& out, const std::vector<MachineView>& views) {
   const auto each = [&](std::string_view name, std::string_view help, auto&& value) {
@@ -158,6 +172,7 @@ Response list_metrics(Services& services, const RequestTimes& times, const Reque
               seconds(*services.facts.certificate_expires));
   }
   if (services.backups != nullptr) add_backups(out, services.backups->state());
+  add_audit(out, services.chain.state());
   add_disk(out, services.facts.data_dir);
   add_process(out);
 

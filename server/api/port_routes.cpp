@@ -187,9 +187,22 @@ Response test_port(Services& services, ports::PortControl& ports, const Request&
 Response send_programs(Services& services, ports::PortControl& ports, const Request& request) {
   const auto programs = decode_transfer(request.body);
   if (!programs) return error_response(programs.error());
+  std::vector<std::string> names;
+  for (const auto& choice : *programs) {
+    names.push_back(choice.revision ? fmt::format("{}@{}", choice.program, *choice.revision)
+                                    : choice.program);
+  }
+  auto written = services.audit.write_before({.who = request.who,
+                                              .action = "port.send",
+                                              .subject = request.parameter("name"),
+                                              .detail = fmt::format("{}", fmt::join(names, ", "))});
+  if (!written) return error_response(written.error());
   const auto transfer = ports.send(request.parameter("name"), *programs);
-  if (!transfer) return error_response(transfer.error());
-  note(services, request, "port.send",
+  if (!transfer) {
+    note(services, request, "port.send", "refused: " + transfer.error().what);
+    return error_response(transfer.error());
+  }
+  note(services, request, "port.sending",
        fmt::format("{}: {} bytes", fmt::join(transfer->programs, ", "), transfer->size));
   return json_response(201, transfer_json(*transfer));
 }

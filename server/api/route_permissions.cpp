@@ -15,6 +15,9 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/openapi.json", Open},
     RoutePermission{"GET", "/api/v1/server", View},
     RoutePermission{"GET", "/api/v1/audit", Approve},
+    RoutePermission{"GET", "/api/v1/audit/export", Approve},
+    RoutePermission{"GET", "/api/v1/audit/verification", Approve},
+    RoutePermission{"POST", "/api/v1/audit/verification", Approve},
     RoutePermission{"GET", "/api/v1/events", View},
     RoutePermission{"GET", "/api/v1/metrics", View},
 

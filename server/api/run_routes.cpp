@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "protocol/dds/endpoint.hpp"
 #include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
 #include "server/api/views.hpp"
@@ -89,13 +90,15 @@ Response start_run(Services& services, const Request& request) {
   if (!start) return error_response(start.error());
   start->author = request.who.name;
   start->role = request.caller->role;
+  start->before = [&audit = services.audit, who = request.who](const storage::Run& run) {
+    return audit.write_before(
+        {.who = who,
+         .action = "run.start",
+         .subject = run.id,
+         .detail = fmt::format("{} revision {} on {}", run.program, run.revision, run.machine)});
+  };
   const auto run = services.machines.start(*start);
   if (!run) return error_response(run.error());
-  services.audit.write(
-      {.who = request.who,
-       .action = "run.start",
-       .subject = run->id,
-       .detail = fmt::format("{} revision {} on {}", run->program, run->revision, run->machine)});
   return json_response(201, run_json(*run));
 }
 
@@ -111,13 +114,13 @@ Response restart_run(Services& services, const Request& request) {
   start.author = request.who.name;
   start.role = request.caller->role;
   start.restart = {original->id, *at};
+  const std::string what = fmt::format("run {} at {} on {}", original->id, *at, original->machine);
+  start.before = [&audit = services.audit, who = request.who, what](const storage::Run& run) {
+    return audit.write_before(
+        {.who = who, .action = "run.restart", .subject = run.id, .detail = what});
+  };
   const auto run = services.machines.start(start);
   if (!run) return error_response(run.error());
-  services.audit.write(
-      {.who = request.who,
-       .action = "run.restart",
-       .subject = run->id,
-       .detail = fmt::format("run {} at {} on {}", original->id, *at, run->machine)});
   return json_response(201, run_json(*run));
 }
 
@@ -164,22 +167,41 @@ Response list_records(Services& services, const Request& request) {
 
 }  // namespace
 
+namespace {
+
+/// Whether the command makes the machine safer, whatever it does now.
+bool stops(Services& services, const machines::CommandRequest& command) {
+  if (dds::is_stop(command.action, command.argument, command.value)) return true;
+  if (!dds::is_override(command.action)) return false;
+  std::string machine = command.machine;
+  if (const auto run = services.runs.run(command.run)) machine = run->machine;
+  const auto view = services.machines.machine(machine);
+  return view && view->status && dds::lowers_override(command.action, command.value, *view->status);
+}
+
+}  // namespace
+
+/// The entry comes first. When it cannot be written only what stops a machine goes out.
 Response carry_out(Services& services, const Request& request,
                    const machines::CommandRequest& command) {
   const bool is_of_run = !command.run.empty();
-  const auto done = services.machines.command(command);
-  // The gateway may have carried out the command although its answer is missing.
-  const bool is_unknown = !done && done.error().code == Errc::Timeout;
-  if (done || is_unknown) {
-    services.audit.write({.who = request.who,
-                          .action = fmt::format("{}.{}", is_of_run ? "run" : "machine",
-                                                dds::to_string(command.action)),
-                          .subject = is_of_run ? command.run : command.machine,
-                          .detail = fmt::format("{} {} {}", command.argument, command.value,
-                                                is_unknown ? "not answered" : "accepted")});
+  library::AuditTrail::Change change{
+      .who = request.who,
+      .action = fmt::format("{}.{}", is_of_run ? "run" : "machine", dds::to_string(command.action)),
+      .subject = is_of_run ? command.run : command.machine,
+      .detail = fmt::format("{} {}", command.argument, command.value)};
+  if (stops(services, command)) {
+    services.audit.write(change);
+  } else if (auto written = services.audit.write_before(change); !written) {
+    return error_response(written.error());
   }
-  if (!done) return error_response(done.error());
-  return json_response(200, {{"accepted", true}});
+  const auto done = services.machines.command(command);
+  if (done) return json_response(200, {{"accepted", true}});
+  // The gateway may have carried out the command although its answer is missing.
+  const bool is_unknown = done.error().code == Errc::Timeout;
+  change.detail += is_unknown ? ": not answered" : ": refused, " + done.error().what;
+  services.audit.write(std::move(change));
+  return error_response(done.error());
 }
 
 void add_run_routes(Router& router, Services& services) {

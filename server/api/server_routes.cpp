@@ -61,13 +61,6 @@ Response describe_server(Services& services, const Request& request) {
             {"dds", {{"domain", facts.dds_domain}, {"rejected", services.dds_rejected()}}}});
 }
 
-Response list_audit(Services& services, const Request& request) {
-  QueryReader query(request);
-  const storage::Page page = read_page(query);
-  if (auto good = query.finish(); !good) return error_response(good.error());
-  return list_response("entries", services.audit.entries(page), audit_json);
-}
-
 /// A listener first receives the state of every machine, then the changes.
 Response open_events(Services& services, const Request& request) {
   QueryReader query(request);
@@ -117,7 +110,6 @@ void add_server_routes(Router& router, Services& services) {
     return response;
   });
   router.add("GET", "/api/v1/server", with(services, describe_server));
-  router.add("GET", "/api/v1/audit", with(services, list_audit));
   router.add("GET", "/api/v1/events", with(services, open_events));
 }
 

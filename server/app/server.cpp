@@ -3,8 +3,6 @@
 #include <unistd.h>
 #include <array>
 #include <atomic>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "protocol/dds/endpoint.hpp"
@@ -13,6 +11,7 @@
 #include "server/api/certificate.hpp"
 #include "server/api/http_server.hpp"
 #include "server/identity/accounts.hpp"
+#include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
 #include "server/library/control_catalog.hpp"
@@ -87,19 +86,6 @@ std::optional<UtcTime> expiry_of(const Settings& settings) {
   return expiry ? std::optional(*expiry) : std::nullopt;
 }
 
-Result<library::ReleasePolicy> read_policy(const Settings& settings) {
-  if (settings.policy.empty()) return library::ReleasePolicy::parse("");
-  std::ifstream file(settings.policy, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-    return fail(Errc::NotFound, "policy: file '{}' cannot be read", settings.policy);
-  auto policy = library::ReleasePolicy::parse(text.str());
-  if (!policy) return fail(Errc::Denied, "policy {}: {}", settings.policy, policy.error().what);
-  process::log_info("policy {}: machines run {} revisions", settings.policy,
-                    policy->runs_released_only ? "released" : "all");
-  return policy;
-}
-
 /// The page is asked first: it needs no token.
 api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
   return {.handle = [&api](api::Request request) { return api.handle(std::move(request)); },
@@ -133,6 +119,10 @@ struct Server::Parts {
         store(std::move(opened)),
         health(clock),
         audit(store->audit, clock),
+        chain({.store = store->audit,
+               .clock = clock,
+               .key = loaded.key,
+               .database = loaded.identity}),
         backups(make_backups(std::move(backup_folder), settings)),
         accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, loaded.users),
         programs(*store, clock, catalog, audit),
@@ -158,6 +148,7 @@ struct Server::Parts {
              .runs = runs,
              .paths = paths,
              .audit = audit,
+             .chain = chain,
              .accounts = accounts,
              .events = events,
              .clock = clock,
@@ -235,6 +226,7 @@ struct Server::Parts {
   library::Health health;
   library::DialectCatalog catalog;
   library::AuditTrail audit;
+  library::AuditChain chain;
   std::unique_ptr<library::Backups> backups;  ///< null: none are made
   identity::Accounts accounts;
   library::Programs programs;
@@ -274,6 +266,8 @@ struct Server::Parts {
     accounts.store_uses();
     if (certificate_expires)
       health.report("", library::judge_certificate(*certificate_expires, clock.now()));
+    sound = chain.look();
+    health.report("", chain.finding());
     return sound;
   }
 
@@ -311,7 +305,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   const auto options = http_options(settings);
   if (!options) return fail(options.error());
   if (auto safe = check_network(settings); !safe) return fail(safe.error());
-  const auto policy = read_policy(settings);
+  const auto policy = library::ReleasePolicy::read(settings.policy);
   if (!policy) return fail(policy.error());
   auto folder = StateFolder::open(settings.state);
   if (!folder) return fail(folder.error());

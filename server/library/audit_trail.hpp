@@ -7,8 +7,7 @@
 
 namespace dripline::library {
 
-/// Who changed what. Written after the change; an entry that cannot be written is logged as an
-/// error and does not undo the change. Any thread.
+/// Who did what. Any thread.
 class AuditTrail {
  public:
   AuditTrail(storage::AuditStore& store, const Clock& clock) : store_(store), clock_(clock) {}
@@ -17,7 +16,11 @@ class AuditTrail {
     storage::Actor who;
     std::string action, subject, detail;
   };
+  /// Of a change that was made: an entry that cannot be written is logged as an error and does not
+  /// undo it.
   void write(Change change);
+  /// Of what is about to be done. Errors: those of the store; then it must not be done.
+  Result<void> write_before(Change change);
   Result<std::vector<storage::AuditEntry>> entries(storage::Page page) { return store_.list(page); }
 
  private:

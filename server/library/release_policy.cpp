@@ -2,8 +2,11 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include "protocol/base/names.hpp"
+#include "protocol/process/log.hpp"
 
 namespace dripline::library {
 namespace {
@@ -164,6 +167,19 @@ Result<ReleasePolicy> ReleasePolicy::parse(std::string_view text) {
   for (const auto& [key, value] : table) {
     if (auto read = read_key(key.str(), value, policy); !read) return fail(read.error());
   }
+  return policy;
+}
+
+Result<ReleasePolicy> ReleasePolicy::read(const std::string& name) {
+  if (name.empty()) return parse("");
+  std::ifstream file(name, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf()))
+    return fail(Errc::NotFound, "policy: file '{}' cannot be read", name);
+  auto policy = parse(text.str());
+  if (!policy) return fail(Errc::Denied, "policy {}: {}", name, policy.error().what);
+  process::log_info("policy {}: machines run {} revisions", name,
+                    policy->runs_released_only ? "released" : "all");
   return policy;
 }
 

@@ -39,6 +39,8 @@ struct ReleasePolicy {
   /// An empty text is the default. Errors: Syntax (also an unknown key, a state from which the step
   /// makes no sense, a role below the one that the API asks for); they name key and line.
   static Result<ReleasePolicy> parse(std::string_view toml);
+  /// An empty name is the default. Errors: NotFound, Denied (it is not understood: key and line).
+  static Result<ReleasePolicy> read(const std::string& file);
 };
 
 }  // namespace dripline::library

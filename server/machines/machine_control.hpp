@@ -73,6 +73,8 @@ struct StartRequest {
   StartHead head = StartHead::Ask;
   StartMemory memory = StartMemory::Ask;
   std::optional<RestartRequest> restart = {};  ///< then nothing of the three before
+  /// Called when the run is stored and nothing has gone to the machine. Its error refuses the run.
+  std::function<Result<void>(const storage::Run&)> before = {};
 
   library::Releases::Wish wish() const {
     return {.machine = machine, .program = program, .revision = revision, .role = role};

@@ -256,6 +256,10 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   if (auto created = store_.runs.create(*run); !created) return fail(created.error());
   parts->reconciler.watch(run->machine, run->id);
   announce_run(run->id);
+  if (request.before) {
+    if (auto ready = request.before(*run); !ready)
+      return conclude_start(*run, fail(Errc::Busy, "{}", ready.error().what));
+  }
   dds::Command command;
   command.machine = run->machine;
   command.action = dds::CommandAction::Start;

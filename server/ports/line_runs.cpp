@@ -191,7 +191,12 @@ Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
   if (auto fits = machines::check_control_memory(sources_, run); !fits) return fail(fits.error());
   if (auto sound = store_.programs.verify_content(run.content); !sound) return fail(sound.error());
   if (auto created = store_.runs.create(run); !created) return fail(created.error());
-  return run;
+  if (!request.before) return run;
+  const auto ready = request.before(run);
+  if (ready) return run;
+  const auto refused =
+      store_.runs.set_state(run.id, storage::RunState::Refused, ready.error().what);
+  return fail(refused ? ready.error() : refused.error());
 }
 
 Result<SendJob> LineRuns::job(const storage::Run& run, const machines::StartRequest& request) {

@@ -46,6 +46,39 @@ class Identity : public testing::Test {
   System system;
 };
 
+TEST_F(Identity, TheAuditTrailIsVerifiedHereAndElsewhere) {
+  const std::string kept = (system.folder() / "kept.txt").string();
+  const std::string trail = (system.folder() / "trail.txt").string();
+  expect_good(admin("user add anna --role viewer --group all"));
+  expect_good(admin("audit checkpoint > " + kept));
+  expect_good(admin("user add bert --role viewer --group all"));
+  restart_server();
+  expect_good(admin("audit verify"));
+  expect_good(admin("audit verify --checkpoint " + kept));
+  expect_good(admin("audit export " + trail));
+  const auto offline = "audit verify " + trail + " --checkpoint " + kept;
+  const auto good = as("nobody", offline);
+  EXPECT_EQ(good.status, 0) << good.output;
+  EXPECT_NE(good.output.find("each as it was written"), std::string::npos) << good.output;
+
+  system.server().signal(15);
+  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);
+  const auto changed = test_support::run_to_end(
+      {"/usr/bin/sqlite3", (system.server_state() / "dripline.sqlite").string(),
+       "UPDATE audit SET subject = 'carl' WHERE subject = 'bert'"},
+      system.folder() / "sqlite.out");
+  ASSERT_EQ(changed.status, 0) << changed.output;
+  system.start_server();
+  const auto found = admin("audit verify");
+  EXPECT_EQ(found.status, 1) << found.output;
+  EXPECT_NE(found.output.find("the audit trail was changed: entry"), std::string::npos)
+      << found.output;
+  EXPECT_EQ(system.rest().get("/api/v1/health").json()["status"], "degraded");
+  expect_good(admin("audit export " + trail));
+  const auto elsewhere = as("nobody", offline);
+  EXPECT_EQ(elsewhere.status, 1) << elsewhere.output;
+}
+
 TEST_F(Identity, TheFirstStartMakesOneAdministratorWhomDncFinds) {
   const auto token = system.server_state() / "token";
   EXPECT_EQ(std::filesystem::status(token).permissions(), std::filesystem::perms(0600));

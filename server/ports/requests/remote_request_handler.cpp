@@ -183,15 +183,36 @@ LineMachines::Started RemoteRequestHandler::on_started(bool is_request) const {
   };
 }
 
+Result<void> RemoteRequestHandler::note(std::string action, std::string subject,
+                                        std::string detail) const {
+  return parts_.store.audit.add({.time = parts_.clock.now(),
+                                 .who = {kAuthor, "", ""},
+                                 .action = std::move(action),
+                                 .subject = std::move(subject),
+                                 .detail = std::move(detail)});
+}
+
+std::function<Result<void>(const storage::Run&)> RemoteRequestHandler::note_start(
+    std::string action) const {
+  return [handler = *this, action = std::move(action)](const storage::Run& run) {
+    return handler.note(
+        action, run.id,
+        fmt::format("{} revision {} on {}", run.program, run.revision, run.machine));
+  };
+}
+
 void RemoteRequestHandler::send(const std::string& name, bool is_request) {
   if (name.empty()) return refuse("no program is named", is_request);
   const auto program = is_request ? find_offered(name) : find_program(name);
   if (!program) {
     return refuse(program.error().what, is_request, library::Refusal::NoSuchProgram);
   }
-  parts_.machines.start_later(
-      {.machine = parts_.machine, .program = *program, .revision = {}, .author = kAuthor},
-      on_started(is_request), is_request ? name : "");
+  parts_.machines.start_later({.machine = parts_.machine,
+                               .program = *program,
+                               .revision = {},
+                               .author = kAuthor,
+                               .before = note_start("run.start")},
+                              on_started(is_request), is_request ? name : "");
 }
 
 void RemoteRequestHandler::restart(const std::string& block) {
@@ -212,7 +233,8 @@ void RemoteRequestHandler::restart(const std::string& block) {
                                .from = *point,
                                .head = choice == "HEAD"  ? machines::StartHead::Send
                                        : choice == "SET" ? machines::StartHead::Set
-                                                         : machines::StartHead::Ask},
+                                                         : machines::StartHead::Ask,
+                               .before = note_start("run.restart")},
                               on_started(false));
 }
 
@@ -252,6 +274,9 @@ void RemoteRequestHandler::send_next() {
   const auto admitted = parts_.releases.admit(
       {.machine = parts_.machine, .program = revision.program, .revision = revision.number});
   if (!admitted) return refuse(admitted.error().what, true);
+  const std::string what = fmt::format("{} revision {}", revision.program, revision.number);
+  if (auto noted = note("port.offer", parts_.machine, what); !noted)
+    return refuse(noted.error().what, true);
   line->note(fmt::format("the control asked: program {} revision {} is offered", revision.program,
                          revision.number));
   SendJob job;

@@ -61,6 +61,9 @@ class RemoteRequestHandler {
   void send_listing(bool is_request);
   void send_next();
   Result<void> check_last_run() const;
+  /// The audit entry comes before the control gets anything.
+  Result<void> note(std::string action, std::string subject, std::string detail) const;
+  std::function<Result<void>(const storage::Run&)> note_start(std::string action) const;
   Result<void> list_offers();
   /// The library's programs, each with the revision that this machine gets as its latest.
   Result<std::vector<storage::ProgramSummary>> programs() const;

@@ -40,6 +40,7 @@ class ApiTest : public ServerTest {
                                                     .runs = *runs_,
                                                     .paths = *paths_,
                                                     .audit = *audit_,
+                                                    .chain = *chain_,
                                                     .accounts = *accounts_,
                                                     .events = events_,
                                                     .clock = clock_,

@@ -22,6 +22,10 @@ class FakeMachines final : public machines::MachineControl {
     started.push_back(request);
     if (refusal) return fail(*refusal);
     if (auto view = machine(request.machine); !view) return fail(view.error());
+    if (request.before) {
+      if (auto ready = request.before(run); !ready) return fail(ready.error());
+    }
+    ++sent;
     return run;
   }
   Result<void> command(const machines::CommandRequest& request) override {
@@ -31,6 +35,7 @@ class FakeMachines final : public machines::MachineControl {
   }
 
   std::vector<machines::MachineView> views;
+  int sent = 0;  ///< starts that went to a machine
   std::vector<machines::StartRequest> started;
   std::vector<machines::CommandRequest> commands;
   std::optional<Error> refusal;

@@ -99,6 +99,7 @@ TEST_F(MetricsRoute, GivesWhatDashboardAndAlertsAskFor) {
   machines_.views.back().status = dds::Status{};
   machines_.views.back().clock_ahead = std::chrono::milliseconds(3);
   health_.report("", {library::Health::Level::Degraded, "disk", "nearly full", ""});
+  ASSERT_TRUE(chain_->verify());
   std::set<std::string> families;
   std::istringstream lines(metrics());
   for (std::string line; std::getline(lines, line);)

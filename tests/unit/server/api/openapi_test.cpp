@@ -289,6 +289,10 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_described("GET", "/api/v1/reports", get("/api/v1/reports"));
   expect_described("GET", "/api/v1/reports/{run}", get("/api/v1/reports/" + run + "?format=json"));
   expect_described("GET", "/api/v1/audit", get("/api/v1/audit"));
+  expect_described("GET", "/api/v1/audit/verification", get("/api/v1/audit/verification"));
+  expect_described("POST", "/api/v1/audit/verification",
+                   call("POST", "/api/v1/audit/verification"));
+  expect_described("GET", "/api/v1/audit/export", get("/api/v1/audit/export"));
   expect_described("GET", "/api/v1/events", get("/api/v1/events"));
   expect_setups_described();
   expect_memory_described();

@@ -239,9 +239,11 @@ TEST_F(PortRoutes, SendAndReceiveWithoutARunAndWriteItDown) {
   ASSERT_EQ(sent.status, 201) << sent.body;
   EXPECT_EQ(json(sent)["programs"], (Json{"O0001 revision 1", "O0002 revision 4"}));
   EXPECT_EQ(json(sent)["state"], "sending");
-  const Json entry = json(get("/api/v1/audit"))["entries"][0];
-  EXPECT_EQ(entry["action"], "port.send");
-  EXPECT_EQ(entry["detail"], "O0001 revision 1, O0002 revision 4: 100 bytes");
+  const Json entries = json(get("/api/v1/audit"))["entries"];
+  EXPECT_EQ(entries[1]["action"], "port.send") << "before anything was sent";
+  EXPECT_EQ(entries[1]["detail"], "O0001, O0002@4");
+  EXPECT_EQ(entries[0]["action"], "port.sending");
+  EXPECT_EQ(entries[0]["detail"], "O0001 revision 1, O0002 revision 4: 100 bytes");
   EXPECT_EQ(call("POST", "/api/v1/ports/line-1/receive").status, 204);
   EXPECT_EQ(call("DELETE", "/api/v1/ports/line-1/transfers").status, 204);
   EXPECT_EQ(ports_.stop_reason, "stopped by admin");

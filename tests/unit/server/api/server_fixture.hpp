@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/programs.hpp"
@@ -54,12 +55,18 @@ class ServerTest : public testing::Test {
     releases_.reset();
     runs_.reset();
     programs_.reset();
+    chain_.reset();
     audit_.reset();
     store_.reset();
     auto opened = storage::SqliteStore::open({.file = folder_.path() / "store.sqlite"}, clock_);
     EXPECT_TRUE(opened) << opened.error().what;
     store_ = *std::move(opened);
     audit_ = std::make_unique<library::AuditTrail>(store_->audit, clock_);
+    chain_ = std::make_unique<library::AuditChain>(
+        library::AuditChain::Parts{.store = store_->audit,
+                                   .clock = clock_,
+                                   .key = SigningKey::of(std::string(64, '7')).value(),
+                                   .database = store_->identity().value()});
     programs_ = std::make_unique<library::Programs>(*store_, clock_, catalog_, *audit_);
     runs_ = std::make_unique<library::RunHistory>(*store_);
     setups_ = std::make_unique<library::Setups>(store_->setups, catalog_, *audit_);
@@ -122,6 +129,7 @@ class ServerTest : public testing::Test {
   FakeCatalog catalog_;
   std::unique_ptr<storage::SqliteStore> store_;
   std::unique_ptr<library::AuditTrail> audit_;
+  std::unique_ptr<library::AuditChain> chain_;
   std::unique_ptr<library::Programs> programs_;
   std::unique_ptr<library::RunHistory> runs_;
   std::unique_ptr<library::Setups> setups_;

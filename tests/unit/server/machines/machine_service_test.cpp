@@ -85,6 +85,34 @@ TEST_F(MachineRuns, ThatWereRefusedAreAbortedShouldTheMachineShowThemAllTheSame)
   EXPECT_EQ(written_->commands[1].run, run);
 }
 
+/// The audit entry is one of them.
+TEST_F(MachineRuns, SendNothingWhenWhatComesBeforeThemFails) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  std::string noted;
+  const auto try_start = [&](const Result<void>& outcome) {
+    return service_->start({.machine = "lathe-1",
+                            .program = "O0100",
+                            .revision = {},
+                            .author = "cam",
+                            .before = [&, outcome](const Run& run) {
+                              noted = run.id;
+                              EXPECT_TRUE(written_->commands.empty());
+                              EXPECT_EQ(store_->runs.find(run.id)->state,
+                                        storage::RunState::Ordered);
+                              return outcome;
+                            }});
+  };
+  const auto refused = try_start(fail(Errc::Io, "disk full"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what, "disk full");
+  EXPECT_TRUE(written_->commands.empty());
+  EXPECT_EQ(store_->runs.find(noted)->state, storage::RunState::Refused);
+  EXPECT_TRUE(try_start({})) << "the machine is not occupied";
+}
+
 TEST_F(MachineRuns, NeedAConnectedMachineThatIsKnown) {
   push("O0100", "M30\n");
   start_service();

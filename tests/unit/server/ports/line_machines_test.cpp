@@ -245,5 +245,23 @@ TEST_F(PortServiceTest, ListsMachinesOfBothKinds) {
   EXPECT_EQ(contested.error().code, Errc::Busy);
 }
 
+TEST_F(PortServiceTest, AStartWhoseEntryCannotBeStoredSendsNothing) {
+  start_ports();
+  add_port(mill());
+  push("O1", blocks(1));
+  machines::StartRequest request{
+      .machine = "mill", .program = "O1", .revision = {}, .author = "cam"};
+  std::string noted;
+  request.before = [&](const Run& run) -> Result<void> {
+    noted = run.id;
+    return fail(Errc::Io, "disk full");
+  };
+  const auto refused = ports_->machines().start(request);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what, "disk full");
+  EXPECT_EQ(store_->runs.find(noted)->state, RunState::Refused);
+  EXPECT_EQ(ports_->port("com1")->sent, 0u);
+}
+
 }  // namespace
 }  // namespace dripline::server_test
