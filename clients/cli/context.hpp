@@ -87,6 +87,7 @@ void add_setup_commands(Command app, Context& context);
 void add_memory_commands(Command app, Context& context);
 void add_report_commands(Command app, Context& context);
 void add_server_commands(Command app, Context& context);
+void add_audit_commands(Command app, Context& context);
 void add_login_commands(Command app, Context& context);
 void add_user_commands(Command app, Context& context);
 void add_token_commands(Command app, Context& context);

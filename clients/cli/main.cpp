@@ -98,6 +98,7 @@ int run(int argc, char** argv) {
   add_memory_commands(dnc, context);
   add_report_commands(dnc, context);
   add_server_commands(dnc, context);
+  add_audit_commands(dnc, context);
   add_login_commands(dnc, context);
   add_user_commands(dnc, context);
   add_token_commands(dnc, context);

@@ -52,6 +52,28 @@ struct Backups {
   std::optional<Outcome> last;
 };
 
+/// Whether the audit trail is as it was written.
+struct AuditState {
+  struct Fault {
+    std::uint64_t entry = 0;
+    std::string what;
+  };
+  struct Verification {
+    std::string time;
+    std::uint64_t entries = 0;
+    bool intact = false;
+    std::optional<Fault> fault;  ///< the first
+  };
+  struct Checkpoint {
+    std::uint64_t number = 0, entry = 0;
+    std::string time, sha256;
+    std::string text;  ///< a file to be kept elsewhere
+  };
+  std::optional<Verification> verification;
+  std::optional<Checkpoint> checkpoint;
+  std::string public_key;
+};
+
 /// A program's latest revision, as listings give it. Held: no revision of it is approved yet.
 struct Program {
   std::string name;

@@ -149,6 +149,7 @@ template Reply<Token> Client::fetch(HttpRequest, std::string_view);
 template Reply<MachineGroup> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<User>> Client::fetch_list(const std::string&, const char*);
 template Reply<std::vector<Token>> Client::fetch_list(const std::string&, const char*);
+template Reply<AuditState> Client::fetch(HttpRequest, std::string_view);
 template Reply<Backups> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<MachineGroup>> Client::fetch_list(const std::string&, const char*);
 template Reply<Port> Client::fetch(HttpRequest, std::string_view);

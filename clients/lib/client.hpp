@@ -144,6 +144,11 @@ class Client {
   Reply<Backups> verify_backup(std::string_view id);
   Reply<void> remove_backup(std::string_view id);
 
+  /// Verifies the whole trail; may take seconds.
+  Reply<AuditState> verify_audit();
+  /// Passes the trail to `sink` as it arrives; false from it ends the call.
+  Reply<void> export_audit(const std::function<bool(std::string_view)>& sink);
+
   Reply<std::vector<Program>> programs(Page page);
   Reply<ProgramHistory> program(std::string_view name);
   /// `overrides_protection`: also removes a program that is protected against erasing.

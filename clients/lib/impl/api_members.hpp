@@ -44,6 +44,26 @@ void members(V& v, Is<ServerInfo> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<AuditState::Fault> auto& x) {
+  DRIPLINE_MEMBERS(entry, what);
+}
+
+template <class V>
+void members(V& v, Is<AuditState::Verification> auto& x) {
+  DRIPLINE_MEMBERS(time, entries, intact, fault);
+}
+
+template <class V>
+void members(V& v, Is<AuditState::Checkpoint> auto& x) {
+  DRIPLINE_MEMBERS(number, entry, time, sha256, text);
+}
+
+template <class V>
+void members(V& v, Is<AuditState> auto& x) {
+  DRIPLINE_MEMBERS(verification, checkpoint, public_key);
+}
+
+template <class V>
 void members(V& v, Is<Backups::Backup> auto& x) {
   DRIPLINE_MEMBERS(id, made, made_by, size, added, verified);
 }

@@ -56,6 +56,12 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<ServerInfo::Health::Reason>(),
             described("Server/properties/health/properties/reasons/items"));
   EXPECT_EQ(read_by_the_client<ServerInfo::Dds>(), described("Server/properties/dds"));
+  const std::string audit = "AuditVerification", verification = audit + "/properties/verification";
+  EXPECT_EQ(read_by_the_client<AuditState>(), described(audit));
+  EXPECT_EQ(read_by_the_client<AuditState::Verification>(), described(verification));
+  EXPECT_EQ(read_by_the_client<AuditState::Fault>(), described(verification + "/properties/fault"));
+  EXPECT_EQ(read_by_the_client<AuditState::Checkpoint>(),
+            described(audit + "/properties/checkpoint"));
   EXPECT_EQ(read_by_the_client<Backups>(), described("Backups"));
   EXPECT_EQ(read_by_the_client<Backups::Backup>(), described("Backup"));
   EXPECT_EQ(read_by_the_client<Backups::Work>(), described("Backups/properties/work"));
