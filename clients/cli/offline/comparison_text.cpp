@@ -95,6 +95,7 @@ std::string condition_text(const Json& condition, const ComparedNames& names) {
                        : kind == "input"    ? "the program reads an input"
                        : kind == "clock"    ? "the program reads the clock"
                        : kind == "variable" ? "the value may come from outside: " + detail
+                       : kind == "start"    ? "it depends on the position at the start"
                                             : "a switch decides whether the block is skipped";
   return fmt::format("condition: {}:{}: {}: {}\n", is_second ? names.second : names.first,
                      condition.at("line").get<std::uint64_t>(), printable(reason),

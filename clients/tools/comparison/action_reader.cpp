@@ -15,19 +15,30 @@ bool is_state(const Action& action) {
   return action.kind == ActionKind::Spindle || action.kind == ActionKind::Coolant;
 }
 
+interpreter::Setup shifted(interpreter::Setup setup, double shift) {
+  if (shift == 0) return setup;
+  for (const auto axis : interpreter::kAllAxes) {
+    const bool has_moved = setup.start.has(axis);
+    setup.start.set_raw(axis, setup.start.raw(axis) + shift);
+    if (!has_moved) setup.start.unmark(axis);
+  }
+  return setup;
+}
+
 }  // namespace
 
-ActionReader::ActionReader(const MotionSide& side, bool across_controls)
+ActionReader::ActionReader(const MotionSide& side, bool across_controls, double shift)
     : side_(side),
       across_controls_(across_controls),
-      setup_(side.setup),
-      recorder_(queue_, side.setup.start, across_controls) {
+      setup_(shifted(side.setup, shift)),
+      recorder_(queue_, setup_.start, across_controls) {
   setup_.switches.optional_stop = true;  // an optional stop is compared, whatever the switch is
 }
 
-Result<void> ActionReader::begin(std::uint64_t max_blocks) {
-  auto run = interpreter::OfflineRun::begin(side_.dialect, setup_, side_.source, recorder_,
-                                            {.max_blocks = max_blocks});
+Result<void> ActionReader::begin(const MotionOptions& options) {
+  auto run = interpreter::OfflineRun::begin(
+      side_.dialect, setup_, side_.source, recorder_,
+      {.max_blocks = options.max_blocks, .max_repeated_blocks = options.max_repeated_blocks});
   if (!run) return fail(run.error());
   run_.emplace(*std::move(run));
   return {};

@@ -12,12 +12,13 @@ namespace dripline::comparison {
 /// is: the interpretation delivers into it.
 class ActionReader {
  public:
-  ActionReader(const MotionSide& side, bool across_controls);
+  /// `shift`: of the start from the setup's, on every axis, in millimeters or degrees.
+  ActionReader(const MotionSide& side, bool across_controls, double shift = 0);
   ActionReader(const ActionReader&) = delete;
   ActionReader& operator=(const ActionReader&) = delete;
 
   /// Errors: those of `Dialect::make`.
-  Result<void> begin(std::uint64_t max_blocks);
+  Result<void> begin(const MotionOptions& options);
 
   /// How many actions can be looked at, `count` or more unless the program is over.
   std::size_t fill(std::size_t count);

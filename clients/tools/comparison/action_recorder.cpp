@@ -112,6 +112,8 @@ void ActionRecorder::on_spindle(const interpreter::Spindle& event) {
   action.numbers = {event.surface_speed ? 0 : event.revolutions_per_minute,
                     event.surface_speed ? event.surface_speed->mm() : Action::kNoNumber,
                     event.max_revolutions.value_or(Action::kNoNumber)};
+  // Some controls still report the speed of a spindle that they switch off.
+  if (event.state == interpreter::SpindleState::Off) action.numbers = {};
   if (is_repeated(action, spindle_, is_spindle_known_)) return queue_.drop_back();
   if (across_controls_ && queue_.size() > 1 &&
       queue_[queue_.size() - 2].kind == ActionKind::Coolant)

@@ -14,7 +14,6 @@ namespace {
 constexpr std::size_t kStride = 4096;
 /// Where both do the same again is looked for in so many actions of each, then in more.
 constexpr std::size_t kFirstWindow = 256;
-constexpr std::size_t kLastWindow = 65'536;
 constexpr std::size_t kWindowGrowth = 4;
 /// So many actions in a row are the same where the programs are said to agree again.
 constexpr std::size_t kAgreed = 3;
@@ -26,6 +25,8 @@ constexpr std::size_t kMaxTried = 8;
 constexpr std::size_t kMaxPermuted = 32;
 /// Actions of a gap in which those that both programs have are looked for.
 constexpr std::size_t kMaxAligned = 32;
+/// Of the second start, mm and degrees: on no grid of a program.
+constexpr double kShift = 0.7313;
 
 /// Actions that are alike have the same key, but for those at the edge of a step of the grid.
 std::uint64_t key_of(const Action& action, double grid) {
@@ -46,32 +47,45 @@ std::uint64_t key_of(const Action& action, double grid) {
   return key;
 }
 
+}  // namespace
+
+std::string_view word_of(Condition::Kind kind) {
+  constexpr std::string_view kWords[]{"alarm", "fault",    "probe",      "prompt", "input",
+                                      "clock", "variable", "block_skip", "start"};
+  return kWords[static_cast<std::size_t>(kind)];
+}
+
+namespace motion_parts {  // members of MotionComparison::Parts
+
 struct Gap {
   std::size_t first = 0, second = 0;
 };
 
-}  // namespace
-
-std::string_view word_of(Condition::Kind kind) {
-  constexpr std::string_view kWords[]{"alarm", "fault", "probe",    "prompt",
-                                      "input", "clock", "variable", "block_skip"};
-  return kWords[static_cast<std::size_t>(kind)];
-}
-
-struct MotionComparison::Parts {
-  Parts(const MotionSide& a, const MotionSide& b, MotionOptions chosen)
-      : options(chosen),
-        agreement{chosen.tolerance, a.dialect.name != b.dialect.name},
-        sides{a, b},
-        first(sides[0], agreement.across_controls),
-        second(sides[1], agreement.across_controls) {
-    result.tolerance = chosen.tolerance;
-    result.across_controls = agreement.across_controls;
+/// Both programs, interpreted and compared once.
+class Pass {
+ public:
+  Pass(const std::array<MotionSide, 2>& sides, const MotionOptions& options, double shift)
+      : options_(options),
+        agreement_{options.tolerance, sides[0].dialect.name != sides[1].dialect.name},
+        first_(sides[0], agreement_.across_controls, shift),
+        second_(sides[1], agreement_.across_controls, shift) {
+    result_.tolerance = options.tolerance;
+    result_.across_controls = agreement_.across_controls;
   }
 
+  Result<void> begin() {
+    for (ActionReader* reader : {&first_, &second_}) {
+      if (auto begun = reader->begin(options_); !begun) return fail(begun.error());
+    }
+    return {};
+  }
+  /// True: it is over.
   bool step();
+  MotionResult result() const;
+
+ private:
   bool is_pair(std::size_t i, std::size_t j) const {
-    return is_alike(first[i], second[j], agreement);
+    return is_alike(first_[i], second_[j], agreement_);
   }
   bool agree_from(std::size_t i, std::size_t j, std::size_t a, std::size_t b) const;
   void pass_difference();
@@ -84,19 +98,18 @@ struct MotionComparison::Parts {
   void add(MotionPlace place);
   MotionPlace place_at(std::size_t i, std::size_t j, const Gap& gap);
 
-  MotionOptions options;
-  Agreement agreement;
-  std::array<MotionSide, 2> sides;
-  ActionReader first, second;
-  MotionResult result;
+  MotionOptions options_;
+  Agreement agreement_;
+  ActionReader first_, second_;
+  MotionResult result_;
 };
 
-bool MotionComparison::Parts::step() {
+bool Pass::step() {
   for (std::size_t i = 0; i < kStride; ++i) {
-    const std::size_t a = first.fill(1), b = second.fill(1);
+    const std::size_t a = first_.fill(1), b = second_.fill(1);
     if (a == 0 && b == 0) {
-      first.add_conditions(false, result.conditions);
-      second.add_conditions(true, result.conditions);
+      first_.add_conditions(false, result_.conditions);
+      second_.add_conditions(true, result_.conditions);
       return true;
     }
     if (a == 0 || b == 0 || !is_pair(0, 0)) {
@@ -104,14 +117,13 @@ bool MotionComparison::Parts::step() {
       continue;
     }
     report_pair(0, 0);
-    first.drop(1);
-    second.drop(1);
+    first_.drop(1);
+    second_.drop(1);
   }
   return false;
 }
 
-bool MotionComparison::Parts::agree_from(std::size_t i, std::size_t j, std::size_t a,
-                                         std::size_t b) const {
+bool Pass::agree_from(std::size_t i, std::size_t j, std::size_t a, std::size_t b) const {
   for (std::size_t k = 0; k < kAgreed; ++k) {
     if (i + k == a || j + k == b) return i + k == a && j + k == b;
     if (!is_pair(i + k, j + k)) return false;
@@ -120,26 +132,26 @@ bool MotionComparison::Parts::agree_from(std::size_t i, std::size_t j, std::size
 }
 
 /// Each of some actions has another one of its kind in its place.
-std::optional<Gap> MotionComparison::Parts::find_replaced(std::size_t a, std::size_t b) const {
+std::optional<Gap> Pass::find_replaced(std::size_t a, std::size_t b) const {
   const std::size_t most = std::min({a, b, kMaxReplaced});
-  for (std::size_t i = 0; i < most && first[i].kind == second[i].kind; ++i) {
+  for (std::size_t i = 0; i < most && first_[i].kind == second_[i].kind; ++i) {
     if (i + 1 < a && i + 1 < b && is_pair(i + 1, i + 1)) return Gap{i + 1, i + 1};
   }
   return std::nullopt;
 }
 
 /// The shortest gap after which both do the same.
-std::optional<Gap> MotionComparison::Parts::find_agreement(std::size_t a, std::size_t b) const {
-  const double grid = std::max(agreement.tolerance * 4, 1e-6);
+std::optional<Gap> Pass::find_agreement(std::size_t a, std::size_t b) const {
+  const double grid = std::max(agreement_.tolerance * 4, 1e-6);
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> by_key;
   by_key.reserve(b);
   for (std::size_t j = 0; j < b; ++j) {
-    auto& tried = by_key[key_of(second[j], grid)];
+    auto& tried = by_key[key_of(second_[j], grid)];
     if (tried.size() < kMaxTried) tried.push_back(static_cast<std::uint32_t>(j));
   }
   std::optional<Gap> best;
   for (std::size_t i = 0; i < a && (!best || i < best->first + best->second); ++i) {
-    const auto found = by_key.find(key_of(first[i], grid));
+    const auto found = by_key.find(key_of(first_[i], grid));
     if (found == by_key.end()) continue;
     for (const std::size_t j : found->second) {
       if (best && i + j >= best->first + best->second) break;
@@ -149,11 +161,11 @@ std::optional<Gap> MotionComparison::Parts::find_agreement(std::size_t a, std::s
   return best;
 }
 
-void MotionComparison::Parts::pass_difference() {
+void Pass::pass_difference() {
   Gap gap;
   for (std::size_t window = kFirstWindow;; window *= kWindowGrowth) {
-    const std::size_t a = std::min(first.fill(window), window);
-    const std::size_t b = std::min(second.fill(window), window);
+    const std::size_t a = std::min(first_.fill(window), window);
+    const std::size_t b = std::min(second_.fill(window), window);
     if (const auto replaced = find_replaced(a, b)) {
       gap = *replaced;
       break;
@@ -163,20 +175,20 @@ void MotionComparison::Parts::pass_difference() {
       break;
     }
     gap = {a, b};
-    if ((a < window && b < window) || window >= kLastWindow) break;
+    if ((a < window && b < window) || window >= options_.max_window) break;
   }
   report(gap);
-  first.drop(gap.first);
-  second.drop(gap.second);
+  first_.drop(gap.first);
+  second_.drop(gap.second);
 }
 
-bool MotionComparison::Parts::is_permuted(const Gap& gap) const {
+bool Pass::is_permuted(const Gap& gap) const {
   if (gap.first != gap.second || gap.first < 2 || gap.first > kMaxPermuted) return false;
   std::array<bool, kMaxPermuted> used{};
   for (std::size_t i = 0; i < gap.first; ++i) {
     std::size_t j = 0;
-    while (j < gap.second && (used[j] || first[i].kind != second[j].kind ||
-                              !differences(first[i], second[j], agreement).empty()))
+    while (j < gap.second && (used[j] || first_[i].kind != second_[j].kind ||
+                              !differences(first_[i], second_[j], agreement_).empty()))
       ++j;
     if (j == gap.second) return false;
     used[j] = true;
@@ -184,29 +196,29 @@ bool MotionComparison::Parts::is_permuted(const Gap& gap) const {
   return true;
 }
 
-MotionPlace MotionComparison::Parts::place_at(std::size_t i, std::size_t j, const Gap& gap) {
+MotionPlace Pass::place_at(std::size_t i, std::size_t j, const Gap& gap) {
   MotionPlace place;
   place.first_actions = gap.first;
   place.second_actions = gap.second;
-  place.first = first.fill(i + 1) > i ? first[i].place : first.last_place();
-  place.second = second.fill(j + 1) > j ? second[j].place : second.last_place();
-  if (result.places.size() >= options.max_places) return place;
-  if (gap.first > 0) place.first_text = describe(first[i]);
-  if (gap.second > 0) place.second_text = describe(second[j]);
+  place.first = first_.fill(i + 1) > i ? first_[i].place : first_.last_place();
+  place.second = second_.fill(j + 1) > j ? second_[j].place : second_.last_place();
+  if (result_.places.size() >= options_.max_places) return place;
+  if (gap.first > 0) place.first_text = describe(first_[i]);
+  if (gap.second > 0) place.second_text = describe(second_[j]);
   return place;
 }
 
 /// Two actions of one kind.
-void MotionComparison::Parts::report_pair(std::size_t i, std::size_t j) {
-  const Differences found = differences(first[i], second[j], agreement);
+void Pass::report_pair(std::size_t i, std::size_t j) {
+  const Differences found = differences(first_[i], second_[j], agreement_);
   if (found.empty()) return;
   MotionPlace place = place_at(i, j, {1, 1});
   place.differences = found;
-  if (found.has(Difference::Path)) place.distance = path_distance(first[i], second[j]);
+  if (found.has(Difference::Path)) place.distance = path_distance(first_[i], second_[j]);
   add(std::move(place));
 }
 
-void MotionComparison::Parts::report(const Gap& gap) {
+void Pass::report(const Gap& gap) {
   if (is_permuted(gap)) {
     MotionPlace place = place_at(0, 0, gap);
     place.differences = Difference::Order;
@@ -237,35 +249,60 @@ void MotionComparison::Parts::report(const Gap& gap) {
 }
 
 /// Actions that the other program has not, or has others of the same kinds for.
-void MotionComparison::Parts::report_between(const Gap& from, const Gap& to) {
+void Pass::report_between(const Gap& from, const Gap& to) {
   const Gap size{to.first - from.first, to.second - from.second};
   if (size.first == 0 && size.second == 0) return;
   bool is_replaced = size.first == size.second;
   for (std::size_t i = 0; is_replaced && i < size.first; ++i)
-    is_replaced = first[from.first + i].kind == second[from.second + i].kind;
+    is_replaced = first_[from.first + i].kind == second_[from.second + i].kind;
   if (is_replaced) {
     for (std::size_t i = 0; i < size.first; ++i) report_pair(from.first + i, from.second + i);
     return;
   }
   MotionPlace place = place_at(from.first, from.second, size);
   for (std::size_t i = from.first; i < to.first; ++i)
-    place.differences |= difference_of(first[i].kind);
+    place.differences |= difference_of(first_[i].kind);
   for (std::size_t j = from.second; j < to.second; ++j)
-    place.differences |= difference_of(second[j].kind);
+    place.differences |= difference_of(second_[j].kind);
   add(std::move(place));
 }
 
-void MotionComparison::Parts::add(MotionPlace place) {
-  result.is_same = false;
-  ++result.place_count;
-  result.differences |= place.differences;
+void Pass::add(MotionPlace place) {
+  result_.is_same = false;
+  ++result_.place_count;
+  result_.differences |= place.differences;
   for (std::size_t i = 0; i < kDifferenceCount; ++i) {
-    if (place.differences.has(static_cast<Difference>(i))) ++result.counts[i];
+    if (place.differences.has(static_cast<Difference>(i))) ++result_.counts[i];
   }
   if (std::isfinite(place.distance))
-    result.max_distance = std::max(result.max_distance, place.distance);
-  if (result.places.size() < options.max_places) result.places.push_back(std::move(place));
+    result_.max_distance = std::max(result_.max_distance, place.distance);
+  if (result_.places.size() < options_.max_places) result_.places.push_back(std::move(place));
 }
+
+MotionResult Pass::result() const {
+  MotionResult result = result_;
+  result.first_blocks = first_.blocks();
+  result.second_blocks = second_.blocks();
+  result.first_actions = first_.dropped();
+  result.second_actions = second_.dropped();
+  return result;
+}
+
+}  // namespace motion_parts
+
+using motion_parts::Pass;
+
+struct MotionComparison::Parts {
+  Result<void> begin_pass(double shift) {
+    pass = std::make_unique<Pass>(sides, options, shift);
+    return pass->begin();
+  }
+
+  std::array<MotionSide, 2> sides;
+  MotionOptions options;
+  std::unique_ptr<Pass> pass = {};
+  std::optional<MotionResult> result = {};  ///< of the first pass
+};
 
 MotionComparison::MotionComparison(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 MotionComparison::MotionComparison(MotionComparison&&) noexcept = default;
@@ -278,24 +315,31 @@ Result<MotionComparison> MotionComparison::begin(const MotionSide& first, const 
     return fail(Errc::LimitExceeded, "a tolerance of {} mm is not between 0 and {} mm",
                 options.tolerance, kMaxTolerance);
   }
-  auto parts = std::make_unique<Parts>(first, second, options);
-  for (ActionReader* reader : {&parts->first, &parts->second}) {
-    if (auto begun = reader->begin(options.max_blocks); !begun) return fail(begun.error());
-  }
+  std::unique_ptr<Parts> parts(new Parts{.sides = {first, second}, .options = options});
+  if (auto begun = parts->begin_pass(0); !begun) return fail(begun.error());
   return MotionComparison(std::move(parts));
 }
 
 bool MotionComparison::step() {
-  return parts_->step();
+  if (!parts_->pass->step()) return false;
+  const MotionResult passed = parts_->pass->result();
+  if (!parts_->result) {
+    parts_->result = passed;
+    if (!passed.is_same) return true;
+    if (parts_->begin_pass(kShift + 2 * parts_->options.tolerance)) return false;
+  }
+  auto& conditions = parts_->result->conditions;
+  // Another alarm is where the comparison ended, and not a proof.
+  const bool is_proof = passed.is_same && passed.conditions.size() == conditions.size();
+  if (!is_proof) {
+    const Place place = passed.places.empty() ? Place{1, 0} : passed.places.front().second;
+    conditions.push_back({Condition::Kind::Start, true, place, {}});
+  }
+  return true;
 }
 
 MotionResult MotionComparison::result() const {
-  MotionResult result = parts_->result;
-  result.first_blocks = parts_->first.blocks();
-  result.second_blocks = parts_->second.blocks();
-  result.first_actions = parts_->first.dropped();
-  result.second_actions = parts_->second.dropped();
-  return result;
+  return parts_->result.value_or(MotionResult{});
 }
 
 Result<MotionResult> compare_motion(const MotionSide& first, const MotionSide& second,

@@ -35,7 +35,17 @@ struct MotionPlace {
 
 /// Why a comparison holds only under a condition.
 struct Condition {
-  enum class Kind : std::uint8_t { Alarm, Fault, Probe, Prompt, Input, Clock, Variable, BlockSkip };
+  enum class Kind : std::uint8_t {
+    Alarm,
+    Fault,
+    Probe,
+    Prompt,
+    Input,
+    Clock,
+    Variable,
+    BlockSkip,
+    Start
+  };
   Kind kind = Kind::Alarm;
   bool is_second = false;  ///< which program
   Place place;             ///< the first such block
@@ -67,11 +77,17 @@ struct MotionOptions {
   double tolerance = 0.001;                  ///< mm, degrees
   std::size_t max_places = 1000;             ///< kept; all are counted
   std::uint64_t max_blocks = 1'000'000'000;  ///< of each program
+  /// Executed that had been executed before, of each program: see OfflineLimits.
+  std::uint64_t max_repeated_blocks = 10'000'000;
+  /// Actions of each program in which the place is looked for from which both do the same again;
+  /// some 400 bytes each.
+  std::size_t max_window = 65'536;
 };
 
-/// Interprets both programs in step and compares what they do. Memory is bounded by the window in
-/// which it looks for the place where both do the same again (65,536 actions of each), not by the
-/// programs. One thread.
+/// Interprets both programs in step and compares what they do; where it is the same, again from
+/// another position of the machine, because a first move may leave an axis where it is. Memory is
+/// bounded by the window in which it looks for the place where both do the same again
+/// (`max_window`), not by the programs. One thread.
 class MotionComparison {
  public:
   /// Errors: those of `Dialect::make`; LimitExceeded (the tolerance).

@@ -58,8 +58,9 @@ class VariableScan {
   /// P of a Centurion is a word too: a variable is in an expression, after another letter, or set.
   bool is_variable(std::string_view line, std::size_t at) const {
     if (rules_.variable == '#') return true;
-    if (at + 1 >= line.size() || !is_decimal_digit(line[at + 1]))
-      return rules_.variable == 'P' && at + 1 < line.size() && line[at + 1] == '[';
+    const std::size_t next = at + (has_byte_sign(line, at) ? 2 : 1);
+    if (next >= line.size()) return false;
+    if (!is_decimal_digit(line[next])) return rules_.variable == 'P' && line[next] == '[';
     if (rules_.variable == 'Q') return true;
     const std::size_t end = name_end(line, at);
     if (end < line.size() && line[end] == '=') return true;
@@ -68,15 +69,21 @@ class VariableScan {
     return !is_decimal_digit(before) && before != '.' && before != ']' && before != ')';
   }
 
-  /// #100, #<name>, Q12, P7; of what is computed only the sign and the bracket.
-  static std::size_t name_end(std::string_view line, std::size_t at) {
-    std::size_t end = at + 1;
+  /// PB7 of a Centurion is a part of P7.
+  bool has_byte_sign(std::string_view line, std::size_t at) const {
+    return rules_.variable == 'P' && at + 1 < line.size() && line[at + 1] == 'B';
+  }
+
+  /// #100, #<name>, Q12, P7, PB7; of what is computed only the sign and the bracket.
+  std::size_t name_end(std::string_view line, std::size_t at) const {
+    std::size_t end = at + (has_byte_sign(line, at) ? 2 : 1);
+    const std::size_t begin = end;
     if (end < line.size() && line[end] == '<') {
       const std::size_t close = line.find('>', end);
       return close == std::string_view::npos ? line.size() : close + 1;
     }
     while (end < line.size() && is_decimal_digit(line[end])) ++end;
-    if (end == at + 1 && end < line.size()) ++end;
+    if (end == begin && end < line.size()) ++end;
     return end;
   }
 

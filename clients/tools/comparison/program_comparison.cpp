@@ -111,6 +111,7 @@ json text_json(const ProgramSide& first, const ProgramSide& second, const TextRe
 json place_side(ProgramSource& source, const Place& place, std::uint64_t actions,
                 const std::string& action) {
   return {{"line", place.line},
+          {"offset", place.offset},
           {"called", place.program != interpreter::kMainProgram},
           {"text", line_at(source, place)},
           {"actions", actions},
@@ -137,6 +138,7 @@ json condition_json(const ProgramSide& first, const ProgramSide& second,
   return {{"kind", word_of(condition.kind)},
           {"program", condition.is_second ? "second" : "first"},
           {"line", condition.place.line},
+          {"offset", condition.place.offset},
           {"line_text", line_at(side.source, condition.place)},
           {"text", condition.text}};
 }

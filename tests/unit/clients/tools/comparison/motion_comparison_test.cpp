@@ -121,21 +121,49 @@ TEST(MotionComparison, ARapidForAFeedIsAPath) {
             "path");
 }
 
-/// One contour with an arc, written for three controls.
+/// One contour with an arc, written in four languages for three controls.
+const std::vector<Text>& one_part() {
+  static const std::vector<Text> texts{
+      {"tnc155",
+       "0 BEGIN PGM 1 MM\n1 TOOL DEF 1 L+0 R+0\n2 TOOL CALL 1 Z S1000\n"
+       "3 L X+0 Y+0 Z+50 R0 F9999 M3\n4 L Z-1 R0 F100 M8\n5 L X+10 R0 F200 M\n6 CC X+10 Y+10\n"
+       "7 C X+20 Y+10 DR+ R0 F M\n8 L Z+50 R0 F9999 M9\n9 L X+0 R0 F9999 M5\n10 END PGM 1 MM\n"},
+      {"tnc155",
+       "%1 G71 *\nN10 G99 T1 L+0 R+0 *\nN20 T1 G17 S1000 *\nN30 G01 G40 G90 X+0 Y+0 Z+50 F9999 "
+       "M03 *\nN40 Z-1 F100 M08 *\nN50 X+10 F200 *\nN60 I+10 J+10 *\nN70 G03 X+20 Y+10 *\n"
+       "N80 G01 G40 Z+50 F9999 M09 *\nN90 G01 X+0 F9999 M05 *\nN9999 %1 G71 *\n"},
+      {"fanuc",
+       "O0001\nG21 G90 G94 G17 G40 G80\nT1 M6\nS1000 M3\nG1 X0. Y0. Z50. F9999.\nM8\n"
+       "Z-1. F100.\nX10. F200.\nG3 X20. Y10. R10.\nG1 Z50. F9999.\nM9\nX0.\nM5\nM30\n"},
+      {"rs274ngc",
+       "G21 G90 G94 G17 G40\nT1 M6\nS1000 M3\nG1 X0 Y0 Z50 F9999\nM8\nZ-1 F100\nX10 F200\n"
+       "G3 X20 Y10 I0 J10\nG1 Z50 F9999\nM9\nX0\nM5\nM2\n"}};
+  return texts;
+}
+
 TEST(MotionComparison, HoldsAcrossControls) {
-  const Text plain{"tnc155",
-                   "0 BEGIN PGM 1 MM\n1 TOOL DEF 1 L+0 R+0\n2 TOOL CALL 1 Z S1000\n"
-                   "3 L X+0 Y+0 Z+50 R0 F9999 M3\n4 L X+0 Y+0 Z-1 R0 F100 M\n"
-                   "5 L X+10 R0 F M\n6 CC X+10 Y+10\n7 C X+20 Y+10 DR+ R0 F M\n8 END PGM 1 MM\n"};
-  const Text ngc{"rs274ngc",
-                 "G21 G90 G94 G17\nT1 M6\nS1000 M3\nG1 X0 Y0 Z50 F9999\nZ-1 F100\n"
-                 "X10\nG3 X20 Y10 I0 J10\nM2\n"};
-  const auto result = compare(plain, ngc);
-  for (const auto& place : result.places)
-    ADD_FAILURE() << place.first.line << " " << place.first_text << " / " << place.second.line
-                  << " " << place.second_text;
-  EXPECT_TRUE(result.is_same);
-  EXPECT_TRUE(result.across_controls);
+  for (const Text& a : one_part()) {
+    for (const Text& b : one_part()) {
+      const auto result = compare(a, b);
+      EXPECT_TRUE(result.is_unconditional()) << a.control << " and " << b.control;
+      EXPECT_EQ(result.across_controls, a.control != b.control);
+      for (const auto& place : result.places)
+        ADD_FAILURE() << place.first_text << " / " << place.second_text;
+    }
+  }
+}
+
+TEST(MotionComparison, AcrossControlsADifferenceIsStillOne) {
+  for (const auto& [from, to] : {std::pair{"R10.", "R11."},
+                                 {"F200.", "F210."},
+                                 {"S1000", "S900"},
+                                 {"Z50. F9999.\nM9", "M9\nZ50. F9999."},
+                                 {"M8\n", ""}}) {
+    Text changed = one_part()[2];
+    changed.text = replaced(changed.text, from, to);
+    EXPECT_FALSE(compare(one_part()[0], changed).is_same) << from;
+    EXPECT_FALSE(compare(changed, one_part()[3]).is_same) << from;
+  }
 }
 
 TEST(MotionComparison, WhatDependsOnTheMachineIsACondition) {
@@ -151,6 +179,18 @@ TEST(MotionComparison, WhatDependsOnTheMachineIsACondition) {
   ASSERT_EQ(result.conditions.size(), 2u);
   EXPECT_EQ(result.conditions[0].text, "#500");
   EXPECT_TRUE(result.conditions[1].is_second);
+}
+
+TEST(MotionComparison, ThePositionAtTheStartIsACondition) {
+  const std::string all = "G21 G90\nG0 X0 Y5.\nG0 X3.\nM30\n";
+  for (const auto& [from, to] : {std::pair{"X0 Y5.", "Y5."}, {"X0 Y5.", "G91 X0 Y5.\nG90"}}) {
+    const auto result = compare_fanuc(all, replaced(all, from, to));
+    EXPECT_TRUE(result.is_same) << to;  // X is at 0 already
+    ASSERT_EQ(result.conditions.size(), 1u) << to;
+    EXPECT_EQ(word_of(result.conditions[0].kind), "start");
+    EXPECT_EQ(result.conditions[0].place.line, 2u);
+  }
+  EXPECT_TRUE(compare_fanuc(all, "(A)\n" + all).is_unconditional());
 }
 
 TEST(MotionComparison, AVariableThatTheProgramHasSetIsNoCondition) {
