@@ -59,6 +59,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/release-policy", View},
     RoutePermission{"GET", "/api/v1/programs/{name}/content", View},
     RoutePermission{"GET", "/api/v1/programs/{name}/path", View},
+    RoutePermission{"GET", "/api/v1/programs/{name}/comparison", View},
     RoutePermission{"POST", "/api/v1/uploads", Program},
     RoutePermission{"GET", "/api/v1/uploads/{id}", Program},
     RoutePermission{"PUT", "/api/v1/uploads/{id}/content", Program},

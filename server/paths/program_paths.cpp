@@ -8,6 +8,7 @@
 #include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "server/machines/stored_programs.hpp"
+#include "server/paths/impl/interpretation.hpp"
 #include "server/paths/path_encoder.hpp"
 
 namespace dripline::paths {
@@ -19,9 +20,6 @@ using nlohmann::json;
 constexpr std::size_t kPieceBytes = 256 * 1024;
 constexpr std::uint64_t kPieceBlocks = 65'536;
 constexpr std::uint64_t kStepBlocks = 2048;
-
-constexpr interpreter::OfflineLimits kLimits{.max_blocks = 100'000'000,
-                                             .max_repeated_blocks = 1'000'000};
 
 enum class Frame : char { Json = 'J', Points = 'P' };
 
@@ -36,26 +34,6 @@ void append_frame(std::string& piece, const json& value) {
   append_frame(piece, Frame::Json,
                value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
-
-/// One of the places that bound the work of all readers.
-class Seat {
- public:
-  static std::optional<Seat> take(const std::shared_ptr<std::atomic<int>>& readers, int limit) {
-    if (readers->fetch_add(1) < limit) return Seat(readers);
-    readers->fetch_sub(1);
-    return std::nullopt;
-  }
-  Seat(Seat&&) noexcept = default;
-  Seat& operator=(Seat&&) = delete;
-  ~Seat() {
-    if (readers_) readers_->fetch_sub(1);
-  }
-
- private:
-  explicit Seat(std::shared_ptr<std::atomic<int>> readers) : readers_(std::move(readers)) {}
-
-  std::shared_ptr<std::atomic<int>> readers_;
-};
 
 class Reader final : public PathReader {
  public:
@@ -171,33 +149,18 @@ Result<std::unique_ptr<PathReader>> ProgramPaths::open(const PathRequest& reques
   const auto& revision = request.revision;
   const auto dialect = interpreter::find_dialect(revision.control);
   if (!dialect) return fail(Errc::Unsupported, "{}", dialect.error().what);
-  interpreter::Setup setup;
-  if (!request.machine.empty()) {
-    const auto stored = sources_.store.setups.find(request.machine, std::nullopt);
-    if (!stored && stored.error().code != Errc::NotFound) return fail(stored.error());
-    auto data = stored ? interpreter::parse_control_data(stored->text, (*dialect)->units)
-                       : Result<interpreter::Setup>(interpreter::Setup{});
-    if (!data) return fail(data.error());
-    setup = *std::move(data);
-  }
+  auto setup = interpretation_setup(sources_, request.machine, **dialect);
+  if (!setup) return fail(setup.error());
   auto seat = Seat::take(readers_, kMaxReaders);
   if (!seat) {
     return fail(Errc::Busy, "{} tool paths are being computed: the limit; try again", kMaxReaders);
   }
-  storage::Run run;
-  run.machine = request.machine;
-  run.program = revision.program;
-  run.revision = revision.number;
-  run.content = revision.content;
-  run.size = revision.size;
-  run.control = revision.control;
-  run.created = sources_.clock.now();
-  auto reader =
-      std::make_unique<Reader>(*std::move(seat), Reader::Parts{.sources = sources_,
-                                                               .run = std::move(run),
-                                                               .setup = std::move(setup),
-                                                               .dialect = **dialect,
-                                                               .tolerance = request.tolerance});
+  auto reader = std::make_unique<Reader>(
+      *std::move(seat), Reader::Parts{.sources = sources_,
+                                      .run = interpreted_run(sources_, revision, request.machine),
+                                      .setup = *std::move(setup),
+                                      .dialect = **dialect,
+                                      .tolerance = request.tolerance});
   if (auto begun = reader->begin(); !begun) return fail(begun.error());
   return std::unique_ptr<PathReader>(std::move(reader));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -30,8 +31,18 @@ class PathReader {
   virtual Result<std::optional<std::string>> next() = 0;
 };
 
-/// Interprets stored programs for their tool paths. Any thread; what it was made of must outlive
-/// the readers.
+enum class CompareBy : std::uint8_t { Text, Normalized, Motion };
+
+struct ComparisonRequest {
+  storage::Revision first, second;
+  CompareBy by = CompareBy::Text;
+  std::string machine = {};   ///< whose setup applies to motion; empty: the controls' defaults
+  double tolerance = 0.001;   ///< mm, at most kMaxTolerance
+  std::uint64_t context = 3;  ///< lines around a change of the text
+};
+
+/// Interprets stored programs for their tool paths, and to compare them. Any thread; what it was
+/// made of must outlive the readers.
 class ProgramPaths {
  public:
   explicit ProgramPaths(const machines::RunSources& sources) : sources_(sources) {}
@@ -40,7 +51,14 @@ class ProgramPaths {
   /// is not for it), and those of the setup.
   Result<std::unique_ptr<PathReader>> open(const PathRequest& request);
 
+  /// The comparison as JSON (clients/tools/comparison/README.md), with `first` and `second`
+  /// (program, revision, control) and `machine`. Waits for storage, and at most kMaxComparison. It
+  /// takes the place of one reader. Errors: Busy, Unsupported, Io, Corrupt, Timeout, and those of
+  /// the setup.
+  Result<std::string> compare(const ComparisonRequest& request);
+
   static constexpr int kMaxReaders = 4;
+  static constexpr std::chrono::seconds kMaxComparison{20};
 
  private:
   const machines::RunSources sources_;

@@ -35,7 +35,7 @@ server/library: protocol/base protocol/audit protocol/process storage gateway/in
 server/identity: protocol/base protocol/process storage server/library server/identity
 server/machines: protocol storage gateway/interpreter server/library server/machines
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
-server/paths: protocol/base storage gateway/interpreter clients/tools/offline server/library server/machines server/paths
+server/paths: protocol/base storage gateway/interpreter clients/tools/comparison clients/tools/offline server/library server/machines server/paths
 server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/api
 server/web: protocol/base server/api server/web
 server/app: protocol storage server

@@ -257,6 +257,11 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_described("GET", "/api/v1/programs/{name}", get("/api/v1/programs/O0100"));
   expect_described("GET", "/api/v1/programs/{name}/content", get("/api/v1/programs/O0100/content"));
   expect_described("GET", "/api/v1/programs/{name}/path", get("/api/v1/programs/O0100/path"));
+  push("O0100-new", "G20\nG0 X9. (A)\nG31 Z1. F1.\nX[P7]\nM30\n");
+  expect_described("GET", "/api/v1/programs/{name}/comparison",
+                   get("/api/v1/programs/O0100/comparison?other=O0100-new"));
+  expect_described("GET", "/api/v1/programs/{name}/comparison",
+                   get("/api/v1/programs/O0100/comparison?other=O0100-new&by=motion"));
   const auto upload = post("/api/v1/uploads", {{"program", "O2"}, {"control", "centurion"}});
   expect_described("POST", "/api/v1/uploads", upload);
   const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");
