@@ -72,6 +72,16 @@ struct RunQuery {
   Page page;
 };
 
+/// Two revisions, the latest ones unless others are named.
+struct ComparisonQuery {
+  std::string first, second;
+  std::optional<std::uint64_t> first_revision, second_revision;
+  std::string by = "text";  ///< or normalized, motion
+  std::string machine;      ///< whose setup applies to motion; empty: the controls' defaults
+  double tolerance = 0.001;
+  unsigned context = 3;
+};
+
 struct ReportQuery {
   std::string machine, program;
   Page page;
@@ -168,6 +178,8 @@ class Client {
   /// The revision, a draft again; nullopt: it came from a machine and is hidden.
   Reply<std::optional<Revision>> reject_revision(const DecisionRequest& request);
   Reply<RevisionStates> revision_states(std::string_view name, std::uint64_t revision);
+  /// The server's JSON (clients/tools/comparison/README.md).
+  Reply<std::string> compare(const ComparisonQuery& query);
   /// Returns fewer bytes than requested only at the end of the content.
   Reply<Content> content(const ContentRange& range);
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/unit/clients/dnc/dnc_process.hpp"
+#include "tests/unit/clients/support/fake_server.hpp"
 
 namespace dripline {
 namespace {
@@ -117,6 +118,47 @@ TEST_F(DncDiff, HoldsAcrossControls) {
 TEST_F(DncDiff, ATextOfAnotherControlThanSaidIsAnErrorOfUse) {
   EXPECT_EQ(dnc({"diff", "--control", "none", "a.ngc", "a.ngc"}).status, 2);
   EXPECT_EQ(dnc({"diff", "--motion", "--normalized", "a.ngc", "a.ngc"}).status, 2);
+}
+
+/// Two revisions, compared by the server.
+class DncProgramDiff : public testing::Test {
+ protected:
+  DncProgramDiff() {
+    dnc.environment["DRIPLINE_SERVER"] = server.url();
+    dnc.environment["DRIPLINE_TOKEN"] = test_support::FakeServer::kToken;
+  }
+  static json answer() {
+    return json::parse(R"json({"by":"text","same":false,"class":"comment","machine":null,
+        "first":{"program":"O1","revision":3,"control":"fanuc"},
+        "second":{"program":"O1","revision":4,"control":"fanuc"},
+        "text":{"same":false,"change":"comment","hunk_count":1,"removed":1,"added":1,"complete":true,
+          "hunks":[{"change":"comment","before":["O1"],"after":[],
+            "first":{"line":2,"count":1,"lines":["M30 (A)"]},
+            "second":{"line":2,"count":1,"lines":["M30\u001b[2J"]}}]}})json");
+  }
+  test_support::FakeServer server;
+  test_support::Dnc dnc{DNC_PATH};
+};
+
+TEST_F(DncProgramDiff, ListsWhatTheServerHasFound) {
+  server.set_answer("GET /api/v1/programs/O1/comparison", answer());
+  const auto different = dnc({"program", "diff", "O1@3", "O1@4"});
+  EXPECT_EQ(different.status, 1) << different.err;
+  EXPECT_EQ(different.out,
+            "--- O1@3\n+++ O1@4\n@@ -1,2 +1,2 @@ comment\n O1\n-M30 (A)\n+M30 [2J\n"
+            "1 place: 1 line removed, 1 added\nclass: comment\n");
+  json same = answer();
+  same["same"] = same["text"]["same"] = true;
+  server.set_answer("GET /api/v1/programs/O1/comparison", same);
+  EXPECT_EQ(dnc({"program", "diff", "O1@3", "--json"}).status, 0);
+}
+
+TEST_F(DncProgramDiff, OneIsForProgramsThatDifferAlone) {
+  EXPECT_EQ(dnc({"program", "diff", "O9", "O9@2"}).status, 2);  // not found
+  server.set_answer("GET /api/v1/programs/O1/comparison", json{{"by", "text"}});
+  const auto odd = dnc({"program", "diff", "O1"});
+  EXPECT_EQ(odd.status, 3);
+  EXPECT_NE(odd.err.find("not as expected"), std::string::npos) << odd.err;
 }
 
 }  // namespace

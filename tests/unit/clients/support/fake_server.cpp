@@ -132,6 +132,7 @@ class FakeServer::Impl {
       response.set_content(found->second.second, "application/json");
     };
     const std::string ports = R"(/api/v1/port.*)";
+    server_.Get(R"(/api/v1/programs/[^/]+/comparison)", give);
     server_.Get(R"(/api/v1/machines/[\w-]+/setup)", give);
     server_.Get(ports, give);
     server_.Put(ports, give);
