@@ -60,6 +60,7 @@ const kLater: { [view: string]: () => Promise<{ default: LaterView }> } = {
   programs: () => import('../programs/programs'),
   reports: () => import('../reports/reports'),
   path: () => import('../path/path'),
+  compare: () => import('../compare/compare'),
   account: () => import('../account/account'),
   administration: () => import('../administration/administration'),
 };

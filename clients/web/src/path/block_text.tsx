@@ -1,4 +1,4 @@
-// The program's text around the chosen block. A press on another line chooses that one.
+// The program's text around the chosen block. A press on another line chooses that one, where that means something.
 import { useEffect, useState } from 'preact/hooks';
 import { fetchApi, pathOf, withQuery } from '../api/request';
 import { holds, numberLines, rangeAround, type TextWindow } from '../machine/text_window';
@@ -18,13 +18,17 @@ interface Props {
   of: ProgramRevision;
   line: number;
   offset: number;
-  onChoose: (line: number) => void;
+  onChoose?: (line: number) => void;
 }
 
 async function load({ program, revision, size }: ProgramRevision, offset: number, signal: AbortSignal): Promise<TextWindow> {
   const { first, last } = rangeAround(offset, size);
   const response = await fetchApi('GET', withQuery(pathOf('programs', program, 'content'), { revision }), { range: `bytes=${first}-${last}` }, signal);
   return { offset: first, bytes: new Uint8Array(await response.arrayBuffer()), size };
+}
+
+function Block({ row }: { row: { number: number; text: string } }) {
+  return <><span class="number">{row.number}</span><span class="text">{row.text}</span></>;
 }
 
 export function BlockText({ of, line, offset, onChoose }: Props) {
@@ -46,9 +50,7 @@ export function BlockText({ of, line, offset, onChoose }: Props) {
       <ol class="blocks mono path-blocks" aria-label={t.blocks}>
         {lines.slice(Math.max(0, at - kShown), at + kShown + 1).map((row) => (
           <li key={row.number} aria-current={row.number === line ? 'step' : undefined}>
-            <button type="button" class="block" onClick={() => onChoose(row.number)}>
-              <span class="number">{row.number}</span><span class="text">{row.text}</span>
-            </button>
+            {onChoose ? <button type="button" class="block" onClick={() => onChoose(row.number)}><Block row={row} /></button> : <Block row={row} />}
           </li>
         ))}
       </ol>

@@ -2,6 +2,7 @@
 import { useState } from 'preact/hooks';
 import type { Revision } from '../../generated/api';
 import { fetchApi, pathOf, withQuery } from '../api/request';
+import { addressOf } from '../app/route';
 import { DiffView } from '../parts/diff_view';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
@@ -36,6 +37,7 @@ export function Compare({ revisions, to }: { revisions: Revision[]; to: Revision
           {others.map((r) => <option key={r.revision} value={r.revision}>{t.revisionNumber(r.revision)}</option>)}
         </select>
       </label>
+      {from && <p><a class="button" href={addressOf('compare', [to.program, String(from.revision), String(to.revision)])}>{texts().compare.open}</a></p>}
       {from && (Math.max(from.size, to.size) > kMaxBytes ? <p class="notice">{t.tooLong(bytesText(kMaxBytes))}</p> : <Difference from={from} to={to} />)}
     </section>
   );

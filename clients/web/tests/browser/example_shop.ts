@@ -71,6 +71,10 @@ export async function exampleShop(): Promise<Shop> {
   await shop.push('O0500', measuringProgram(40), 'centurion');
   await shop.start('lathe-2', 'O0500');
   await shop.push('O0600', spiralProgram(), 'fanuc');
+  const bracket = spiralProgram().replace(/O0600.*/, 'O0700 (BRACKET)').split('\n');
+  await shop.push('O0700', bracket.join('\n'), 'fanuc');
+  bracket[12] = bracket[12]!.replace(/X(-?\d+)/, 'X$12');
+  await shop.push('O0700', bracket.join('\n').replace('S2500', 'S2200').replace('R2. F150.', 'R2. F120. (SLOWER)').replace('I-90. J0. F2000.', 'R90. F2000.'), 'fanuc');
   await shop.addUser('anna', 'programmer', ['cell-1']);
   await shop.addUser('otto', 'operator', ['cell-1']);
   await shop.addUser('vera', 'viewer');

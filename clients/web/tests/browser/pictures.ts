@@ -16,6 +16,8 @@ const kPlaces: Record<string, string> = {
   program: '#/programs/O0100',
   path: '#/path/O0600?machine=mill-1&line=60',
   lathe: '#/path/O0500',
+  compare: '#/compare/O0700/1/2?by=motion&machine=mill-1',
+  normalized: '#/compare/O0700/1/2?by=normalized',
   reports: '#/reports',
   report: '#/reports/RUN?series=Z&lower=-1.9',
   server: '#/administration/server',
