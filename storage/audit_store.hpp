@@ -42,6 +42,8 @@ class AuditStore {
                                                              std::uint64_t limit) = 0;
   /// Errors: Conflict (its number was used).
   virtual Result<void> add_checkpoint(const audit::Checkpoint& checkpoint) = 0;
+  /// The entry of the end of a run; absent: it has none.
+  virtual Result<std::optional<ChainedEntry>> run_end(const std::string& run) = 0;
   /// A run that has ended, but has no entry of its end.
   virtual Result<std::optional<std::string>> run_without_end() = 0;
 };

@@ -14,4 +14,11 @@ Reply<void> Client::export_audit(const std::function<bool(std::string_view)>& si
   return perform(request);
 }
 
+Reply<void> Client::run_attestation(std::string_view id,
+                                    const std::function<bool(std::string_view)>& sink) {
+  HttpRequest request = impl::get(impl::path_of("runs", id) + "/attestation");
+  request.on_body = sink;
+  return perform(request);
+}
+
 }  // namespace dripline::client

@@ -206,6 +206,9 @@ class Client {
   Reply<Run> restart_run(std::string_view run, std::string_view at);
   Reply<std::vector<Run>> runs(const RunQuery& query);
   Reply<Run> run(std::string_view id);
+  /// Passes the text to `sink`; false from it ends the call.
+  Reply<void> run_attestation(std::string_view id,
+                              const std::function<bool(std::string_view)>& sink);
   Reply<void> command(std::string_view run, const CommandRequest& request);
   /// Switches and overrides of the machine's panel; they need no run.
   Reply<void> command_machine(std::string_view machine, const CommandRequest& request);

@@ -77,6 +77,7 @@ constexpr std::array kRoutes{
     RoutePermission{"POST", "/api/v1/runs", Operate, Start},
     RoutePermission{"GET", "/api/v1/runs", View},
     RoutePermission{"GET", "/api/v1/runs/{id}", View},
+    RoutePermission{"GET", "/api/v1/runs/{id}/attestation", View},
     RoutePermission{"POST", "/api/v1/runs/{id}/restart", Operate, Run},
     RoutePermission{"POST", "/api/v1/runs/{id}/commands", Operate, Run},
     RoutePermission{"GET", "/api/v1/runs/{id}/records", View},

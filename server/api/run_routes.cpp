@@ -149,6 +149,17 @@ Response show_run(Services& services, const Request& request) {
   return value_response(200, services.runs.run(request.parameter("id")), run_json);
 }
 
+Response attest_run(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto facts = services.runs.facts(request.parameter("id"), services.chain.header().database);
+  if (!facts) return error_response(facts.error());
+  Response response;
+  response.content_type = "text/plain; charset=utf-8";
+  response.body = services.chain.attest(*facts);
+  return response;
+}
+
 Response command_run(Services& services, const Request& request) {
   auto command = decode_command(request.body);
   if (!command) return error_response(command.error());
@@ -208,6 +219,7 @@ void add_run_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/runs", with(services, start_run), Waits::ForMachine);
   router.add("GET", "/api/v1/runs", with(services, list_runs));
   router.add("GET", "/api/v1/runs/{id}", with(services, show_run));
+  router.add("GET", "/api/v1/runs/{id}/attestation", with(services, attest_run));
   router.add("POST", "/api/v1/runs/{id}/restart", with(services, restart_run), Waits::ForMachine);
   router.add("POST", "/api/v1/runs/{id}/commands", with(services, command_run), Waits::ForMachine);
   router.add("GET", "/api/v1/runs/{id}/records", with(services, list_records));

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "protocol/audit/attestation.hpp"
 #include "protocol/audit/trail_file.hpp"
 #include "protocol/base/clock.hpp"
 #include "protocol/base/signature.hpp"
@@ -47,6 +48,11 @@ class AuditChain {
   /// checkpoint a minute after the last one when there is something to sign. A day after a whole
   /// verification it begins again. What is not as it was written is not signed, and logged.
   Result<void> look();
+
+  /// What the server states of a run, with its signature.
+  std::string attest(const std::vector<audit::Fact>& facts) const {
+    return audit::attestation_text(facts, parts_.key);
+  }
 
   /// The trail as a file, piece by piece: nullopt at its end. Keep it on one thread at a time.
   std::function<Result<std::optional<std::string>>()> exported() const;

@@ -4,6 +4,7 @@
 
 #include "server/library/kept_memory.hpp"
 #include "server/library/report_reader.hpp"
+#include "server/library/run_facts.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::library {
@@ -25,6 +26,11 @@ class RunHistory {
   /// In order of (epoch, number). `kind` empty: all. Errors: NotFound.
   Result<std::vector<storage::Record>> records(const std::string& run, const std::string& kind,
                                                storage::Page page);
+
+  /// See facts_of_run.
+  Result<std::vector<audit::Fact>> facts(const std::string& run, const std::string& database) {
+    return facts_of_run(store_, run, database);
+  }
 
   /// The report lines of a run. The store must outlive the reader. Errors: NotFound.
   Result<std::shared_ptr<ReportReader>> report(const std::string& run, ReportFormat format);

@@ -215,6 +215,16 @@ Result<void> AuditRepository::add_checkpoint(const audit::Checkpoint& checkpoint
   });
 }
 
+Result<std::optional<ChainedEntry>> AuditRepository::run_end(const std::string& run) {
+  static const std::string kSql =
+      "SELECT " + kEntryColumns + ", " + kRunFacts +
+      "FROM audit LEFT JOIN run ON run.id = audit.subject "
+      "WHERE audit.subject = ?1 AND audit.action = 'run.end' ORDER BY audit.id LIMIT 1";
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::first_row(database, kSql, read_chained, run);
+  });
+}
+
 Result<std::optional<std::string>> AuditRepository::run_without_end() {
   return connections_.read([&](sqlite::Database& database) {
     return sqlite::first_row(

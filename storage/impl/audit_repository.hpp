@@ -24,6 +24,7 @@ class AuditRepository final : public AuditStore {
   Result<std::vector<audit::Checkpoint>> checkpoints(std::uint64_t after,
                                                      std::uint64_t limit) override;
   Result<void> add_checkpoint(const audit::Checkpoint& checkpoint) override;
+  Result<std::optional<ChainedEntry>> run_end(const std::string& run) override;
   Result<std::optional<std::string>> run_without_end() override;
 
  private:

@@ -65,7 +65,16 @@ TEST_F(Release, TakesTwoPeopleAndOutlivesARestartOfTheServer) {
   EXPECT_EQ(run["state"], "completed");
   EXPECT_EQ(run["allowed_as"], "released");
   EXPECT_EQ(run["approval"], 3);
+  const std::string id = run["id"], paper = (system.folder() / "paper").string();
+  good(as("anna", "run attestation " + id + " -o " + paper));
+  const auto verified = as("anna", "run verify " + paper + " --program " + file.string());
+  EXPECT_EQ(verified.status, 0) << verified.output;
+  EXPECT_NE(verified.output.find("bert"), std::string::npos) << "who released it";
   good(as("bert", "program withdraw O1 1"));
+  good(as("anna", "run verify " + paper));
+  refused(as("anna", "run verify " + paper + " --program " + paper), "is not the program");
+  good(run_shell("sed -i s/completed/alarmed/ " + paper));
+  refused(as("anna", "run verify " + paper), "it was changed");
   refused(as("anna", "run start lathe-1 O1"), "is withdrawn");
 }
 

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/attestation_commands.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/server/run_follower.hpp"
@@ -186,6 +187,7 @@ void add_run_commands(Command app, Context& context) {
   run_at_server(show_command, context, shown, show);
 
   add_run_control_commands(group, context);
+  add_attestation_commands(group, context);
 
   auto watched = std::make_shared<std::string>();
   auto watch_command = group.add_subcommand("watch", "Follow a run to its end");

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "protocol/audit/attestation.hpp"
 #include "protocol/audit/trail_file.hpp"
 
 namespace {
@@ -27,6 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   if (verdict_of(text, size + 1) != verdict_of(text, 5)) std::abort();
   static_cast<void>(audit::parse_kept_checkpoint(text));
+  static_cast<void>(audit::parse_attestation(text));
   const auto entry = audit::parse_entry(text);
   if (entry && audit::line_of(*entry) != text) std::abort();
   return 0;

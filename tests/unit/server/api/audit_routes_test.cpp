@@ -27,6 +27,9 @@ class BreakableAudit final : public storage::AuditStore {
   Result<void> add_checkpoint(const audit::Checkpoint& checkpoint) override {
     return inner_.add_checkpoint(checkpoint);
   }
+  Result<std::optional<storage::ChainedEntry>> run_end(const std::string& run) override {
+    return inner_.run_end(run);
+  }
   Result<std::optional<std::string>> run_without_end() override { return inner_.run_without_end(); }
 
   bool is_broken = false;

@@ -283,6 +283,8 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
                    post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}}));
   expect_described("GET", "/api/v1/runs", get("/api/v1/runs"));
   expect_described("GET", "/api/v1/runs/{id}", get("/api/v1/runs/" + run));
+  expect_described("GET", "/api/v1/runs/{id}/attestation",
+                   get("/api/v1/runs/" + run + "/attestation"));
   expect_described("POST", "/api/v1/runs/{id}/restart",
                    post("/api/v1/runs/" + run + "/restart", {{"at", "executed"}}));
   expect_described("POST", "/api/v1/runs/{id}/commands",
