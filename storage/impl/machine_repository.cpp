@@ -1,0 +1,71 @@
+#include "protocol/base/names.hpp"
+#include "storage/impl/repositories.hpp"
+#include "storage/sqlite/query.hpp"
+
+namespace dripline::storage {
+
+namespace {
+
+const std::string kSelectMachine =
+    "SELECT name, control, description, gateway_version, machine.epoch, "
+    "coalesce(record_epoch.last, 0), first_seen_us, last_seen_us FROM machine "
+    "LEFT JOIN record_epoch "
+    "ON record_epoch.machine = machine.id AND record_epoch.epoch = machine.epoch ";
+
+Machine read_machine(const sqlite::Statement& row) {
+  return {row.text(0),   row.text(1),   row.text(2), row.text(3),
+          row.number(4), row.number(5), row.time(6), row.time(7)};
+}
+
+}  // namespace
+
+Result<std::int64_t> machine_id(sqlite::Database& database, const std::string& name,
+                                std::uint64_t epoch, UtcTime now) {
+  const auto known = sqlite::first_row(
+      database, "SELECT id FROM machine WHERE name = ?1",
+      [](const sqlite::Statement& row) { return row.integer(0); }, name);
+  if (!known) return fail(known.error());
+  if (*known) return **known;
+  if (auto checked = check_machine_name(name); !checked) return fail(checked.error());
+  const auto made = sqlite::run(
+      database,
+      "INSERT INTO machine (name, control, description, gateway_version, epoch, first_seen_us, "
+      "last_seen_us) VALUES (?1, '', '', '', ?2, ?3, ?3)",
+      name, epoch, now);
+  if (!made) return fail(made.error());
+  return database.last_insert_id();
+}
+
+Result<void> MachineRepository::save(const Machine& machine) {
+  if (auto checked = check_machine_name(machine.name); !checked) return checked;
+  return connections_.write([&](sqlite::Database& database) {
+    return sqlite::run(
+        database,
+        "INSERT INTO machine (name, control, description, gateway_version, epoch, first_seen_us, "
+        "last_seen_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7) ON CONFLICT (name) DO UPDATE SET "
+        "control = excluded.control, description = excluded.description, "
+        "gateway_version = excluded.gateway_version, epoch = excluded.epoch, "
+        "first_seen_us = min(first_seen_us, excluded.first_seen_us), "
+        "last_seen_us = max(last_seen_us, excluded.last_seen_us)",
+        machine.name, machine.control, machine.description, machine.gateway_version, machine.epoch,
+        machine.first_seen, machine.last_seen);
+  });
+}
+
+Result<Machine> MachineRepository::find(const std::string& name) {
+  static const std::string kSql = kSelectMachine + "WHERE name = ?1";
+  auto found = connections_.read([&](sqlite::Database& database) {
+    return sqlite::first_row(database, kSql, read_machine, name);
+  });
+  if (!found) return fail(found.error());
+  if (!*found) return fail(Errc::NotFound, "machine {} is not known", name);
+  return std::move(**found);
+}
+
+Result<std::vector<Machine>> MachineRepository::list() {
+  static const std::string kSql = kSelectMachine + "ORDER BY name";
+  return connections_.read(
+      [&](sqlite::Database& database) { return sqlite::all_rows(database, kSql, read_machine); });
+}
+
+}  // namespace dripline::storage

@@ -1,0 +1,115 @@
+#include "protocol/base/names.hpp"
+#include "storage/impl/content.hpp"
+#include "storage/impl/repositories.hpp"
+#include "storage/sqlite/query.hpp"
+
+namespace dripline::storage {
+
+namespace {
+
+/// Everything but the text.
+constexpr const char* kColumns =
+    "machine, number, sha256, length(CAST(text AS BLOB)), comment, author, created_us";
+
+SetupRevision read_setup(const sqlite::Statement& row) {
+  SetupRevision setup;
+  setup.machine = row.text(0);
+  setup.number = row.number(1);
+  setup.sha256 = read_digest(row, 2);
+  setup.size = row.number(3);
+  setup.comment = row.text(4);
+  setup.author = row.text(5);
+  setup.created = row.time(6);
+  return setup;
+}
+SetupRevision read_with_text(const sqlite::Statement& row) {
+  SetupRevision setup = read_setup(row);
+  setup.text = row.text(7);
+  return setup;
+}
+
+Result<std::optional<SetupRevision>> newest(sqlite::Database& database,
+                                            const std::string& machine) {
+  static const std::string kSql = fmt::format(
+      "SELECT {}, text FROM setup WHERE machine = ?1 ORDER BY number DESC LIMIT 1", kColumns);
+  return sqlite::first_row(database, kSql, read_with_text, machine);
+}
+
+Result<void> check_setup(const SetupRevision& setup) {
+  if (auto named = check_machine_name(setup.machine); !named) return named;
+  if (setup.text.size() <= kMaxSetup) return {};
+  return fail(Errc::LimitExceeded, "machine {}: a setup of {} bytes, at most {}", setup.machine,
+              setup.text.size(), kMaxSetup);
+}
+
+/// A text that was made from `base` never replaces one that was stored since.
+Result<void> check_base(const SetupRevision& setup, std::optional<std::uint64_t> base,
+                        std::uint64_t newest) {
+  if (!base || *base == newest) return {};
+  const std::string made_from = *base == 0 ? "before there was one" : fmt::format("from {}", *base);
+  if (newest == 0) {
+    return fail(Errc::Conflict, "machine {}: this setup was made {}, and there is none",
+                setup.machine, made_from);
+  }
+  return fail(Errc::Conflict,
+              "machine {}: this setup was made {}, and {} is the newest by now; nothing was stored",
+              setup.machine, made_from, newest);
+}
+
+Result<void> insert(sqlite::Database& database, const SetupRevision& setup) {
+  return sqlite::run(database,
+                     "INSERT INTO setup (machine, number, text, sha256, comment, author, "
+                     "created_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
+                     setup.machine, setup.number, setup.text,
+                     std::span<const std::byte>(setup.sha256.bytes), setup.comment, setup.author,
+                     setup.created);
+}
+
+}  // namespace
+
+Result<SetupRevision> SetupRepository::save(const SetupRevision& given,
+                                            std::optional<std::uint64_t> base) {
+  if (auto checked = check_setup(given); !checked) return fail(checked.error());
+  SetupRevision setup = given;
+  setup.sha256 = sha256(setup.text);
+  setup.size = setup.text.size();
+  setup.created = clock_.now();
+  const auto saved = connections_.write([&](sqlite::Database& database) -> Result<void> {
+    auto known = newest(database, setup.machine);
+    if (!known) return fail(known.error());
+    if (*known && (*known)->sha256 == setup.sha256) {
+      setup = std::move(**known);
+      return {};
+    }
+    const std::uint64_t before = *known ? (*known)->number : 0;
+    if (auto fresh = check_base(setup, base, before); !fresh) return fresh;
+    setup.number = before + 1;
+    return insert(database, setup);
+  });
+  if (!saved) return fail(saved.error());
+  return setup;
+}
+
+Result<std::vector<SetupRevision>> SetupRepository::list(const std::string& machine, Page page) {
+  static const std::string kSql = fmt::format(
+      "SELECT {} FROM setup WHERE machine = ?1 ORDER BY number DESC LIMIT ?2 OFFSET ?3", kColumns);
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::all_rows(database, kSql, read_setup, machine, page.limit, page.offset);
+  });
+}
+
+Result<SetupRevision> SetupRepository::find(const std::string& machine,
+                                            std::optional<std::uint64_t> number) {
+  static const std::string kSql =
+      fmt::format("SELECT {}, text FROM setup WHERE machine = ?1 AND number = ?2", kColumns);
+  return connections_.read([&](sqlite::Database& database) -> Result<SetupRevision> {
+    auto found = number ? sqlite::first_row(database, kSql, read_with_text, machine, *number)
+                        : newest(database, machine);
+    if (!found) return fail(found.error());
+    if (*found) return std::move(**found);
+    if (!number) return fail(Errc::NotFound, "machine {} has no setup on the server", machine);
+    return fail(Errc::NotFound, "machine {} has no setup {}", machine, *number);
+  });
+}
+
+}  // namespace dripline::storage
