@@ -39,6 +39,8 @@ std::string LinuxCnc::missing() {
 }
 
 LinuxCnc::LinuxCnc() {
+  // A gateway has another home than LinuxCNC, as a service has, and no file in it.
+  ::setenv("HOME", "/nonexistent", 1);
   const fs::path example = "deploy/examples/linuxcnc";
   for (const char* name : {"mill.ini", "mill.hal", "tool.tbl", "no_display", "start"})
     fs::copy_file(example / name, folder_.path() / name);
@@ -76,7 +78,8 @@ void LinuxCnc::start() {
   begin_ = 0;
   fs::remove(folder_.path() / "witness.txt");
   // Each has a home of its own: the part with the motors listens there.
-  process_.emplace(std::vector<std::string>{"/usr/bin/env", "TMPDIR=" + folder_.path().string(),
+  process_.emplace(std::vector<std::string>{"/usr/bin/env", "HOME=" + folder_.path().string(),
+                                            "TMPDIR=" + folder_.path().string(),
                                             folder_.path() / "start", ini()},
                    folder_.path() / "linuxcnc.log");
   ASSERT_TRUE(eventually([&] { return fs::exists(folder_.path() / "display.pid"); },
@@ -116,7 +119,7 @@ std::vector<std::array<double, 3>> LinuxCnc::ends() const {
 }
 
 /// From a whole line on.
-void LinuxCnc::forget() {
+void LinuxCnc::reset() {
   constexpr std::uintmax_t kLine = 200;
   const auto path = folder_.path() / "witness.txt";
   const auto size = fs::exists(path) ? fs::file_size(path) : 0;

@@ -46,6 +46,17 @@ def process_named(name):
     return None
 
 
+def share_home_of(pid):
+    """LinuxCNC keeps its tool table in a file in the home folder that it was started with, and without it there is no status."""
+    try:
+        with open("/proc/%d/environ" % pid, "rb") as environ:
+            homes = [line[5:] for line in environ.read().split(b"\0") if line.startswith(b"HOME=")]
+    except OSError:  # another user's
+        return
+    if homes:
+        os.environb[b"HOME"] = homes[0]
+
+
 def set_pin(name, text):
     try:
         hal.set_p(name, text)
@@ -81,6 +92,7 @@ class Machine:
         pid = process_named(task)
         if pid is None:
             give_up("LinuxCNC is not running here: there is no process %s" % task)
+        share_home_of(pid)
         realtime = process_named("rtapi_app")
         self.lives = [os.pidfd_open(number) for number in (pid, realtime) if number is not None]
         self.task = self.lives[0]
@@ -91,6 +103,9 @@ class Machine:
             self.wait_for_status()
         except linuxcnc.error as error:
             give_up("LinuxCNC does not answer: %s" % error)
+        except SystemError:
+            give_up("LinuxCNC's tool table %s/.tool.mmap cannot be read: the gateway must be of the user who started LinuxCNC"
+                    % os.environ.get("HOME", ""))
         if os.path.realpath(self.stat.ini_filename) != self.ini_path:
             give_up("LinuxCNC runs %s, not %s" % (self.stat.ini_filename, self.ini_path))
         self.has_program = False
