@@ -10,7 +10,7 @@
 namespace dripline::cli {
 namespace {
 
-/// The validator's name is what stands for the value in the help, in the place of its description.
+/// The validator's name is what represents the value in the help, in the place of its description.
 Check named(CLI::Validator validator, const std::string& words) {
   return Check(std::move(validator.name(words).description("")));
 }

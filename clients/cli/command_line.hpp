@@ -42,7 +42,7 @@ class Option {
   explicit Option(CLI::Option* option) : option_(option) {}
 
   Option required() const;
-  /// What stands for the value in the help.
+  /// What represents the value in the help.
   Option type_name(const std::string& name) const;
   Option check(const Check& check) const;
   Option excludes(const Option& other) const;

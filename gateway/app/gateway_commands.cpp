@@ -245,7 +245,7 @@ Reply Gateway::cycle_start() {
   return {};
 }
 
-/// Only at the machine: whoever moves its axes must see them.
+/// Only at the machine: the person who moves its axes must see them.
 Reply Gateway::reference_axes(bool is_homing) {
   if (run_.session) return refuse(fmt::format("run {} is active", run_.session->run().run));
   if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStopIsPressed));

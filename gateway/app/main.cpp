@@ -110,7 +110,7 @@ std::string status_line(const Gateway& gateway) {
   return line;
 }
 
-/// Tells the service manager now and then that the loop turns.
+/// Reports to the service manager now and then that the loop runs.
 class AliveNotice {
  public:
   explicit AliveNotice(const Gateway& gateway) : gateway_(gateway) {

@@ -11,7 +11,7 @@ namespace dripline::gateway {
 
 /// The back ends of `--motion`, separated by commas: "simulated, grbl:ADDRESS".
 std::string motion_names();
-/// It moves more than numbers: somebody can be hurt.
+/// It moves more than numbers: people can be hurt.
 bool is_real_motion(std::string_view name);
 /// Errors: NotFound, naming the back ends that are known; Syntax, LimitExceeded (the address).
 Result<void> check_motion(std::string_view name);

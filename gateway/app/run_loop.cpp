@@ -378,7 +378,7 @@ Result<void> RunLoop::recover() {
     progress = entry->progress;
   RunEnding ending;
   ending.executed = progress;
-  settle_interrupted(run->run, ending);
+  resolve_interrupted(run->run, ending);
   progress = ending.executed;
   process::log_warning("run interrupted at block {}{} machine={} run={} program={}",
                        progress.executed, uncertain_text(ending), parts_.options.machine, run->run,

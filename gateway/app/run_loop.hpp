@@ -104,7 +104,7 @@ class RunLoop {
   void report_memory();
   void stage_ending(dds::RunOutcome outcome);
   InHand in_hand(const std::string& run, std::uint64_t executed) const;
-  void settle_interrupted(const std::string& run, RunEnding& ending);
+  void resolve_interrupted(const std::string& run, RunEnding& ending);
   void check_end();
   std::string overdue_reason() const;
   void commit_state();

@@ -100,8 +100,8 @@ InHand RunLoop::in_hand(const std::string& run, std::uint64_t executed) const {
   return motion_of(parts_.motion_journal->read(run, executed));
 }
 
-/// A device goes on with what it has when its gateway is killed, and stops soon.
-void RunLoop::settle_interrupted(const std::string& run, RunEnding& ending) {
+/// A device continues with what it has when its gateway is killed, and stops soon.
+void RunLoop::resolve_interrupted(const std::string& run, RunEnding& ending) {
   ending.in_hand = in_hand(run, ending.executed.executed);
   if (ending.in_hand.empty()) return;
   const SteadyTime limit = parts_.clock.steady_now() + kRestWait;
@@ -111,7 +111,7 @@ void RunLoop::settle_interrupted(const std::string& run, RunEnding& ending) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   if (at) ending.stopped_at = parts_.machine.status().position;
-  (void)settle(ending.in_hand, at, ending.executed);
+  (void)resolve(ending.in_hand, at, ending.executed);
 }
 
 /// Before the record of the run's end, and in the same transaction.
@@ -130,7 +130,7 @@ void RunLoop::stage_ending(dds::RunOutcome outcome) {
   if (!is_completed) ending.in_hand = in_hand(run, ending.executed.executed);
   // An aborted machine shows where it rests, and the operator may move it away.
   if (outcome == dds::RunOutcome::Aborted)
-    (void)settle(ending.in_hand, parts_.machine.rests_at(), ending.executed);
+    (void)resolve(ending.in_hand, parts_.machine.rests_at(), ending.executed);
   parts_.outbox.checkpoints().stage_ending(run, encode(run, std::move(ending)));
 }
 

@@ -183,7 +183,7 @@ void StatusBuilder::fill_execution(dds::Status& status, const LinkState& links) 
             ? links.line_fault
             : fmt::format("the server does not command this gateway: {}", links.refused_by_server);
   }
-  // What the machine itself lacks is said also after a run: nothing begins before it is there.
+  // What the machine itself lacks is reported also after a run: nothing begins before it is there.
   if (!parts_.run.is_active() && !status.emergency_stop) {
     if (const std::string notice = parts_.machine.notice(); !notice.empty()) message = notice;
   }

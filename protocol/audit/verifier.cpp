@@ -14,7 +14,7 @@ void Verifier::take(const Entry& entry, const Digest& digest) {
     report({expected, through == expected
                           ? fmt::format("entry {} was removed", expected)
                           : fmt::format("entries {} to {} were removed", expected, through)});
-    // Without the one before it, nobody knows whether this one is genuine.
+    // Without the one before it, it is unknown whether this one is genuine.
     last_fault_ = std::max(last_fault_, entry.number);
   } else if (entry.number < expected) {
     report(
@@ -47,7 +47,7 @@ void Verifier::take(const Checkpoint& checkpoint) {
     report({last_ + 1, fmt::format("entries {} to {} were removed: checkpoint {} has them",
                                    last_ + 1, checkpoint.entry, checkpoint.number)});
   } else if (checkpoint.entry == last_ && checkpoint.digest != digest_) {
-    // A fault since the last checkpoint explains it; otherwise nobody knows where it began.
+    // A fault since the last checkpoint explains it; otherwise it is unknown where it began.
     const std::uint64_t place = last_fault_ > known ? checkpoint.entry : known + 1;
     report({place, fmt::format("entries {} to {} are not those of checkpoint {}: the chain was "
                                "computed again",

@@ -16,8 +16,8 @@ struct Fault {
 };
 
 /// Reads a trail from its beginning: entries in the order of their numbers, each checkpoint after
-/// the entry it is of (or after a later one). It goes on after a fault, from what is stored there,
-/// so that it knows the first and the last. Constant memory; one thread at a time.
+/// the entry it is of (or after a later one). It continues after a fault, from what is stored
+/// there, so that it knows the first and the last. Constant memory; one thread at a time.
 class Verifier {
  public:
   Verifier(std::string database, const PublicKey& key)

@@ -14,7 +14,7 @@ bool is_changing(const Request& request) {
   return request.method != "GET" && request.method != "HEAD";
 }
 
-/// Both ways to be told apart from another site's page that sends our cookie along.
+/// Both distinguish it from another site's page that sends our cookie along.
 bool is_from_our_page(const Request& request) {
   const std::string site = request.header("sec-fetch-site");
   return !request.header(AccessControl::kPageHeader).empty() &&

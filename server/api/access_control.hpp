@@ -23,7 +23,7 @@ class AccessControl {
   explicit AccessControl(const Parts& parts) : parts_(parts) {}
 
   /// By the head alone, without waiting: credential, role, and the machine that the path names.
-  /// `route` null: there is none, which only callers are told. nullopt: it may go on, and the
+  /// `route` null: there is none, which only callers learn. nullopt: it may continue, and the
   /// caller is set in the request. Else 401, 403, or 413 (a sign-in with a large body).
   std::optional<Response> judge(Request& head, const Router::Route* route) const;
   /// When the body is there: the machine that the request acts on, also one that the store has to

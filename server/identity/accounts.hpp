@@ -36,7 +36,7 @@ class Accounts {
   /// is worth nothing, unless `recover` makes it one again.
   Result<void> use_local_secret(const std::string& secret, bool recover);
 
-  /// nullopt: it is nobody's, expired, revoked, or of a user that is locked or removed.
+  /// nullopt: it is unknown, expired, revoked, or of a user that is locked or removed.
   std::optional<Caller> find(const PresentedSecret& presented, const std::string& address);
   /// Whether the caller's credential is still valid, for answers that never end.
   bool is_valid(const Caller& caller) const;

@@ -12,7 +12,7 @@ namespace dripline::identity {
 
 /// Limits how often a password may be tried, of a user and from an address; names that no user has
 /// are limited like those of users. An attempt counts when it begins, so that a thousand at once
-/// are no way around, and is given back when the password was right. Any thread.
+/// do not help, and is given back when the password was right. Any thread.
 class AttemptLimits {
  public:
   struct Options {

@@ -9,16 +9,17 @@
 
 namespace dripline::identity {
 
-/// What one digest costs whoever computes it.
+/// What one digest costs to compute.
 struct HashingCost {
   std::uint64_t passes = 2;
   std::size_t memory = 64 * 1024 * 1024;  ///< bytes
 };
 
 /// Digests of passwords, argon2id. A digest carries its salt and its cost, so that the cost can be
-/// raised: `is_outdated` tells which to replace at the next sign-in. At most `at_once` digests are
-/// computed at the same time, so that strangers who sign in cannot take all memory, and `waiting`
-/// more callers wait for them. Any thread; takes about 0.1 s, so never on one that serves sockets.
+/// raised: `is_outdated` reports which to replace at the next sign-in. At most `at_once` digests
+/// are computed at the same time, so that strangers who sign in cannot take all memory, and
+/// `waiting` more callers wait for them. Any thread; takes about 0.1 s, so never on one that serves
+/// sockets.
 class PasswordHasher {
  public:
   struct Options {
@@ -30,8 +31,8 @@ class PasswordHasher {
 
   /// Errors: Busy (too many wait already), Io (no memory).
   Result<std::string> hash(const std::string& password);
-  /// Whether `digest` is of this password. An empty digest is nobody's, and takes as long. Errors:
-  /// Busy, Corrupt (no digest, or one that would cost more than kMaxMemory or kMaxPasses).
+  /// Whether `digest` is of this password. An empty digest is no password's, and takes as long.
+  /// Errors: Busy, Corrupt (no digest, or one that would cost more than kMaxMemory or kMaxPasses).
   Result<bool> verify(const std::string& digest, const std::string& password);
   /// Whether the digest was made with another cost.
   bool is_outdated(const std::string& digest) const;

@@ -18,7 +18,7 @@ void RefusalLog::note(Refusal refusal) {
   const std::lock_guard lock(mutex_);
   Kind kind{refusal.who.name, refusal.who.address, refusal.action, refusal.subject};
   if (kinds_.size() >= options_.kinds && !kinds_.contains(kind)) {
-    refusal = {{}, "access.refused", "others", "of too many kinds to be told apart"};
+    refusal = {{}, "access.refused", "others", "of too many kinds to be counted each"};
     kind = {"", "", refusal.action, refusal.subject};
   }
   const auto [at, is_first] = kinds_.try_emplace(std::move(kind), Counted{refusal, 0});

@@ -19,7 +19,7 @@ class RefusalLog {
  public:
   struct Options {
     std::chrono::seconds interval{60};
-    std::size_t kinds = 256;  ///< told apart within an interval; the rest are counted together
+    std::size_t kinds = 256;  ///< distinguished within an interval; the rest are counted together
   };
   struct Refusal {
     storage::Actor who;

@@ -77,7 +77,7 @@ class AuditChain {
   void note(const Pass& pass);
 
   const Parts parts_;
-  std::mutex pass_mutex_;  ///< held by whoever verifies
+  std::mutex pass_mutex_;  ///< held by the thread that verifies
   Pass pass_;              ///< of `look`
   SteadyTime began_, signed_;
   mutable std::mutex mutex_;

@@ -61,7 +61,7 @@ class Backups {
 
   State state() const;
 
-  /// These return at once; state() tells how it goes. Errors: Busy (another is in progress),
+  /// These return at once; state() reports the progress. Errors: Busy (another is in progress),
   /// NotFound.
   Result<void> begin_make(const storage::Actor& who);
   Result<void> begin_verify(const storage::Actor& who, const std::string& id);

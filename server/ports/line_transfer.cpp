@@ -50,7 +50,7 @@ Result<std::vector<storage::Revision>> chosen(library::Releases& releases, const
                                               const std::vector<ProgramChoice>& programs) {
   std::vector<storage::Revision> revisions;
   for (const auto& choice : programs) {
-    // Whoever starts it at the control, and when, is not known: nothing is proved out this way.
+    // Who starts it at the control, and when, is not known: nothing is proved out so.
     auto admitted = releases.admit(
         {.machine = port.port.machine, .program = choice.program, .revision = choice.revision});
     if (!admitted) {

@@ -232,7 +232,7 @@ TEST(OpenNetwork, NeedsToBeConfirmed) {
   }
 }
 
-/// What systemd is told of a unit of Type=notify with a watchdog of one second.
+/// What systemd learns of a unit of Type=notify with a watchdog of one second.
 TEST(ServiceUnit, IsReadyStaysAliveAndAnnouncesItsEnd) {
   const auto in_unit = [](const test_support::ServiceSocket& manager, const auto& start) {
     ::setenv("NOTIFY_SOCKET", manager.path().c_str(), 1);  // NOLINT(concurrency-mt-unsafe): alone

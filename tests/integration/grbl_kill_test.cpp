@@ -64,7 +64,7 @@ class GrblKill : public GrblSystem {
     EXPECT_GE(executed + unknown, truth + kSilent) << run.dump();
     EXPECT_EQ(blocks_done(), truth) << "nothing moves by itself";
   }
-  /// The board's position tells what the run's record does not have.
+  /// The board's position shows what the run's record does not have.
   void expect_restart_after(std::size_t block) {
     std::string text, restarted;
     ASSERT_TRUE(eventually([&] {
@@ -125,7 +125,7 @@ TEST_F(GrblKill, OfTheServerIsNotFelt) {
       system->server().kill();
       system->start_server();
       system->wait_connected();
-      EXPECT_TRUE(eventually([&] { return blocks_done() > at_cut + 2; })) << "the run goes on";
+      EXPECT_TRUE(eventually([&] { return blocks_done() > at_cut + 2; })) << "the run continues";
       at_cut = blocks_done();
       command(id, "abort");
     });

@@ -87,7 +87,7 @@ class LinuxCncKill : public MotionSystem {
       ASSERT_EQ(back.value("state", ""), "completed") << back.dump();
       ASSERT_TRUE(rests());
     }
-    linuxcnc->forget();
+    linuxcnc->reset();
     id = start_run("path");
     ASSERT_TRUE(eventually([&] { return x() > 1; })) << system->run(id).dump();
     // The moment is the test's subject, so here it does sleep.
@@ -101,7 +101,7 @@ class LinuxCncKill : public MotionSystem {
   /// The restart reports where the axes have shown the run to be, moves nothing before cycle start,
   /// and completes the part.
   void restart(const nlohmann::json& cut, const std::string& at = {}) {
-    linuxcnc->forget();
+    linuxcnc->reset();
     const double before = x();
     auto body = nlohmann::json::object();
     if (!at.empty()) body["at"] = at;
@@ -144,7 +144,7 @@ class LinuxCncKill : public MotionSystem {
   }
   void TearDown() override {
     if (IsSkipped()) return;
-    EXPECT_TRUE(std::filesystem::is_empty(temporary.path())) << "a FIFO was left behind";
+    EXPECT_TRUE(std::filesystem::is_empty(temporary.path())) << "a FIFO is still there";
     std::printf("%d restarts\n", restarts);
   }
 
@@ -175,7 +175,7 @@ TEST_F(LinuxCncKill, OfGatewayServerAndHelperCutsNothingTwiceAndLeavesNothingOut
     const auto cut = system->wait_ended(id);
     const std::string state = cut.value("state", "");
     if (kind == kServer) {
-      EXPECT_EQ(state, "completed") << "the run goes on without the server";
+      EXPECT_EQ(state, "completed") << "the run continues without the server";
       EXPECT_NEAR(x(), kMoves, 1e-6);
     }
     if (state == "completed") continue;

@@ -106,9 +106,9 @@ class Path final : public interpreter::EventSink {
   double nearest_part(std::size_t i, const Point& at) const {
     double along = 0, square = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double way = points_[i + 1][k] - points_[i][k];
-      along += way * (at[k] - points_[i][k]);
-      square += way * way;
+      const double travel = points_[i + 1][k] - points_[i][k];
+      along += travel * (at[k] - points_[i][k]);
+      square += travel * travel;
     }
     return std::clamp(along / square, 0.0, 1.0);
   }
@@ -242,7 +242,7 @@ class LinuxCncPrograms : public LinuxCncTest {
     runs = false;
   }
   std::vector<LinuxCnc::Sample> path_of(const std::function<void()>& execute) {
-    linuxcnc->forget();
+    linuxcnc->reset();
     execute();
     EXPECT_TRUE(test_support::eventually([&] { return linuxcnc->rests(); }));
     return linuxcnc->samples();

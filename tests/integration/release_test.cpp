@@ -1,4 +1,5 @@
-// A revision on its way to a machine with the real programs: two people, one policy, one lathe.
+// A revision from its author to a machine with the real programs: two people, one policy, one
+// lathe.
 #include <gtest/gtest.h>
 #include <fstream>
 

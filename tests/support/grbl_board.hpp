@@ -74,7 +74,7 @@ class GrblBoard {
   bool ignores_reset = false;
   bool is_mute = false;          ///< answers nothing
   bool is_stuck = false;         ///< reports Run, the axes stand
-  bool swallows_lines = false;   ///< lines are lost on their way
+  bool swallows_lines = false;   ///< lines are lost in transit
   int leaked_blocks = 0;         ///< of the planner, reported as in use
   double drifts = 0;             ///< mm that X is beside what it was sent to
   int refuses_line = 0;          ///< the n-th line from now is answered by error 20

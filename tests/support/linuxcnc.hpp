@@ -38,9 +38,9 @@ class LinuxCnc {
     long line = 0;  ///< in motion
     std::array<double, 3> at{};
   };
-  /// Everything since the start or `forget`, without repetitions.
+  /// Everything since the start or `reset`, without repetitions.
   std::vector<Sample> samples() const;
-  void forget();
+  void reset();
   /// Where the axes were when the line in motion changed, and where they are now.
   std::vector<std::array<double, 3>> ends() const;
   std::array<double, 3> position() const;

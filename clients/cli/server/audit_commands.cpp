@@ -116,7 +116,7 @@ void add_verify(Command group, Context& context) {
   command.footer(
       "Names the first place that was changed, removed or inserted. Without FILE and --checkpoint "
       "the server\nverifies its own trail and compares the runs that ended with their entries. "
-      "Only a checkpoint that was\nkept elsewhere shows that the end was cut off, or that somebody "
+      "Only a checkpoint that was\nkept elsewhere shows that the end was cut off, or that someone "
       "who has the server's key wrote\nanother trail.\n\nExample:\n  dnc audit verify trail.txt "
       "--checkpoint monday.txt");
   command.callback([&context, options] { verify(context, *options); });

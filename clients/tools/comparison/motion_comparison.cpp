@@ -15,7 +15,7 @@ constexpr std::size_t kStride = 4096;
 /// Where both do the same again is looked for in so many actions of each, then in more.
 constexpr std::size_t kFirstWindow = 256;
 constexpr std::size_t kWindowGrowth = 4;
-/// So many actions in a row are the same where the programs are said to agree again.
+/// So many actions in a row are the same where the programs are taken to agree again.
 constexpr std::size_t kAgreed = 3;
 /// Replaced actions, each by one, are looked for up to this length before anything else.
 constexpr std::size_t kMaxReplaced = 8;

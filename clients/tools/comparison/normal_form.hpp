@@ -14,7 +14,7 @@ constexpr bool is_capital(char c) {
 }
 
 /// How the text of a control reads where it is compared and not interpreted. A rule that is not
-/// sure is left out: then texts differ that mean the same, never the other way round.
+/// sure is left out: then texts differ that mean the same, never the reverse.
 struct LexicalRules {
   std::string_view control;
   bool has_parentheses = false;     ///< comments in parentheses
@@ -36,7 +36,7 @@ struct NormalForm {
 };
 
 /// Appends the line in its normal form: without comments and blanks, in capitals, numbers written
-/// in one way, without the block's number. Empty: the line means nothing. Lines that print or name
+/// in one form, without the block's number. Empty: the line means nothing. Lines that print or name
 /// something (DPRNT, quotes, <names>) stay as they are but for the blanks at their ends.
 void append_normal(std::string_view line, const LexicalRules& rules, NormalForm form,
                    std::string& out);

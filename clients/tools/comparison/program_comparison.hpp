@@ -20,7 +20,7 @@ enum class EditClass : std::uint8_t {
   FeedAndSpeed,  ///< feeds and spindle speeds alone
   Offsets,       ///< work offsets, tool offsets, and what `FeedAndSpeed` is
   Geometry,      ///< the path
-  Other,         ///< tools, functions, outputs, order ..., or it could not be told
+  Other,         ///< tools, functions, outputs, order ..., or it could not be determined
 };
 std::string_view word_of(EditClass edit);
 std::string_view word_of(TextChange change);

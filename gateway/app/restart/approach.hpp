@@ -20,7 +20,7 @@ struct ApproachMove {
 /// rapidly to kPlunge above the place, the rest at the feed of the program.
 ///
 /// A lathe's Z is its tool axis here, as it is for the Centurion's own search (manual: RUN and
-/// VERIFY): it retracts in front of the part, and its way back is a feed from the clearance on.
+/// VERIFY): it retracts in front of the part, and its path back is a feed from the clearance on.
 struct Approach {
   bool is_lathe = false;
   interpreter::Axis tool_axis = interpreter::Axis::Z;

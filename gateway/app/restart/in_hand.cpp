@@ -34,8 +34,8 @@ InHand motion_of(InHand entries) {
   return has_motion ? entries : InHand();
 }
 
-bool settle(InHand& in_hand, const std::optional<GivenAction::Point>& at,
-            report::Progress& executed) {
+bool resolve(InHand& in_hand, const std::optional<GivenAction::Point>& at,
+             report::Progress& executed) {
   if (in_hand.empty()) return true;
   if (!at) return false;
   std::vector<GivenAction> actions;

@@ -16,8 +16,8 @@ InHand motion_of(InHand entries);
 
 /// Counts what the axes have passed that rest at `at`: `executed` becomes the block that they have
 /// ended at least. True: they have ended no other, and nothing is in hand any more.
-bool settle(InHand& in_hand, const std::optional<machine::GivenAction::Point>& at,
-            report::Progress& executed);
+bool resolve(InHand& in_hand, const std::optional<machine::GivenAction::Point>& at,
+             report::Progress& executed);
 
 /// 0: none.
 std::uint64_t last_block(const InHand& in_hand);

@@ -16,7 +16,7 @@
 namespace dripline::gateway {
 
 /// Brings an interpreter to the place where a run that was cut off continues, by looking through
-/// the program from the nearest checkpoint: nothing of that reaches the machine. On the way it
+/// the program from the nearest checkpoint: nothing of that reaches the machine. Meanwhile it
 /// compares the state with what was recorded when the program ran. At the end the approach is
 /// queued at the machine, and with it what follows of the next block; the machine's time does not
 /// pass before cycle start. One thread.

@@ -55,11 +55,11 @@ std::string axes_text(const machine::GivenAction::Point& at, const InHand& in_ha
 
 /// Nothing is cut twice, or left out, without being asked: where the axes do not tell, the operator
 /// names the block.
-Result<void> settle_place(RestartPlan& plan,
-                          const std::optional<machine::GivenAction::Point>& rests_at) {
+Result<void> resolve_place(RestartPlan& plan,
+                           const std::optional<machine::GivenAction::Point>& rests_at) {
   plan.on_record = plan.ending.executed.executed;
   if (plan.at.kind != Kind::Executed) return {};
-  if (settle(plan.ending.in_hand, rests_at, plan.ending.executed)) return {};
+  if (resolve(plan.ending.in_hand, rests_at, plan.ending.executed)) return {};
   const std::uint64_t executed = plan.ending.executed.executed;
   const std::uint64_t last = last_block(plan.ending.in_hand);
   return fail(Errc::Conflict,
@@ -144,7 +144,8 @@ Result<RestartPlan> plan_restart(storage::sqlite::Database& database,
     return fail(Errc::Conflict, "run {} was completed: there is nothing left to continue",
                 argument.run);
   }
-  if (auto settled = settle_place(plan, present.rests_at); !settled) return fail(settled.error());
+  if (auto resolved = resolve_place(plan, present.rests_at); !resolved)
+    return fail(resolved.error());
   const std::string changed = changes(plan.original, plan.conditions, plan.ending, present);
   if (!changed.empty())
     return fail(Errc::Conflict, "changed since run {}: {}", argument.run, changed);

@@ -22,7 +22,7 @@ struct RestartPlan {
   report::ActiveRun original;
   RestartPlace at;
   Conditions conditions;
-  RunEnding ending;             ///< settled by where the axes rest, for a restart after it
+  RunEnding ending;             ///< resolved by where the axes rest, for a restart after it
   std::uint64_t on_record = 0;  ///< the block executed last, as the run has it
   std::vector<report::StoredCheckpoint> checkpoints;  ///< ascending, without their bytes
 

@@ -41,7 +41,7 @@ class BoardInfo {
   /// N words from 1 to this are enough to tell the lines apart that the board may hold.
   std::uint32_t line_numbers() const;
   /// Bytes that may be unanswered: one less than the receive buffer, which some builds need. What
-  /// is in it nobody can take back, so that of a large buffer only a part is used.
+  /// is in it cannot be taken back, so that of a large buffer only a part is used.
   std::size_t window() const;
   /// How its lines are written.
   streamed::TextRules rules() const;

@@ -90,7 +90,7 @@ void BoardSession::on(const Greeting& greeting, SteadyTime now) {
   unanswered_poll_.reset();
   info_.take(greeting);
   if (!is_expected && was_ready && is_active_) {
-    // Lines that are still on their way would be executed by a board that has lost its position.
+    // Lines that are still in transit would be executed by a board that has lost its position.
     fault_ = streamed::DeviceFault{"GRB0004",
                                    "the board has restarted by itself: the position is unknown"};
     stop_ = Stop::Fault;

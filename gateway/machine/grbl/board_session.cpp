@@ -133,7 +133,7 @@ void BoardSession::watch_answers(SteadyTime now) {
   if (reported_at_ - *resting_since_ <= limits_.answer + longest_) return;
   raise("GRB0006",
         owes_answer
-            ? "the board is at rest and has not answered a line: it was lost on its way"
+            ? "the board is at rest and has not answered a line: it was lost in transit"
             : "the board is at rest and its reports do not show that the last line is executed",
         now);
 }

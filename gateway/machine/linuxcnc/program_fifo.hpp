@@ -27,7 +27,7 @@ class ProgramFifo {
   /// Writes whole lines, as many as have room; the rest is kept.
   void write(std::string_view text);
   bool has_pending() const { return !pending_.empty(); }
-  /// Once LinuxCNC has opened it: a gateway that is killed leaves nothing behind.
+  /// Once LinuxCNC has opened it: a gateway that is killed leaves no file.
   void remove_name();
 
  private:

@@ -38,7 +38,7 @@ void Session::opened(SteadyTime now) {
     begin_stop(now);
 }
 
-/// What LinuxCNC has goes on without us: the next helper's first commands end it.
+/// What LinuxCNC has is executed without us: the next helper's first commands end it.
 void Session::lost(const std::string& reason) {
   const bool was_open = phase_ != Phase::Closed;
   phase_ = Phase::Closed;

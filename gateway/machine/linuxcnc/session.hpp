@@ -17,7 +17,7 @@ struct SessionLimits {
   std::chrono::milliseconds flush{5}, dry{30};
   std::size_t bytes_per_second = 1024 * 1024;
   std::size_t lines_ahead = 400;  ///< sent and not executed
-  /// Motion ahead of the axes, without the time that they need to come to rest: it goes on when
+  /// Motion ahead of the axes, without the time that they need to come to rest: it continues when
   /// nothing is left that could stop it.
   double seconds_ahead = 0.75;
   int garbage = 3;  ///< lines of the helper that are none

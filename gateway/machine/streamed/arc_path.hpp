@@ -16,7 +16,7 @@ struct ArcPath {
   Coordinates from{}, to{};
 
   double length() const;
-  /// `part` from 0 to 1 of the way; the axes outside the plane move evenly with the angle.
+  /// `part` from 0 to 1 of the path; the axes outside the plane move evenly with the angle.
   Coordinates at(double part) const;
 };
 

@@ -18,7 +18,8 @@ constexpr double kMaxRadiusChange = 0.004;
 constexpr double kShortestArc = 0.005;
 constexpr double kChordDeviation = 0.002;
 constexpr std::size_t kMaxPieces = 4096;  ///< of one move
-/// Of a move, where a device may have so many seconds ahead: several of them are always under way.
+/// Of a move, where a device may have so many seconds ahead: several of them are always in
+/// progress.
 constexpr double kPieceSeconds = 0.25;
 
 /// The length that a program's feed is for: that of the linear axes, if any moves.

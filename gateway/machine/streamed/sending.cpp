@@ -66,7 +66,7 @@ void StreamedMachine::pump(const Lock&) {
   }
 }
 
-/// Two lines at least are under way, so that the axes pass from one to the next.
+/// Two lines at least are in progress, so that the axes pass from one to the next.
 bool StreamedMachine::may_be_ahead(double seconds) {
   constexpr std::size_t kLeastLines = 2;
   for (; !ahead_.empty() && ahead_.front().serial <= device_.executed(); ahead_.pop_front())

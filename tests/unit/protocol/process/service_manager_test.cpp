@@ -45,7 +45,7 @@ TEST_F(ServiceManager, GetsOneLineOfStatus) {
 
 TEST_F(ServiceManager, IsNotNeeded) {
   EXPECT_FALSE(has_service_manager());
-  notify_ready("nobody listens");
+  notify_ready("no one listens");
   EXPECT_EQ(alive_interval(), std::nullopt);
   set("NOTIFY_SOCKET", "/nowhere/at/all");
   notify_alive("nor here");

@@ -205,7 +205,7 @@ TEST_F(Access, BySignInForACookieNeedsTheHeaderToo) {
   add_user("anna", "viewer", Json::array());
   const std::string body = R"({"user":"anna","password":"correct horse"})";
   EXPECT_EQ(as("", "POST", "/api/v1/session", body).status, 403)
-      << "no other site signs a browser in as somebody";
+      << "no other site signs a browser in";
 }
 
 TEST_F(Access, BySignInIsLimitedAndTellsNothing) {

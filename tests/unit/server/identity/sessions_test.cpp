@@ -21,7 +21,7 @@ TEST_F(SessionsTest, SignsInAndOut) {
   EXPECT_EQ(caller->role, Role::Programmer);
   EXPECT_EQ(caller->address, "192.0.2.1");
   reopen();
-  ASSERT_TRUE(find(issued->secret)) << "a restart signs nobody out";
+  ASSERT_TRUE(find(issued->secret)) << "a restart signs no user out";
   ASSERT_TRUE(accounts().sessions().sign_out(*caller));
   EXPECT_FALSE(find(issued->secret));
   EXPECT_FALSE(accounts().is_valid(*caller));
@@ -29,7 +29,7 @@ TEST_F(SessionsTest, SignsInAndOut) {
   EXPECT_EQ(audited("sign-out").size(), 1u);
 }
 
-/// Neither the text nor the work that is done tells a stranger which users there are.
+/// Neither the text nor the work that is done shows a stranger which users there are.
 TEST_F(SessionsTest, RefusesEveryoneWithTheSameWords) {
   add("anna", Role::Viewer);
   add("locked", Role::Viewer);

@@ -38,7 +38,7 @@ TEST(Manifest, IsRefusedWhereverItIsCutOrChanged) {
   }
 }
 
-/// With a digest that fits, as somebody hostile would write it.
+/// With a digest that fits, as an attacker would write it.
 TEST(Manifest, NamesOnlyFilesOfItsFolder) {
   for (const char* name : {"", ".", "..", "../x", "/etc/passwd", "a/b"}) {
     Manifest manifest = example();

@@ -37,7 +37,7 @@ report::Progress executed(std::uint64_t block) {
 TEST(InHand, IsSettledByThePlaceWhereTheAxesRest) {
   InHand in_hand = moves({1, 2, 3});
   report::Progress progress = executed(10);
-  ASSERT_TRUE(settle(in_hand, GivenAction::Point{2.5}, progress));
+  ASSERT_TRUE(resolve(in_hand, GivenAction::Point{2.5}, progress));
   EXPECT_EQ(progress.executed, 12u);
   EXPECT_EQ(progress.path, 112u);
   EXPECT_EQ(progress.sent, 4096u);
@@ -49,14 +49,14 @@ TEST(InHand, BlocksThatDoNothingFollowTheMotion) {
   in_hand[1].action.kind = Kind::BlockEnd;
   in_hand[2].action.from[0] = 1;
   report::Progress progress = executed(10);
-  ASSERT_TRUE(settle(in_hand, GivenAction::Point{1}, progress));
+  ASSERT_TRUE(resolve(in_hand, GivenAction::Point{1}, progress));
   EXPECT_EQ(progress.executed, 12u);
 }
 
 TEST(InHand, IsUncertainWhereThePathComesBack) {
   InHand in_hand = moves({1, 2, 1, 0});
   report::Progress progress = executed(10);
-  EXPECT_FALSE(settle(in_hand, GivenAction::Point{1}, progress));
+  EXPECT_FALSE(resolve(in_hand, GivenAction::Point{1}, progress));
   EXPECT_EQ(progress.executed, 11u) << "no more than was done in any case";
   EXPECT_EQ(last_block(in_hand), 14u);
 }
@@ -64,8 +64,8 @@ TEST(InHand, IsUncertainWhereThePathComesBack) {
 TEST(InHand, IsUncertainWithoutAPositionOrElsewhere) {
   InHand in_hand = moves({1, 2});
   report::Progress progress = executed(10);
-  EXPECT_FALSE(settle(in_hand, std::nullopt, progress));
-  EXPECT_FALSE(settle(in_hand, GivenAction::Point{1, 5}, progress));
+  EXPECT_FALSE(resolve(in_hand, std::nullopt, progress));
+  EXPECT_FALSE(resolve(in_hand, GivenAction::Point{1, 5}, progress));
   EXPECT_EQ(progress.executed, 10u);
   EXPECT_EQ(last_block(in_hand), 12u);
 }

@@ -72,11 +72,11 @@ void RestartFixture::operate() {
   }
 }
 
-bool RestartFixture::run_on(std::size_t turns) {
+bool RestartFixture::run_on(std::size_t steps) {
   const auto has_ended = [this] { return count(dds::RecordKind::RunEnded) > ended_before_; };
   if (has_ended()) return true;
-  for (std::size_t i = 0; i < turns; ++i) {
-    ++turns_;
+  for (std::size_t i = 0; i < steps; ++i) {
+    ++steps_;
     clock.steady += milliseconds(10);
     (void)run_until([] { return true; });  // one turn
     if (has_ended()) return true;

@@ -20,9 +20,9 @@ class RestartFixture : public GatewayFixture {
   std::string path_file;  ///< where another process leaves it; empty: in `path`
 
   /// Turns until the run that was started last has ended; stops are resumed, questions answered. At
-  /// most so many turns. Returns whether it has ended.
-  bool run_on(std::size_t turns = 100'000);
-  std::size_t turns() const { return turns_; }
+  /// most so many steps. Returns whether it has ended.
+  bool run_on(std::size_t steps = 100'000);
+  std::size_t steps() const { return steps_; }
   /// Likewise, up to the moment when the journal has this block: what is done after that in the
   /// same instruction is lost as by a kill, and another process has the disk. False: it was not
   /// reached.
@@ -43,7 +43,7 @@ class RestartFixture : public GatewayFixture {
 
   const interpreter::Dialect& control_;
   std::uint64_t killed_after_ = 0;  ///< block; 0: none
-  std::size_t turns_ = 0;
+  std::size_t steps_ = 0;
   std::size_t ended_before_ = 0;  ///< runs, when the last one was started
   std::string last_run_;
 };

@@ -25,7 +25,7 @@ class RestartOfGolden : public testing::TestWithParam<std::string> {
   struct Whole {
     RestartFixture::Path path;
     dds::RunEndText end;
-    std::size_t turns = 0;
+    std::size_t steps = 0;
   };
   std::unique_ptr<RestartFixture> shop() const {
     const auto control = interpreter::find_dialect(golden.control).value();
@@ -42,13 +42,13 @@ class RestartOfGolden : public testing::TestWithParam<std::string> {
     const auto undisturbed = shop();
     if (!undisturbed->start_program("P").accepted) return std::nullopt;
     if (!undisturbed->run_on(20'000)) return std::nullopt;
-    return Whole{undisturbed->path, undisturbed->last_end(), undisturbed->turns()};
+    return Whole{undisturbed->path, undisturbed->last_end(), undisturbed->steps()};
   }
-  void cut_off_and_restart(const Whole& whole, std::size_t turns) {
+  void cut_off_and_restart(const Whole& whole, std::size_t steps) {
     const auto cut = shop();
     ASSERT_TRUE(cut->start_program("P").accepted);
     const std::string run = cut->last_run();
-    if (cut->run_on(turns)) return;  // it was too late
+    if (cut->run_on(steps)) return;  // it was too late
     cut->restart_gateway();
     ASSERT_TRUE(cut->run_until([&] { return cut->count(dds::RecordKind::RunEnded) == 1; }));
     const std::uint64_t executed = cut->last_end().executed;
@@ -81,10 +81,10 @@ TEST_P(RestartOfGolden, CutsThePathOfAnUndisturbedRun) {
     golden = interpreter::read_golden_case(name.control, name.name);
     SCOPED_TRACE(name.control + "/" + name.name);
     const auto whole = run_whole();
-    if (!whole || whole->turns < 2) continue;
+    if (!whole || whole->steps < 2) continue;
     for (int i = 0; i < restarts() && !HasFatalFailure(); ++i) {
       cut_off_and_restart(*whole,
-                          std::uniform_int_distribution<std::size_t>(1, whole->turns - 1)(random));
+                          std::uniform_int_distribution<std::size_t>(1, whole->steps - 1)(random));
     }
   }
   RecordProperty("restarts", done);

@@ -24,7 +24,7 @@ class GrblLinkCut : public testing::TestWithParam<PathCase> {
   void fill() {
     while (shop.machine.has_room() && x_ < kLength) add_block();
   }
-  /// How long the axes go on, with nothing said to the board.
+  /// How long the axes continue, with nothing sent to the board.
   double seconds_alone() {
     double seconds = 0;
     for (; shop.board.is_moving() && seconds < 100; seconds += 0.001) shop.board.pass(0.001);

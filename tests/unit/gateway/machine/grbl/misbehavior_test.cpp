@@ -1,7 +1,7 @@
 #include "tests/unit/gateway/machine/grbl/grbl_shop.hpp"
 
 /// A board that restarts, stalls, floods or lies: an alarm with a reason, nothing in motion that
-/// nobody commanded, and silence until the operator resets.
+/// no one commanded, and silence until the operator resets.
 namespace dripline::machine::grbl::test {
 namespace {
 
@@ -61,7 +61,7 @@ TEST_F(GrblMisbehavior, ARestartInTheMidst) {
   run();
   shop.board.restart();
   expect_alarm("GRB0004 the board has restarted by itself");
-  EXPECT_EQ(shop.board.position()[0], 0) << "lines that were on their way are not executed";
+  EXPECT_EQ(shop.board.position()[0], 0) << "lines in transit are not executed";
 }
 
 TEST_F(GrblMisbehavior, SilenceIsAHoldThatTheOperatorEnds) {
