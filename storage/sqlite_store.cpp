@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "storage/impl/account_repository.hpp"
+#include "storage/impl/import_repository.hpp"
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/release_repository.hpp"
 #include "storage/impl/repositories.hpp"
@@ -59,7 +60,8 @@ struct SqliteStore::Repositories {
         setups(*connections, clock),
         audit(*connections),
         accounts(*connections),
-        releases(*connections) {}
+        releases(*connections),
+        imports(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -72,6 +74,7 @@ struct SqliteStore::Repositories {
   AuditRepository audit;
   AccountRepository accounts;
   ReleaseRepository releases;
+  ImportRepository imports;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -86,7 +89,7 @@ SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
     : Store{repositories->programs, repositories->uploads, repositories->machines,
             repositories->runs,     repositories->records, repositories->ports,
             repositories->setups,   repositories->audit,   repositories->accounts,
-            repositories->releases},
+            repositories->releases, repositories->imports},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

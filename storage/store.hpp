@@ -2,6 +2,7 @@
 
 #include "storage/account_store.hpp"
 #include "storage/audit_store.hpp"
+#include "storage/import_store.hpp"
 #include "storage/machine_store.hpp"
 #include "storage/port_store.hpp"
 #include "storage/program_store.hpp"
@@ -13,7 +14,7 @@
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: ten interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: eleven interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -28,6 +29,7 @@ struct Store {
   AuditStore& audit;
   AccountStore& accounts;
   ReleaseStore& releases;
+  ImportStore& imports;
 };
 
 }  // namespace dripline::storage

@@ -138,9 +138,35 @@ Result<void> set_standing(sqlite::Database& database, const Judgment& judgment,
 
 Result<void> write_down(sqlite::Database& database, const Judgment& judgment,
                         const std::string& action, const Digest& content) {
-  return add_audit(database,
-                   {judgment.time, judgment.who, action, judgment.program,
-                    fmt::format("revision {} sha256 {}", judgment.number, content.hex())});
+  std::string detail = fmt::format("revision {} sha256 {}", judgment.number, content.hex());
+  if (!judgment.target.empty())
+    detail += fmt::format(" as {} revision {}", judgment.target, judgment.target_revision);
+  if (!judgment.reason.empty()) detail += ": " + judgment.reason;
+  return add_audit(database, {judgment.time, judgment.who, action, judgment.program, detail});
+}
+
+/// Who sent it, as the library names the author of what a machine sends.
+std::string sender_of(const std::string& author) {
+  constexpr std::string_view kMachine = "machine ";
+  return author.starts_with(kMachine) ? author.substr(kMachine.size()) : author;
+}
+
+Result<void> begin_import(sqlite::Database& database, std::int64_t program, std::uint64_t number,
+                          const Upload& upload) {
+  return sqlite::run(database,
+                     "INSERT INTO import (program, revision, machine) VALUES (?1, ?2, ?3)", program,
+                     number, sender_of(upload.author));
+}
+
+Result<void> end_import(sqlite::Database& database, const Judgment& judgment,
+                        std::string_view state) {
+  return sqlite::run(
+      database,
+      "UPDATE import SET state = ?3, decided_us = ?4, who = ?5, reason = ?6, "
+      "is_at_once = ?7, target = ?8, target_revision = nullif(?9, 0) WHERE revision = ?2 AND "
+      "program = (SELECT id FROM program WHERE name = ?1)",
+      judgment.program, judgment.number, state, judgment.time, judgment.who.name, judgment.reason,
+      judgment.is_at_once ? 1 : 0, judgment.target, judgment.target_revision);
 }
 
 }  // namespace
@@ -171,6 +197,10 @@ Result<Revision> publish_revision(sqlite::Database& database, const Upload& uplo
       program->id, program->highest + 1, content, upload.control, upload.comment, upload.author,
       now, upload.is_held ? "held" : "accepted");
   if (!inserted) return fail(inserted.error());
+  if (upload.is_held) {
+    const auto begun = begin_import(database, program->id, program->highest + 1, upload);
+    if (!begun) return fail(begun.error());
+  }
   return find_revision(database, upload.program, program->highest + 1);
 }
 
@@ -180,6 +210,7 @@ Result<Revision> accept_revision(sqlite::Database& database, const Judgment& jud
   if (auto set = set_standing(database, judgment, "accepted", judgment.time); !set) {
     return fail(set.error());
   }
+  if (auto ended = end_import(database, judgment, "accepted"); !ended) return fail(ended.error());
   if (auto written = write_down(database, judgment, "program.accept", revision->content);
       !written) {
     return fail(written.error());
@@ -197,7 +228,11 @@ Result<void> reject_revision(sqlite::Database& database, const Judgment& judgmen
                 judgment.program, judgment.number);
   }
   if (auto set = set_standing(database, judgment, "rejected", std::nullopt); !set) return set;
-  return write_down(database, judgment, "program.reject", revision->content);
+  const bool is_moved = !judgment.target.empty();
+  if (auto ended = end_import(database, judgment, is_moved ? "accepted_as" : "rejected"); !ended)
+    return ended;
+  return write_down(database, judgment, is_moved ? "program.accept_as" : "program.reject",
+                    revision->content);
 }
 
 }  // namespace dripline::storage

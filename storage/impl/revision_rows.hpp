@@ -37,8 +37,13 @@ struct Judgment {
   std::uint64_t number = 0;
   Actor who;
   UtcTime time;
+  std::string reason = {};
+  bool is_at_once = false;  ///< by the policy
+  /// Of a rejection: the text became a revision of this program instead; empty: it did not.
+  std::string target = {};
+  std::uint64_t target_revision = 0;
 };
-/// Promises of both: storage/program_store.hpp.
+/// Promises of both: storage/program_store.hpp. The import queue follows.
 Result<Revision> accept_revision(sqlite::Database& database, const Judgment& judgment);
 Result<void> reject_revision(sqlite::Database& database, const Judgment& judgment);
 
