@@ -112,6 +112,24 @@ struct RevisionStates {
   std::string public_key;
 };
 
+/// What a machine sent, and what became of it.
+struct Import {
+  struct Target {
+    std::string program;
+    std::uint64_t revision = 0;
+  };
+  std::string program;
+  std::uint64_t revision = 0;
+  std::string machine, control;
+  std::uint64_t size = 0;
+  std::string sha256, comment, received, state;
+  std::string edit;  ///< class of the edit; empty: not known
+  std::optional<std::uint64_t> base;
+  std::string fault, compared, decided, who, reason;
+  bool at_once = false;
+  std::optional<Target> accepted_as;  ///< absent: under its own name, or not
+};
+
 struct ProgramHistory {
   Program program;
   std::vector<Revision> revisions;

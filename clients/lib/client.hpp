@@ -178,6 +178,19 @@ class Client {
   /// The revision, a draft again; nullopt: it came from a machine and is hidden.
   Reply<std::optional<Revision>> reject_revision(const DecisionRequest& request);
   Reply<RevisionStates> revision_states(std::string_view name, std::uint64_t revision);
+  /// What machines sent; pending ones oldest first, decided ones the latest first.
+  Reply<std::vector<Import>> imports(bool is_pending, Page page);
+  /// The server's JSON (ComparedImport of openapi.json).
+  Reply<std::string> import(std::string_view program, std::uint64_t revision);
+  struct AcceptRequest {
+    std::string program;
+    std::uint64_t revision = 0;
+    std::string target;  ///< the program that gets it; empty: as what it came
+    std::string comment;
+  };
+  Reply<Revision> accept_import(const AcceptRequest& request);
+  /// The comment is the reason.
+  Reply<void> reject_import(const DecisionRequest& request);
   /// The server's JSON (clients/tools/comparison/README.md).
   Reply<std::string> compare(const ComparisonQuery& query);
   /// Returns fewer bytes than requested only at the end of the content.

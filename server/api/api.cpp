@@ -18,6 +18,7 @@ Api::Api(Services services)
   add_program_routes(router_, services_);
   add_release_routes(router_, services_);
   add_comparison_routes(router_, services_);
+  add_import_routes(router_, services_);
   add_upload_routes(router_, services_);
   add_machine_routes(router_, services_);
   add_run_routes(router_, services_);

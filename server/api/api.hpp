@@ -13,6 +13,7 @@
 #include "server/api/request_times.hpp"
 #include "server/api/router.hpp"
 #include "server/identity/accounts.hpp"
+#include "server/imports/imports.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
@@ -53,6 +54,7 @@ struct Services {
   ports::PortControl* ports = nullptr;  ///< null: a server without serial ports
   library::Health* health = nullptr;    ///< null: always ok
   library::Backups* backups = nullptr;  ///< null: a server that makes none
+  imports::Imports* imports = nullptr;  ///< null: a server without an import queue
   bool has_tls = false;                 ///< the sockets in front of it do
 };
 
@@ -97,6 +99,9 @@ machines::MachineListener publish_to(EventHub& hub);
 /// The listener that publishes the traffic of lines as events; for PortControl::on_traffic.
 std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub);
 
+/// The listener that publishes what happens in the import queue as events.
+std::function<void(const storage::Import&)> publish_imports_to(EventHub& hub);
+
 /// The OpenAPI description, as JSON text.
 std::string_view openapi_text();
 
@@ -107,6 +112,7 @@ void add_audit_routes(Router& router, Services& services);
 void add_program_routes(Router& router, Services& services);
 void add_release_routes(Router& router, Services& services);
 void add_comparison_routes(Router& router, Services& services);
+void add_import_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);
 void add_run_routes(Router& router, Services& services);

@@ -132,6 +132,28 @@ Result<std::string> decode_decision(std::string_view body) {
   return comment;
 }
 
+Result<AcceptanceBody> decode_acceptance(std::string_view body) {
+  if (body.empty()) return AcceptanceBody{};
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const auto target = object->optional_text("as", kMaxName);
+  AcceptanceBody acceptance;
+  acceptance.reason = object->optional_text("comment", library::Releases::kMaxComment).value_or("");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (!target) return acceptance;
+  if (auto good = check_program_name(*target); !good) return fail(good.error());
+  acceptance.target = *target;
+  return acceptance;
+}
+
+Result<std::string> decode_rejection(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  auto reason = object->required_text("reason", library::Releases::kMaxComment);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return reason;
+}
+
 Result<std::string> decode_rename(std::string_view body) {
   auto object = JsonObject::parse(body);
   if (!object) return fail(object.error());

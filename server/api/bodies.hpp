@@ -31,6 +31,14 @@ struct CopyBody {
 Result<CopyBody> decode_copy(std::string_view body);
 /// `{comment?}`, or nothing.
 Result<std::string> decode_decision(std::string_view body);
+struct AcceptanceBody {
+  std::string target;  ///< empty: as what it came
+  std::string reason;
+};
+/// `{as?, comment?}`, or nothing.
+Result<AcceptanceBody> decode_acceptance(std::string_view body);
+/// `{reason}`.
+Result<std::string> decode_rejection(std::string_view body);
 /// The new name.
 Result<std::string> decode_rename(std::string_view body);
 

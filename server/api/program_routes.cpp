@@ -151,6 +151,7 @@ Response accept_revision(Services& services, const Request& request) {
   if (!number) return error_response(number.error());
   const auto accepted = services.programs.accept(request.parameter("name"), *number, request.who);
   if (!accepted) return error_response(accepted.error());
+  if (services.imports != nullptr) services.imports->publish(accepted->program, accepted->number);
   return json_response(200, revision_json(*accepted, services.programs.title(*accepted)));
 }
 

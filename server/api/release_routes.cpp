@@ -33,6 +33,7 @@ json policy_json(const library::Releases& releases) {
            {{"machines", policy.prove_out_machines},
             {"role", storage::to_string(policy.prove_out_role)}}},
           {"steps", std::move(steps)},
+          {"imports", {{"accept_at_once", policy.accept_at_once}}},
           {"sha256", policy.digest.hex()},
           {"public_key", releases.public_key().hex()}};
 }
@@ -102,9 +103,17 @@ Response reject(Services& services, const Request& request) {
   if (!revision) return error_response(revision.error());
   if (!revision->is_held && revision->state != storage::RevisionState::Draft)
     return decide(services, request, RevisionStep::Reject);
-  if (const auto comment = decode_decision(request.body); !comment)
-    return error_response(comment.error());
-  return empty_response(services.programs.reject(revision->program, revision->number, request.who));
+  const auto comment = decode_decision(request.body);
+  if (!comment) return error_response(comment.error());
+  if (services.imports == nullptr || !revision->is_held || comment->empty())
+    return empty_response(
+        services.programs.reject(revision->program, revision->number, request.who));
+  const auto rejected = services.imports->decide({.program = revision->program,
+                                                  .revision = revision->number,
+                                                  .state = storage::ImportState::Rejected,
+                                                  .who = request.who,
+                                                  .reason = *comment});
+  return rejected ? no_content() : error_response(rejected.error());
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "server/api/certificate.hpp"
 #include "server/api/http_server.hpp"
 #include "server/identity/accounts.hpp"
+#include "server/imports/imports.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
@@ -134,6 +135,11 @@ struct Server::Parts {
                  loaded.policy),
         runs(*store),
         paths({.store = *store, .releases = releases, .clock = clock}),
+        imports({.store = *store,
+                 .paths = paths,
+                 .policy = releases.policy(),
+                 .clock = clock,
+                 .on_change = api::publish_imports_to(events)}),
         setups(store->setups, catalog, audit),
         machine_service({.store = *store, .releases = releases, .clock = clock}, machine_options(),
                         machine_listener()),
@@ -162,6 +168,7 @@ struct Server::Parts {
              .ports = &ports,
              .health = &health,
              .backups = backups.get(),
+             .imports = &imports,
              .has_tls = !settings.tls_key.empty()}),
         tidied(clock.steady_now()) {}
 
@@ -233,8 +240,9 @@ struct Server::Parts {
   library::Releases releases;
   library::RunHistory runs;
   paths::ProgramPaths paths;
-  library::Setups setups;
   api::EventHub events;
+  imports::Imports imports;
+  library::Setups setups;
   machines::MachineService machine_service;
   ports::PortService ports;
   ports::MachineRouter machines;
@@ -338,6 +346,8 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   Parts& parts = *server->parts_;
   if (auto used = parts.accounts.use_local_secret(*token, settings.recover_admin); !used)
     return fail(used.error());
+  parts.programs.on_held([&parts](const auto& revision) { parts.imports.note(revision); });
+  parts.imports.begin();
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint =

@@ -107,6 +107,7 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
                   .detail = fmt::format("revision {} sha256 {} size {}{}", revision->number,
                                         revision->content.hex(), revision->size,
                                         revision->is_held ? " held" : "")});
+    if (revision->is_held && on_held_) on_held_(*revision);
   }
   return Committed{.revision = *std::move(revision), .is_unchanged = is_unchanged};
 }

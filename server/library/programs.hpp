@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/base/clock.hpp"
@@ -42,6 +44,12 @@ class Programs {
  public:
   Programs(const storage::Store& store, const Clock& clock, const ControlCatalog& catalog,
            AuditTrail& audit);
+
+  /// Called after a revision from a machine was stored, on the thread that stored it; must return
+  /// soon. Before the first upload.
+  void on_held(std::function<void(const storage::Revision&)> listener) {
+    on_held_ = std::move(listener);
+  }
 
   /// Errors: Syntax, LimitExceeded (name, comment), Unsupported (control; names the known ones).
   Result<storage::Upload> begin(const UploadRequest& request, const storage::Actor& who);
@@ -88,6 +96,8 @@ class Programs {
   std::string title(const storage::Revision& revision) { return titles_.of(revision.content); }
 
   static constexpr std::size_t kMaxComment = 1024;
+  /// In the comment of what came over a line with faults.
+  static constexpr std::string_view kDamageMark = "; DAMAGED ";
   /// How much of a text is searched to determine its control.
   static constexpr std::uint64_t kHead = 64 * 1024;
 
@@ -112,6 +122,7 @@ class Programs {
   const ControlCatalog& catalog_;
   AuditTrail& audit_;
   ProgramTitles titles_;
+  std::function<void(const storage::Revision&)> on_held_;
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Session>> sessions_;
 };

@@ -1,5 +1,6 @@
 #include "server/library/release_policy.hpp"
 
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 #include <algorithm>
 #include <fstream>
@@ -131,6 +132,23 @@ Result<void> read_prove_out(const toml::node& node, ReleasePolicy& policy) {
   return {};
 }
 
+Result<void> read_imports(const toml::node& node, ReleasePolicy& policy) {
+  const auto* const table = node.as_table();
+  if (table == nullptr) return wrong(node, "imports", "a table");
+  for (const auto& [key, value] : *table) {
+    if (key.str() != "accept_at_once") return wrong(value, key.str(), "accept_at_once");
+    auto classes = read_words(value, key.str());
+    if (!classes) return fail(classes.error());
+    for (const auto& word : *classes) {
+      if (std::ranges::find(kAtOnceClasses, word) != kAtOnceClasses.end()) continue;
+      return wrong(value, fmt::format("accept_at_once: '{}'", word),
+                   fmt::format("one of {}", fmt::join(kAtOnceClasses, ", ")));
+    }
+    policy.accept_at_once = *std::move(classes);
+  }
+  return {};
+}
+
 Result<void> read_runs(const toml::node& node, ReleasePolicy& policy) {
   const std::string word = node.value_or(std::string());
   if (word != "open" && word != "release") return wrong(node, "runs", "open or release");
@@ -141,10 +159,12 @@ Result<void> read_runs(const toml::node& node, ReleasePolicy& policy) {
 Result<void> read_key(std::string_view key, const toml::node& value, ReleasePolicy& policy) {
   if (key == "runs") return read_runs(value, policy);
   if (key == "prove_out") return read_prove_out(value, policy);
+  if (key == "imports") return read_imports(value, policy);
   const auto bounds = std::ranges::find_if(
       step_bounds(), [&](const auto& row) { return storage::to_string(row.step) == key; });
   if (bounds == step_bounds().end())
-    return wrong(value, key, "one of runs, prove_out, submit, approve, reject, release, withdraw");
+    return wrong(value, key,
+                 "one of runs, prove_out, imports, submit, approve, reject, release, withdraw");
   return read_rule(value, *bounds, policy.rules.at(static_cast<std::size_t>(bounds->step)));
 }
 

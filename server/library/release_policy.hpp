@@ -11,6 +11,11 @@
 
 namespace dripline::library {
 
+/// What a policy may accept from a machine unseen (clients/tools/comparison, "The class of an
+/// edit"). A path that changed, and what cannot be told, is for a person.
+inline constexpr std::array<std::string_view, 4> kAtOnceClasses{"comment", "same_motion",
+                                                                "feed_and_speed", "offsets"};
+
 /// From which states a step may be taken, and by whom.
 struct StepRule {
   std::set<storage::RevisionState> from;
@@ -24,13 +29,16 @@ struct StepRule {
 /// - `[prove_out]`: `machines` run drafts too, when a person of at least `role` starts them.
 /// - `[submit]`, `[approve]`, `[reject]`, `[release]`, `[withdraw]`: `from` (states), `role`,
 ///   `four_eyes`, `comment`.
+/// - `[imports]`: `accept_at_once`, classes of edits (kAtOnceClasses) with which a revision from a
+///   machine is accepted without a person; the default is none.
 /// An example with all of them: deploy/examples/policy.toml.
 struct ReleasePolicy {
   bool runs_released_only = false;
   std::set<std::string> prove_out_machines;
   storage::Role prove_out_role = storage::Role::Programmer;
   std::array<StepRule, storage::kRevisionSteps> rules;
-  Digest digest;  ///< of the text it was read from
+  std::set<std::string> accept_at_once;  ///< classes of edits
+  Digest digest;                         ///< of the text it was read from
 
   const StepRule& rule(storage::RevisionStep step) const {
     return rules.at(static_cast<std::size_t>(step));

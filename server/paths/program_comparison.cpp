@@ -62,8 +62,9 @@ comparison::ProgramOptions options_of(const ComparisonRequest& request) {
                     .max_window = kMaxWindow};
   options.context = request.context;
   options.max_lines = kMaxLines;
-  options.is_to_stop = [end = std::chrono::steady_clock::now() + ProgramPaths::kMaxComparison] {
-    return std::chrono::steady_clock::now() >= end;
+  options.is_to_stop = [end = std::chrono::steady_clock::now() + ProgramPaths::kMaxComparison,
+                        stop = request.stop] {
+    return stop.stop_requested() || std::chrono::steady_clock::now() >= end;
   };
   return options;
 }

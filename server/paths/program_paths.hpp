@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "protocol/base/result.hpp"
@@ -39,6 +40,7 @@ struct ComparisonRequest {
   std::string machine = {};   ///< whose setup applies to motion; empty: the controls' defaults
   double tolerance = 0.001;   ///< mm, at most kMaxTolerance
   std::uint64_t context = 3;  ///< lines around a change of the text
+  std::stop_token stop = {};  ///< ends it early, with Timeout
 };
 
 /// Interprets stored programs for their tool paths, and to compare them. Any thread; what it was

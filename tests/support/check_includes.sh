@@ -36,7 +36,8 @@ server/identity: protocol/base protocol/process storage server/library server/id
 server/machines: protocol storage gateway/interpreter server/library server/machines
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
 server/paths: protocol/base storage gateway/interpreter clients/tools/comparison clients/tools/offline server/library server/machines server/paths
-server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/api
+server/imports: protocol/base protocol/process storage server/library server/paths server/imports
+server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/imports server/api
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
 clients/lib: protocol/base clients/lib

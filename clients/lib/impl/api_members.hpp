@@ -168,6 +168,18 @@ void members(V& v, Is<RevisionStates> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Import::Target> auto& x) {
+  DRIPLINE_MEMBERS(program, revision);
+}
+
+template <class V>
+void members(V& v, Is<Import> auto& x) {
+  DRIPLINE_MEMBERS(program, revision, machine, control, size, sha256, comment, received, state);
+  v("class", x.edit);
+  DRIPLINE_MEMBERS(base, fault, compared, decided, who, reason, at_once, accepted_as);
+}
+
+template <class V>
 void members(V& v, Is<Setup> auto& x) {
   DRIPLINE_MEMBERS(machine, revision, size, sha256, comment, author, created, text);
   v.flag("unchanged", x.unchanged);

@@ -43,7 +43,9 @@ void UploadedProgram::damage(const std::string& how) {
 
 std::string UploadedProgram::comment() const {
   std::string text = "punched by " + origin_.machine;
-  if (damages_ > 0) text += fmt::format("; DAMAGED {} times, first: {}", damages_, first_damage_);
+  if (damages_ > 0)
+    text += fmt::format("{}{} times, first: {}", library::Programs::kDamageMark, damages_,
+                        first_damage_);
   return text.substr(0, library::Programs::kMaxComment);
 }
 

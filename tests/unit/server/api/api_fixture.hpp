@@ -33,6 +33,12 @@ class ApiTest : public ServerTest {
   void make_api(ports::PortControl* ports) {
     paths_ = std::make_unique<paths::ProgramPaths>(
         machines::RunSources{.store = *store_, .releases = *releases_, .clock = clock_});
+    imports_ = std::make_unique<imports::Imports>(
+        imports::Imports::Parts{.store = *store_,
+                                .paths = *paths_,
+                                .policy = releases_->policy(),
+                                .clock = clock_,
+                                .on_change = api::publish_imports_to(events_)});
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .releases = *releases_,
                                                     .setups = *setups_,
@@ -52,7 +58,8 @@ class ApiTest : public ServerTest {
                                                     .dds_rejected = [] { return std::uint64_t{4}; },
                                                     .ports = ports,
                                                     .health = &health_,
-                                                    .backups = backups_.get()});
+                                                    .backups = backups_.get(),
+                                                    .imports = imports_.get()});
   }
 
   /// Made when they are asked for, in a folder beside the store.
@@ -177,6 +184,7 @@ class ApiTest : public ServerTest {
   std::unique_ptr<library::Backups> backups_;
   api::EventHub events_;
   std::unique_ptr<paths::ProgramPaths> paths_;
+  std::unique_ptr<imports::Imports> imports_;
   std::unique_ptr<api::Api> api_;
 };
 

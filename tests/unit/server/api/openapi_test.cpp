@@ -179,6 +179,7 @@ class OpenApi : public ApiTest {
       ASSERT_TRUE(programs_->commit(upload->id, std::nullopt, "mill-3"));
     }
     expect_described("GET", "/api/v1/programs", get("/api/v1/programs"));
+    expect_imports_described();
     const std::string path = "/api/v1/programs/{name}/revisions/{number}/";
     expect_described("POST", path + "accept",
                      call("POST", "/api/v1/programs/O3/revisions/1/accept"));
@@ -194,6 +195,32 @@ class OpenApi : public ApiTest {
     }
     expect_described("GET", path + "states", get("/api/v1/programs/O3/revisions/1/states"));
     expect_described("GET", "/api/v1/release-policy", get("/api/v1/release-policy"));
+  }
+
+  void expect_imports_described() {
+    push("O4", "N1\n");
+    for (const std::string number : {"2", "3", "4"}) {
+      const auto upload = programs_->begin(
+          {.program = "O4", .control = "centurion", .comment = {}, .is_held = true},
+          "machine mill-3");
+      ASSERT_TRUE(programs_->append(upload->id, 0, bytes_of("N" + number + "\n")));
+      ASSERT_TRUE(programs_->commit(upload->id, std::nullopt, "machine mill-3"));
+    }
+    ASSERT_TRUE(store_->imports.set_class(
+        "O4", 2, {.base = 1, .edit = "comment", .fault = "x", .time = clock_.now()}));
+    const std::string path = "/api/v1/imports/{name}/{number}";
+    expect_described("GET", "/api/v1/imports", get("/api/v1/imports"));
+    expect_described("GET", path, get("/api/v1/imports/O4/2"));
+    expect_described("POST", path + "/accept", call("POST", "/api/v1/imports/O4/2/accept"));
+    const auto moved = post("/api/v1/imports/O4/3/accept", {{"as", "O5"}, {"comment", "variant"}});
+    EXPECT_EQ(moved.status, 200) << moved.body;
+    expect_described("POST", path + "/accept", moved);
+    const auto rejected = post("/api/v1/imports/O4/4/reject", {{"reason", "scrap"}});
+    EXPECT_EQ(rejected.status, 204) << rejected.body;
+    expect_described("POST", path + "/reject", rejected);
+    expect_described("GET", "/api/v1/imports", get("/api/v1/imports?state=decided"));
+    for (const std::string number : {"2", "3", "4"})
+      expect_described("GET", path, get("/api/v1/imports/O4/" + number));
   }
 
   Json document_;

@@ -45,6 +45,14 @@ from = ["draft", "approved"]
   EXPECT_EQ(policy->digest, sha256(text));
 }
 
+TEST(ReleasePolicy, NamesWhatIsAcceptedFromMachinesAtOnce) {
+  EXPECT_TRUE(ReleasePolicy::parse("")->accept_at_once.empty());
+  const auto policy =
+      ReleasePolicy::parse("[imports]\naccept_at_once = [\"comment\", \"offsets\"]");
+  ASSERT_TRUE(policy) << policy.error().what;
+  EXPECT_EQ(policy->accept_at_once, (std::set<std::string>{"comment", "offsets"}));
+}
+
 struct Wrong {
   const char *name, *text, *part;
 };
@@ -74,6 +82,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"rejection_of_what_is_released", "[reject]\nfrom = [\"released\"]", "no step from"},
         Wrong{"viewer_proves_out", "[prove_out]\nrole = \"viewer\"", "at least operator"},
         Wrong{"machine", "[prove_out]\nmachines = [\"a b\"]", "a b"},
+        Wrong{"key_of_imports", "[imports]\naccept = []", "line 2: accept must be"},
+        Wrong{"class_for_a_person", "[imports]\naccept_at_once = [\"geometry\"]", "'geometry'"},
+        Wrong{"unknown_class", "[imports]\naccept_at_once = [\"comments\"]", "'comments'"},
         Wrong{"step_is_no_table", "approve = true", "approve must be a table"}),
     [](const auto& i) { return std::string(i.param.name); });
 
