@@ -226,7 +226,8 @@ class BeastServer final : public HttpServer {
 
 Result<std::unique_ptr<HttpServer>> HttpServer::start(const HttpOptions& options,
                                                       HttpHandlers handlers) {
-  if (auto safe = check_exposure(options.address, options.tls.has_value()); !safe) {
+  if (auto safe = check_exposure(options.address, options.tls.has_value());
+      !safe && !options.is_open) {
     return fail(safe.error());
   }
   std::optional<asio::ssl::context> tls;

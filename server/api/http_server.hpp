@@ -38,6 +38,7 @@ struct HttpLimits {
 
 struct HttpOptions {
   HttpAddress address;
+  bool is_open = false;  ///< listens anywhere without TLS: no token crosses, all may read all
   std::optional<TlsFiles> tls;
   unsigned handler_threads = 16;  ///< number of requests that may wait for storage at once
   HttpLimits limits;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
 #include "server/api/event_hub.hpp"
 
@@ -16,7 +17,22 @@ namespace dripline::api {
 /// Returns a long body piece by piece; nullopt after the last one. Called on one worker at a time.
 using BodySource = std::function<Result<std::optional<std::string>>()>;
 
-/// The answer of a handler. The body is `body`, or comes from `source`, or is the stream `events`.
+/// A body without an end that is made part by part, at times that it names.
+class TimedSource {
+ public:
+  virtual ~TimedSource() = default;
+  /// On the socket thread; must not wait.
+  struct Due {
+    bool is_now = false;
+    SteadyTime next;  ///< when to ask again
+  };
+  virtual Due due() = 0;
+  /// On a worker, one call at a time. An empty text: nothing after all. nullopt: it has ended.
+  virtual std::optional<std::string> take() = 0;
+};
+
+/// The answer of a handler. The body is `body`, or comes from `source` or `timed`, or is the stream
+/// `events`.
 struct Response {
   int status = 200;
   std::string content_type;
@@ -25,6 +41,7 @@ struct Response {
   BodySource source;
   std::optional<std::uint64_t> source_length;  ///< if known
   std::shared_ptr<EventSubscription> events;
+  std::shared_ptr<TimedSource> timed;
   std::function<bool()> is_allowed;  ///< asked while `events` are sent; false ends them
 };
 

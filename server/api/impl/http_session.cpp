@@ -114,6 +114,10 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       co_await stream_events(*std::move(answer), seat);
       co_return false;
     }
+    if (answer->timed && !is_head_only_) {
+      co_await stream_parts(*std::move(answer), seat);
+      co_return false;
+    }
     if (answer->source) co_return co_await send_source(*std::move(answer));
     co_return co_await send(*answer);
   }
@@ -260,19 +264,49 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
 
   awaitable<bool> write(std::string_view text) { return transport_->write(text, limits_.write); }
 
-  /// Writes a subscription's events, and a comment now and then so that both sides notice when the
-  /// other one is gone.
-  awaitable<void> stream_events(Response response, Seat& seat) {
+  /// A place for a stream; otherwise the request is answered.
+  awaitable<bool> begin_stream(Seat& seat) {
     keeps_alive_ = false;
     if (!seat.begin_stream()) {
       const Response refused = refusal(
           503, Errc::Busy, "too many event streams are open; fewer fit than other connections");
       co_await send(refused);
-      co_return;
+      co_return false;
     }
     // A listener that is gone or hung must not keep megabytes in the kernel.
     error_code ignored;
     transport_->socket().set_option(asio::socket_base::send_buffer_size(kStreamBuffer), ignored);
+    watch_for_end();
+    co_return true;
+  }
+
+  /// Writes the parts of a timed source when they are due.
+  awaitable<void> stream_parts(Response response, Seat& seat) {
+    if (!co_await begin_stream(seat)) co_return;
+    const auto source = std::move(response.timed);
+    const Framing framing{.is_chunked = !is_old_, .keeps_alive = false};
+    const std::string head = head_text(response, framing);
+    bool continues = co_await write(head);
+    using Part = std::optional<std::string>;
+    std::function<Part()> take = [source] { return source->take(); };
+    while (continues && may_continue() && !is_left_) {
+      const TimedSource::Due due = source->due();
+      if (!due.is_now) {
+        co_await woken_.wait(due.next);
+        continue;
+      }
+      const auto part = co_await on_worker<Part>(take, false);
+      if (!part || !*part) break;
+      const std::string text = framing.is_chunked ? chunk_text(**part) : **part;
+      if (!text.empty()) continues = co_await write(text);
+    }
+    if (framing.is_chunked && continues && may_continue() && !is_left_) co_await write("0\r\n\r\n");
+  }
+
+  /// Writes a subscription's events, and a comment now and then so that both sides notice when the
+  /// other one is gone.
+  awaitable<void> stream_events(Response response, Seat& seat) {
+    if (!co_await begin_stream(seat)) co_return;
     const auto events = std::move(response.events);
     events->on_ready([weakly = weak_from_this(), &io = shared_.io] {
       asio::post(io, [weakly] {
@@ -281,7 +315,6 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     });
     const Framing framing{.is_chunked = !is_old_, .keeps_alive = false};
     response.headers.emplace_back("Cache-Control", "no-cache");
-    watch_for_end();
     const std::string head = head_text(response, framing);
     std::string text = ": events follow\n\n";
     bool continues = co_await write(head);
