@@ -31,6 +31,11 @@ Result<SavedSetup> Setups::save(const SetupText& text, const storage::Actor& who
                   .subject = text.machine,
                   .detail = fmt::format("setup {}: {} bytes, sha256 {}", saved->number, saved->size,
                                         saved->sha256.hex())});
+    if (on_saved_) {
+      auto told = *saved;
+      told.text = text.text;
+      on_saved_(told, text.control);
+    }
   }
   return SavedSetup{*std::move(saved), is_unchanged};
 }

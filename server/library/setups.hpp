@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,11 @@ class Setups {
   /// Errors: Syntax, Unsupported, LimitExceeded (what the control would not take, with key and
   /// line; the comment; the size), Conflict (`base` is not the newest any more).
   Result<SavedSetup> save(const SetupText& text, const storage::Actor& who);
+  /// Called after a new revision was kept, by who saved it. One listener, set before any save.
+  void on_saved(
+      std::function<void(const storage::SetupRevision&, const std::string& control)> told) {
+    on_saved_ = std::move(told);
+  }
   /// Newest first, without their texts.
   Result<std::vector<storage::SetupRevision>> list(const std::string& machine,
                                                    storage::Page page) const {
@@ -49,6 +55,7 @@ class Setups {
   storage::SetupStore& store_;
   const ControlCatalog& catalog_;
   AuditTrail& audit_;
+  std::function<void(const storage::SetupRevision&, const std::string& control)> on_saved_;
 };
 
 }  // namespace dripline::library
