@@ -38,6 +38,7 @@ server/ports: protocol storage gateway/interpreter server/library server/machine
 server/paths: protocol/base storage gateway/interpreter clients/tools/comparison clients/tools/offline server/library server/machines server/paths
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
 server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/imports server/api
+server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
 clients/lib: protocol/base clients/lib
@@ -84,6 +85,7 @@ only 'SQLiteCpp|sqlite3' storage/sqlite
 only 'boost/' server/api
 only 'httplib' clients/lib
 only 'sodium' server/identity
+only 'libxml/' server/mtconnect
 
 echo "$checked includes checked"
 exit $bad
