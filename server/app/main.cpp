@@ -85,6 +85,10 @@ int run(const Settings& settings) {
   }
   process::log_info("dncd {} listening at {}", DRIPLINE_VERSION, (*server)->url());
   fmt::print("dncd listening at {}\n", (*server)->url());
+  if (const auto& agent = (*server)->mtconnect_url(); !agent.empty()) {
+    process::log_info("MTConnect agent at {}", agent);
+    fmt::print("MTConnect agent at {}\n", agent);
+  }
   std::fflush(stdout);
   process::notify_ready((*server)->status());
   serve_until(signals, **server, clock);

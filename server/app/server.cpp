@@ -21,6 +21,7 @@
 #include "server/library/releases.hpp"
 #include "server/machines/machine_registry.hpp"
 #include "server/machines/machine_service.hpp"
+#include "server/mtconnect/agent.hpp"
 #include "server/ports/line_machines.hpp"
 #include "server/ports/port_service.hpp"
 #include "server/web/page.hpp"
@@ -78,6 +79,32 @@ Result<api::HttpOptions> http_options(const Settings& settings) {
     return fail(safe.error());
   }
   return options;
+}
+
+/// nullopt: there is no MTConnect agent.
+Result<std::optional<api::HttpOptions>> mtconnect_options(const Settings& settings) {
+  if (settings.mtconnect.empty()) return std::nullopt;
+  const auto address = api::parse_http_address(settings.mtconnect);
+  if (!address) return fail(Errc::Denied, "mtconnect: {}", address.error().what);
+  if (!address->is_loopback && !settings.mtconnect_open_network) {
+    return fail(Errc::Denied,
+                "mtconnect: anybody who reaches {} reads what all machines do; allow it with "
+                "mtconnect-open-network yes, on a network of your own, or listen at 127.0.0.1",
+                address->text());
+  }
+  api::HttpOptions options;
+  options.address = *address;
+  options.is_open = true;
+  constexpr unsigned kHandlers = 4;  // they wait for nothing
+  options.handler_threads = kHandlers;
+  return options;
+}
+
+api::HttpHandlers mtconnect_handlers(mtconnect::Agent& agent) {
+  return {
+      .handle = [&agent](const api::Request& request) { return agent.handle(request); },
+      .judge = [&agent](api::Request& head) { return agent.judge(head); },
+  };
 }
 
 /// Without TLS, and where the server will refuse to start anyway: nullopt.
@@ -141,11 +168,12 @@ struct Server::Parts {
                  .clock = clock,
                  .on_change = api::publish_imports_to(events)}),
         setups(store->setups, catalog, audit),
+        mtconnect(make_mtconnect(settings, loaded)),
         machine_service({.store = *store, .releases = releases, .clock = clock}, machine_options(),
                         machine_listener()),
         ports({.store = *store, .releases = releases, .clock = clock}, programs,
               {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
-              api::publish_to(events)),
+              published()),
         machines(store->runs, machine_service, ports.machines()),
         api({.programs = programs,
              .releases = releases,
@@ -211,8 +239,46 @@ struct Server::Parts {
     };
   }
 
-  machines::MachineListener machine_listener() {
+  std::unique_ptr<mtconnect::Agent> make_mtconnect(const Settings& settings, const Loaded& loaded) {
+    if (settings.mtconnect.empty()) return nullptr;
+    return std::make_unique<mtconnect::Agent>(
+        mtconnect::Agent::Options{
+            .sender = host_name(),
+            .plant = loaded.identity,
+            .instance = mtconnect::instance_of(clock.now()),
+            .last_alarms = [this](const std::string& machine) { return last_alarms(machine); }},
+        clock);
+  }
+
+  /// Of the machine's last run, if it ended with an alarm.
+  std::vector<storage::Record> last_alarms(const std::string& machine) const {
+    constexpr std::uint64_t kMaxAlarms = 32;
+    storage::RunFilter filter;
+    filter.machine = machine;
+    const auto last = store->runs.list(filter, {.limit = 1});
+    if (!last || last->empty() || last->front().state != storage::RunState::Alarmed) return {};
+    auto alarms = store->records.of_run(last->front().id, "alarm", {.limit = kMaxAlarms});
+    return alarms ? *std::move(alarms) : std::vector<storage::Record>();
+  }
+
+  /// To the listeners of events and to the MTConnect agent.
+  machines::MachineListener published() {
     machines::MachineListener listener = api::publish_to(events);
+    if (!mtconnect) return listener;
+    auto& observer = mtconnect->observer();
+    listener.on_machine = [&observer, publish = listener.on_machine](const auto& view) {
+      observer.observe(view);
+      publish(view);
+    };
+    listener.on_record = [&observer, publish = listener.on_record](const auto& record) {
+      observer.observe(record);
+      publish(record);
+    };
+    return listener;
+  }
+
+  machines::MachineListener machine_listener() {
+    machines::MachineListener listener = published();
     listener.on_machine = [this, publish = listener.on_machine](const machines::MachineView& view) {
       using Level = library::Health::Level;
       const auto notices = machines::notices_of(view);
@@ -243,6 +309,7 @@ struct Server::Parts {
   api::EventHub events;
   imports::Imports imports;
   library::Setups setups;
+  std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
   machines::MachineService machine_service;
   ports::PortService ports;
   ports::MachineRouter machines;
@@ -250,7 +317,8 @@ struct Server::Parts {
   web::Page page{web::embedded_assets()};
   std::unique_ptr<library::HealthWatch> watch;
   std::unique_ptr<api::HttpServer> http;
-  std::string url;
+  std::unique_ptr<api::HttpServer> mtconnect_http;
+  std::string url, mtconnect_url;
   StateFolder::Announcement announcement;
   std::atomic<bool> is_announced = true;  ///< or not yet tried
   SteadyTime tidied;
@@ -271,12 +339,35 @@ struct Server::Parts {
     if (!sound) return sound;
     if (!is_announced) announce();
     ports.open_due();
+    if (mtconnect) mtconnect->observer().reconcile(machines.machines());
     accounts.store_uses();
     if (certificate_expires)
       health.report("", library::judge_certificate(*certificate_expires, clock.now()));
     sound = chain.look();
     health.report("", chain.finding());
     return sound;
+  }
+
+  /// The machines that are known and their tools, then the sockets.
+  Result<void> open_mtconnect(const api::HttpOptions& options) {
+    const auto views = machines.machines();
+    mtconnect->observer().reconcile(views);
+    setups.on_saved([this](const storage::SetupRevision& setup, const std::string& control) {
+      mtconnect->use_setup(setup, control, false);
+    });
+    for (const auto& view : views) {
+      const auto setup = setups.find(view.machine.name, std::nullopt);
+      if (setup) mtconnect->use_setup(*setup, view.machine.control, true);
+    }
+    auto opened = api::HttpServer::start(options, mtconnect_handlers(*mtconnect));
+    if (!opened) return fail(opened.error().code, "mtconnect: {}", opened.error().what);
+    mtconnect_http = *std::move(opened);
+    api::HttpAddress bound = options.address;
+    bound.port = mtconnect_http->port();
+    mtconnect_url = "http://" + bound.text();
+    if (!bound.is_loopback)
+      process::log_warning("MTConnect at {}: anybody who reaches it may read", bound.text());
+    return {};
   }
 
   void check_on() {
@@ -305,6 +396,7 @@ Server::~Server() {
   parts_->machine_service.stop_waiting();
   parts_->events.close();
   parts_->http.reset();
+  parts_->mtconnect_http.reset();
   parts_->ports.end();
   parts_->machine_service.end();
 }
@@ -312,6 +404,8 @@ Server::~Server() {
 Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock) {
   const auto options = http_options(settings);
   if (!options) return fail(options.error());
+  const auto agent = mtconnect_options(settings);
+  if (!agent) return fail(agent.error());
   if (auto safe = check_network(settings); !safe) return fail(safe.error());
   const auto policy = library::ReleasePolicy::read(settings.policy);
   if (!policy) return fail(policy.error());
@@ -361,6 +455,9 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
                                   .probe = [&parts] { return parts.look(); },
                                   .folder = parts.folder.path()});
   if (!*is_checked) parts.check_on();
+  if (*agent) {
+    if (auto opened = parts.open_mtconnect(**agent); !opened) return fail(opened.error());
+  }
   auto http = api::HttpServer::start(*options, http_handlers(parts.api, parts.page));
   if (!http) return fail(http.error());
   parts.http = *std::move(http);
@@ -375,6 +472,10 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
 
 const std::string& Server::url() const {
   return parts_->url;
+}
+
+const std::string& Server::mtconnect_url() const {
+  return parts_->mtconnect_url;
 }
 
 std::string Server::status() const {

@@ -19,6 +19,8 @@ class Server {
   ~Server();
 
   const std::string& url() const;
+  /// Of the MTConnect agent; empty: there is none.
+  const std::string& mtconnect_url() const;
   /// From time to time: drops abandoned uploads.
   void tidy();
   /// One line for the service manager. Takes the locks that a request takes: a server whose threads

@@ -161,6 +161,13 @@ constexpr std::array kRows{
     Row{"http-event-streams", "NUMBER", "", "",
         "Event streams at once; at most half of the connections",
         number_value<1, kMaxConnections, &Settings::http_event_streams>()},
+    Row{"mtconnect", "HOST:PORT", "", "none",
+        "Address of the MTConnect agent, which tells all machines' states to anybody who reaches "
+        "it (read only, without TLS or a token); port 0 takes a free one",
+        text_value<&Settings::mtconnect>()},
+    Row{"mtconnect-open-network", "yes|no", "", "",
+        "yes: allow the MTConnect agent beyond this computer although anybody there may read",
+        yes_no_value<&Settings::mtconnect_open_network>()},
     Row{"dds-domain", "NUMBER", "", "", "DDS domain",
         number_value<0, 230, &Settings::dds_domain>()},
     Row{"dds-tag", "TEXT", "", "", "Name of this system; systems with different tags are separate",

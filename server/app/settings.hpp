@@ -20,6 +20,8 @@ struct Settings {
   std::uint32_t http_connections = 512;
   std::uint32_t http_connections_per_address = 256;
   std::uint32_t http_event_streams = 256;
+  std::string mtconnect;                ///< address of the MTConnect agent; empty: there is none
+  bool mtconnect_open_network = false;  ///< beyond this computer, although anybody may read there
   std::uint32_t dds_domain = 0;
   std::string dds_tag;
   std::string dds_interface = "lo";
