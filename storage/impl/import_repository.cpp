@@ -9,15 +9,18 @@
 namespace dripline::storage {
 namespace {
 
-/// Those of a revision (14 columns), then the queue's.
-const std::string kImportColumns =
-    kRevisionColumns +
-    ", import.machine, import.state, import.base, import.class, import.fault, import.compared_us, "
-    "import.decided_us, import.who, import.reason, import.is_at_once, import.target, "
-    "coalesce(import.target_revision, 0) ";
-const std::string kImportTables =
-    kRevisionTables +
-    "JOIN import ON import.program = revision.program AND import.revision = revision.number ";
+/// Those of a revision (14 columns), then the queue's; a WHERE follows. Made when it is first used:
+/// the revision's part is of another file.
+const std::string& import_select() {
+  static const std::string kSelect =
+      "SELECT " + kRevisionColumns +
+      ", import.machine, import.state, import.base, import.class, import.fault, "
+      "import.compared_us, import.decided_us, import.who, import.reason, import.is_at_once, "
+      "import.target, coalesce(import.target_revision, 0) " +
+      kRevisionTables +
+      "JOIN import ON import.program = revision.program AND import.revision = revision.number ";
+  return kSelect;
+}
 
 Import read_import(const sqlite::Statement& row) {
   Import import;
@@ -42,8 +45,8 @@ Import read_import(const sqlite::Statement& row) {
 
 Result<Import> find_import(sqlite::Database& database, const std::string& program,
                            std::uint64_t revision) {
-  static const std::string kSql = "SELECT " + kImportColumns + kImportTables +
-                                  "WHERE program.name = ?1 AND import.revision = ?2";
+  static const std::string kSql =
+      import_select() + "WHERE program.name = ?1 AND import.revision = ?2";
   auto found = sqlite::first_row(database, kSql, read_import, program, revision);
   if (!found) return fail(found.error());
   if (*found) return std::move(**found);
@@ -92,11 +95,11 @@ Result<Revision> accept_as(sqlite::Database& database, const ImportDecision& dec
 }  // namespace
 
 Result<std::vector<Import>> ImportRepository::list(bool is_pending, Page page) {
-  static const std::string kPending = "SELECT " + kImportColumns + kImportTables +
-                                      "WHERE import.state = 'pending' AND " + kRevisionVisible +
+  static const std::string kPending = import_select() + "WHERE import.state = 'pending' AND " +
+                                      kRevisionVisible +
                                       "ORDER BY revision.created_us, program.name, revision.number "
                                       "LIMIT ?1 OFFSET ?2";
-  static const std::string kDecided = "SELECT " + kImportColumns + kImportTables +
+  static const std::string kDecided = import_select() +
                                       "WHERE import.state <> 'pending' "
                                       "ORDER BY import.decided_us DESC, program.name, "
                                       "revision.number LIMIT ?1 OFFSET ?2";
@@ -127,9 +130,8 @@ Result<Import> ImportRepository::find(const std::string& program, std::uint64_t 
 
 Result<std::vector<Import>> ImportRepository::uncompared(std::uint64_t limit) {
   static const std::string kSql =
-      "SELECT " + kImportColumns + kImportTables +
-      "WHERE import.state = 'pending' AND import.compared_us IS NULL AND " + kRevisionVisible +
-      "ORDER BY revision.created_us, program.name, revision.number LIMIT ?1";
+      import_select() + "WHERE import.state = 'pending' AND import.compared_us IS NULL AND " +
+      kRevisionVisible + "ORDER BY revision.created_us, program.name, revision.number LIMIT ?1";
   return connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(database, kSql, read_import, limit);
   });
