@@ -28,8 +28,7 @@ std::string part_text(std::string_view boundary, std::string_view xml) {
 }  // namespace
 
 std::uint64_t instance_of(UtcTime start) {
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(start.time_since_epoch());
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(seconds.count(), 1));
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(start.time_since_epoch().count(), 1));
 }
 
 Agent::Agent(Options options, const Clock& clock)

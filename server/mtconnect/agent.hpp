@@ -91,7 +91,7 @@ class Agent {
   std::shared_ptr<const Current> current_;
 };
 
-/// A number that is greater than at any start before: seconds since 1970.
+/// A number that is greater than at any start before: microseconds since 1970.
 std::uint64_t instance_of(UtcTime start);
 
 }  // namespace dripline::mtconnect

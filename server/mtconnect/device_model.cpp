@@ -88,6 +88,12 @@ constexpr std::array kItems{
     SlotRow{Slot::PositionU, Place::U, Has::Axis, Sample, "position-u", "POSITION", "ACTUAL", kMm},
     SlotRow{Slot::PositionV, Place::V, Has::Axis, Sample, "position-v", "POSITION", "ACTUAL", kMm},
     SlotRow{Slot::PositionW, Place::W, Has::Axis, Sample, "position-w", "POSITION", "ACTUAL", kMm},
+    SlotRow{Slot::ContactX, Place::X, Has::Axis, Sample, "contact-x", "POSITION", "PROBE", kMm,
+            true},
+    SlotRow{Slot::ContactY, Place::Y, Has::Axis, Sample, "contact-y", "POSITION", "PROBE", kMm,
+            true},
+    SlotRow{Slot::ContactZ, Place::Z, Has::Axis, Sample, "contact-z", "POSITION", "PROBE", kMm,
+            true},
     SlotRow{Slot::SpindleSpeed, Place::Spindle, Has::Control, Sample, "spindle-speed",
             "ROTARY_VELOCITY", "ACTUAL", "REVOLUTION/MINUTE"},
     SlotRow{Slot::SpindleOverride, Place::Spindle, Has::Control, Event, "spindle-override",
@@ -117,7 +123,7 @@ constexpr std::array kItems{
     SlotRow{Slot::ProgramMessage, Place::Path, Has::Machine, Event, "program-message", "MESSAGE",
             "", "", true},
     SlotRow{Slot::Output, Place::Path, Has::Machine, Event, "output", "MESSAGE", "", "", true},
-    SlotRow{Slot::Probe, Place::Path, Has::Control, Sample, "probe", "PATH_POSITION", "PROBE",
+    SlotRow{Slot::Contact, Place::Path, Has::Control, Sample, "contact", "PATH_POSITION", "PROBE",
             "MILLIMETER_3D", true},
     SlotRow{Slot::MotionProgram, Place::Path, Has::Control, Condition, "motion-program",
             "MOTION_PROGRAM", "", ""},
@@ -135,7 +141,8 @@ bool has_item(const Device& device, const SlotRow& row) {
     case Has::Control:
       return device.axes != 0;
     case Has::Axis: {
-      const auto axis = static_cast<unsigned>(row.slot) - static_cast<unsigned>(Slot::PositionX);
+      const Slot first = row.slot < Slot::ContactX ? Slot::PositionX : Slot::ContactX;
+      const auto axis = static_cast<unsigned>(row.slot) - static_cast<unsigned>(first);
       return (device.axes & 1U << axis) != 0;
     }
   }

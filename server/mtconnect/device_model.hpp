@@ -33,6 +33,9 @@ enum class Slot : std::uint8_t {
   PositionU,
   PositionV,
   PositionW,
+  ContactX,  ///< where a probe made contact
+  ContactY,
+  ContactZ,
   SpindleSpeed,
   SpindleOverride,
   EmergencyStop,
@@ -51,7 +54,7 @@ enum class Slot : std::uint8_t {
   Message,         ///< what the machine shows now: a prompt, an alarm, what it waits for
   ProgramMessage,  ///< each message and stop of a program
   Output,          ///< each line that a program puts out (DPRNT)
-  Probe,
+  Contact,         ///< the same, where the contact names all of the machine's X, Y and Z
   MotionProgram,
 };
 inline constexpr std::size_t kSlots = static_cast<std::size_t>(Slot::MotionProgram) + 1;

@@ -114,17 +114,22 @@ void write_status(Writer& writer, const dds::Status& now, const dds::Status* bef
   }
 }
 
-/// "x y z" of a contact. An axis that the machine does not have is 0; nullopt: one that it has is
-/// missing.
-Value contact_text(const dds::ProbeText& probe, std::uint16_t axes) {
+/// A contact names the axes that the probe moved. "x y z" only when it names all that the machine
+/// has of them; where it has none, that is 0.
+void write_contact(Writer& writer, const dds::ProbeText& probe, std::uint16_t axes) {
   std::string text;
+  bool is_whole = true;
   for (unsigned i = 0; i < 3; ++i) {
     const auto found = probe.at.find(static_cast<char>('X' + i));
-    if (found == probe.at.end() && (axes & 1U << i) != 0) return std::nullopt;
-    if (i > 0) text += ' ';
-    text += number_text(found == probe.at.end() ? 0 : found->second);
+    const bool is_there = found != probe.at.end();
+    is_whole = is_whole && (is_there || (axes & 1U << i) == 0);
+    const std::string number = number_text(is_there ? found->second : 0);
+    if (is_there) {
+      writer.value(static_cast<Slot>(static_cast<unsigned>(Slot::ContactX) + i), number, true);
+    }
+    text += (i > 0 ? " " : "") + number;
   }
-  return text;
+  if (is_whole) writer.value(Slot::Contact, std::move(text), true);
 }
 
 std::optional<ConditionState> state_of(const storage::Record& record) {
@@ -276,9 +281,7 @@ void Observer::observe_record(Seen& seen, const storage::Record& record, Batch& 
     writer.value(Slot::ProgramMessage, record.text, true);
   } else if (record.kind == "probe") {
     const auto probe = dds::decode_probe(record.text);
-    if (!probe || !probe->tripped) return;
-    if (auto contact = contact_text(*probe, seen.device->axes))
-      writer.value(Slot::Probe, std::move(contact), true);
+    if (probe && probe->tripped) write_contact(writer, *probe, seen.device->axes);
   } else if (record.kind == "run_started") {
     seen.faults.clear();
     for (const Slot slot : kConditions) writer.condition(slot, normal());

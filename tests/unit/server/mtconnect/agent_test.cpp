@@ -120,14 +120,15 @@ TEST_F(AgentTest, CurrentAtANumberIsTheStateThen) {
 TEST_F(AgentTest, APathSelectsComponentsAndDataItems) {
   add("lathe-1");
   add("mill-1", kXYZC);
-  EXPECT_EQ(count(get("/current?path=//Linear"), "<Position "), 5U);
-  EXPECT_EQ(count(get("/mill-1/current?path=//Linear"), "<Position "), 3U);
+  EXPECT_EQ(count(get("/current?path=//Linear"), "<Position "), 10U);
+  EXPECT_EQ(count(get("/mill-1/current?path=//Linear"), "<Position "), 6U);
   EXPECT_EQ(count(get("/current?path=//DataItem[@type='EXECUTION']"), "sequence="), 2U);
   EXPECT_EQ(count(get("/current?path=//Device[@name='mill-1']//Axes//DataItem[@category='SAMPLE']"),
                   "sequence="),
-            5U);
+            8U);
   EXPECT_EQ(
-      count(get("/current?path=//Linear|//DataItem[@type=%22MODE%22]|//Linear"), "<Position "), 5U);
+      count(get("/current?path=//Linear|//DataItem[@type=%22MODE%22]|//Linear"), "<Position "),
+      10U);
   EXPECT_EQ(count(get("/current?path=/"), "<DeviceStream "), 3U);
   EXPECT_EQ(count(get("/sample?path=//Path&count=1"), "sequence="), 1U);
 }
@@ -135,9 +136,9 @@ TEST_F(AgentTest, APathSelectsComponentsAndDataItems) {
 TEST_F(AgentTest, APathSelectsWhatCameLater) {
   add("lathe-1");
   const std::string target = "/current?path=//Linear";
-  EXPECT_EQ(count(get(target), "<Position "), 2U);
+  EXPECT_EQ(count(get(target), "<Position "), 4U);
   add("mill-1", kXYZC);
-  EXPECT_EQ(count(get(target), "<Position "), 5U);
+  EXPECT_EQ(count(get(target), "<Position "), 10U);
 }
 
 TEST_F(AgentTest, AHostilePathCostsLittle) {

@@ -124,8 +124,19 @@ TEST_F(ObserverTest, EachLineOfAReportIsAnObservation) {
   agent_->observer().observe(memory);
   const auto xml = get("/sample?from=" + from);
   EXPECT_EQ(count(xml, "D1=5"), 2U);
-  EXPECT_EQ(value(xml, "probe.lathe-1"), "1.5 0 -2") << "it has no Y axis";
-  EXPECT_EQ(count(xml, "sequence="), 3U) << "no contact is no position, memory is no message";
+  EXPECT_EQ(value(xml, "contact.lathe-1"), "1.5 0 -2") << "it has no Y axis";
+  EXPECT_EQ(value(xml, "contact-x.lathe-1"), "1.5");
+  EXPECT_EQ(value(xml, "contact-z.lathe-1"), "-2");
+  EXPECT_EQ(count(xml, "sequence="), 5U) << "no contact is no position, memory is no message";
+}
+
+TEST_F(ObserverTest, AContactOfOneAxisSaysNothingOfOthers) {
+  add("lathe-1");
+  report("probe", dds::encode(dds::ProbeText{{}, "contact", true, {{'Z', 5}}}));
+  const auto xml = get("/current");
+  EXPECT_EQ(value(xml, "contact-z.lathe-1"), "5");
+  EXPECT_EQ(value(xml, "contact-x.lathe-1"), "UNAVAILABLE");
+  EXPECT_EQ(value(xml, "contact.lathe-1"), "UNAVAILABLE");
 }
 
 TEST_F(ObserverTest, AMachineWithoutAKnownControlHasWhatItsLineTells) {
