@@ -18,8 +18,10 @@ using Context = std::unique_ptr<xmlXPathContext, Freed<xmlXPathContext, xmlXPath
 using Expression = std::unique_ptr<xmlXPathCompExpr, Freed<xmlXPathCompExpr, xmlXPathFreeCompExpr>>;
 using Found = std::unique_ptr<xmlXPathObject, Freed<xmlXPathObject, xmlXPathFreeObject>>;
 
-/// libxml2 would print it.
+/// libxml2 would print its errors; some it only prints.
 void ignore(void* /*data*/, xmlErrorPtr /*error*/) {}
+void print_nothing(void* /*data*/, const char* /*format*/, ...) {
+}  // NOLINT(cert-dcl50-cpp): libxml2's
 
 tl::unexpected<AgentError> invalid(std::string text) {
   return tl::unexpected<AgentError>(AgentError{400, "INVALID_PATH", std::move(text)});
@@ -87,6 +89,7 @@ void start_libxml() {
 Asked<std::vector<std::uint32_t>> select_items(const Model& model, const Device& device,
                                                const std::string& path) {
   start_libxml();
+  xmlSetGenericErrorFunc(nullptr, print_nothing);  // of this thread
   const std::string text = path_document(model, device);
   const Document document(xmlReadMemory(text.data(), static_cast<int>(text.size()), nullptr,
                                         "UTF-8", XML_PARSE_NONET | XML_PARSE_NOERROR));
