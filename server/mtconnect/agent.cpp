@@ -262,7 +262,6 @@ class Agent::SampleStream final : public api::TimedSource {
         next_(agent.clock_.steady_now()),
         heartbeat_(next_ + request_.heartbeat) {}
 
-  /// A part follows at once when the one before was full.
   Due due() override {
     const SteadyTime now = agent_.clock_.steady_now();
     if (now < next_) return {.is_now = false, .next = next_};
