@@ -10,6 +10,7 @@ namespace dripline::mtconnect {
 namespace {
 
 constexpr const char* kXml = "text/xml";
+constexpr int kTryAgain = 503;
 /// Streams ask no more often whether something was observed.
 constexpr std::chrono::milliseconds kShortest{10};
 
@@ -75,7 +76,7 @@ api::Response Agent::refuse(const AgentError& error) const {
   response.status = error.status;
   response.content_type = kXml;
   response.body = error_document(header(*model_.snapshot()), error.code, error.text);
-  if (error.status == 503) response.headers.emplace_back("Retry-After", "1");
+  if (error.status == kTryAgain) response.headers.emplace_back("Retry-After", "1");
   return response;
 }
 
@@ -94,7 +95,8 @@ api::Response Agent::document(std::string xml) {
   response.headers.emplace_back("Cache-Control", "no-cache");
   auto share = budget_.take(xml.size());
   if (!share)
-    return refuse({503, "INTERNAL_ERROR", "too many large documents are being sent; ask again"});
+    return refuse(
+        {kTryAgain, "INTERNAL_ERROR", "too many large documents are being sent; ask again"});
   if (xml.size() < BodyBudget::kSmall) {
     response.body = std::move(xml);
     return response;
@@ -230,6 +232,7 @@ class Agent::CurrentStream final : public api::TimedSource {
     next_ = agent_.clock_.steady_now() + std::max(*request_.interval, kShortest);
     share_ = {};
     auto xml = agent_.current(request_);
+    if (!xml && xml.error().status == kTryAgain) return "";
     if (!xml) {
       has_ended_ = true;
       xml = agent_.refuse(xml.error()).body;
@@ -277,6 +280,7 @@ class Agent::SampleStream final : public api::TimedSource {
     next_ = now + std::max(*request_.interval, kShortest);
     share_ = {};
     auto part = agent_.sample(request_);
+    if (!part && part.error().status == kTryAgain) return "";
     if (!part) {
       has_ended_ = true;
       return part_text(boundary_, agent_.refuse(part.error()).body) +

@@ -53,8 +53,10 @@ std::string content_of(const ToolRecord& tool, bool is_lathe) {
   if (!assembly.empty()) xml += "<Measurements>" + assembly + "</Measurements>";
   const std::string edge = is_lathe ? edge_measurements(tool) : std::string();
   if (!edge.empty()) {
-    xml += "<CuttingItems count=\"1\"><CuttingItem indices=\"1\"><Measurements>" + edge +
-           "</Measurements></CuttingItem></CuttingItems>";
+    xml += fmt::format(
+        "<CuttingItems count=\"1\"><CuttingItem indices=\"1\"><Measurements>{}</Measurements>"
+        "</CuttingItem></CuttingItems>",
+        edge);
   }
   xml += "</CuttingToolLifeCycle>";
   return xml;

@@ -115,6 +115,7 @@ Asked<std::vector<std::uint32_t>> select_items(const Model& model, const Device&
     if (item != Device::kNone) by_id.emplace(model.items[item]->id, item);
   }
   std::vector<std::uint32_t> items;
+  items.reserve(ids.size());
   for (const auto& id : ids) items.push_back(by_id.at(id));
   return items;
 }
@@ -157,14 +158,18 @@ Asked<std::shared_ptr<const ItemSet>> PathSelection::select(const Model& model, 
   const auto kept = keep(path);
   const std::lock_guard lock(kept->mutex);
   if (kept->error) return tl::unexpected<AgentError>(*kept->error);
-  if (kept->revision != model.revision) {
+  if (kept->revision == 0) {
     const Turn turn(evaluations_);
     if (!turn.is_taken()) {
       return tl::unexpected<AgentError>(AgentError{
           503, "INTERNAL_ERROR", "too many paths are being evaluated; ask again in a second"});
     }
     evaluate(*kept, model, path);
-    if (kept->error) return tl::unexpected<AgentError>(*kept->error);
+  } else if (kept->revision != model.revision) {
+    evaluate(*kept, model, path);
+  }
+  if (kept->error) return tl::unexpected<AgentError>(*kept->error);
+  if (kept->revision != model.revision) {
     kept->answers.clear();
     kept->revision = model.revision;
   }

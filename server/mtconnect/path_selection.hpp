@@ -22,11 +22,11 @@ namespace dripline::mtconnect {
 /// for all devices and the number of evaluations at once are bounded. Any thread.
 class PathSelection {
  public:
-  static constexpr std::size_t kMaxKept = 256;               ///< expressions; the oldest goes
-  static constexpr std::size_t kMaxAnswers = 16;             ///< of one expression, by device
-  static constexpr std::uint64_t kOperations = 50'000;       ///< of libxml2, on one device
-  static constexpr std::chrono::milliseconds kMaxTime{250};  ///< of the processor, on all devices
-  static constexpr int kMaxAtOnce = 2;                       ///< evaluations of new expressions
+  static constexpr std::size_t kMaxKept = 256;                ///< expressions; the oldest goes
+  static constexpr std::size_t kMaxAnswers = 16;              ///< of one expression, by device
+  static constexpr std::uint64_t kOperations = 50'000;        ///< of libxml2, on one device
+  static constexpr std::chrono::milliseconds kMaxTime{1000};  ///< of the processor, on all devices
+  static constexpr int kMaxAtOnce = 2;                        ///< evaluations of new expressions
 
   /// Errors: INVALID_PATH (not an XPath, no node set, selects nothing, takes too long), and 503
   /// with INTERNAL_ERROR while too many are evaluated.

@@ -165,6 +165,36 @@ TEST_F(MtConnect, ASetupThatIsPushedChangesTools) {
       << "read from the store";
 }
 
+/// A machine at the end of a line, which a listening socket stands for.
+TEST_F(MtConnect, AMachineOnASerialLineIsADeviceUntilItsPortIsRemoved) {
+  start();
+  const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(::bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(::listen(listener, 4), 0);
+  ::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size);
+  const nlohmann::json port{
+      {"machine", "mill-9"},
+      {"address", "tcp://127.0.0.1:" + std::to_string(ntohs(address.sin_port))},
+      {"template", "tnc155"}};
+  ASSERT_EQ(system_->rest().put_bytes("/api/v1/ports/line-9", port.dump()).status, 201);
+  const auto availability = [&] {
+    const auto xml = get("/mill-9/current?path=//DataItem[@type='AVAILABILITY']");
+    const auto begin = xml.find("\">", xml.find("<Availability "));
+    return begin == std::string::npos ? xml
+                                      : xml.substr(begin + 2, xml.find('<', begin) - begin - 2);
+  };
+  EXPECT_TRUE(eventually([&] { return availability() == "AVAILABLE"; })) << availability();
+  EXPECT_EQ(get("/mill-9/probe").find("<Axes"), std::string::npos) << "nothing is known of them";
+  EXPECT_EQ(system_->rest().remove("/api/v1/ports/line-9").status, 204);
+  EXPECT_TRUE(
+      eventually([&] { return availability() == "UNAVAILABLE"; }, std::chrono::seconds(40)));
+  ::close(listener);
+}
+
 TEST_F(MtConnect, IsNotOpenToANetworkUnasked) {
   System system(
       {.speed = "max", .server_arguments = {"--mtconnect", "0.0.0.0:0"}, .gateway_arguments = {}});

@@ -50,9 +50,9 @@ double processor_time() {
 /// Five values of a machine change with each status, as in a program that runs.
 class Shop {
  public:
-  explicit Shop(mtconnect::Agent& agent) : agent_(agent) {
+  explicit Shop(mtconnect::Agent& agent, int devices = kDevices) : agent_(agent) {
     constexpr std::uint16_t kAxes = 0b100111;
-    for (int i = 0; i < kDevices; ++i) {
+    for (int i = 0; i < devices; ++i) {
       machines::MachineView view;
       view.machine.name = "mill-" + std::to_string(i);
       view.machine.control = "fanuc";
@@ -222,6 +222,31 @@ void measure_statuses(Shop& shop) {
   figure("a status that changes five values", took.count() / kSteps, "us");
 }
 
+/// A shop of 1,000 machines: what one request costs after something was observed.
+void measure_thousand() {
+  const SystemClock clock;
+  mtconnect::Agent agent({.sender = "bench", .plant = "bench", .instance = 1}, clock);
+  constexpr int kMachines = 1000;
+  Shop shop(agent, kMachines);
+  const auto ask = [&](const std::string& name, const std::string& path, int times) {
+    std::chrono::duration<double, std::milli> took{};
+    for (int i = 0; i < times; ++i) {
+      shop.step();
+      api::Request request;
+      request.method = "GET";
+      request.target.segments = {"current"};
+      if (!path.empty()) request.target.query["path"] = path;
+      const auto begin = Clock::now();
+      if (agent.handle(request).status != 200) std::exit(1);
+      took += Clock::now() - begin;
+    }
+    figure("1,000 machines: " + name, took.count() / times, "ms");
+  };
+  ask("/current", "", 20);
+  ask("/current?path=, a new path", "//Linear[@name='X']//DataItem[@subType='ACTUAL']", 1);
+  ask("/current?path=, known", "//Linear[@name='X']//DataItem[@subType='ACTUAL']", 20);
+}
+
 double resident_mb() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
@@ -256,5 +281,6 @@ int main() {
   measure_requests(port, "/current?at=" + std::to_string(5 * shop.count() - kBack));
   measure_streams(port, shop);
   figure("highest resident memory", resident_mb(), "MB");
+  measure_thousand();
   return 0;
 }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <map>
+#include <thread>
 
 #include "tests/unit/server/mtconnect/agent_fixture.hpp"
 
@@ -170,6 +171,33 @@ TEST_F(AgentTest, NamesFromMachinesCannotBreakADocument) {
   observe(lathe);
   EXPECT_EQ(get("/probe").find("<Evil"), std::string::npos);
   EXPECT_EQ(value(get("/current"), "message.lathe-1"), "]]&gt; &amp; &lt;!-- \uFFFD");
+}
+
+TEST_F(AgentTest, IsReadWhileMachinesComeAndMove) {
+  std::vector<std::jthread> threads;
+  threads.emplace_back([this] {
+    for (int i = 0; i < 2000; ++i) {
+      auto mill = view("mill-" + std::to_string(i % 40), i % 3 == 0 ? 0 : kXYZC);
+      mill.status->position[0] = i;
+      mill.is_connected = i % 11 != 0;
+      observe(mill);
+    }
+  });
+  threads.emplace_back([this] {
+    for (int i = 0; i < 1000; ++i) report("output", "line " + std::to_string(i));
+  });
+  for (const char* target : {"/current", "/sample?count=500", "/current?path=//Axes", "/probe",
+                             "/sample?path=//Path&count=-100", "/assets"}) {
+    threads.emplace_back([this, target] {
+      for (int i = 0; i < 50; ++i) {
+        const auto response = ask(target);
+        const bool is_new = response.status == 400 || response.status == 503;  // no axes yet
+        EXPECT_TRUE(response.status == 200 || is_new) << target << response.body;
+      }
+    });
+  }
+  threads.clear();
+  EXPECT_EQ(count(get("/current"), "<DeviceStream "), 42U) << "the agent, 40 mills, the lathe";
 }
 
 TEST_F(AgentTest, LargeDocumentsShareABoundedMemory) {
