@@ -1,6 +1,7 @@
 #include "server/app/server.hpp"
 
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <thread>
@@ -97,6 +98,10 @@ Result<std::optional<api::HttpOptions>> mtconnect_options(const Settings& settin
   options.is_open = true;
   constexpr unsigned kHandlers = 4;  // they wait for nothing
   options.handler_threads = kHandlers;
+  // DDS waits with select(): with those of the REST API below 1,000 files.
+  constexpr std::uint32_t kBoth = 830, kWanted = 256;
+  const std::uint32_t left = kBoth - std::min(settings.http_connections, kBoth);
+  options.limits.connections = std::min(std::max(left, 16U), kWanted);
   return options;
 }
 

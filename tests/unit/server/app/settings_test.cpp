@@ -116,6 +116,8 @@ TEST(Settings, WithWrongUseEndWithTwo) {
                              "--http-connections",
                              "--http-connections-per-address",
                              "--http-event-streams",
+                             "--mtconnect",
+                             "--mtconnect-open-network",
                              "--dds-domain",
                              "--dds-tag",
                              "--dds-interface",
@@ -167,6 +169,20 @@ TEST(Server, IsNotStartedWithUnsafeSettings) {
   settings.tls_key = "key.pem";
   EXPECT_EQ(Server::start(settings, clock).error().code, Errc::Denied);
   EXPECT_FALSE(std::filesystem::exists(settings.state));
+}
+
+TEST(Settings, AnMtConnectAgentBeyondThisComputerMustBeConfirmed) {
+  EXPECT_TRUE(read({"--mtconnect-open-network", "yes"}).settings.mtconnect_open_network);
+  const test_support::TemporaryFolder folder;
+  const SystemClock clock;
+  Settings settings;
+  settings.state = folder.path() / "state";
+  settings.http = "127.0.0.1:0";
+  for (const char* address : {"0.0.0.0:5000", "[::]:5000", "5000", "localhost"}) {
+    settings.mtconnect = address;
+    EXPECT_EQ(Server::start(settings, clock).error().code, Errc::Denied) << address;
+  }
+  EXPECT_FALSE(std::filesystem::exists(settings.state)) << "nothing was made";
 }
 
 TEST(Settings, OfAnOpenNetworkMustBeConfirmed) {
