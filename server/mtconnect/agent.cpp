@@ -216,94 +216,105 @@ Asked<std::string> Agent::assets(const AgentRequest& request) const {
   return assets_document(header(*model), elements);
 }
 
-/// `/current?interval=`: the whole state again and again.
-class Agent::CurrentStream final : public api::TimedSource {
+/// What both kinds of streams have: when the next part is due. A stream takes at most a fiftieth of
+/// a worker, so that streams of large documents leave room for requests.
+class Agent::PartStream : public api::TimedSource {
  public:
-  CurrentStream(Agent& agent, AgentRequest request, std::string boundary)
-      : agent_(agent), request_(std::move(request)), boundary_(std::move(boundary)) {}
-
-  Due due() override {
-    const SteadyTime now = agent_.clock_.steady_now();
-    return {.is_now = now >= next_, .next = next_};
-  }
-
-  std::optional<std::string> take() override {
-    if (has_ended_) return std::nullopt;
-    next_ = agent_.clock_.steady_now() + std::max(*request_.interval, kShortest);
-    share_ = {};
-    auto xml = agent_.current(request_);
-    if (!xml && xml.error().status == kTryAgain) return "";
-    if (!xml) {
-      has_ended_ = true;
-      xml = agent_.refuse(xml.error()).body;
-    }
-    auto share = agent_.budget_.take(xml->size());
-    if (!share) return "";
-    share_ = *std::move(share);
-    std::string text = part_text(boundary_, *xml);
-    if (has_ended_) text += fmt::format("\r\n--{}--\r\n", boundary_);
-    return text;
-  }
-
- private:
-  Agent& agent_;
-  const AgentRequest request_;
-  const std::string boundary_;
-  BodyBudget::Share share_;
-  SteadyTime next_{};
-  bool has_ended_ = false;
-};
-
-/// `/sample?interval=`: what was observed since the part before, or after `heartbeat` without any
-/// an empty part.
-class Agent::SampleStream final : public api::TimedSource {
- public:
-  SampleStream(Agent& agent, AgentRequest request, std::string boundary)
+  PartStream(Agent& agent, AgentRequest request, std::string boundary)
       : agent_(agent),
         request_(std::move(request)),
         boundary_(std::move(boundary)),
-        next_(agent.clock_.steady_now()),
+        next_(agent.clock_.steady_now()) {}
+
+  std::optional<std::string> take() final {
+    if (has_ended_) return std::nullopt;
+    const SteadyTime begin = agent_.clock_.steady_now();
+    std::chrono::steady_clock::duration pause = std::max(*request_.interval, kShortest);
+    share_ = {};
+    auto xml = make(begin, pause);
+    if (!xml && xml.error().status == kTryAgain) xml = "";
+    std::string text;
+    if (!xml) {
+      has_ended_ = true;
+      text = part_text(boundary_, agent_.refuse(xml.error()).body) +
+             fmt::format("\r\n--{}--\r\n", boundary_);
+    } else if (!xml->empty()) {
+      text = part_text(boundary_, *xml);
+    }
+    const auto cost = agent_.clock_.steady_now() - begin;
+    next_ = begin + std::max(pause, kCostShare * cost);
+    return text;
+  }
+
+ protected:
+  /// The next document; "": none now. `pause` until the next one may be changed.
+  virtual Asked<std::string> make(SteadyTime now, std::chrono::steady_clock::duration& pause) = 0;
+
+  /// False: too much is under way.
+  bool take_share(const std::string& xml) {
+    auto share = agent_.budget_.take(xml.size());
+    if (share) share_ = *std::move(share);
+    return share.has_value();
+  }
+
+  static constexpr int kCostShare = 50;
+
+  Agent& agent_;
+  AgentRequest request_;
+  const std::string boundary_;
+  BodyBudget::Share share_;
+  SteadyTime next_;
+  bool has_ended_ = false;
+};
+
+/// `/current?interval=`: the whole state again and again.
+class Agent::CurrentStream final : public PartStream {
+ public:
+  using PartStream::PartStream;
+
+  Due due() override { return {.is_now = agent_.clock_.steady_now() >= next_, .next = next_}; }
+
+ private:
+  Asked<std::string> make(SteadyTime /*now*/,
+                          std::chrono::steady_clock::duration& /*pause*/) override {
+    auto xml = agent_.current(request_);
+    if (xml && !take_share(*xml)) return "";
+    return xml;
+  }
+};
+
+/// `/sample?interval=`: what was observed since the part before, or after `heartbeat` without any
+/// an empty part. When a part is full, the next one follows at once.
+class Agent::SampleStream final : public PartStream {
+ public:
+  SampleStream(Agent& agent, AgentRequest request, std::string boundary)
+      : PartStream(agent, std::move(request), std::move(boundary)),
         heartbeat_(next_ + request_.heartbeat) {}
 
   Due due() override {
     const SteadyTime now = agent_.clock_.steady_now();
     if (now < next_) return {.is_now = false, .next = next_};
-    const bool has_more = !request_.from || looked_at_ < agent_.buffer_.next();
+    const bool has_more = looked_at_ == 0 || looked_at_ < agent_.buffer_.next();
     if (has_more || now >= heartbeat_ || has_ended_) return {.is_now = true, .next = now};
     next_ = std::min(now + std::max(*request_.interval, kShortest), heartbeat_);
     return {.is_now = false, .next = next_};
   }
 
-  std::optional<std::string> take() override {
-    if (has_ended_) return std::nullopt;
-    const SteadyTime now = agent_.clock_.steady_now();
-    next_ = now + std::max(*request_.interval, kShortest);
-    share_ = {};
+ private:
+  Asked<std::string> make(SteadyTime now, std::chrono::steady_clock::duration& pause) override {
     auto part = agent_.sample(request_);
-    if (!part && part.error().status == kTryAgain) return "";
-    if (!part) {
-      has_ended_ = true;
-      return part_text(boundary_, agent_.refuse(part.error()).body) +
-             fmt::format("\r\n--{}--\r\n", boundary_);
-    }
-    auto share = agent_.budget_.take(part->xml.size());
-    if (!share) return "";
-    share_ = *std::move(share);
+    if (!part) return forward(part.error());
+    if (!take_share(part->xml)) return "";
     request_.from = part->next;
     looked_at_ = part->next;
+    if (part->size == static_cast<std::size_t>(request_.count)) pause = {};
     if (part->size == 0 && now < heartbeat_) return "";
     heartbeat_ = now + request_.heartbeat;
-    return part_text(boundary_, part->xml);
+    return std::move(part->xml);
   }
 
- private:
-  Agent& agent_;
-  AgentRequest request_;
-  const std::string boundary_;
-  BodyBudget::Share share_;
-  SteadyTime next_, heartbeat_;
-  std::uint64_t looked_at_ = 0;  ///< the number that is looked at next
-  bool has_ended_ = false;
+  SteadyTime heartbeat_;
+  std::uint64_t looked_at_ = 0;  ///< the number that is looked at next; 0: none was yet
 };
 
 /// What is wrong with the request at its beginning is an Error document with its status.

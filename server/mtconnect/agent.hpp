@@ -51,6 +51,7 @@ class Agent {
   api::Response handle(const api::Request& request);
 
  private:
+  class PartStream;
   class CurrentStream;
   class SampleStream;
   using Items = std::shared_ptr<const ItemSet>;  ///< nullptr: all

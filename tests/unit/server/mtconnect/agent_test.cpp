@@ -257,6 +257,18 @@ TEST_F(StreamTest, SendsWhatWasObservedSinceThePartBefore) {
   EXPECT_EQ(part(), "");
 }
 
+TEST_F(StreamTest, WhatDoesNotFitIntoAPartFollowsAtOnce) {
+  move(0);
+  const auto next = attribute(get("/current"), "nextSequence");
+  for (int i = 1; i <= 7; ++i) move(i);
+  open("/sample?interval=1000&count=3&from=" + next);
+  EXPECT_EQ(count(part(), "sequence="), 3U);
+  EXPECT_EQ(count(part(), "sequence="), 3U);
+  EXPECT_EQ(count(part(), "sequence="), 1U);
+  move(8);
+  EXPECT_EQ(part(), "") << "now it waits for its interval";
+}
+
 TEST_F(StreamTest, APartHasTheLengthOfItsDocument) {
   move(1);
   open("/sample?interval=0");
