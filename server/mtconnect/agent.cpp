@@ -253,8 +253,9 @@ class Agent::PartStream : public api::TimedSource {
   /// False: too much is under way.
   bool take_share(const std::string& xml) {
     auto share = agent_.budget_.take(xml.size());
-    if (share) share_ = *std::move(share);
-    return share.has_value();
+    if (!share) return false;
+    share_ = *std::move(share);
+    return true;
   }
 
   static constexpr int kCostShare = 50;

@@ -76,7 +76,7 @@ Result<std::vector<CuttingTool>> read_tools(const std::string& machine, std::str
   std::vector<CuttingTool> tools;
   for (const auto& record : records) {
     const std::string tool = fmt::format("T{}", record.number);
-    tools.push_back({machine + "." + tool, tool, content_of(record, is_lathe)});
+    tools.push_back({fmt::format("{}.{}", machine, tool), tool, content_of(record, is_lathe)});
   }
   return tools;
 }

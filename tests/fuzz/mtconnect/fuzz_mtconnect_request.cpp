@@ -10,11 +10,11 @@ namespace {
 
 using namespace dripline;
 
-const SystemClock clock_of_day;
+const SystemClock kClock;
 
 std::unique_ptr<mtconnect::Agent> make_agent() {
   auto agent = std::make_unique<mtconnect::Agent>(
-      mtconnect::Agent::Options{.sender = "fuzz", .plant = "fuzz", .instance = 1}, clock_of_day);
+      mtconnect::Agent::Options{.sender = "fuzz", .plant = "fuzz", .instance = 1}, kClock);
   for (const char* name : {"lathe-1", "mill-1"}) {
     machines::MachineView view;
     view.machine.name = name;
