@@ -6,11 +6,12 @@ cd "$(dirname "$0")/../.."
 # folder (longest prefix wins): folders it may include
 table='
 protocol/base: protocol/base
+protocol/pki: protocol/base protocol/pki
 protocol/audit: protocol/base protocol/audit
 protocol/wire: protocol/base protocol/wire
 protocol/process: protocol/base protocol/process
 protocol/serial: protocol/base protocol/wire protocol/serial
-protocol/dds: protocol/base protocol/dds
+protocol/dds: protocol/base protocol/pki protocol/dds
 storage/sqlite: protocol/base storage/sqlite
 storage/backup: protocol/base storage
 storage: protocol/base protocol/audit storage
@@ -25,13 +26,14 @@ gateway/interpreter/dialects/tnc155: protocol/base gateway/interpreter/core gate
 gateway/interpreter: protocol/base gateway/interpreter
 clients/tools/program_editing: protocol/base gateway/interpreter clients/tools/program_editing clients/tools/tnc_conversion
 clients/tools/tnc_conversion: protocol/base gateway/interpreter clients/tools/tnc_conversion
+clients/tools/authority: protocol/base protocol/pki clients/tools/authority
 clients/tools/tnc_probing: protocol/base gateway/interpreter clients/tools/tnc_probing
 gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/machine/grbl: protocol/base protocol/wire protocol/serial gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite
-server/library: protocol/base protocol/audit protocol/process storage gateway/interpreter server/library
+server/library: protocol/base protocol/pki protocol/audit protocol/process storage gateway/interpreter server/library
 server/identity: protocol/base protocol/process storage server/library server/identity
 server/machines: protocol storage gateway/interpreter server/library server/machines
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
@@ -43,7 +45,7 @@ server/web: protocol/base server/api server/web
 server/app: protocol storage server
 clients/lib: protocol/base clients/lib
 clients/tools: protocol/base protocol/wire gateway/interpreter clients/tools
-clients/cli: protocol/base protocol/audit protocol/wire protocol/serial gateway/interpreter clients
+clients/cli: protocol/base protocol/pki protocol/audit protocol/wire protocol/serial gateway/interpreter clients
 '
 declare -A allowed_by
 while IFS=: read -r row folders; do
