@@ -119,8 +119,8 @@ Result<void> check_exposure(const NetworkOptions& options) {
   return fail(
       Errc::Denied,
       "DDS on interface '{}' has no authentication: any host on that network can read programs "
-      "and command the machines. Stay on lo, or take a network that only server and "
-      "gateways are on and confirm it with dds-open-network = yes",
+      "and command the machines. Stay on lo, name a folder of dnc pki with dds-security, or take a "
+      "network that only server and gateways are on and confirm it with dds-open-network = yes",
       options.interface);
 }
 

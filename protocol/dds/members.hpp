@@ -47,6 +47,7 @@ struct Epoch {};           ///< 1 to 2^63 - 1: both ends store it as a signed nu
 struct Positive {};        ///< 1 or more
 struct RequestLength {};   ///< 1 to kMaxRequestBytes
 struct NoneIfNegative {};  ///< -1: none
+struct ExpiryTime {};      ///< on the wire 0: none; otherwise until the year 9999
 struct AxisNumber {};      ///< on the wire 1 = X, 9 = W, 0: none
 struct MainAxisSet {};     ///< bit 0 = X, bit 2 = Z
 struct InchOrMetric {};    ///< in JSON "units": "inch" or "mm"
@@ -83,6 +84,7 @@ void members(V&& v, Is<Announce> auto& m) {
   v(DRIPLINE_MEMBER(epoch), Epoch{});
   v(DRIPLINE_MEMBER(session));
   v(DRIPLINE_MEMBER(description), FreeText{});
+  v(DRIPLINE_MEMBER_AS(certificate_expires, certificate_expires_us), ExpiryTime{});
 }
 
 template <class V>

@@ -101,6 +101,7 @@ struct Announce {
   std::uint32_t protocol = kProtocolVersion;
   std::uint64_t epoch = 0, session = 0;
   std::string description;
+  std::optional<UtcTime> certificate_expires = {};  ///< the gateway's, for DDS Security
   friend bool operator==(const Announce&, const Announce&) = default;
 };
 

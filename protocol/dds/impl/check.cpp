@@ -77,6 +77,11 @@ class Verdict {
   void follow(RequestLength, std::uint32_t length) {
     that(length >= 1 && length <= kMaxRequestBytes, name_, "is out of range");
   }
+  void follow(ExpiryTime, const std::optional<UtcTime>& time) {
+    constexpr std::int64_t kYear10000 = 253'402'300'800'000'000;
+    const auto us = time ? time->time_since_epoch().count() : 1;
+    that(us > 0 && us < kYear10000, name_, "is out of range");
+  }
   void follow(AxisNumber, const std::optional<std::uint8_t>& axis) {
     that(!axis || *axis < std::tuple_size_v<decltype(Status::position)>, name_, "is no axis");
   }

@@ -76,6 +76,9 @@ class SampleReader {
   void get(std::optional<T>& number, const T& field, std::string_view, NoneIfNegative) {
     if (field >= 0) number = field;
   }
+  void get(std::optional<UtcTime>& time, std::int64_t field, std::string_view, ExpiryTime) {
+    if (field != 0) time = UtcTime{std::chrono::microseconds{field}};
+  }
   void get(std::optional<std::uint8_t>& axis, std::uint8_t field, std::string_view name,
            AxisNumber) {
     constexpr std::uint8_t kLastAxis = 9;

@@ -82,6 +82,9 @@ class SampleWriter {
   void put(const std::optional<T>& number, T& field, std::string_view, NoneIfNegative) {
     field = number.value_or(T{-1});
   }
+  void put(const std::optional<UtcTime>& time, std::int64_t& field, std::string_view, ExpiryTime) {
+    field = time ? time->time_since_epoch().count() : 0;
+  }
   void put(const std::optional<std::uint8_t>& axis, std::uint8_t& field, std::string_view,
            AxisNumber) {
     field = axis ? static_cast<std::uint8_t>(*axis + 1) : std::uint8_t{0};
