@@ -190,6 +190,8 @@ void Gateway::announce() {
   message.epoch = outbox_.epoch();
   message.session = parts_.session;
   message.description = parts_.options.description;
+  if (const auto& certificate = parts_.options.certificate)
+    message.certificate_expires = certificate->not_after;
   announcement_is_due_ = !parts_.endpoint.write(message).has_value();
 }
 

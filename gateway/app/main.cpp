@@ -132,10 +132,46 @@ class AliveNotice {
   SteadyTime due_{};
 };
 
+/// Warns of the gateway's own certificate for DDS. When it expires DDS ends the connection without
+/// a word, so the gateway is told.
+class CertificateNotice {
+ public:
+  CertificateNotice(const GatewayOptions& options, Inbox& inbox, const Clock& clock)
+      : certificate_(options.certificate), inbox_(inbox), clock_(clock) {}
+  /// When to be called again.
+  SteadyTime turn(SteadyTime now) {
+    if (!certificate_ || now < due_) return due_;
+    const UtcTime end = certificate_->not_after;
+    const auto left = end - clock_.now();
+    const bool is_over = left <= std::chrono::seconds(0);
+    if (is_over) {
+      process::log_error(
+          "the DDS certificate has expired {}: no server until it is renewed (dnc pki)",
+          pki::expiry_text(end, clock_.now()));
+      inbox_.post(ServerSeen{false});
+    } else if (left < pki::kExpiryWarning) {
+      process::log_warning("the DDS certificate expires {}", pki::expiry_text(end, clock_.now()));
+    }
+    using std::chrono::microseconds;
+    const microseconds wait = is_over ? kInterval : std::min<microseconds>(left, kInterval);
+    return due_ = now + std::max<microseconds>(wait, std::chrono::milliseconds(10));
+  }
+
+ private:
+  static constexpr std::chrono::hours kInterval{24};
+
+  const std::optional<pki::Certificate> certificate_;
+  Inbox& inbox_;
+  const Clock& clock_;
+  SteadyTime due_ = certificate_ ? SteadyTime{} : SteadyTime::max();
+};
+
 /// Runs until a stop is requested; then gives the records some time to be acknowledged.
-Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock, bool has_server) {
+Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock,
+                   const GatewayOptions& options) {
   std::optional<SteadyTime> farewell;
   AliveNotice notice(gateway);
+  CertificateNotice certificate(options, inbox, clock);
   SteadyTime next = clock.steady_now();
   for (;;) {
     for (const Incoming& incoming : inbox.take(next)) gateway.receive(incoming, clock.steady_now());
@@ -146,8 +182,9 @@ Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock, bool has_
     }
     next = gateway.turn(clock.steady_now());
     next = std::min(next, notice.turn(clock.steady_now()));
+    next = std::min(next, certificate.turn(clock.steady_now()));
     if (!farewell) continue;
-    if (gateway.is_delivered() || !has_server || clock.steady_now() >= *farewell) return {};
+    if (gateway.is_delivered() || !options.has_server || clock.steady_now() >= *farewell) return {};
     next = std::min(next, clock.steady_now() + std::chrono::milliseconds(20));
   }
 }
@@ -245,7 +282,7 @@ Result<void> run(const GatewayOptions& options) {
       "gateway ready machine={} control={} state={} server={} domain={} records={} unattended={}",
       options.machine, options.control, options.state.string(), options.network.server,
       options.network.domain, outbox->unacknowledged(), options.is_unattended ? "yes" : "no");
-  const auto done = serve(gateway, inbox, clock, options.has_server);
+  const auto done = serve(gateway, inbox, clock, options);
   process::log_info("gateway stopped machine={} records={}", options.machine,
                     outbox->unacknowledged());
   return done;

@@ -7,8 +7,10 @@
 
 #include "gateway/app/motion_choice.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
+#include "protocol/base/clock.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/base/private_folder.hpp"
+#include "protocol/dds/security_folder.hpp"
 #include "protocol/process/settings_reader.hpp"
 #include "protocol/wire/tnc_parameters.hpp"
 
@@ -108,9 +110,13 @@ constexpr std::array kRows{
               text_value<kNetwork, &Network::tag>()},
     OptionRow{"dds-interface", "NAME", "", "lo", "Network interface, by name or address",
               text_value<kNetwork, &Network::interface>()},
+    OptionRow{"dds-security", "FOLDER", "", "none: no authentication",
+              "Folder with this machine's certificate, key and permissions (dnc pki gateway "
+              "MACHINE); needed for DDS beyond this computer",
+              text_value<&Options::dds_security>()},
     OptionRow{"dds-open-network", "yes|no", "", "",
-              "yes: allow DDS beyond this computer although it has no authentication; only on a "
-              "network of its own",
+              "yes: allow DDS beyond this computer without dds-security; only on a network of its "
+              "own",
               yes_no_value<kNetwork, &Network::is_open_network_allowed>()},
     OptionRow{"discovery-interval-ms", "NUMBER", "ms", "",
               "Interval between two searches for the server",
@@ -211,6 +217,17 @@ Result<void> complete_line(Options& options) {
   return {};
 }
 
+Result<void> open_security(Options& options) {
+  if (!options.dds_security) return {};
+  auto folder = dds::open_security_folder(*options.dds_security,
+                                          {.role = dds::Role::Gateway, .machine = options.machine},
+                                          SystemClock().now());
+  if (!folder) return fail(folder.error());
+  options.network.security = std::move(folder->files);
+  options.certificate = std::move(folder->certificate);
+  return {};
+}
+
 }  // namespace
 
 std::span<const OptionRow> option_rows() {
@@ -252,6 +269,7 @@ Result<void> complete(GatewayOptions& options) {
   const bool can_hurt = options.line.has_value() || is_real_motion(options.motion);
   options.is_unattended = options.unattended.value_or(!can_hurt);
   if (options.has_server) {
+    if (auto secure = open_security(options); !secure) return secure;
     if (auto safe = dds::check_exposure(options.network); !safe) return safe;
   }
   if (!options.state.empty()) return {};

@@ -11,6 +11,7 @@
 #include "gateway/machine/motion_backend.hpp"
 #include "protocol/base/result.hpp"
 #include "protocol/dds/endpoint.hpp"
+#include "protocol/pki/certificate.hpp"
 #include "protocol/process/settings_table.hpp"
 #include "protocol/wire/line_settings.hpp"
 
@@ -41,6 +42,9 @@ struct GatewayOptions {
   std::string control;
   std::filesystem::path state;
   dds::NetworkOptions network;
+  /// The folder of `dnc pki`; `complete` makes network.security and the next member of it.
+  std::optional<std::filesystem::path> dds_security;
+  std::optional<pki::Certificate> certificate;
   std::string motion = "simulated";  ///< see motion_choice.hpp
   Speed speed;
   std::optional<std::filesystem::path> setup, log, execution_probe;
@@ -67,7 +71,8 @@ std::span<const OptionRow> option_rows();
 Result<void> apply_config(std::string_view toml, GatewayOptions& options);
 
 /// Makes the defaults that depend on other options, and checks what is required. Errors: Syntax,
-/// NotFound (no home folder to put the state in, no such line template or setting), LimitExceeded.
+/// NotFound (no home folder to put the state in, no such line template or setting), LimitExceeded,
+/// Denied (DDS would be open to strangers), and those of dds::open_security_folder.
 Result<void> complete(GatewayOptions& options);
 /// Whether the control that the setup describes speaks the line's protocol: a TNC 151/155 E or V
 /// has no transfer blockwise. Errors: Unsupported; Syntax (the setup's).

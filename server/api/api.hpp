@@ -33,7 +33,8 @@ struct ServerFacts {
   std::string name, version, data_dir;
   UtcTime started;
   std::uint32_t dds_domain = 0;
-  std::optional<UtcTime> certificate_expires = {};  ///< nullopt: without TLS
+  std::optional<UtcTime> certificate_expires = {};      ///< nullopt: without TLS
+  std::optional<UtcTime> dds_certificate_expires = {};  ///< nullopt: without DDS Security
 };
 
 /// The services that the handlers use; all must outlive the Api.

@@ -127,6 +127,21 @@ void add_machines(MetricsText& out, const std::vector<MachineView>& views) {
        });
 }
 
+/// By what they are for: those of DDS belong to the server and to the gateways.
+void add_certificates(MetricsText& out, const Services& services) {
+  const auto& facts = services.facts;
+  out.gauge("dripline_certificate_expiry_timestamp_seconds", "When a certificate expires.");
+  if (facts.certificate_expires)
+    out.sample(seconds(*facts.certificate_expires), {{"use", "https"}});
+  if (facts.dds_certificate_expires)
+    out.sample(seconds(*facts.dds_certificate_expires), {{"use", "dds"}});
+  for (const auto& view : services.machines.machines()) {
+    if (view.certificate_expires)
+      out.sample(seconds(*view.certificate_expires),
+                 {{"use", "gateway"}, {"machine", view.machine.name}});
+  }
+}
+
 void add_ports(MetricsText& out, const std::vector<ports::PortView>& views) {
   out.gauge("dripline_port_open", "1: the serial line is open.");
   for (const auto& view : views) out.sample(number(view.is_open), {{"port", view.port.name}});
@@ -167,10 +182,7 @@ Response list_metrics(Services& services, const RequestTimes& times, const Reque
   add_machines(out, services.machines.machines());
   if (services.ports != nullptr) add_ports(out, services.ports->ports());
   add_requests(out, times);
-  if (services.facts.certificate_expires) {
-    out.gauge("dripline_certificate_expiry_timestamp_seconds", "When the TLS certificate expires.",
-              seconds(*services.facts.certificate_expires));
-  }
+  add_certificates(out, services);
   if (services.backups != nullptr) add_backups(out, services.backups->state());
   add_audit(out, services.chain.state());
   add_disk(out, services.facts.data_dir);

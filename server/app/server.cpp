@@ -7,15 +7,17 @@
 #include <thread>
 
 #include "protocol/dds/endpoint.hpp"
+#include "protocol/dds/security_folder.hpp"
+#include "protocol/pki/certificate.hpp"
 #include "protocol/process/log.hpp"
 #include "server/api/api.hpp"
-#include "server/api/certificate.hpp"
 #include "server/api/http_server.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/imports/imports.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
+#include "server/library/certificate_watch.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
@@ -41,24 +43,33 @@ std::string host_name() {
   return name.data();
 }
 
-dds::NetworkOptions network_options(const Settings& settings) {
-  dds::NetworkOptions network;
+/// How DDS is opened, and until when that is possible.
+struct DdsNetwork {
+  dds::NetworkOptions options;
+  std::optional<UtcTime> certificate_expires = {};  ///< nullopt: without dds-security
+};
+
+Result<DdsNetwork> dds_network(const Settings& settings, UtcTime now) {
+  DdsNetwork result;
+  auto& network = result.options;
   network.domain = settings.dds_domain;
   network.interface = settings.dds_interface;
   network.tag = settings.dds_tag;
   network.discovery_interval_ms = settings.discovery_interval_ms;
   network.lease_ms = settings.lease_ms;
   network.is_open_network_allowed = settings.dds_open_network;
-  return network;
-}
-
-Result<void> check_network(const Settings& settings) {
-  const auto network = network_options(settings);
-  if (auto safe = dds::check_exposure(network); !safe) return safe;
-  if (network.is_open_network_allowed)
+  if (!settings.dds_security.empty()) {
+    auto folder =
+        dds::open_security_folder(settings.dds_security, {.role = dds::Role::Server}, now);
+    if (!folder) return fail(folder.error());
+    network.security = folder->files;
+    result.certificate_expires = folder->certificate.not_after;
+  }
+  if (auto safe = dds::check_exposure(network); !safe) return fail(safe.error());
+  if (network.is_open_network_allowed && !network.security)
     process::log_warning("DDS on {} has no authentication: keep its network to server and gateways",
                          network.interface);
-  return {};
+  return result;
 }
 
 Result<api::HttpOptions> http_options(const Settings& settings) {
@@ -115,8 +126,8 @@ api::HttpHandlers mtconnect_handlers(mtconnect::Agent& agent) {
 /// Without TLS, and where the server will refuse to start anyway: nullopt.
 std::optional<UtcTime> expiry_of(const Settings& settings) {
   if (settings.tls_certificate.empty()) return std::nullopt;
-  const auto expiry = api::certificate_expiry(settings.tls_certificate);
-  return expiry ? std::optional(*expiry) : std::nullopt;
+  const auto certificate = pki::read_certificate(settings.tls_certificate);
+  return certificate ? std::optional(certificate->not_after) : std::nullopt;
 }
 
 /// The page is asked first: it needs no token.
@@ -145,12 +156,14 @@ struct Server::Loaded {
 struct Server::Parts {
   Parts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
         std::optional<backup::BackupFolder> backup_folder, const Settings& settings,
-        const Clock& system_clock, const Loaded& loaded)
+        const Clock& system_clock, const Loaded& loaded, const DdsNetwork& setup)
       : clock(system_clock),
+        dds_certificate_expires(setup.certificate_expires),
         certificate_expires(expiry_of(settings)),
         folder(std::move(state_folder)),
         store(std::move(opened)),
         health(clock),
+        certificates(health, clock),
         audit(store->audit, clock),
         chain({.store = store->audit,
                .clock = clock,
@@ -196,7 +209,8 @@ struct Server::Parts {
                        .data_dir = folder.path().string(),
                        .started = clock.now(),
                        .dds_domain = settings.dds_domain,
-                       .certificate_expires = certificate_expires},
+                       .certificate_expires = certificate_expires,
+                       .dds_certificate_expires = dds_certificate_expires},
              .dds_rejected = [this] { return machine_service.rejected().messages; },
              .ports = &ports,
              .health = &health,
@@ -298,10 +312,12 @@ struct Server::Parts {
   }
 
   const Clock& clock;
-  std::optional<UtcTime> certificate_expires;  ///< nullopt: without TLS
+  std::optional<UtcTime> dds_certificate_expires;  ///< nullopt: without DDS Security
+  std::optional<UtcTime> certificate_expires;      ///< nullopt: without TLS
   StateFolder folder;
   std::unique_ptr<storage::SqliteStore> store;
   library::Health health;
+  library::CertificateWatch certificates;
   library::DialectCatalog catalog;
   library::AuditTrail audit;
   library::AuditChain chain;
@@ -346,8 +362,9 @@ struct Server::Parts {
     ports.open_due();
     if (mtconnect) mtconnect->observer().reconcile(machines.machines());
     accounts.store_uses();
-    if (certificate_expires)
-      health.report("", library::judge_certificate(*certificate_expires, clock.now()));
+    certificates.look(watched_certificates());
+    if (dds_certificate_expires && clock.now() >= *dds_certificate_expires)
+      machine_service.lose_gateways();
     sound = chain.look();
     health.report("", chain.finding());
     return sound;
@@ -373,6 +390,21 @@ struct Server::Parts {
     if (!bound.is_loopback)
       process::log_warning("MTConnect at {}: anybody who reaches it may read", bound.text());
     return {};
+  }
+
+  std::vector<library::WatchedCertificate> watched_certificates() const {
+    using Use = library::WatchedCertificate::Use;
+    std::vector<library::WatchedCertificate> all;
+    if (certificate_expires) all.push_back({.use = Use::Https, .expires = *certificate_expires});
+    if (dds_certificate_expires)
+      all.push_back({.use = Use::Dds, .expires = *dds_certificate_expires});
+    for (const auto& view : machines.machines()) {
+      if (view.certificate_expires)
+        all.push_back({.use = Use::Gateway,
+                       .machine = view.machine.name,
+                       .expires = *view.certificate_expires});
+    }
+    return all;
   }
 
   void check_on() {
@@ -411,7 +443,8 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!options) return fail(options.error());
   const auto agent = mtconnect_options(settings);
   if (!agent) return fail(agent.error());
-  if (auto safe = check_network(settings); !safe) return fail(safe.error());
+  const auto network = dds_network(settings, clock.now());
+  if (!network) return fail(network.error());
   const auto policy = library::ReleasePolicy::read(settings.policy);
   if (!policy) return fail(policy.error());
   auto folder = StateFolder::open(settings.state);
@@ -441,7 +474,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   }
   const Loaded loaded{*users, *policy, *key, *identity};
   std::unique_ptr<Server> server(new Server(std::make_unique<Parts>(
-      *folder, *std::move(store), std::move(backups), settings, clock, loaded)));
+      *folder, *std::move(store), std::move(backups), settings, clock, loaded, *network)));
   Parts& parts = *server->parts_;
   if (auto used = parts.accounts.use_local_secret(*token, settings.recover_admin); !used)
     return fail(used.error());
@@ -449,8 +482,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   parts.imports.begin();
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
-  auto endpoint =
-      dds::ServerEndpoint::open(network_options(settings), parts.machine_service.handlers());
+  auto endpoint = dds::ServerEndpoint::open(network->options, parts.machine_service.handlers());
   if (!endpoint) return fail(endpoint.error());
   if (auto begun = parts.machine_service.begin(*std::move(endpoint)); !begun)
     return fail(begun.error());

@@ -174,9 +174,12 @@ constexpr std::array kRows{
         text_value<&Settings::dds_tag>()},
     Row{"dds-interface", "NAME", "", "", "Network interface or address that leads to the gateways",
         text_value<&Settings::dds_interface>()},
+    Row{"dds-security", "DIR", "", "none: no authentication",
+        "Folder with this server's certificate, key and permissions (dnc pki server); needed for "
+        "DDS beyond this computer",
+        text_value<&Settings::dds_security>()},
     Row{"dds-open-network", "yes|no", "", "",
-        "yes: allow DDS beyond this computer although it has no authentication; only on a network "
-        "of its own",
+        "yes: allow DDS beyond this computer without dds-security; only on a network of its own",
         yes_no_value<&Settings::dds_open_network>()},
     Row{"discovery-interval-ms", "NUMBER", "ms", "", "Interval between two announcements of DDS",
         number_value<10, kLongestMs, &Settings::discovery_interval_ms>()},

@@ -73,22 +73,6 @@ Health::Finding judge_disk(std::uint64_t size, std::uint64_t free) {
   return finding;
 }
 
-Health::Finding judge_certificate(UtcTime expires, UtcTime now) {
-  constexpr auto kWarning = std::chrono::days(30);
-  const auto left = std::chrono::floor<std::chrono::days>(expires - now);
-  Health::Finding finding{
-      .level = Health::Level::Ok, .subject = "certificate", .what = {}, .detail = {}};
-  finding.detail = fmt::format("it expires at {}", to_iso8601(expires));
-  if (expires <= now) {
-    finding.level = Health::Level::Degraded;
-    finding.what = "the TLS certificate has expired";
-  } else if (left < kWarning) {
-    finding.level = Health::Level::Degraded;
-    finding.what = fmt::format("the TLS certificate expires in {} days", left.count());
-  }
-  return finding;
-}
-
 HealthWatch::HealthWatch(Parts parts) : parts_(std::move(parts)) {
   look();
   thread_ = std::thread([this] { run(); });

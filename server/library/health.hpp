@@ -86,8 +86,4 @@ class HealthWatch {
 /// the operator should make room. Pure.
 Health::Finding judge_disk(std::uint64_t size, std::uint64_t free);
 
-/// How a TLS certificate is: Degraded in its last 30 days and after them. Clients refuse an expired
-/// one, the machines go on without it. Pure.
-Health::Finding judge_certificate(UtcTime expires, UtcTime now);
-
 }  // namespace dripline::library

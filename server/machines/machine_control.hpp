@@ -23,6 +23,7 @@ struct MachineView {
   std::optional<std::uint32_t> protocol;  ///< of its gateway; absent: not announced, or on a line
   /// How far the gateway's time of day is ahead of the server's; absent: not known yet.
   std::optional<std::chrono::microseconds> clock_ahead = {};
+  std::optional<UtcTime> certificate_expires = {};  ///< of its gateway; absent: it has none
 };
 
 /// Where a run begins when it does not begin at the program's first byte. At most one is given.

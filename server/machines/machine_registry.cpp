@@ -52,6 +52,7 @@ void MachineRegistry::on_announce(const dds::Announce& announce) {
   machine.last_seen = now;
   entry.view.is_connected = true;
   entry.view.protocol = announce.protocol;
+  entry.view.certificate_expires = announce.certificate_expires;
   hear(entry, announce.session);
   entry.machine_is_dirty = true;
   process::log_info("machine connected machine={} control={} gateway_version={}", announce.machine,

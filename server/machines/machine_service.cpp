@@ -114,6 +114,10 @@ Result<void> MachineService::begin(std::unique_ptr<dds::ServerEndpoint> endpoint
   return {};
 }
 
+void MachineService::lose_gateways() {
+  for (const auto& view : registry_.views()) registry_.on_lost(view.machine.name);
+}
+
 void MachineService::stop_waiting() {
   if (owned_parts_) owned_parts_->commands.stop();
 }

@@ -40,6 +40,9 @@ class MachineService final : public MachineControl {
   /// request or send it again.
   dds::ServerHandlers handlers();
   Result<void> begin(std::unique_ptr<dds::ServerEndpoint> endpoint);
+  /// DDS ended every connection without a word: the server's own certificate has expired. Any
+  /// thread, after begin.
+  void lose_gateways();
   /// Callers that wait for a gateway's answer get an error. Called by end().
   void stop_waiting();
   /// In order: no more from the network, waiting commands fail, what has arrived is stored, DDS is

@@ -17,7 +17,6 @@ using test_support::RestClient;
 namespace {
 
 constexpr const char* kDiscovery = "50";  // ms; only restarts are quicker than with the default
-constexpr const char* kLease = "1000";    // ms
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -75,7 +74,7 @@ void System::append_network(std::vector<std::string>& command) const {
   for (const std::string& argument :
        {std::string("--dds-domain"), std::to_string(domain_), std::string("--dds-tag"), tag_,
         std::string("--discovery-interval-ms"), std::string(kDiscovery), std::string("--lease-ms"),
-        std::string(kLease)}) {
+        options_.lease_ms}) {
     command.push_back(argument);
   }
 }

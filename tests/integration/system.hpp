@@ -23,6 +23,7 @@ class System {
     std::vector<std::string> gateway_arguments;
     std::string control = "centurion";                  ///< of gateways and pushed programs
     std::vector<std::string> gateway_environment = {};  ///< NAME=value
+    std::string lease_ms = "1000";
   };
   System() : System(Options{}) {}
   explicit System(Options options);
@@ -37,6 +38,10 @@ class System {
   /// From its next start on.
   void add_server_argument(std::string argument) {
     options_.server_arguments.push_back(std::move(argument));
+  }
+  /// From the next start of a gateway on.
+  void use_gateway_arguments(std::vector<std::string> arguments) {
+    options_.gateway_arguments = std::move(arguments);
   }
   int domain() const { return domain_; }
   test_support::ChildProcess& server() { return *server_; }

@@ -71,17 +71,5 @@ TEST(HealthDisk, WarnsBeforeItIsFull) {
   EXPECT_EQ(library::judge_disk(1000 * kMega, 7 * kMega).level, Level::Failed);
 }
 
-TEST(Health, WarnsThirtyDaysBeforeACertificateExpires) {
-  using std::chrono::days;
-  const UtcTime now{days(20'000)};
-  EXPECT_EQ(library::judge_certificate(now + days(31), now).level, Level::Ok);
-  const auto soon = library::judge_certificate(now + days(29), now);
-  EXPECT_EQ(soon.level, Level::Degraded);
-  EXPECT_EQ(soon.what, "the TLS certificate expires in 29 days");
-  const auto late = library::judge_certificate(now, now);
-  EXPECT_EQ(late.level, Level::Degraded);
-  EXPECT_EQ(late.what, "the TLS certificate has expired");
-}
-
 }  // namespace
 }  // namespace dripline::server_test
