@@ -105,6 +105,7 @@ void add_convert_command(Command app, Context& context);
 void add_chart_command(Command app, Context& context);
 void add_extract_command(Command app, Context& context);
 void add_conversational_commands(Command app, Context& context);
+void add_pki_commands(Command app, Context& context);
 
 /// From here on Ctrl-C (and SIGTERM) set a flag instead of ending the process at once; a second
 /// Ctrl-C does end it.

@@ -116,6 +116,7 @@ int run(int argc, char** argv) {
   add_conversational_commands(dnc, context);
   add_chart_command(dnc, context);
   add_extract_command(dnc, context);
+  add_pki_commands(dnc, context);
   add_completion_command(dnc, context);
   app.footer(kFooter);  // after the verbs, which would inherit it
   let_options_follow(app);
