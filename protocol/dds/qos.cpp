@@ -37,8 +37,8 @@ Qos keep_last(std::size_t depth) {
 }
 
 /// A reader that comes later gets the latest value of each machine, as long as the writer lives.
-/// Presence is the participant's lease (configuration.hpp): a deadline would make an idle machine
-/// look dead, because these are written on change.
+/// Presence is the participant's lease (NetworkOptions::lease_ms): a deadline would make an idle
+/// machine look dead, because these are written on change.
 Qos latest_value() {
   Qos qos = reliable();
   dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);

@@ -7,6 +7,7 @@
 #include <vector>
 
 /// XMODEM's characters and blocks: SOH, number, its complement, 128 characters, checksum or CRC.
+/// STX begins a block of 1024, which is received and never sent.
 namespace dripline::wire::xmodem {
 
 inline constexpr char kSoh = 0x01, kStx = 0x02, kEot = 0x04, kAck = 0x06, kNak = 0x15, kCan = 0x18,
