@@ -8,13 +8,14 @@ table='
 protocol/base: protocol/base
 protocol/pki: protocol/base protocol/pki
 protocol/audit: protocol/base protocol/audit
+protocol/measurement: protocol/base protocol/measurement
 protocol/wire: protocol/base protocol/wire
 protocol/process: protocol/base protocol/process
 protocol/serial: protocol/base protocol/wire protocol/serial
 protocol/dds: protocol/base protocol/pki protocol/dds
 storage/sqlite: protocol/base storage/sqlite
 storage/backup: protocol/base storage
-storage: protocol/base protocol/audit storage
+storage: protocol/base protocol/audit protocol/measurement storage
 gateway/interpreter/core: protocol/base gateway/interpreter/core
 gateway/interpreter/stages: protocol/base gateway/interpreter/core gateway/interpreter/stages
 gateway/interpreter/dialects/centurion: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/centurion
@@ -44,7 +45,8 @@ server/mtconnect: protocol storage gateway/interpreter server/library server/mac
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
 clients/lib: protocol/base clients/lib
-clients/tools: protocol/base protocol/wire gateway/interpreter clients/tools
+clients/tools: protocol/base protocol/measurement protocol/wire gateway/interpreter clients/tools
+clients/tools/report_template: protocol/base protocol/measurement clients/tools/report_template
 clients/cli: protocol/base protocol/pki protocol/audit protocol/wire protocol/serial gateway/interpreter clients
 '
 declare -A allowed_by
