@@ -4,17 +4,19 @@
 #include "storage/audit_store.hpp"
 #include "storage/import_store.hpp"
 #include "storage/machine_store.hpp"
+#include "storage/measurement_store.hpp"
 #include "storage/port_store.hpp"
 #include "storage/program_store.hpp"
 #include "storage/record_store.hpp"
 #include "storage/release_store.hpp"
+#include "storage/report_template_store.hpp"
 #include "storage/run_store.hpp"
 #include "storage/setup_store.hpp"
 #include "storage/upload_store.hpp"
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: eleven interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: thirteen interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -30,6 +32,8 @@ struct Store {
   AccountStore& accounts;
   ReleaseStore& releases;
   ImportStore& imports;
+  ReportTemplateStore& report_templates;
+  MeasurementStore& measurements;
 };
 
 }  // namespace dripline::storage

@@ -55,9 +55,8 @@ ReportReader::ReportReader(storage::RecordStore& store, const std::string& machi
 }
 
 Result<std::vector<storage::Record>> ReportReader::records() const {
-  const storage::Page page{.limit = kLinesPerPiece, .offset = lines_};
-  if (run_.id.empty()) return store_.machine_report(run_.machine, page);
-  return store_.of_run(run_.id, "output", page);
+  if (run_.id.empty()) return store_.machine_report_after(run_.machine, place_, kLinesPerPiece);
+  return store_.of_run_after(run_.id, "output", place_, kLinesPerPiece);
 }
 
 Result<std::optional<std::string>> ReportReader::next() {
@@ -68,6 +67,7 @@ Result<std::optional<std::string>> ReportReader::next() {
   const auto records = this->records();
   if (!records) return fail(records.error());
   for (const auto& record : *records) append_line(record, text);
+  if (!records->empty()) place_ = {records->back().epoch, records->back().number};
   if (records->size() < kLinesPerPiece) {
     text += tail();
     stage_ = Stage::Done;

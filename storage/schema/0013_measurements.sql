@@ -62,6 +62,11 @@ CREATE TABLE measured_part (
   is_superseded INTEGER NOT NULL DEFAULT 0 CHECK (is_superseded IN (0, 1)),  -- derived again
   FOREIGN KEY (template, version) REFERENCES report_template (name, version)
 ) STRICT;
+-- Given last; no number is used twice, also when retention took the newest part.
+CREATE TABLE measured_part_number (
+  last INTEGER NOT NULL
+) STRICT;
+INSERT INTO measured_part_number VALUES (0);
 CREATE INDEX measured_part_by_run ON measured_part (run) WHERE run IS NOT NULL;
 CREATE INDEX measured_part_by_machine ON measured_part (machine, begun_us);
 
@@ -103,6 +108,7 @@ CREATE UNIQUE INDEX measurement_by_record ON measurement (machine, epoch, number
 CREATE INDEX measurement_by_characteristic ON measurement (machine, name, time_us);
 CREATE INDEX measurement_by_time ON measurement (machine, time_us);
 CREATE INDEX measurement_by_part ON measurement (part);
+CREATE INDEX measurement_outside ON measurement (machine, time_us) WHERE verdict >= 2;
 
 -- What could not be understood, and lines that are missing, doubled or out of order.
 CREATE TABLE report_finding (
@@ -136,4 +142,3 @@ CREATE TABLE archive (
   last_us    INTEGER NOT NULL,
   created_us INTEGER NOT NULL
 ) STRICT;
-CREATE INDEX record_by_time ON record (machine, time_us);
