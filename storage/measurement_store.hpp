@@ -88,6 +88,8 @@ class MeasurementStore {
   virtual Result<std::vector<UnderivedRecords>> underived() = 0;
   /// Empty: none yet.
   virtual Result<std::string> state(const std::string& machine) = 0;
+  /// Without moving a cursor. Errors: NotFound (the machine).
+  virtual Result<void> save_state(const std::string& machine, const std::string& state) = 0;
   /// A part that is new gets this id, the next one this and 1, ...
   virtual Result<std::uint64_t> next_part_id() = 0;
   /// All or nothing. Survives a kill of the process; a power cut may take the last ones together

@@ -27,6 +27,7 @@ Measurements::~Measurements() {
 }
 
 void Measurements::begin() {
+  take_all_due();
   actor_ = std::jthread([this](const std::stop_token& stop) { act(stop); });
   worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
@@ -150,7 +151,7 @@ Result<void> Measurements::derive_piece(const storage::UnderivedRecords& records
     const auto piece = parts_.store.records.of_machine_after(
         records.machine, {records.epoch, records.derived}, kPiece);
     if (!piece) return fail(piece.error());
-    state->due.clear();  // carried out, or waiting in our queue
+    const std::vector<DueAction> known = state->due;
     Derivation derivation(records.machine, *std::move(state), sources(records.machine), *next);
     if (auto begun = derivation.begin(); !begun) return begun;
     for (const storage::Record& record : *piece) {
@@ -165,6 +166,7 @@ Result<void> Measurements::derive_piece(const storage::UnderivedRecords& records
     if (auto committed = parts_.store.measurements.commit(batch); !committed) return committed;
     judged = derivation.judged();
     due = derivation.state().due;
+    due.erase(due.begin(), due.begin() + static_cast<std::ptrdiff_t>(known.size()));
   }
   announce(judged);
   take_due(records.machine, due);
@@ -203,6 +205,28 @@ void Measurements::act(const std::stop_token& stop) {
       due_.pop_front();
     }
     carry_out(due.action);
+    settle(due.machine, due.action);
+  }
+}
+
+void Measurements::settle(const std::string& machine, const DueAction& due) {
+  const std::lock_guard lock(derive_mutex_);
+  auto state = state_of(machine);
+  if (!state) return;  // it is carried out again after a restart
+  std::erase(state->due, due);
+  const auto saved = parts_.store.measurements.save_state(machine, to_json(*state));
+  if (!saved)
+    process::log_warning("part={}: a restart repeats its {}: {}", due.part,
+                         report_template::to_string(due.action), saved.error().what);
+}
+
+void Measurements::take_all_due() {
+  const auto machines = parts_.store.machines.list();
+  if (!machines) return;
+  for (const auto& machine : *machines) {
+    const std::lock_guard lock(derive_mutex_);
+    const auto state = state_of(machine.name);
+    if (state) take_due(machine.name, state->due);
   }
 }
 

@@ -22,6 +22,7 @@ namespace dripline::measurements {
 class Measurements {
  public:
   /// Carries out what a verdict causes. May wait some seconds.
+  /// At least once for each verdict that asks for it, over kills.
   using Hold =
       std::function<Result<void>(const storage::MeasuredPart& part, const std::string& reason)>;
 
@@ -29,7 +30,7 @@ class Measurements {
     const storage::Store& store;
     const Clock& clock;
     /// A part has a verdict: outside its limits at once, otherwise when it is complete. Called after
-    /// the commit, at least once for each; must return soon.
+    /// the commit; must return soon.
     std::function<void(const storage::MeasuredPart&)> on_part = {};
     Hold hold_queue = {};    ///< empty: this server has no queues
     Hold hold_machine = {};  ///< empty: it holds nothing
@@ -78,6 +79,10 @@ class Measurements {
   void act(const std::stop_token& stop);
   void take_due(const std::string& machine, const std::vector<DueAction>& due);
   void carry_out(const DueAction& due);
+  /// It is not due any more, also after a restart.
+  void settle(const std::string& machine, const DueAction& due);
+  /// What was not carried out before the last end of the server.
+  void take_all_due();
   void wake();
 
   Parts parts_;

@@ -145,6 +145,14 @@ Result<void> add_derived(sqlite::Database& database, std::int64_t machine,
   return add_findings(database, machine, batch.findings);
 }
 
+Result<void> put_state(sqlite::Database& database, std::int64_t machine,
+                       const std::string& state) {
+  return sqlite::run(database,
+                     "INSERT INTO measurement_state (machine, state) VALUES (?1, ?2) ON CONFLICT "
+                     "(machine) DO UPDATE SET state = excluded.state",
+                     machine, state);
+}
+
 Result<void> move_cursor(sqlite::Database& database, std::int64_t machine,
                          const DerivedBatch& batch) {
   const auto now = sqlite::first_row(
@@ -161,13 +169,19 @@ Result<void> move_cursor(sqlite::Database& database, std::int64_t machine,
                            "excluded.number",
                            machine, batch.epoch, batch.through);
   if (!moved) return moved;
-  return sqlite::run(database,
-                     "INSERT INTO measurement_state (machine, state) VALUES (?1, ?2) ON CONFLICT "
-                     "(machine) DO UPDATE SET state = excluded.state",
-                     machine, batch.state);
+  return put_state(database, machine, batch.state);
 }
 
 }  // namespace
+
+Result<void> MeasurementRepository::save_state(const std::string& machine,
+                                               const std::string& state) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto known = known_machine(database, machine);
+    if (!known) return fail(known.error());
+    return put_state(database, *known, state);
+  });
+}
 
 Result<std::vector<UnderivedRecords>> MeasurementRepository::underived() {
   static const std::string kSql =

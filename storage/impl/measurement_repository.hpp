@@ -11,6 +11,7 @@ class MeasurementRepository final : public MeasurementStore {
 
   Result<std::vector<UnderivedRecords>> underived() override;
   Result<std::string> state(const std::string& machine) override;
+  Result<void> save_state(const std::string& machine, const std::string& state) override;
   Result<std::uint64_t> next_part_id() override;
   Result<void> commit(const DerivedBatch& batch) override;
   Result<void> replace(const std::string& run, const DerivedBatch& batch) override;
