@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -112,6 +113,8 @@ class MeasurementStore {
   virtual Result<std::vector<MeasuredPart>> parts(const PartFilter& filter, Page page) = 0;
   /// Errors: NotFound.
   virtual Result<MeasuredPart> part(std::uint64_t id) = 0;
+  /// How many parts of a run have each verdict, by its number; without superseded ones.
+  virtual Result<std::array<std::uint64_t, 4>> verdicts(const std::string& run) = 0;
   /// In their order.
   virtual Result<std::vector<ReportFinding>> findings(const PartFilter& filter, Page page) = 0;
   /// Names of what was measured; of a machine, or of all.

@@ -24,6 +24,7 @@
 #include "server/library/releases.hpp"
 #include "server/machines/machine_registry.hpp"
 #include "server/machines/machine_service.hpp"
+#include "server/measurements/measurements.hpp"
 #include "server/mtconnect/agent.hpp"
 #include "server/ports/line_machines.hpp"
 #include "server/ports/port_service.hpp"
@@ -185,6 +186,14 @@ struct Server::Parts {
                  .policy = releases.policy(),
                  .clock = clock,
                  .on_change = api::publish_imports_to(events)}),
+        measurements({.store = *store,
+                      .clock = clock,
+                      .on_part = api::publish_parts_to(events),
+                      .hold_queue = {},  // there is no job queue yet
+                      .hold_machine = [this](const storage::MeasuredPart& part,
+                                             const std::string& reason) {
+                        return hold_machine(part, reason);
+                      }}),
         setups(store->setups, catalog, audit),
         mtconnect(make_mtconnect(settings, loaded)),
         machine_service({.store = *store, .releases = releases, .clock = clock}, machine_options(),
@@ -216,6 +225,7 @@ struct Server::Parts {
              .health = &health,
              .backups = backups.get(),
              .imports = &imports,
+             .measurements = &measurements,
              .has_tls = !settings.tls_key.empty()}),
         tidied(clock.steady_now()) {}
 
@@ -283,6 +293,10 @@ struct Server::Parts {
   /// To the listeners of events and to the MTConnect agent.
   machines::MachineListener published() {
     machines::MachineListener listener = api::publish_to(events);
+    listener.on_record = [this, publish = listener.on_record](const auto& record) {
+      measurements.note();
+      publish(record);
+    };
     if (!mtconnect) return listener;
     auto& observer = mtconnect->observer();
     listener.on_machine = [&observer, publish = listener.on_machine](const auto& view) {
@@ -294,6 +308,20 @@ struct Server::Parts {
       publish(record);
     };
     return listener;
+  }
+
+  /// The verdict of a report template on a part: feed hold.
+  Result<void> hold_machine(const storage::MeasuredPart& part, const std::string& reason) {
+    const bool is_of_run = !part.run.empty();
+    audit.write({.who = fmt::format("report template {} version {}", part.template_name,
+                                    part.template_version),
+                 .action = is_of_run ? "run.hold" : "machine.hold",
+                 .subject = is_of_run ? part.run : part.machine,
+                 .detail = reason});
+    machines::CommandRequest hold;
+    hold.action = dds::CommandAction::Hold;
+    (is_of_run ? hold.run : hold.machine) = is_of_run ? part.run : part.machine;
+    return machines.command(hold);
   }
 
   machines::MachineListener machine_listener() {
@@ -329,6 +357,7 @@ struct Server::Parts {
   paths::ProgramPaths paths;
   api::EventHub events;
   imports::Imports imports;
+  measurements::Measurements measurements;
   library::Setups setups;
   std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
   machines::MachineService machine_service;
@@ -431,6 +460,7 @@ Server::~Server() {
   parts_->watch.reset();  // it may announce
   parts_->folder.withdraw();
   parts_->machine_service.stop_waiting();
+  parts_->measurements.end();  // it may hold a machine
   parts_->events.close();
   parts_->http.reset();
   parts_->mtconnect_http.reset();
@@ -480,6 +510,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
     return fail(used.error());
   parts.programs.on_held([&parts](const auto& revision) { parts.imports.note(revision); });
   parts.imports.begin();
+  parts.measurements.begin();
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint = dds::ServerEndpoint::open(network->options, parts.machine_service.handlers());

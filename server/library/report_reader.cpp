@@ -18,8 +18,12 @@ bool looks_like_formula(const std::string& text) {
          text.find_first_not_of("0123456789.", 1) != std::string::npos;
 }
 
-/// RFC 4180: quoted when it has to be, quotes doubled. What looks like a formula begins with an
-/// apostrophe.
+std::string json_text(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
 std::string csv_field(const std::string& line) {
   const std::string text = looks_like_formula(line) ? "'" + line : line;
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -30,12 +34,6 @@ std::string csv_field(const std::string& line) {
   }
   return quoted + '"';
 }
-
-std::string json_text(const nlohmann::json& value) {
-  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-}  // namespace
 
 Result<ReportFormat> parse_report_format(std::string_view text) {
   if (text == "text") return ReportFormat::Text;

@@ -22,8 +22,14 @@ Measurements::Measurements(Parts parts)
     : parts_(std::move(parts)), cache_(parts_.store.report_templates) {}
 
 Measurements::~Measurements() {
-  worker_.request_stop();
-  actor_.request_stop();
+  end();
+}
+
+void Measurements::end() {
+  for (std::jthread* thread : {&worker_, &actor_}) {
+    thread->request_stop();
+    if (thread->joinable()) thread->join();
+  }
 }
 
 void Measurements::begin() {

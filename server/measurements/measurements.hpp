@@ -43,6 +43,8 @@ class Measurements {
 
   /// Begins with what was stored since the last time.
   void begin();
+  /// Derives and holds nothing more; what was not is left to the next beginning.
+  void end();
   /// Records of some machine were stored. Never waits.
   void note();
   /// Returns when everything stored before the call is derived. Errors: Timeout.

@@ -275,6 +275,20 @@ Result<MeasuredPart> MeasurementRepository::part(std::uint64_t id) {
   return std::move(**found);
 }
 
+Result<std::array<std::uint64_t, 4>> MeasurementRepository::verdicts(const std::string& run) {
+  const auto rows = connections_.read([&](sqlite::Database& database) {
+    return sqlite::all_rows(
+        database,
+        "SELECT verdict, count(*) FROM measured_part WHERE run = ?1 AND is_superseded = 0 GROUP BY "
+        "verdict",
+        [](const sqlite::Statement& row) { return std::pair(row.number(0), row.number(1)); }, run);
+  });
+  if (!rows) return fail(rows.error());
+  std::array<std::uint64_t, 4> counts{};
+  for (const auto& [verdict, count] : *rows) counts.at(verdict) = count;
+  return counts;
+}
+
 Result<std::vector<ReportFinding>> MeasurementRepository::findings(const PartFilter& filter,
                                                                    Page page) {
   return connections_.read(

@@ -210,6 +210,8 @@ void add_report_commands(Command app, Context& context) {
   run_at_server(show_command, context, shown, show);
 
   add_export(group, context);
+  add_measurement_commands(group, context);
+  add_template_commands(group, context);
 }
 
 }  // namespace dripline::cli

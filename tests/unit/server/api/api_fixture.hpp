@@ -39,6 +39,9 @@ class ApiTest : public ServerTest {
                                 .policy = releases_->policy(),
                                 .clock = clock_,
                                 .on_change = api::publish_imports_to(events_)});
+    measurements_ =
+        std::make_unique<measurements::Measurements>(measurements::Measurements::Parts{
+            .store = *store_, .clock = clock_, .on_part = api::publish_parts_to(events_)});
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .releases = *releases_,
                                                     .setups = *setups_,
@@ -59,7 +62,8 @@ class ApiTest : public ServerTest {
                                                     .ports = ports,
                                                     .health = &health_,
                                                     .backups = backups_.get(),
-                                                    .imports = imports_.get()});
+                                                    .imports = imports_.get(),
+                                                    .measurements = measurements_.get()});
   }
 
   /// Made when they are asked for, in a folder beside the store.
@@ -185,6 +189,7 @@ class ApiTest : public ServerTest {
   api::EventHub events_;
   std::unique_ptr<paths::ProgramPaths> paths_;
   std::unique_ptr<imports::Imports> imports_;
+  std::unique_ptr<measurements::Measurements> measurements_;
   std::unique_ptr<api::Api> api_;
 };
 
