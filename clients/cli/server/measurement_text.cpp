@@ -79,11 +79,6 @@ ordered_json event_json(const report_template::ReportEvent& event) {
 
 }  // namespace
 
-std::string printable(std::string_view text) {
-  VisibleText visible;
-  return std::string(visible.take(text));
-}
-
 int shown_json(const client::Client& client, const std::string& answer,
                const std::function<int(const ordered_json&)>& show) {
   try {

@@ -5,13 +5,11 @@
 #include <string_view>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/text/terminal.hpp"
 #include "clients/tools/report_template/report_interpreter.hpp"
 
 /// How measurements and report templates look.
 namespace dripline::cli {
-
-/// Without characters that could steer a terminal.
-std::string printable(std::string_view text);
 
 /// Calls `show` with the server's answer; an answer of another form is complained of.
 int shown_json(const client::Client& client, const std::string& answer,

@@ -46,7 +46,7 @@ constexpr bool is_word_character(char c) {
 }
 
 /// Whether a blank of the form may stand for no blank at all.
-enum class Piece : std::uint8_t { None, Text, Word, Number };
+enum class Piece : std::uint8_t { None, Text, Mark, Word, Number };
 
 /// Makes the regular expression of a form, from left to right.
 class FormReader {
@@ -58,7 +58,7 @@ class FormReader {
     for (at_ = 0; at_ < form_.size();) {
       const char c = form_[at_];
       if ((c == '{' || c == '}') && at_ + 1 < form_.size() && form_[at_ + 1] == c) {
-        add(Piece::Text, re2::RE2::QuoteMeta(std::string(1, c)));
+        add(Piece::Mark, re2::RE2::QuoteMeta(std::string(1, c)));
         at_ += 2;
       } else if (c == '{') {
         if (auto done = read_field(); !done) return done;
@@ -68,7 +68,8 @@ class FormReader {
         has_blank_ = true;
         ++at_;
       } else {
-        add(Piece::Text, re2::RE2::QuoteMeta(std::string(1, c)));
+        add(is_word_character(c) ? Piece::Text : Piece::Mark,
+            re2::RE2::QuoteMeta(std::string(1, c)));
         ++at_;
       }
     }
@@ -85,8 +86,9 @@ class FormReader {
       R"([ \t]*([+-]?[ \t]*(?:[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)))";
 
   void add(Piece piece, const std::string& text) {
-    const bool beside_number = piece == Piece::Number || last_ == Piece::Number;
-    if (has_blank_ && last_ != Piece::None) pattern += beside_number ? "[ \\t]*" : "[ \\t]+";
+    const auto stands_alone = [](Piece one) { return one == Piece::Number || one == Piece::Mark; };
+    const bool is_optional = stands_alone(piece) || stands_alone(last_);
+    if (has_blank_ && last_ != Piece::None) pattern += is_optional ? "[ \\t]*" : "[ \\t]+";
     pattern += text;
     last_ = piece;
     has_blank_ = false;

@@ -84,8 +84,7 @@ Taken ReportInterpreter::take(const ReportLine& line) {
 /// else ends the sequence.
 bool ReportInterpreter::take_partial(std::string_view line, Taken& taken) {
   ReportState::Partial& partial = *state_.partial;
-  if (partial.rule >= template_->rules.size() ||
-      partial.step >= template_->rules[partial.rule].steps.size()) {
+  if (next_of_partial() == nullptr) {
     state_.partial.reset();  // of another template
     return false;
   }
@@ -118,6 +117,13 @@ bool ReportInterpreter::take_partial(std::string_view line, Taken& taken) {
               taken.events);
   state_.partial.reset();
   return false;
+}
+
+/// The form of the line that has to come; nullptr: none.
+const LineForm* ReportInterpreter::next_of_partial() const {
+  if (!state_.partial || state_.partial->rule >= template_->rules.size()) return nullptr;
+  const auto& steps = template_->rules[state_.partial->rule].steps;
+  return state_.partial->step < steps.size() ? &steps[state_.partial->step] : nullptr;
 }
 
 bool ReportInterpreter::take_rule(std::string_view line, Taken& taken) {
@@ -272,14 +278,20 @@ void ReportInterpreter::take_values(const LineRule& rule, const Fields& fields,
     const auto found = state_.context.find(name);
     return found == state_.context.end() ? std::string() : found->second;
   };
+  const bool has_named = std::ranges::any_of(fields.numbers, [](const auto& one) {
+    return !one.first.empty() && (one.second.actual || one.second.deviation);
+  });
+  LineNumbers common;  // limits beside values that have names: they are for each of these
   for (const auto& [of, given] : fields.numbers) {
     LineNumbers numbers = given;
     if (of.empty()) {
       add_missing(numbers, state_.pending);
       state_.pending = {};
+    } else {
+      add_missing(numbers, common);
     }
     if (!numbers.actual && !numbers.deviation) {
-      if (of.empty()) state_.pending = numbers;
+      if (of.empty()) (has_named ? common : state_.pending) = numbers;
       continue;
     }
     open_part(events);
@@ -339,11 +351,9 @@ void ReportInterpreter::find_missing(std::vector<ReportEvent>& events) {
     state_.is_incomplete = true;
     add_finding(kind, std::move(text), events);
   };
-  if (state_.partial) {
-    const LineRule& rule = template_->rules.at(state_.partial->rule);
-    miss(FindingKind::Incomplete,
-         fmt::format("'{}' did not come behind '{}'", rule.steps.at(state_.partial->step).text(),
-                     state_.partial->texts.back()));
+  if (const LineForm* form = next_of_partial()) {
+    miss(FindingKind::Incomplete, fmt::format("'{}' did not come behind '{}'", form->text(),
+                                              state_.partial->texts.back()));
   }
   for (const auto& [from, to] : state_.missing) miss(FindingKind::Missing, counts_text(from, to));
   if (state_.expected) {

@@ -79,8 +79,8 @@ class ReportInterpreter {
     std::optional<std::int64_t> count, expected;
   };
   bool take_partial(std::string_view line, Taken& taken);
+  const LineForm* next_of_partial() const;
   bool take_rule(std::string_view line, Taken& taken);
-  void begin_partial(std::size_t rule, std::string_view line);
   void apply(std::size_t rule, const std::vector<FieldText>& texts, Taken& taken);
   Fields read_fields(const std::vector<FieldText>& texts, std::vector<ReportEvent>& events);
   void open_part(std::vector<ReportEvent>& events);

@@ -85,6 +85,15 @@ ReportState state_of(const json& text) {
   return state;
 }
 
+/// What no interpretation leaves behind would be computed with.
+bool is_sound(const ReportState& state) {
+  constexpr std::int64_t kMost = 1'000'000'000;  // as read from lines
+  const auto is_count = [](std::int64_t count) { return count >= -kMost && count <= kMost; };
+  if (state.partial && state.partial->texts.empty()) return false;
+  if (state.highest ? !is_count(*state.highest) : !state.missing.empty()) return false;
+  return !state.expected || *state.expected <= std::uint64_t{kMost};
+}
+
 }  // namespace
 
 std::string to_json(const ReportState& state) {
@@ -114,7 +123,9 @@ std::string to_json(const ReportState& state) {
 
 Result<ReportState> parse_state(std::string_view text) {
   try {
-    return state_of(json::parse(text));
+    ReportState state = state_of(json::parse(text));
+    if (!is_sound(state)) return fail(Errc::Corrupt, "state of a report: its counts");
+    return state;
   } catch (const json::exception& e) {
     return fail(Errc::Corrupt, "state of a report: {}", e.what());
   }
