@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "storage/impl/account_repository.hpp"
+#include "storage/impl/archive_repository.hpp"
 #include "storage/impl/import_repository.hpp"
 #include "storage/impl/measurement_repository.hpp"
 #include "storage/impl/program_repository.hpp"
@@ -65,7 +66,8 @@ struct SqliteStore::Repositories {
         releases(*connections),
         imports(*connections),
         report_templates(*connections),
-        measurements(*connections) {}
+        measurements(*connections),
+        archives(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -81,6 +83,7 @@ struct SqliteStore::Repositories {
   ImportRepository imports;
   ReportTemplateRepository report_templates;
   MeasurementRepository measurements;
+  ArchiveRepository archives;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -96,7 +99,7 @@ SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
             repositories->runs,     repositories->records, repositories->ports,
             repositories->setups,   repositories->audit,   repositories->accounts,
             repositories->releases, repositories->imports, repositories->report_templates,
-            repositories->measurements},
+            repositories->measurements, repositories->archives},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "storage/account_store.hpp"
+#include "storage/archive_store.hpp"
 #include "storage/audit_store.hpp"
 #include "storage/import_store.hpp"
 #include "storage/machine_store.hpp"
@@ -16,7 +17,7 @@
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: thirteen interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: fourteen interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -34,6 +35,7 @@ struct Store {
   ImportStore& imports;
   ReportTemplateStore& report_templates;
   MeasurementStore& measurements;
+  ArchiveStore& archives;
 };
 
 }  // namespace dripline::storage

@@ -186,6 +186,21 @@ MeasuredPart read_part(const sqlite::Statement& row) {
           .is_superseded = row.integer(14) != 0};
 }
 
+const std::string kFindingSelect =
+    "SELECT p.id, machine.name, p.run, coalesce(p.part, 0), p.epoch, p.number, p.time_us, p.kind, "
+    "p.text FROM report_finding AS p JOIN machine ON machine.id = p.machine ";
+
+ReportFinding read_finding(const sqlite::Statement& row) {
+  return {.id = row.number(0),
+          .machine = row.text(1),
+          .run = row.optional_text(2).value_or(""),
+          .part_id = row.number(3),
+          .record = {.epoch = row.number(4), .number = row.number(5)},
+          .time = row.time(6),
+          .kind = row.text(7),
+          .text = row.text(8)};
+}
+
 /// Which rows a PartFilter lets through, by the index that fits it; `?1` run, `?2` machine, `?3`
 /// superseded ones.
 const char* condition_of(const PartFilter& filter) {
@@ -243,26 +258,18 @@ Result<std::optional<MeasuredPart>> query_part(sqlite::Database& database, std::
   return sqlite::first_row(database, kSql, read_part, id);
 }
 
+Result<std::vector<ReportFinding>> query_findings_of(sqlite::Database& database,
+                                                     std::uint64_t part) {
+  static const std::string kSql = kFindingSelect + "WHERE p.part = ?1 ORDER BY p.id";
+  return sqlite::all_rows(database, kSql, read_finding, part);
+}
+
 Result<std::vector<ReportFinding>> query_findings(sqlite::Database& database,
                                                   const PartFilter& filter, Page page) {
-  const std::string sql =
-      std::string(
-          "SELECT p.id, machine.name, p.run, coalesce(p.part, 0), p.epoch, p.number, p.time_us, "
-          "p.kind, p.text FROM report_finding AS p JOIN machine ON machine.id = p.machine ") +
-      condition_of(filter) + "ORDER BY p.id LIMIT ?4 OFFSET ?5";
   return sqlite::all_rows(
-      database, sql,
-      [](const sqlite::Statement& row) {
-        return ReportFinding{.id = row.number(0),
-                             .machine = row.text(1),
-                             .run = row.optional_text(2).value_or(""),
-                             .part_id = row.number(3),
-                             .record = {.epoch = row.number(4), .number = row.number(5)},
-                             .time = row.time(6),
-                             .kind = row.text(7),
-                             .text = row.text(8)};
-      },
-      filter.run, filter.machine, filter.with_superseded ? 1 : 0, page.limit, page.offset);
+      database, kFindingSelect + condition_of(filter) + "ORDER BY p.id LIMIT ?4 OFFSET ?5",
+      read_finding, filter.run, filter.machine, filter.with_superseded ? 1 : 0, page.limit,
+      page.offset);
 }
 
 Result<std::vector<std::string>> query_characteristics(sqlite::Database& database,

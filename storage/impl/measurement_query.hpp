@@ -25,6 +25,8 @@ Result<std::vector<MeasuredPart>> query_parts(sqlite::Database& database, const 
 Result<std::optional<MeasuredPart>> query_part(sqlite::Database& database, std::uint64_t id);
 Result<std::vector<ReportFinding>> query_findings(sqlite::Database& database,
                                                   const PartFilter& filter, Page page);
+Result<std::vector<ReportFinding>> query_findings_of(sqlite::Database& database,
+                                                     std::uint64_t part);
 Result<std::vector<std::string>> query_characteristics(sqlite::Database& database,
                                                        const std::optional<std::string>& machine);
 

@@ -133,7 +133,11 @@ CREATE INDEX report_finding_by_part ON report_finding (part) WHERE part IS NOT N
 CREATE TABLE archive (
   id         INTEGER PRIMARY KEY,
   kind       TEXT NOT NULL CHECK (kind IN ('records', 'measurements')),
-  machine    TEXT NOT NULL,
+  machine    TEXT NOT NULL,         -- of records; of measurements empty: of all
+  epoch      INTEGER NOT NULL,      -- of records: their journal
+  first      INTEGER NOT NULL,      -- numbers of the records, or ids of the parts
+  last       INTEGER NOT NULL,
+  is_removed INTEGER NOT NULL DEFAULT 0 CHECK (is_removed IN (0, 1)),  -- its rows are no longer in the tables
   file       TEXT NOT NULL UNIQUE,  -- its name in the folder of archives
   sha256     BLOB NOT NULL CHECK (length(sha256) = 32),  -- of the file; also in its audit entry
   rows       INTEGER NOT NULL,

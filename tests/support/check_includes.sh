@@ -8,6 +8,7 @@ table='
 protocol/base: protocol/base
 protocol/pki: protocol/base protocol/pki
 protocol/audit: protocol/base protocol/audit
+protocol/archive: protocol/base protocol/archive
 protocol/measurement: protocol/base protocol/measurement
 protocol/wire: protocol/base protocol/wire
 protocol/process: protocol/base protocol/process

@@ -131,15 +131,15 @@ class RecordStoreDecorator : public storage::RecordStore {
 /// `store` with one of its parts replaced; the part must outlive it.
 inline storage::Store with(const storage::Store& store, storage::ProgramStore& programs) {
   return {programs,     store.uploads, store.machines, store.runs,     store.records, store.ports,
-          store.setups, store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements};
+          store.setups, store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements, store.archives};
 }
 inline storage::Store with(const storage::Store& store, storage::MachineStore& machines) {
   return {store.programs, store.uploads, machines,       store.runs,     store.records, store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements};
+          store.setups,   store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements, store.archives};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
   return {store.programs, store.uploads, store.machines, store.runs,     records,      store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements};
+          store.setups,   store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements, store.archives};
 }
 
 }  // namespace dripline::test_support
