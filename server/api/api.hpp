@@ -20,6 +20,7 @@
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
+#include "server/library/retention.hpp"
 #include "server/library/run_history.hpp"
 #include "server/library/setups.hpp"
 #include "server/machines/machine_control.hpp"
@@ -58,6 +59,7 @@ struct Services {
   library::Backups* backups = nullptr;  ///< null: a server that makes none
   imports::Imports* imports = nullptr;  ///< null: a server without an import queue
   measurements::Measurements* measurements = nullptr;  ///< null: a server without measurements
+  library::Retention* retention = nullptr;  ///< null: everything stays in the database
   bool has_tls = false;                 ///< the sockets in front of it do
 };
 
@@ -130,6 +132,7 @@ void add_memory_routes(Router& router, Services& services);
 void add_port_routes(Router& router, Services& services);
 void add_account_routes(Router& router, Services& services);
 void add_backup_routes(Router& router, Services& services);
+void add_archive_routes(Router& router, Services& services);
 void add_metrics_routes(Router& router, Services& services, const RequestTimes& times);
 
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer

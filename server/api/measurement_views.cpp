@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "protocol/measurement/measurement_json.hpp"
 #include "server/library/report_reader.hpp"
 
 namespace dripline::api {
@@ -18,10 +19,6 @@ json number_or_null(std::uint64_t number) {
   return number == 0 ? json(nullptr) : json(number);
 }
 
-json value_or_null(const std::optional<double>& value) {
-  return value ? json(*value) : json(nullptr);
-}
-
 std::string number_text(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : std::string();
 }
@@ -29,31 +26,7 @@ std::string number_text(const std::optional<double>& value) {
 }  // namespace
 
 json measurement_json(const measurement::Measurement& one) {
-  const auto& characteristic = one.characteristic;
-  return {{"id", one.id},
-          {"machine", one.machine},
-          {"run", text_or_null(one.run)},
-          {"program", text_or_null(one.program)},
-          {"revision", number_or_null(one.revision)},
-          {"block", one.block},
-          {"line", one.line},
-          {"part", one.part_id},
-          {"part_number", text_or_null(one.part)},
-          {"serial", text_or_null(one.serial)},
-          {"tool", text_or_null(one.tool)},
-          {"characteristic", characteristic.name},
-          {"nominal", value_or_null(characteristic.nominal)},
-          {"lower", value_or_null(characteristic.lower)},
-          {"upper", value_or_null(characteristic.upper)},
-          {"unit", characteristic.unit},
-          {"decimals", characteristic.decimals},
-          {"actual", one.actual},
-          {"deviation", value_or_null(measurement::deviation(one))},
-          {"time", to_iso8601(one.time)},
-          {"epoch", one.record.epoch},
-          {"number", one.record.number},
-          {"item", one.item},
-          {"verdict", measurement::to_string(one.verdict)}};
+  return measurement::to_json(one);
 }
 
 json part_json(const storage::MeasuredPart& part) {

@@ -90,6 +90,8 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/reports", View},
     RoutePermission{"GET", "/api/v1/reports/{run}", View},
 
+    RoutePermission{"GET", "/api/v1/archives", Administer},
+    RoutePermission{"POST", "/api/v1/archives", Administer},
     RoutePermission{"GET", "/api/v1/measurements", View},
     RoutePermission{"GET", "/api/v1/characteristics", View},
     RoutePermission{"GET", "/api/v1/parts", View},

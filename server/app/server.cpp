@@ -22,6 +22,7 @@
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
+#include "server/library/retention.hpp"
 #include "server/machines/machine_registry.hpp"
 #include "server/machines/machine_service.hpp"
 #include "server/measurements/measurements.hpp"
@@ -171,6 +172,7 @@ struct Server::Parts {
                .key = loaded.key,
                .database = loaded.identity}),
         backups(make_backups(std::move(backup_folder), settings)),
+        retention(make_retention(settings, loaded)),
         accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, loaded.users),
         programs(*store, clock, catalog, audit),
         releases({.decisions = store->releases,
@@ -226,6 +228,7 @@ struct Server::Parts {
              .backups = backups.get(),
              .imports = &imports,
              .measurements = &measurements,
+             .retention = retention.get(),
              .has_tls = !settings.tls_key.empty()}),
         tidied(clock.steady_now()) {}
 
@@ -255,6 +258,29 @@ struct Server::Parts {
                                                                       .health = health,
                                                                       .clock = clock},
                                               options);
+  }
+
+  std::unique_ptr<library::Retention> make_retention(const Settings& settings,
+                                                     const Loaded& loaded) {
+    if (settings.archives.empty()) return nullptr;
+    const auto rule = [](std::uint32_t days, std::uint32_t thousands) {
+      constexpr std::uint64_t kThousand = 1000;
+      library::RetentionRule made;
+      if (days > 0) made.age = std::chrono::days(days);
+      if (thousands > 0) made.rows = thousands * kThousand;
+      return made;
+    };
+    library::Retention::Options options;
+    options.records = rule(settings.archive_records_days, settings.archive_records_rows);
+    options.measurements =
+        rule(settings.archive_measurements_days, settings.archive_measurements_rows);
+    return std::make_unique<library::Retention>(
+        library::Retention::Parts{.store = *store,
+                                  .clock = clock,
+                                  .folder = settings.archives,
+                                  .database = loaded.identity,
+                                  .made_by = fmt::format("dncd {}", DRIPLINE_VERSION)},
+        options);
   }
 
   /// Of machines with gateways and of those at the ends of lines.
@@ -349,7 +375,8 @@ struct Server::Parts {
   library::DialectCatalog catalog;
   library::AuditTrail audit;
   library::AuditChain chain;
-  std::unique_ptr<library::Backups> backups;  ///< null: none are made
+  std::unique_ptr<library::Backups> backups;      ///< null: none are made
+  std::unique_ptr<library::Retention> retention;  ///< null: everything stays
   identity::Accounts accounts;
   library::Programs programs;
   library::Releases releases;
@@ -461,6 +488,7 @@ Server::~Server() {
   parts_->folder.withdraw();
   parts_->machine_service.stop_waiting();
   parts_->measurements.end();  // it may hold a machine
+  if (parts_->retention) parts_->retention->end();
   parts_->events.close();
   parts_->http.reset();
   parts_->mtconnect_http.reset();
@@ -481,6 +509,12 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!folder) return fail(folder.error());
   if (auto is_there = folder->expect_database(settings.begin_empty); !is_there)
     return fail(is_there.error());
+  if (!settings.archives.empty()) {
+    std::error_code ec;
+    std::filesystem::create_directories(settings.archives, ec);
+    if (!std::filesystem::is_directory(settings.archives, ec))
+      return fail(Errc::Io, "archives: {} is no folder and cannot be made", settings.archives);
+  }
   auto store = storage::SqliteStore::open({.file = folder->database()}, clock);
   if (!store) return fail(store.error());
   const auto identity = (*store)->identity();
@@ -511,6 +545,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   parts.programs.on_held([&parts](const auto& revision) { parts.imports.note(revision); });
   parts.imports.begin();
   parts.measurements.begin();
+  if (parts.retention) parts.retention->begin();
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint = dds::ServerEndpoint::open(network->options, parts.machine_service.handlers());

@@ -84,12 +84,13 @@ std::string_view to_string(ArchiveKind kind) {
 Result<std::vector<ArchivableRecords>> ArchiveRepository::archivable_records() {
   static const std::string kSql = fmt::format(
       "SELECT machine.name, c.epoch, "
-      "(SELECT min(number) FROM record WHERE machine = c.machine AND epoch = c.epoch), "
+      "(SELECT min(number) FROM record WHERE machine = c.machine AND epoch = c.epoch AND {}), "
       "min(e.last, iif(EXISTS (SELECT 1 FROM report_template_assignment), c.number, e.last)), "
       "(SELECT min(number) FROM record WHERE machine = c.machine AND epoch = c.epoch AND run IN "
       "(SELECT id FROM run WHERE machine = c.machine AND state IN ('ordered', 'active'))) "
       "FROM record_epoch AS e JOIN measurement_cursor AS c ON c.machine = e.machine AND c.epoch = "
-      "e.epoch JOIN machine ON machine.id = e.machine ORDER BY machine.name, e.epoch");
+      "e.epoch JOIN machine ON machine.id = e.machine ORDER BY machine.name, e.epoch",
+      kNoMemory);
   const auto rows = connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(database, kSql, [](const sqlite::Statement& row) {
       ArchivableRecords range{.machine = row.text(0), .epoch = row.number(1)};
@@ -173,10 +174,13 @@ Result<std::vector<ReportFinding>> ArchiveRepository::findings_of(std::uint64_t 
 
 Result<std::uint64_t> ArchiveRepository::size(ArchiveKind kind) {
   // Numbers and ids have no gaps but at their beginning.
-  const char* sql =
+  static const std::string kRecords = fmt::format(
+      "SELECT coalesce(sum(e.last + 1 - (SELECT min(number) FROM record WHERE machine = e.machine "
+      "AND epoch = e.epoch AND {})), 0) FROM record_epoch AS e",
+      kNoMemory);
+  const std::string sql =
       kind == ArchiveKind::Records
-          ? "SELECT coalesce(sum(e.last + 1 - (SELECT min(number) FROM record WHERE machine = "
-            "e.machine AND epoch = e.epoch)), 0) FROM record_epoch AS e"
+          ? kRecords
           : "SELECT coalesce((SELECT max(id) FROM measurement) - (SELECT min(id) FROM measurement) "
             "+ 1, 0)";
   const auto count =
