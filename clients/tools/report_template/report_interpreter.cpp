@@ -216,6 +216,7 @@ bool ReportInterpreter::keep_texts(const LineRule& rule, const Fields& fields,
     open_part(events);
   }
   for (const auto& [name, text] : fields.texts) state_.context[name] = text;
+  if (fields.count) state_.context["count"] = fmt::to_string(*fields.count);
   if (serial != fields.texts.end()) state_.part.serial = serial->second;
   if (const auto part = fields.texts.find("part"); part != fields.texts.end())
     state_.part.number = part->second;

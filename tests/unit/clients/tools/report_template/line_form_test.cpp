@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
         FormCase{"empty", " ", "", "a form is empty"}),
     [](const auto& i) { return i.param.name; });
 
-TEST(Form, HasABound) {
+TEST(LineForm, HasABound) {
   EXPECT_EQ(LineForm::of_form(std::string(kMaxForm + 1, 'x'), false).error().code,
             Errc::LimitExceeded);
   std::string fields;
@@ -65,7 +65,7 @@ TEST(Form, HasABound) {
   EXPECT_FALSE(form->match(std::string(kMaxLine + 1, 'x')));
 }
 
-TEST(Form, TakesADecimalCommaWhereItIsSaid) {
+TEST(LineForm, TakesADecimalCommaWhereItIsSaid) {
   EXPECT_EQ(matched(LineForm::of_form("Q = {actual}", true), "Q = +49,987"), "actual=+49,987");
   EXPECT_EQ(matched(LineForm::of_form("Q = {actual}", false), "Q = +49,987"), "no");
 }
