@@ -306,6 +306,10 @@ class Client {
   /// Derives a run again; without a name by the templates in force.
   Reply<std::string> derive_measurements(std::string_view run, const std::string& name,
                                          std::optional<std::uint64_t> version);
+  /// What retention moved out of the database.
+  Reply<std::string> archives(Page page);
+  /// Applies retention now.
+  Reply<std::string> make_archives();
 
  private:
   Reply<std::string> fetch_text(HttpRequest request, std::string_view body = {});

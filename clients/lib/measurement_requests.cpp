@@ -111,4 +111,13 @@ Reply<std::string> Client::derive_measurements(std::string_view run, const std::
   return fetch_text(with_method("POST", path_of("runs", run) + "/measurements"), dumped(body));
 }
 
+Reply<std::string> Client::archives(Page page) {
+  std::string path = with_query(path_of("archives"), "limit", std::to_string(page.limit));
+  return fetch_text(get(with_query(std::move(path), "offset", std::to_string(page.offset))));
+}
+
+Reply<std::string> Client::make_archives() {
+  return fetch_text(with_method("POST", path_of("archives")));
+}
+
 }  // namespace dripline::client

@@ -49,7 +49,7 @@ server/app: protocol storage server
 clients/lib: protocol/base clients/lib
 clients/tools: protocol/base protocol/measurement protocol/wire gateway/interpreter clients/tools
 clients/tools/report_template: protocol/base protocol/measurement clients/tools/report_template
-clients/cli: protocol/base protocol/pki protocol/audit protocol/measurement protocol/wire protocol/serial gateway/interpreter clients
+clients/cli: protocol/base protocol/archive protocol/pki protocol/audit protocol/measurement protocol/wire protocol/serial gateway/interpreter clients
 '
 declare -A allowed_by
 while IFS=: read -r row folders; do

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/archive_commands.hpp"
 #include "clients/cli/server/measurement_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
@@ -12,7 +13,7 @@ using nlohmann::ordered_json;
 
 struct MeasurementsCommand {
   client::MeasurementQuery query;
-  std::string output;
+  std::string output, archive;
   bool csv = false;
 };
 
@@ -130,7 +131,19 @@ void add_measurement_commands(Command report, Context& context) {
   listed.footer(
       "Example:\n  dnc report measurements --machine lathe-1 --characteristic D12 --since "
       "2026-11-01 --csv -o d12.csv");
-  run_at_server(listed, context, options, measurements);
+  listed.add_option("--archive", options->archive,
+                    "Read this archive instead of the server; needs no server");
+  listed.callback([&context, options] {
+    if (!options->archive.empty()) {
+      context.status = show_archived_measurements(context, options->archive,
+                                                  {.run = options->query.run,
+                                                   .machine = options->query.machine,
+                                                   .characteristic = options->query.characteristic,
+                                                   .verdict = options->query.verdict});
+    } else if (auto client = context.connect()) {
+      context.status = measurements(context, *client, *options);
+    }
+  });
 
   auto part_list = report.add_subcommand("parts", "List measured parts with their verdicts");
   auto part_options = std::make_shared<MeasurementsCommand>();

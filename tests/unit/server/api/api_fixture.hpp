@@ -63,7 +63,8 @@ class ApiTest : public ServerTest {
                                                     .health = &health_,
                                                     .backups = backups_.get(),
                                                     .imports = imports_.get(),
-                                                    .measurements = measurements_.get()});
+                                                    .measurements = measurements_.get(),
+                                                    .retention = retention_.get()});
   }
 
   /// Made when they are asked for, in a folder beside the store.
@@ -84,6 +85,20 @@ class ApiTest : public ServerTest {
                                 .health = health_,
                                 .clock = clock_},
         library::Backups::Options{.every = std::chrono::hours(0)});
+    make_api(&ports_);
+  }
+
+  /// Of what is older than a day, in a folder beside the store.
+  void set_up_archives() {
+    library::Retention::Options options;
+    options.records.age = options.measurements.age = std::chrono::hours(24);
+    retention_ = std::make_unique<library::Retention>(
+        library::Retention::Parts{.store = *store_,
+                                  .clock = clock_,
+                                  .folder = folder_.path(),
+                                  .database = "db",
+                                  .made_by = "dncd 1"},
+        options);
     make_api(&ports_);
   }
 
@@ -190,6 +205,7 @@ class ApiTest : public ServerTest {
   std::unique_ptr<paths::ProgramPaths> paths_;
   std::unique_ptr<imports::Imports> imports_;
   std::unique_ptr<measurements::Measurements> measurements_;
+  std::unique_ptr<library::Retention> retention_;
   std::unique_ptr<api::Api> api_;
 };
 

@@ -223,6 +223,15 @@ class OpenApi : public ApiTest {
       expect_described("GET", path, get("/api/v1/imports/O4/" + number));
   }
 
+  void expect_archives_described() {
+    set_up_archives();
+    clock_.advance(std::chrono::hours(48));
+    const auto made = call("POST", "/api/v1/archives");
+    EXPECT_EQ(made.status, 200) << made.body;
+    expect_described("POST", "/api/v1/archives", made);
+    EXPECT_FALSE(json(get("/api/v1/archives"))["archives"].empty());
+    expect_described("GET", "/api/v1/archives", get("/api/v1/archives"));
+  }
   void expect_measurements_described() {
     const std::string one = "/api/v1/report-templates/{name}",
                       all = "/api/v1/report-template-assignments",
@@ -367,6 +376,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_accounts_described();
   expect_backups_described();
   expect_measurements_described();
+  expect_archives_described();
   for (const auto& route : api_->router().routes()) {
     EXPECT_TRUE(covered_.contains(route.method + " " + route.pattern))
         << route.method << " " << route.pattern << " is not covered by this test";
