@@ -26,7 +26,7 @@ struct MeasuredPart {
   std::uint64_t measurements = 0, findings = 0;
   measurement::Verdict verdict = measurement::Verdict::Unknown;  ///< of all so far
   UtcTime begun{};
-  std::optional<UtcTime> ended;  ///< absent: lines may follow
+  std::optional<UtcTime> ended = {};  ///< absent: lines may follow
   bool is_superseded = false;    ///< its records were derived again
 };
 
@@ -67,16 +67,16 @@ struct MeasurementPlace {
 
 /// Absent: any. Times: since is included, until is not.
 struct MeasurementFilter {
-  std::optional<std::string> machine, run, characteristic;
-  std::optional<std::uint64_t> part_id;
-  std::optional<UtcTime> since, until;
-  std::optional<measurement::Verdict> verdict;
+  std::optional<std::string> machine = {}, run = {}, characteristic = {};
+  std::optional<std::uint64_t> part_id = {};
+  std::optional<UtcTime> since = {}, until = {};
+  std::optional<measurement::Verdict> verdict = {};
   bool with_superseded = false;
 };
 
 struct PartFilter {
-  std::optional<std::string> machine, run;
-  std::optional<measurement::Verdict> verdict;
+  std::optional<std::string> machine = {}, run = {};
+  std::optional<measurement::Verdict> verdict = {};
   bool with_superseded = false;
 };
 

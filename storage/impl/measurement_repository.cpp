@@ -1,5 +1,6 @@
 #include "storage/impl/measurement_repository.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "storage/impl/measurement_query.hpp"

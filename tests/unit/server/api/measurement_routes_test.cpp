@@ -34,7 +34,10 @@ class MeasurementRoutes : public ApiTest {
       record.text = text;
       batch.records.push_back(record);
     }
-    batch.endings.push_back({.run = "run-1", .reason = {}, .ended = clock_.now()});
+    storage::RunEnding ending;
+    ending.run = "run-1";
+    ending.ended = clock_.now();
+    batch.endings.push_back(ending);
     ASSERT_TRUE(store_->records.store(batch));
     measurements_->begin();
     const auto waited = measurements_->wait(std::chrono::seconds(60));

@@ -66,7 +66,12 @@ class MeasurementsTest : public server_test::ServerTest {
       record.device = "port1";
       record.text = line;
       batch.records.push_back(record);
-      if (line == "run_ended") batch.endings.push_back({.run = run, .reason = {}, .ended = clock_.now()});
+      if (line == "run_ended") {
+        storage::RunEnding ending;
+        ending.run = run;
+        ending.ended = clock_.now();
+        batch.endings.push_back(std::move(ending));
+      }
     }
     const auto stored = store_->records.store(batch);
     ASSERT_TRUE(stored) << stored.error().what;
