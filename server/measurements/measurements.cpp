@@ -166,8 +166,9 @@ Result<void> Measurements::derive_piece(const storage::UnderivedRecords& records
     storage::DerivedBatch batch = derivation.batch();
     batch.epoch = records.epoch;
     batch.after = records.derived;
-    // Retention may have taken what was never derived.
-    batch.through = piece->size() < kPiece ? records.last : piece->back().number;
+    // More may have come since; and retention may have taken what was never derived.
+    const std::uint64_t read = piece->empty() ? 0 : piece->back().number;
+    batch.through = piece->size() < kPiece ? std::max(records.last, read) : read;
     batch.state = to_json(derivation.state());
     if (auto committed = parts_.store.measurements.commit(batch); !committed) return committed;
     judged = derivation.judged();
