@@ -6,9 +6,12 @@
 #include <thread>
 
 #include "storage/impl/account_repository.hpp"
+#include "storage/impl/archive_repository.hpp"
 #include "storage/impl/import_repository.hpp"
+#include "storage/impl/measurement_repository.hpp"
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/release_repository.hpp"
+#include "storage/impl/report_template_repository.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/upload_repository.hpp"
 
@@ -61,7 +64,10 @@ struct SqliteStore::Repositories {
         audit(*connections),
         accounts(*connections),
         releases(*connections),
-        imports(*connections) {}
+        imports(*connections),
+        report_templates(*connections),
+        measurements(*connections),
+        archives(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -75,6 +81,9 @@ struct SqliteStore::Repositories {
   AccountRepository accounts;
   ReleaseRepository releases;
   ImportRepository imports;
+  ReportTemplateRepository report_templates;
+  MeasurementRepository measurements;
+  ArchiveRepository archives;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -89,7 +98,8 @@ SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
     : Store{repositories->programs, repositories->uploads, repositories->machines,
             repositories->runs,     repositories->records, repositories->ports,
             repositories->setups,   repositories->audit,   repositories->accounts,
-            repositories->releases, repositories->imports},
+            repositories->releases, repositories->imports, repositories->report_templates,
+            repositories->measurements, repositories->archives},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

@@ -87,6 +87,9 @@ void add_port_page_command(Command group, Context& context);
 void add_setup_commands(Command app, Context& context);
 void add_memory_commands(Command app, Context& context);
 void add_report_commands(Command app, Context& context);
+/// Verbs of `dnc report`.
+void add_measurement_commands(Command report, Context& context);
+void add_template_commands(Command report, Context& context);
 void add_server_commands(Command app, Context& context);
 void add_audit_commands(Command app, Context& context);
 void add_login_commands(Command app, Context& context);

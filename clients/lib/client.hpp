@@ -87,6 +87,21 @@ struct ReportQuery {
   Page page;
 };
 
+/// Texts that are empty match everything; times are ISO 8601.
+struct MeasurementQuery {
+  std::string machine, run, characteristic, since, until, verdict;
+  bool with_superseded = false;
+  bool newest_first = false;
+  std::uint64_t limit = 100;
+  std::string after = {};  ///< `next` of the answer before
+};
+
+/// `scope`: program, machine, macro.
+struct TemplateAssignment {
+  std::string scope, subject, name;
+  std::optional<std::uint64_t> version = {};  ///< absent: the newest
+};
+
 struct CommandRequest {
   std::string action;
   std::optional<std::string> text, name;
@@ -273,7 +288,31 @@ class Client {
   Reply<void> export_machine_report(std::string_view machine, std::string_view format,
                                     const std::function<bool(std::string_view)>& sink);
 
+  // Report templates and what follows from them. Texts are the server's JSON (openapi.json).
+  Reply<std::string> report_templates();
+  Reply<std::string> report_template(std::string_view name, std::optional<std::uint64_t> version);
+  Reply<std::string> push_report_template(std::string_view name, std::string_view text);
+  Reply<void> remove_report_template(std::string_view name);
+  Reply<std::string> report_template_assignments();
+  Reply<void> assign_report_template(const TemplateAssignment& assignment);
+  Reply<void> unassign_report_template(const TemplateAssignment& assignment);
+  Reply<std::string> measurements(const MeasurementQuery& query);
+  /// All of them, oldest first. `format`: csv or jsonl. Passes the bytes to `sink` as they arrive;
+  /// false from it ends the call.
+  Reply<void> export_measurements(const MeasurementQuery& query, std::string_view format,
+                                  const std::function<bool(std::string_view)>& sink);
+  Reply<std::string> parts(const MeasurementQuery& query);
+  Reply<std::string> report_findings(const MeasurementQuery& query);
+  /// Derives a run again; without a name by the templates in force.
+  Reply<std::string> derive_measurements(std::string_view run, const std::string& name,
+                                         std::optional<std::uint64_t> version);
+  /// What retention moved out of the database.
+  Reply<std::string> archives(Page page);
+  /// Applies retention now.
+  Reply<std::string> make_archives();
+
  private:
+  Reply<std::string> fetch_text(HttpRequest request, std::string_view body = {});
   Reply<void> send_command(const std::string& path, const CommandRequest& request);
   Reply<HttpResponse> exchange(const HttpRequest& request);
   /// Both send `body` unless it is empty.

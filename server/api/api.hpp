@@ -20,9 +20,11 @@
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
+#include "server/library/retention.hpp"
 #include "server/library/run_history.hpp"
 #include "server/library/setups.hpp"
 #include "server/machines/machine_control.hpp"
+#include "server/measurements/measurements.hpp"
 #include "server/paths/program_paths.hpp"
 #include "server/ports/port_control.hpp"
 
@@ -56,6 +58,8 @@ struct Services {
   library::Health* health = nullptr;    ///< null: always ok
   library::Backups* backups = nullptr;  ///< null: a server that makes none
   imports::Imports* imports = nullptr;  ///< null: a server without an import queue
+  measurements::Measurements* measurements = nullptr;  ///< null: a server without measurements
+  library::Retention* retention = nullptr;  ///< null: everything stays in the database
   bool has_tls = false;                 ///< the sockets in front of it do
 };
 
@@ -103,6 +107,9 @@ std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub)
 /// The listener that publishes what happens in the import queue as events.
 std::function<void(const storage::Import&)> publish_imports_to(EventHub& hub);
 
+/// The listener that publishes the verdicts on parts as events.
+std::function<void(const storage::MeasuredPart&)> publish_parts_to(EventHub& hub);
+
 /// The OpenAPI description, as JSON text.
 std::string_view openapi_text();
 
@@ -114,6 +121,8 @@ void add_program_routes(Router& router, Services& services);
 void add_release_routes(Router& router, Services& services);
 void add_comparison_routes(Router& router, Services& services);
 void add_import_routes(Router& router, Services& services);
+void add_measurement_routes(Router& router, Services& services);
+void add_report_template_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);
 void add_run_routes(Router& router, Services& services);
@@ -123,6 +132,7 @@ void add_memory_routes(Router& router, Services& services);
 void add_port_routes(Router& router, Services& services);
 void add_account_routes(Router& router, Services& services);
 void add_backup_routes(Router& router, Services& services);
+void add_archive_routes(Router& router, Services& services);
 void add_metrics_routes(Router& router, Services& services, const RequestTimes& times);
 
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer

@@ -146,7 +146,17 @@ Response list_runs(Services& services, const Request& request) {
 }
 
 Response show_run(Services& services, const Request& request) {
-  return value_response(200, services.runs.run(request.parameter("id")), run_json);
+  const auto run = services.runs.run(request.parameter("id"));
+  if (!run) return error_response(run.error());
+  nlohmann::json view = run_json(*run);
+  view["parts"] = nullptr;
+  if (services.measurements != nullptr) {
+    const auto counts = services.measurements->stored().verdicts(run->id);
+    if (!counts) return error_response(counts.error());
+    for (std::size_t i = 0; i < counts->size(); ++i)
+      view["parts"][std::string(measurement::to_string(measurement::Verdict(i)))] = (*counts)[i];
+  }
+  return json_response(200, view);
 }
 
 Response attest_run(Services& services, const Request& request) {

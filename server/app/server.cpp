@@ -22,8 +22,10 @@
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
+#include "server/library/retention.hpp"
 #include "server/machines/machine_registry.hpp"
 #include "server/machines/machine_service.hpp"
+#include "server/measurements/measurements.hpp"
 #include "server/mtconnect/agent.hpp"
 #include "server/ports/line_machines.hpp"
 #include "server/ports/port_service.hpp"
@@ -170,6 +172,7 @@ struct Server::Parts {
                .key = loaded.key,
                .database = loaded.identity}),
         backups(make_backups(std::move(backup_folder), settings)),
+        retention(make_retention(settings, loaded)),
         accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, loaded.users),
         programs(*store, clock, catalog, audit),
         releases({.decisions = store->releases,
@@ -185,6 +188,14 @@ struct Server::Parts {
                  .policy = releases.policy(),
                  .clock = clock,
                  .on_change = api::publish_imports_to(events)}),
+        measurements({.store = *store,
+                      .clock = clock,
+                      .on_part = api::publish_parts_to(events),
+                      .hold_queue = {},  // there is no job queue yet
+                      .hold_machine = [this](const storage::MeasuredPart& part,
+                                             const std::string& reason) {
+                        return hold_machine(part, reason);
+                      }}),
         setups(store->setups, catalog, audit),
         mtconnect(make_mtconnect(settings, loaded)),
         machine_service({.store = *store, .releases = releases, .clock = clock}, machine_options(),
@@ -216,6 +227,8 @@ struct Server::Parts {
              .health = &health,
              .backups = backups.get(),
              .imports = &imports,
+             .measurements = &measurements,
+             .retention = retention.get(),
              .has_tls = !settings.tls_key.empty()}),
         tidied(clock.steady_now()) {}
 
@@ -245,6 +258,29 @@ struct Server::Parts {
                                                                       .health = health,
                                                                       .clock = clock},
                                               options);
+  }
+
+  std::unique_ptr<library::Retention> make_retention(const Settings& settings,
+                                                     const Loaded& loaded) {
+    if (settings.archives.empty()) return nullptr;
+    const auto rule = [](std::uint32_t days, std::uint32_t thousands) {
+      constexpr std::uint64_t kThousand = 1000;
+      library::RetentionRule made;
+      if (days > 0) made.age = std::chrono::days(days);
+      if (thousands > 0) made.rows = thousands * kThousand;
+      return made;
+    };
+    library::Retention::Options options;
+    options.records = rule(settings.archive_records_days, settings.archive_records_rows);
+    options.measurements =
+        rule(settings.archive_measurements_days, settings.archive_measurements_rows);
+    return std::make_unique<library::Retention>(
+        library::Retention::Parts{.store = *store,
+                                  .clock = clock,
+                                  .folder = settings.archives,
+                                  .database = loaded.identity,
+                                  .made_by = fmt::format("dncd {}", DRIPLINE_VERSION)},
+        options);
   }
 
   /// Of machines with gateways and of those at the ends of lines.
@@ -283,6 +319,10 @@ struct Server::Parts {
   /// To the listeners of events and to the MTConnect agent.
   machines::MachineListener published() {
     machines::MachineListener listener = api::publish_to(events);
+    listener.on_record = [this, publish = listener.on_record](const auto& record) {
+      measurements.note();
+      publish(record);
+    };
     if (!mtconnect) return listener;
     auto& observer = mtconnect->observer();
     listener.on_machine = [&observer, publish = listener.on_machine](const auto& view) {
@@ -294,6 +334,20 @@ struct Server::Parts {
       publish(record);
     };
     return listener;
+  }
+
+  /// The verdict of a report template on a part: feed hold.
+  Result<void> hold_machine(const storage::MeasuredPart& part, const std::string& reason) {
+    const bool is_of_run = !part.run.empty();
+    audit.write({.who = fmt::format("report template {} version {}", part.template_name,
+                                    part.template_version),
+                 .action = is_of_run ? "run.hold" : "machine.hold",
+                 .subject = is_of_run ? part.run : part.machine,
+                 .detail = reason});
+    machines::CommandRequest hold;
+    hold.action = dds::CommandAction::Hold;
+    (is_of_run ? hold.run : hold.machine) = is_of_run ? part.run : part.machine;
+    return machines.command(hold);
   }
 
   machines::MachineListener machine_listener() {
@@ -321,7 +375,8 @@ struct Server::Parts {
   library::DialectCatalog catalog;
   library::AuditTrail audit;
   library::AuditChain chain;
-  std::unique_ptr<library::Backups> backups;  ///< null: none are made
+  std::unique_ptr<library::Backups> backups;      ///< null: none are made
+  std::unique_ptr<library::Retention> retention;  ///< null: everything stays
   identity::Accounts accounts;
   library::Programs programs;
   library::Releases releases;
@@ -329,6 +384,7 @@ struct Server::Parts {
   paths::ProgramPaths paths;
   api::EventHub events;
   imports::Imports imports;
+  measurements::Measurements measurements;
   library::Setups setups;
   std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
   machines::MachineService machine_service;
@@ -431,6 +487,8 @@ Server::~Server() {
   parts_->watch.reset();  // it may announce
   parts_->folder.withdraw();
   parts_->machine_service.stop_waiting();
+  parts_->measurements.end();  // it may hold a machine
+  if (parts_->retention) parts_->retention->end();
   parts_->events.close();
   parts_->http.reset();
   parts_->mtconnect_http.reset();
@@ -451,6 +509,12 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!folder) return fail(folder.error());
   if (auto is_there = folder->expect_database(settings.begin_empty); !is_there)
     return fail(is_there.error());
+  if (!settings.archives.empty()) {
+    std::error_code ec;
+    std::filesystem::create_directories(settings.archives, ec);
+    if (!std::filesystem::is_directory(settings.archives, ec))
+      return fail(Errc::Io, "archives: {} is no folder and cannot be made", settings.archives);
+  }
   auto store = storage::SqliteStore::open({.file = folder->database()}, clock);
   if (!store) return fail(store.error());
   const auto identity = (*store)->identity();
@@ -480,6 +544,8 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
     return fail(used.error());
   parts.programs.on_held([&parts](const auto& revision) { parts.imports.note(revision); });
   parts.imports.begin();
+  parts.measurements.begin();
+  if (parts.retention) parts.retention->begin();
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint = dds::ServerEndpoint::open(network->options, parts.machine_service.handlers());

@@ -135,6 +135,7 @@ using process::yes_no_value;
 using Row = process::SettingRow<Settings>;
 
 constexpr std::uint64_t kHoursOfYear = 8760;
+constexpr std::uint32_t kMostThousands = 4'000'000;
 constexpr std::uint64_t kLongestMs = 600'000;
 constexpr std::uint64_t kMaxConnections = 800;  ///< DDS waits with select(): below 1,000 files
 
@@ -195,6 +196,21 @@ constexpr std::array kRows{
         number_value<1, 3650, &Settings::backup_keep_days>()},
     Row{"backup-keep-weeks", "NUMBER", "", "", "Keep one backup of each of the last weeks",
         number_value<0, 520, &Settings::backup_keep_weeks>()},
+    Row{"archives", "DIR", "", "none: everything stays in the database",
+        "Folder of the archives that old records and measurements are moved into",
+        text_value<&Settings::archives>()},
+    Row{"archive-records-days", "NUMBER", "d", "",
+        "Move records (report lines, alarms ...) into archives after so many days; 0: never",
+        number_value<0, 36500, &Settings::archive_records_days>()},
+    Row{"archive-records-thousands", "NUMBER", "", "",
+        "Move the oldest records into archives when there are more thousands of them; 0: never",
+        number_value<0, kMostThousands, &Settings::archive_records_rows>()},
+    Row{"archive-measurements-days", "NUMBER", "d", "",
+        "Move measurements into archives so many days after their part; 0: never",
+        number_value<0, 36500, &Settings::archive_measurements_days>()},
+    Row{"archive-measurements-thousands", "NUMBER", "", "",
+        "Move the oldest measurements into archives when there are more thousands; 0: never",
+        number_value<0, kMostThousands, &Settings::archive_measurements_rows>()},
     Row{"log", "FILE", "", "standard error", "Log file", text_value<&Settings::log>()},
     Row{"log-level", "LEVEL", "", "",
         "Lowest level that is logged: debug, info, warn, error or off",

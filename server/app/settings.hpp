@@ -37,6 +37,11 @@ struct Settings {
   std::uint32_t backup_every_hours = 24;
   std::uint32_t backup_keep_days = 14;
   std::uint32_t backup_keep_weeks = 26;
+  std::string archives;  ///< folder of the archives; empty: nothing is taken out of the tables
+  std::uint32_t archive_records_days = 0;  ///< 0: by age none; likewise the next ones
+  std::uint32_t archive_records_rows = 0;  ///< thousands
+  std::uint32_t archive_measurements_days = 0;
+  std::uint32_t archive_measurements_rows = 0;  ///< thousands
   std::string restore;               ///< on the command line alone: a backup, or kNewestBackup
   bool begin_empty = false;          ///< on the command line alone, for one start
   bool recover_admin = false;        ///< likewise

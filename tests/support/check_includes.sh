@@ -8,13 +8,15 @@ table='
 protocol/base: protocol/base
 protocol/pki: protocol/base protocol/pki
 protocol/audit: protocol/base protocol/audit
+protocol/archive: protocol/base protocol/archive
+protocol/measurement: protocol/base protocol/measurement
 protocol/wire: protocol/base protocol/wire
 protocol/process: protocol/base protocol/process
 protocol/serial: protocol/base protocol/wire protocol/serial
 protocol/dds: protocol/base protocol/pki protocol/dds
 storage/sqlite: protocol/base storage/sqlite
 storage/backup: protocol/base storage
-storage: protocol/base protocol/audit storage
+storage: protocol/base protocol/audit protocol/measurement storage
 gateway/interpreter/core: protocol/base gateway/interpreter/core
 gateway/interpreter/stages: protocol/base gateway/interpreter/core gateway/interpreter/stages
 gateway/interpreter/dialects/centurion: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/centurion
@@ -33,19 +35,21 @@ gateway/machine/grbl: protocol/base protocol/wire protocol/serial gateway/interp
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite
-server/library: protocol/base protocol/pki protocol/audit protocol/process storage gateway/interpreter server/library
+server/library: protocol/base protocol/archive protocol/measurement protocol/pki protocol/audit protocol/process storage gateway/interpreter server/library
 server/identity: protocol/base protocol/process storage server/library server/identity
 server/machines: protocol storage gateway/interpreter server/library server/machines
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
 server/paths: protocol/base storage gateway/interpreter clients/tools/comparison clients/tools/offline server/library server/machines server/paths
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
-server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/imports server/api
+server/measurements: protocol/base protocol/measurement protocol/process storage clients/tools/report_template server/measurements
+server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/api
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
 clients/lib: protocol/base clients/lib
-clients/tools: protocol/base protocol/wire gateway/interpreter clients/tools
-clients/cli: protocol/base protocol/pki protocol/audit protocol/wire protocol/serial gateway/interpreter clients
+clients/tools: protocol/base protocol/measurement protocol/wire gateway/interpreter clients/tools
+clients/tools/report_template: protocol/base protocol/measurement clients/tools/report_template
+clients/cli: protocol/base protocol/archive protocol/pki protocol/audit protocol/measurement protocol/wire protocol/serial gateway/interpreter clients
 '
 declare -A allowed_by
 while IFS=: read -r row folders; do

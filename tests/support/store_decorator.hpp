@@ -95,6 +95,22 @@ class RecordStoreDecorator : public storage::RecordStore {
                                               storage::Page page) override {
     return inner_.of_run(run, kind, page);
   }
+  Result<std::vector<storage::Record>> of_run_after(const std::string& run,
+                                                    const std::string& kind,
+                                                    storage::RecordPlace after,
+                                                    std::uint64_t limit) override {
+    return inner_.of_run_after(run, kind, after, limit);
+  }
+  Result<std::vector<storage::Record>> of_machine_after(const std::string& machine,
+                                                        storage::RecordPlace after,
+                                                        std::uint64_t limit) override {
+    return inner_.of_machine_after(machine, after, limit);
+  }
+  Result<std::vector<storage::Record>> machine_report_after(const std::string& machine,
+                                                            storage::RecordPlace after,
+                                                            std::uint64_t limit) override {
+    return inner_.machine_report_after(machine, after, limit);
+  }
   Result<std::vector<storage::MachineReport>> machine_reports() override {
     return inner_.machine_reports();
   }
@@ -115,15 +131,15 @@ class RecordStoreDecorator : public storage::RecordStore {
 /// `store` with one of its parts replaced; the part must outlive it.
 inline storage::Store with(const storage::Store& store, storage::ProgramStore& programs) {
   return {programs,     store.uploads, store.machines, store.runs,     store.records, store.ports,
-          store.setups, store.audit,   store.accounts, store.releases, store.imports};
+          store.setups, store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements, store.archives};
 }
 inline storage::Store with(const storage::Store& store, storage::MachineStore& machines) {
   return {store.programs, store.uploads, machines,       store.runs,     store.records, store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports};
+          store.setups,   store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements, store.archives};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
   return {store.programs, store.uploads, store.machines, store.runs,     records,      store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports};
+          store.setups,   store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements, store.archives};
 }
 
 }  // namespace dripline::test_support

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/archive_commands.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
@@ -126,7 +127,7 @@ int print_report(client::Client& client, const ReportOf& report, const std::stri
 }
 
 struct ShowCommand {
-  std::string run;
+  std::string run, archive;
   bool is_raw = false;
 };
 
@@ -207,9 +208,19 @@ void add_report_commands(Command app, Context& context) {
       "--raw", shown->is_raw,
       "Print control characters unchanged, also on a terminal (otherwise as \\x1b)");
   add_json_flag(show_command, context);
-  run_at_server(show_command, context, shown, show);
+  show_command.add_option("--archive", shown->archive,
+                          "Read it from this archive instead; needs no server");
+  show_command.callback([&context, shown] {
+    if (!shown->archive.empty()) {
+      context.status = show_archived_report(context, shown->archive, shown->run);
+    } else if (auto client = context.connect()) {
+      context.status = show(context, *client, *shown);
+    }
+  });
 
   add_export(group, context);
+  add_measurement_commands(group, context);
+  add_template_commands(group, context);
 }
 
 }  // namespace dripline::cli

@@ -151,9 +151,25 @@ TEST_P(KeptFile, HasAnImportQueue) {
   EXPECT_EQ(waiting->front().compared->fault.empty(), version() >= 10);
 }
 
+/// What was reported before version 13 is passed over: no template was there for it.
+TEST_P(KeptFile, HasMeasurementsSinceVersion13) {
+  reopen();
+  const bool has_them = version() >= 13;
+  EXPECT_EQ(store_->measurements.list({.run = "r1"}, {}, 10)->size(), has_them ? 1u : 0u);
+  EXPECT_TRUE(store_->measurements.underived()->empty());
+  EXPECT_EQ(store_->measurements.next_part_id(), has_them ? 2u : 1u);
+  EXPECT_EQ(store_->report_templates.assignments()->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->archives.list({})->size(), has_them ? 1u : 0u);
+  if (!has_them) return;
+  const auto measured = store_->measurements.list({.run = "r1"}, {}, 10)->front();
+  EXPECT_EQ(measured.actual, 1.5);
+  EXPECT_EQ(measured.verdict, measurement::Verdict::Rework);
+  EXPECT_EQ(measured.serial, "S7");
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
-                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql"),
+                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v13.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

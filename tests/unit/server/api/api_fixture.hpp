@@ -39,6 +39,9 @@ class ApiTest : public ServerTest {
                                 .policy = releases_->policy(),
                                 .clock = clock_,
                                 .on_change = api::publish_imports_to(events_)});
+    measurements_ =
+        std::make_unique<measurements::Measurements>(measurements::Measurements::Parts{
+            .store = *store_, .clock = clock_, .on_part = api::publish_parts_to(events_)});
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .releases = *releases_,
                                                     .setups = *setups_,
@@ -59,7 +62,9 @@ class ApiTest : public ServerTest {
                                                     .ports = ports,
                                                     .health = &health_,
                                                     .backups = backups_.get(),
-                                                    .imports = imports_.get()});
+                                                    .imports = imports_.get(),
+                                                    .measurements = measurements_.get(),
+                                                    .retention = retention_.get()});
   }
 
   /// Made when they are asked for, in a folder beside the store.
@@ -80,6 +85,20 @@ class ApiTest : public ServerTest {
                                 .health = health_,
                                 .clock = clock_},
         library::Backups::Options{.every = std::chrono::hours(0)});
+    make_api(&ports_);
+  }
+
+  /// Of what is older than a day, in a folder beside the store.
+  void set_up_archives() {
+    library::Retention::Options options;
+    options.records.age = options.measurements.age = std::chrono::hours(24);
+    retention_ = std::make_unique<library::Retention>(
+        library::Retention::Parts{.store = *store_,
+                                  .clock = clock_,
+                                  .folder = folder_.path(),
+                                  .database = "db",
+                                  .made_by = "dncd 1"},
+        options);
     make_api(&ports_);
   }
 
@@ -185,6 +204,8 @@ class ApiTest : public ServerTest {
   api::EventHub events_;
   std::unique_ptr<paths::ProgramPaths> paths_;
   std::unique_ptr<imports::Imports> imports_;
+  std::unique_ptr<measurements::Measurements> measurements_;
+  std::unique_ptr<library::Retention> retention_;
   std::unique_ptr<api::Api> api_;
 };
 

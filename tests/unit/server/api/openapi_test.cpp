@@ -223,6 +223,42 @@ class OpenApi : public ApiTest {
       expect_described("GET", path, get("/api/v1/imports/O4/" + number));
   }
 
+  void expect_archives_described() {
+    set_up_archives();
+    clock_.advance(std::chrono::hours(48));
+    const auto made = call("POST", "/api/v1/archives");
+    EXPECT_EQ(made.status, 200) << made.body;
+    expect_described("POST", "/api/v1/archives", made);
+    EXPECT_FALSE(json(get("/api/v1/archives"))["archives"].empty());
+    expect_described("GET", "/api/v1/archives", get("/api/v1/archives"));
+  }
+  void expect_measurements_described() {
+    const std::string one = "/api/v1/report-templates/{name}",
+                      all = "/api/v1/report-template-assignments",
+                      assignment = all + "/{scope}/{subject}/{template}";
+    const Call text{.body = "[[line]]\nform = 'X{actual}, {q}'\ncharacteristic = 'X'\n",
+                    .headers = {}};
+    expect_described("PUT", one, call("PUT", "/api/v1/report-templates/bore", text));
+    expect_described("PUT", assignment, call("PUT", all + "/machine/lathe-1/bore"));
+    expect_described("GET", "/api/v1/report-templates", get("/api/v1/report-templates"));
+    expect_described("GET", one, get("/api/v1/report-templates/bore"));
+    expect_described("GET", all, get(all));
+    ASSERT_TRUE(store_->runs.set_state("run-1", storage::RunState::Aborted, "test"));
+    const std::string run = "/api/v1/runs/{id}/measurements";
+    const auto derived = call("POST", "/api/v1/runs/run-1/measurements");
+    EXPECT_EQ(derived.status, 200) << derived.body;
+    expect_described("POST", run, derived);
+    EXPECT_FALSE(json(get("/api/v1/measurements"))["measurements"].empty());
+    expect_described("GET", "/api/v1/measurements", get("/api/v1/measurements"));
+    expect_described("GET", "/api/v1/characteristics", get("/api/v1/characteristics"));
+    expect_described("GET", "/api/v1/parts", get("/api/v1/parts"));
+    expect_described("GET", "/api/v1/parts/{id}", get("/api/v1/parts/1"));
+    expect_described("GET", "/api/v1/report-findings", get("/api/v1/report-findings"));
+    expect_described("GET", "/api/v1/runs/{id}", get("/api/v1/runs/run-1"));
+    expect_described("DELETE", assignment, call("DELETE", all + "/machine/lathe-1/bore"));
+    expect_described("DELETE", one, call("DELETE", "/api/v1/report-templates/bore"));
+  }
+
   Json document_;
   std::set<std::string> covered_;
 };
@@ -339,6 +375,8 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_described("DELETE", "/api/v1/programs/{name}", call("DELETE", "/api/v1/programs/O2"));
   expect_accounts_described();
   expect_backups_described();
+  expect_measurements_described();
+  expect_archives_described();
   for (const auto& route : api_->router().routes()) {
     EXPECT_TRUE(covered_.contains(route.method + " " + route.pattern))
         << route.method << " " << route.pattern << " is not covered by this test";
