@@ -28,6 +28,7 @@ gateway/interpreter/dialects/tnc155: protocol/base gateway/interpreter/core gate
 gateway/interpreter: protocol/base gateway/interpreter
 clients/tools/program_editing: protocol/base gateway/interpreter clients/tools/program_editing clients/tools/tnc_conversion
 clients/tools/tnc_conversion: protocol/base gateway/interpreter clients/tools/tnc_conversion
+clients/tools/statistics: protocol/base clients/tools/statistics
 clients/tools/authority: protocol/base protocol/pki clients/tools/authority
 clients/tools/tnc_probing: protocol/base gateway/interpreter clients/tools/tnc_probing
 gateway/machine: protocol/base gateway/interpreter gateway/machine
@@ -88,7 +89,8 @@ only() {  # pattern, folder
 }
 only 'dds/' protocol/dds
 only 'SQLiteCpp|sqlite3' storage/sqlite
-only 'boost/' server/api
+only 'boost/(asio|beast|system)' server/api
+only 'boost/math' clients/tools/statistics
 only 'httplib' clients/lib
 only 'sodium' server/identity
 only 'libxml/' server/mtconnect
