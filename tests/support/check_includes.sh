@@ -88,6 +88,7 @@ only() {  # pattern, folder
   fi
 }
 only 'dds/' protocol/dds
+only 'cairo' clients/tools/chart_images
 only 'SQLiteCpp|sqlite3' storage/sqlite
 only 'boost/(asio|beast|system)' server/api
 only 'boost/math' clients/tools/statistics
