@@ -19,6 +19,10 @@ struct DigitizedPoint {
 Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source);
 inline constexpr std::size_t kMaxPoints = 4'000'000;
 
+/// Two or three numbers a line, separated by comma, semicolon, tab or space; a first line of names
+/// is skipped. Errors: Syntax (with the line), LimitExceeded (over kMaxPoints).
+Result<std::vector<DigitizedPoint>> read_points(std::string_view file);
+
 /// x,y,z a line, millimeters.
 Result<void> write_points_csv(std::span<const DigitizedPoint> points, const Sink& sink);
 /// AutoCAD R12 ASCII, which every CAD program reads: the points on layer POINTS, and a polyline
