@@ -90,6 +90,8 @@ void add_report_commands(Command app, Context& context);
 /// Verbs of `dnc report`.
 void add_measurement_commands(Command report, Context& context);
 void add_template_commands(Command report, Context& context);
+void add_report_chart_command(Command report, Context& context);
+void add_statistics_commands(Command report, Context& context);
 void add_server_commands(Command app, Context& context);
 void add_audit_commands(Command app, Context& context);
 void add_login_commands(Command app, Context& context);

@@ -15,9 +15,9 @@ using measurement::Measurement;
 using nlohmann::ordered_json;
 
 constexpr std::string_view kHead =
-    "time,machine,run,program,revision,block,line,part,serial,tool,characteristic,unit,nominal,"
+    "id,time,machine,run,program,revision,part,part_number,serial,tool,characteristic,nominal,"
     "lower,"
-    "upper,actual,deviation,verdict,epoch,number,item\r\n";
+    "upper,unit,actual,deviation,verdict,block,line,epoch,number,item\r\n";
 
 std::string quoted(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
@@ -42,12 +42,12 @@ std::string csv_line(const Measurement& m) {
   // 39.98 - 40 is not -0.02 in binary; the deviation has the decimals of its terms.
   if (off)
     off = std::round(*off * std::pow(10.0, of.decimals + 3)) / std::pow(10.0, of.decimals + 3);
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n",
-                     to_iso8601(m.time), quoted(m.machine), quoted(m.run), quoted(m.program),
-                     m.revision, m.block, m.line, quoted(m.part), quoted(m.serial), quoted(m.tool),
-                     quoted(of.name), quoted(of.unit), number(of.nominal), number(of.lower),
-                     number(of.upper), number(m.actual), number(off), to_string(m.verdict),
-                     m.record.epoch, m.record.number, m.item);
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n",
+                     m.id, to_iso8601(m.time), quoted(m.machine), quoted(m.run), quoted(m.program),
+                     m.revision, m.part_id, quoted(m.part), quoted(m.serial), quoted(m.tool),
+                     quoted(of.name), number(of.nominal), number(of.lower), number(of.upper),
+                     quoted(of.unit), number(m.actual), number(off), to_string(m.verdict), m.block,
+                     m.line, m.record.epoch, m.record.number, m.item);
 }
 
 ordered_json json_of(const std::optional<double>& value) {
@@ -60,6 +60,7 @@ ordered_json json_of(const std::optional<double>& value) {
 class Fields {
  public:
   virtual ~Fields() = default;
+  virtual bool has(const char* name) const = 0;
   virtual Result<std::string> text(const char* name) const = 0;
   virtual Result<std::optional<double>> number(const char* name) const = 0;
 };
@@ -67,6 +68,7 @@ class Fields {
 class JsonFields final : public Fields {
  public:
   explicit JsonFields(const ordered_json& object) : object_(object) {}
+  bool has(const char* name) const override { return object_.contains(name); }
   Result<std::string> text(const char* name) const override {
     const auto found = object_.find(name);
     if (found == object_.end() || found->is_null()) return std::string();
@@ -90,6 +92,7 @@ class CsvFields final : public Fields {
   CsvFields(const std::map<std::string, std::size_t>& columns,
             const std::vector<std::string>& fields)
       : columns_(columns), fields_(fields) {}
+  bool has(const char* name) const override { return columns_.contains(name); }
   Result<std::string> text(const char* name) const override {
     const auto found = columns_.find(name);
     if (found == columns_.end() || found->second >= fields_.size()) return std::string();
@@ -168,25 +171,29 @@ Result<Measurement> read_fields(const Fields& fields) {
   const auto actual = reader.number("actual") ? reader.number("actual") : reader.number("value");
   if (!actual && !reader.error()) return fail(Errc::Syntax, "there is no actual value");
   m.actual = actual.value_or(0);
-  m.machine = reader.text("machine");
+  m.machine = reader.text(fields.has("machine") ? "machine" : "appraiser");  // of a gauge study
   m.run = reader.text("run");
   m.program = reader.text("program");
   m.revision = reader.count("revision");
   m.block = reader.count("block");
   m.line = reader.count("line");
-  m.part = reader.text("part");
   m.serial = reader.text("serial");
   m.tool = reader.text("tool");
-  m.part_id = reader.count("part_id");
+  // In the server's files `part` is the part's id; tables of others have its number there.
+  m.part = reader.text("part_number");
+  if (fields.has("part_number")) {
+    m.part_id = reader.count("part");
+  } else {
+    m.part = reader.text("part");
+  }
+  m.id = reader.count("id");
   read_characteristic(reader, m.characteristic);
   m.record = {reader.count("epoch"), reader.count("number")};
   m.item = static_cast<std::uint32_t>(std::min<std::uint64_t>(reader.count("item"), 0xFFFFFFFFU));
   if (const auto time = reader.text("time"); !time.empty()) {
-    if (const auto parsed = parse_time(time)) {
-      m.time = *parsed;
-    } else {
-      reader.note({Errc::Syntax, fmt::format("time '{}' is none: 2026-11-21T07:40:06Z", time)});
-    }
+    const auto parsed = parse_iso8601(time);
+    if (!parsed) reader.note(parsed.error());
+    m.time = parsed.value_or(UtcTime{});
   }
   if (const auto verdict = reader.text("verdict"); !verdict.empty()) {
     const auto parsed = measurement::parse_verdict(verdict);
@@ -292,25 +299,27 @@ Result<void> write_csv(MeasurementSource& source, const Sink& sink) {
 
 std::string json_line(const Measurement& m) {
   const auto& of = m.characteristic;
-  const ordered_json object{{"time", to_iso8601(m.time)},
+  const ordered_json object{{"id", m.id},
+                            {"time", to_iso8601(m.time)},
                             {"machine", m.machine},
                             {"run", m.run},
                             {"program", m.program},
                             {"revision", m.revision},
-                            {"block", m.block},
-                            {"line", m.line},
-                            {"part_id", m.part_id},
-                            {"part", m.part},
+                            {"part", m.part_id},
+                            {"part_number", m.part},
                             {"serial", m.serial},
                             {"tool", m.tool},
                             {"characteristic", of.name},
-                            {"unit", of.unit},
-                            {"decimals", of.decimals},
                             {"nominal", json_of(of.nominal)},
                             {"lower", json_of(of.lower)},
                             {"upper", json_of(of.upper)},
+                            {"unit", of.unit},
+                            {"decimals", of.decimals},
                             {"actual", m.actual},
+                            {"deviation", json_of(deviation(m))},
                             {"verdict", to_string(m.verdict)},
+                            {"block", m.block},
+                            {"line", m.line},
                             {"epoch", m.record.epoch},
                             {"number", m.record.number},
                             {"item", m.item}};

@@ -6,11 +6,9 @@
 
 namespace dripline::measurement_files {
 
-/// RFC 4180 with a head line: time, machine, run, program, revision, block, line, part, serial,
-/// tool, characteristic, unit, nominal, lower, upper, actual, deviation, verdict, epoch, number,
-/// item.
+/// RFC 4180 with a head line; the columns are those of the server's export.
 Result<void> write_csv(MeasurementSource& source, const Sink& sink);
-/// One JSON object a line, with the same names; what is absent is null.
+/// One JSON object a line, with the same names.
 Result<void> write_json_lines(MeasurementSource& source, const Sink& sink);
 
 /// One line of write_json_lines; also one element of the server's answer.
@@ -25,8 +23,5 @@ inline constexpr std::size_t kMaxColumns = 256;
 /// `actual` (or `value`) at least, with comma, semicolon or tab. Empty lines are skipped. Errors:
 /// Syntax (with the line), LimitExceeded.
 Result<void> read_measurements(std::string_view file, const Visitor& visit);
-
-/// Verdicts by the limits that a line has, where it has none of its own.
-std::optional<UtcTime> parse_time(std::string_view iso8601);
 
 }  // namespace dripline::measurement_files
