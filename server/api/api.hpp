@@ -120,6 +120,7 @@ void add_release_routes(Router& router, Services& services);
 void add_comparison_routes(Router& router, Services& services);
 void add_import_routes(Router& router, Services& services);
 void add_measurement_routes(Router& router, Services& services);
+void add_chart_routes(Router& router, Services& services);
 void add_report_template_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);

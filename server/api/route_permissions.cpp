@@ -91,6 +91,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/reports/{run}", View},
 
     RoutePermission{"GET", "/api/v1/measurements", View},
+    RoutePermission{"GET", "/api/v1/measurements/chart", View},
     RoutePermission{"GET", "/api/v1/characteristics", View},
     RoutePermission{"GET", "/api/v1/parts", View},
     RoutePermission{"GET", "/api/v1/parts/{id}", View},
