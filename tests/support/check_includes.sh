@@ -43,7 +43,8 @@ server/ports: protocol storage gateway/interpreter server/library server/machine
 server/paths: protocol/base storage gateway/interpreter clients/tools/comparison clients/tools/offline server/library server/machines server/paths
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
 server/measurements: protocol/base protocol/measurement protocol/process storage clients/tools/report_template server/measurements
-server/api: protocol storage gateway/interpreter clients/tools/charts server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/api
+server/offsets: protocol/base protocol/measurement protocol/process storage gateway/interpreter clients/tools/statistics server/library server/offsets
+server/api: protocol storage gateway/interpreter clients/tools/charts server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/offsets server/api
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
