@@ -21,6 +21,7 @@ Api::Api(Services services)
   add_import_routes(router_, services_);
   add_measurement_routes(router_, services_);
   add_chart_routes(router_, services_);
+  add_offset_routes(router_, services_);
   add_report_template_routes(router_, services_);
   add_upload_routes(router_, services_);
   add_machine_routes(router_, services_);

@@ -77,7 +77,12 @@ struct Offsets::Current {
 };
 
 Offsets::~Offsets() {
+  end();
+}
+
+void Offsets::end() {
   worker_.request_stop();
+  if (worker_.joinable()) worker_.join();
 }
 
 void Offsets::begin() {

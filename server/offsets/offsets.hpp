@@ -63,6 +63,8 @@ class Offsets {
 
   /// Looks at all machines with rules once, then at those that are noted.
   void begin();
+  /// Looks at nothing more.
+  void end();
   /// Something was measured on the machine. Never waits.
   void note(const std::string& machine);
 
