@@ -65,7 +65,9 @@ std::string decimal_text(double value, unsigned decimals) {
     std::from_chars(text.data(), text.data() + text.size(), again);
     if (again == value) return text;
   }
-  return fmt::format("{:.{}f}", value, kMostDecimals);
+  // Seventeen digits from the first one that is not 0.
+  const double leading = value == 0 ? 0 : std::max(0.0, -std::floor(std::log10(std::abs(value))));
+  return fmt::format("{:.{}f}", value, kMostDecimals + static_cast<unsigned>(leading));
 }
 
 std::string one_line(std::string_view text) {

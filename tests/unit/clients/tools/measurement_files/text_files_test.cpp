@@ -109,6 +109,7 @@ TEST(DecimalText, IsAsShortAsItCanBe) {
   EXPECT_EQ(decimal_text(40.0125, 3), "40.0125");
   EXPECT_EQ(decimal_text(0.1 + 0.2, 2), "0.30000000000000004");
   EXPECT_EQ(decimal_text(-1e-7, 0), "-0.0000001");
+  EXPECT_EQ(std::stod(decimal_text(1.5e-300, 3)), 1.5e-300);
 }
 
 TEST(Windows1252, ComesBack) {
