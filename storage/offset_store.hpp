@@ -55,15 +55,15 @@ struct OffsetProposal {
 
 struct OffsetDecision {
   std::uint64_t id = 0;
-  Actor who;
-  std::string comment;
-  UtcTime time;
+  Actor who = {};
+  std::string comment = {};
+  UtcTime time = {};
   bool is_automatic = false;
 };
 
 struct OffsetFilter {
-  std::optional<std::string> machine, target;
-  std::optional<OffsetState> state;
+  std::optional<std::string> machine = {}, target = {};
+  std::optional<OffsetState> state = {};
 };
 
 /// Rules and proposals. Promises of every store: storage/store.hpp.
@@ -92,7 +92,8 @@ class OffsetStore {
 
   /// The setup becomes the machine's next version and the proposal is applied, in one transaction
   /// with its audit entry (offset.apply): once, whatever is killed. Errors: NotFound, Conflict (it
-  /// is decided already, or another setup than its base is the newest by now), those of SetupStore::save.
+  /// is decided already, or another setup than its base is the newest by now), those of
+  /// SetupStore::save.
   virtual Result<SetupRevision> apply(const OffsetDecision& decision,
                                       const SetupRevision& setup) = 0;
   /// With its audit entry (offset.reject). Errors: NotFound, Conflict (it is decided already).

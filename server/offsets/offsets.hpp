@@ -32,8 +32,8 @@ struct HistoryEntry {
   std::string target, unit;
   double value = 0;
   storage::SetupRevision setup;  ///< that brought it, without its text
-  std::optional<storage::OffsetProposal> proposal;
-  std::vector<storage::Run> runs;  ///< cut under it, oldest first; at most kMaxRuns
+  std::optional<storage::OffsetProposal> proposal = {};
+  std::vector<storage::Run> runs = {};  ///< cut under it, oldest first; at most kMaxRuns
   std::uint64_t parts = 0, good = 0;
 };
 
