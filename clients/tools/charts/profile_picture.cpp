@@ -125,11 +125,13 @@ std::vector<std::string> notes_of(const ProfilePicture& picture,
   const Extremes extremes = extremes_of(found);
   const auto outside = std::ranges::count_if(
       found, [&](const ContourDeviation& point) { return is_outside(picture, point.deviation); });
-  std::string first =
-      fmt::format("{} points, deviation {:+.4f} to {:+.4f} {}, drawn {:g} times as large",
-                  found.size(), extremes.lowest, extremes.highest, unit, magnification);
-  if (!picture.lower && !picture.upper) return {first, "No limits are given."};
-  return {first, fmt::format("{} points outside the limits", outside)};
+  std::vector<std::string> notes{fmt::format("{} points, deviation {:+.4f} to {:+.4f} {}",
+                                             found.size(), extremes.lowest, extremes.highest, unit),
+                                 fmt::format("drawn {:g} times as large", magnification)};
+  notes.push_back(picture.lower || picture.upper
+                      ? fmt::format("{} points outside the limits", outside)
+                      : std::string("No limits are given."));
+  return notes;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ constexpr std::string_view kHead =
     "lower,"
     "upper,unit,actual,deviation,verdict,block,line,epoch,number,item\r\n";
 
-std::string quoted(std::string_view text) {
+std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string field = "\"";
   for (const char c : text) {
@@ -42,12 +42,12 @@ std::string csv_line(const Measurement& m) {
   // 39.98 - 40 is not -0.02 in binary; the deviation has the decimals of its terms.
   if (off)
     off = std::round(*off * std::pow(10.0, of.decimals + 3)) / std::pow(10.0, of.decimals + 3);
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n",
-                     m.id, to_iso8601(m.time), quoted(m.machine), quoted(m.run), quoted(m.program),
-                     m.revision, m.part_id, quoted(m.part), quoted(m.serial), quoted(m.tool),
-                     quoted(of.name), number(of.nominal), number(of.lower), number(of.upper),
-                     quoted(of.unit), number(m.actual), number(off), to_string(m.verdict), m.block,
-                     m.line, m.record.epoch, m.record.number, m.item);
+  return fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", m.id,
+      to_iso8601(m.time), csv_field(m.machine), csv_field(m.run), csv_field(m.program), m.revision,
+      m.part_id, csv_field(m.part), csv_field(m.serial), csv_field(m.tool), csv_field(of.name),
+      number(of.nominal), number(of.lower), number(of.upper), csv_field(of.unit), number(m.actual),
+      number(off), to_string(m.verdict), m.block, m.line, m.record.epoch, m.record.number, m.item);
 }
 
 ordered_json json_of(const std::optional<double>& value) {

@@ -95,8 +95,8 @@ TEST_F(OffsetRoutes, ChartsWantACharacteristicAndUnderstandTheirQuery) {
                "nothing was measured of characteristic D40");
   expect_error(get(chart + "?characteristic=D40&kind=pie"), 400, "syntax", "chart 'pie'");
   expect_error(get(chart + "?characteristic=D40&colour=red"), 400, "syntax", "'colour'");
-  expect_error(get(chart + "?characteristic=D40&width=99999"), 400, "limit_exceeded", "width");
-  expect_error(get(chart + "?characteristic=D40&last=0"), 400, "limit_exceeded", "last");
+  expect_error(get(chart + "?characteristic=D40&width=99999"), 413, "limit_exceeded", "width");
+  expect_error(get(chart + "?characteristic=D40&last=0"), 413, "limit_exceeded", "last");
 }
 
 }  // namespace

@@ -39,7 +39,9 @@ TEST(Aqdef, FieldsAscendInEachBlock) {
     const std::string key = line.substr(0, 5), number = line.substr(5, line.find(' ') - 5);
     const bool is_new_block =
         key.substr(0, 3) != before.substr(0, 3) || key == "K0001" || key == "K2001";
-    if (!is_new_block) EXPECT_LT(before, key) << line;
+    if (!is_new_block) {
+      EXPECT_LT(before, key) << line;
+    }
     before = key;
   }
 }
@@ -59,7 +61,9 @@ void expect_same_values(const std::vector<Measurement>& got, bool has_ident) {
     EXPECT_EQ(sorted[i].program, "O0100");
     EXPECT_EQ(sorted[i].time, expected[i].time);
     EXPECT_EQ(sorted[i].characteristic, expected[i].characteristic);
-    if (has_ident) EXPECT_EQ(sorted[i].serial, expected[i].serial);
+    if (has_ident) {
+      EXPECT_EQ(sorted[i].serial, expected[i].serial);
+    }
   }
 }
 

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {1, -1.1, 1.1, -1.1, 1.1, -1.1, 1.1, -1.1}}),
     [](const auto& i) { return std::string{i.param.name}; });
 
-TEST(Rules, NameThePointAndWhatItMeans) {
+TEST(RuleTexts, NameThePointAndWhatItMeans) {
   const std::vector<double> points{0, 0.5, 3.5};
   const auto found = find_violations(points, 0, 1, RuleSet::Nelson);
   ASSERT_EQ(found.size(), 1U);

@@ -43,42 +43,4 @@ inline std::vector<double> numacc(double middle, double low, double high) {
   return values;
 }
 
-/// The first 5,000 digits of pi, by the spigot of Rabinowitz and Wagon (1995).
-inline std::vector<double> pi_digits() {
-  constexpr std::size_t kDigits = 5000;
-  const std::size_t length = kDigits * 10 / 3 + 20;
-  std::vector<long long> a(length, 2);
-  std::vector<double> digits;
-  int predigit = 0, nines = 0;
-  bool is_first = true;
-  const auto put = [&](int digit) {
-    if (!is_first) digits.push_back(digit);
-    is_first = false;
-  };
-  while (digits.size() < kDigits) {
-    long long carry = 0;
-    for (std::size_t i = length; i-- > 0;) {
-      const auto divisor = static_cast<long long>(2 * i + 1);
-      const long long x = 10 * a[i] + carry * static_cast<long long>(i + 1);
-      a[i] = x % divisor;
-      carry = x / divisor;
-    }
-    a[0] = carry % 10;
-    const auto digit = static_cast<int>(carry / 10);
-    if (digit == 9) {
-      ++nines;
-    } else if (digit == 10) {
-      put(predigit + 1);
-      for (; nines > 0; --nines) put(0);
-      predigit = 0;
-    } else {
-      put(predigit);
-      for (; nines > 0; --nines) put(9);
-      predigit = digit;
-    }
-  }
-  digits.resize(kDigits);
-  return digits;
-}
-
 }  // namespace dripline::statistics::strd
