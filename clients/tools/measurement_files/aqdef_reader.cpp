@@ -30,7 +30,7 @@ std::optional<UtcTime> date_of(std::string_view text) {
                     std::string(text.substr(0, 2)) + "T" + std::string(text.substr(11));
   if (text[10] != '/' && text[10] != ' ') return std::nullopt;
   if (text.size() == 16) iso += ":00";
-  const auto time = parse_iso8601(iso);
+  const auto time = parse_iso8601(iso + 'Z');
   return time ? std::optional(*time) : std::nullopt;
 }
 

@@ -59,7 +59,7 @@ void append_utf8(std::string& text, char32_t code) {
 }  // namespace
 
 std::string decimal_text(double value, unsigned decimals) {
-  for (unsigned tried = decimals; tried < kMostDecimals; ++tried) {
+  for (unsigned tried = decimals; tried <= kMostDecimals; ++tried) {
     std::string text = fmt::format("{:.{}f}", value, tried);
     double again = 0;
     std::from_chars(text.data(), text.data() + text.size(), again);

@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace dripline::statistics {
 namespace {
+
+/// 40.02 is (40.02 - 40) / 0.02 = 1.00000000000007 sigma from 40: binary numbers must not move a
+/// point off its line.
+constexpr double kOnTheLine = 1e-9;
 
 /// Sees the points in units of sigma from the center and answers for the pattern that ends at one
 /// of them.
@@ -17,16 +22,16 @@ class Pattern {
   /// point among them.
   bool beyond(double distance, std::size_t hits, std::size_t window) const {
     const double side = z_[last_] > 0 ? 1 : -1;
-    if (side * z_[last_] <= distance || last_ + 1 < hits) return false;
+    if (side * z_[last_] <= distance + kOnTheLine || last_ + 1 < hits) return false;
     const std::size_t begin = last_ + 1 >= window ? last_ + 1 - window : 0;
     const auto in_window = z_.subspan(begin, last_ + 1 - begin);
-    const auto found =
-        std::ranges::count_if(in_window, [&](double z) { return side * z > distance; });
+    const auto found = std::ranges::count_if(
+        in_window, [&](double z) { return side * z > distance + kOnTheLine; });
     return static_cast<std::size_t>(found) >= hits;
   }
   bool one_side(std::size_t count) const {
-    return all(count, [&](double z) { return z > 0; }) ||
-           all(count, [](double z) { return z < 0; });
+    return all(count, [](double z) { return z > kOnTheLine; }) ||
+           all(count, [](double z) { return z < -kOnTheLine; });
   }
   bool trend(std::size_t count) const {
     return steps(count, [](double, double step) { return step > 0; }) ||
@@ -36,10 +41,10 @@ class Pattern {
     return steps(count, [](double before, double step) { return step != 0 && before * step <= 0; });
   }
   bool within(double distance, std::size_t count) const {
-    return all(count, [&](double z) { return z > -distance && z < distance; });
+    return all(count, [&](double z) { return std::abs(z) < distance - kOnTheLine; });
   }
   bool outside(double distance, std::size_t count) const {
-    return all(count, [&](double z) { return z > distance || z < -distance; });
+    return all(count, [&](double z) { return std::abs(z) > distance + kOnTheLine; });
   }
 
  private:

@@ -37,7 +37,8 @@ TEST(AverageAndRange, AgreesWithTheAiagsReport) {
   const auto result = average_and_range(aiag_study(), std::nullopt);
   ASSERT_TRUE(result);
   EXPECT_NEAR(result->repeatability.deviation, 0.20188, 0.00002);
-  // The manual computes with rounded terms: a difference of 0.4446 where it is 0.44467, and K3 0.3146.
+  // The manual computes with rounded terms: a difference of 0.4446 where it is 0.44467, and K3
+  // 0.3146.
   EXPECT_NEAR(result->reproducibility.deviation, 0.22963, 0.00006);
   EXPECT_NEAR(result->gauge.deviation, 0.30575, 0.00004);
   EXPECT_NEAR(result->parts.deviation * 0.3146 / 0.314559, 1.10456, 0.00006);
