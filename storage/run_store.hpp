@@ -64,7 +64,8 @@ struct Run {
 struct RunFilter {
   std::optional<std::string> machine, program;
   std::optional<RunState> state;
-  bool with_outputs = false;  ///< only runs that have stored report lines
+  std::optional<std::uint64_t> setup = {};  ///< only runs that were started with this setup
+  bool with_outputs = false;                ///< only runs that have stored report lines
 };
 
 /// What a machine reports of an active run.

@@ -9,6 +9,7 @@
 #include "storage/impl/archive_repository.hpp"
 #include "storage/impl/import_repository.hpp"
 #include "storage/impl/measurement_repository.hpp"
+#include "storage/impl/offset_repository.hpp"
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/release_repository.hpp"
 #include "storage/impl/report_template_repository.hpp"
@@ -67,7 +68,8 @@ struct SqliteStore::Repositories {
         imports(*connections),
         report_templates(*connections),
         measurements(*connections),
-        archives(*connections) {}
+        archives(*connections),
+        offsets(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -84,6 +86,7 @@ struct SqliteStore::Repositories {
   ReportTemplateRepository report_templates;
   MeasurementRepository measurements;
   ArchiveRepository archives;
+  OffsetRepository offsets;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -95,11 +98,11 @@ Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions&
 }
 
 SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
-    : Store{repositories->programs, repositories->uploads, repositories->machines,
-            repositories->runs,     repositories->records, repositories->ports,
-            repositories->setups,   repositories->audit,   repositories->accounts,
-            repositories->releases, repositories->imports, repositories->report_templates,
-            repositories->measurements, repositories->archives},
+    : Store{repositories->programs,     repositories->uploads,  repositories->machines,
+            repositories->runs,         repositories->records,  repositories->ports,
+            repositories->setups,       repositories->audit,    repositories->accounts,
+            repositories->releases,     repositories->imports,  repositories->report_templates,
+            repositories->measurements, repositories->archives, repositories->offsets},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

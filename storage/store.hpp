@@ -6,6 +6,7 @@
 #include "storage/import_store.hpp"
 #include "storage/machine_store.hpp"
 #include "storage/measurement_store.hpp"
+#include "storage/offset_store.hpp"
 #include "storage/port_store.hpp"
 #include "storage/program_store.hpp"
 #include "storage/record_store.hpp"
@@ -17,7 +18,7 @@
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: fourteen interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: fifteen interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -36,6 +37,7 @@ struct Store {
   ReportTemplateStore& report_templates;
   MeasurementStore& measurements;
   ArchiveStore& archives;
+  OffsetStore& offsets;
 };
 
 }  // namespace dripline::storage

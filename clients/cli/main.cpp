@@ -92,6 +92,7 @@ int run(int argc, char** argv) {
   const Command dnc(&app);
   add_program_commands(dnc, context);
   add_import_commands(dnc, context);
+  add_offset_commands(dnc, context);
   add_machine_commands(dnc, context);
   add_run_commands(dnc, context);
   add_port_commands(dnc, context);

@@ -96,6 +96,12 @@ struct MeasurementQuery {
   std::string after = {};  ///< `next` of the answer before
 };
 
+/// Texts that are empty match everything.
+struct OffsetQuery {
+  std::string machine, target, state;
+  std::uint64_t limit = 100;
+};
+
 /// `scope`: program, machine, macro.
 struct TemplateAssignment {
   std::string scope, subject, name;
@@ -310,6 +316,20 @@ class Client {
   Reply<std::string> archives(Page page);
   /// Applies retention now.
   Reply<std::string> make_archives();
+
+  // Offset proposals; answers are the server's JSON.
+  Reply<std::string> offsets(const OffsetQuery& query);
+  Reply<std::string> offset(std::uint64_t id);
+  /// `decision`: approve or reject.
+  Reply<std::string> decide_offset(std::string_view machine, std::uint64_t id,
+                                   std::string_view decision, const std::string& comment);
+  Reply<std::string> evaluate_offsets(std::string_view machine);
+  Reply<std::string> offset_rules(std::string_view machine);
+  Reply<std::string> save_offset_rules(std::string_view machine, std::string_view text);
+  /// `target` empty: all. `limit`: setups that are looked through, newest first.
+  Reply<std::string> offset_history(std::string_view machine, std::string_view target,
+                                    std::uint64_t limit);
+  Reply<std::string> offsets_of_run(std::string_view run);
 
  private:
   Reply<std::string> fetch_text(HttpRequest request, std::string_view body = {});

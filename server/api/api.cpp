@@ -20,6 +20,8 @@ Api::Api(Services services)
   add_comparison_routes(router_, services_);
   add_import_routes(router_, services_);
   add_measurement_routes(router_, services_);
+  add_chart_routes(router_, services_);
+  add_offset_routes(router_, services_);
   add_report_template_routes(router_, services_);
   add_archive_routes(router_, services_);
   add_upload_routes(router_, services_);

@@ -25,6 +25,7 @@
 #include "server/library/setups.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/measurements/measurements.hpp"
+#include "server/offsets/offsets.hpp"
 #include "server/paths/program_paths.hpp"
 #include "server/ports/port_control.hpp"
 
@@ -60,6 +61,7 @@ struct Services {
   imports::Imports* imports = nullptr;  ///< null: a server without an import queue
   measurements::Measurements* measurements = nullptr;  ///< null: a server without measurements
   library::Retention* retention = nullptr;  ///< null: everything stays in the database
+  offsets::Offsets* offsets = nullptr;                 ///< null: a server without offset proposals
   bool has_tls = false;                 ///< the sockets in front of it do
 };
 
@@ -110,6 +112,9 @@ std::function<void(const storage::Import&)> publish_imports_to(EventHub& hub);
 /// The listener that publishes the verdicts on parts as events.
 std::function<void(const storage::MeasuredPart&)> publish_parts_to(EventHub& hub);
 
+/// The listener that publishes offset proposals and what becomes of them as events.
+std::function<void(const storage::OffsetProposal&)> publish_offsets_to(EventHub& hub);
+
 /// The OpenAPI description, as JSON text.
 std::string_view openapi_text();
 
@@ -122,6 +127,8 @@ void add_release_routes(Router& router, Services& services);
 void add_comparison_routes(Router& router, Services& services);
 void add_import_routes(Router& router, Services& services);
 void add_measurement_routes(Router& router, Services& services);
+void add_chart_routes(Router& router, Services& services);
+void add_offset_routes(Router& router, Services& services);
 void add_report_template_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);

@@ -27,6 +27,7 @@
 #include "server/machines/machine_service.hpp"
 #include "server/measurements/measurements.hpp"
 #include "server/mtconnect/agent.hpp"
+#include "server/offsets/offsets.hpp"
 #include "server/ports/line_machines.hpp"
 #include "server/ports/port_service.hpp"
 #include "server/web/page.hpp"
@@ -190,14 +191,22 @@ struct Server::Parts {
                  .on_change = api::publish_imports_to(events)}),
         measurements({.store = *store,
                       .clock = clock,
-                      .on_part = api::publish_parts_to(events),
+                      .on_part =
+                          [this, publish = api::publish_parts_to(events)](const auto& part) {
+                            publish(part);
+                            offsets.note(part.machine);
+                          },
                       .hold_queue = {},  // there is no job queue yet
-                      .hold_machine = [this](const storage::MeasuredPart& part,
-                                             const std::string& reason) {
-                        return hold_machine(part, reason);
-                      }}),
+                      .hold_machine =
+                          [this](const storage::MeasuredPart& part, const std::string& reason) {
+                            return hold_machine(part, reason);
+                          }}),
         setups(store->setups, catalog, audit),
         mtconnect(make_mtconnect(settings, loaded)),
+        offsets({.store = *store,
+                 .setups = setups,
+                 .clock = clock,
+                 .on_change = api::publish_offsets_to(events)}),
         machine_service({.store = *store, .releases = releases, .clock = clock}, machine_options(),
                         machine_listener()),
         ports({.store = *store, .releases = releases, .clock = clock}, programs,
@@ -229,6 +238,7 @@ struct Server::Parts {
              .imports = &imports,
              .measurements = &measurements,
              .retention = retention.get(),
+             .offsets = &offsets,
              .has_tls = !settings.tls_key.empty()}),
         tidied(clock.steady_now()) {}
 
@@ -387,6 +397,7 @@ struct Server::Parts {
   measurements::Measurements measurements;
   library::Setups setups;
   std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
+  offsets::Offsets offsets;
   machines::MachineService machine_service;
   ports::PortService ports;
   ports::MachineRouter machines;
@@ -489,6 +500,7 @@ Server::~Server() {
   parts_->machine_service.stop_waiting();
   parts_->measurements.end();  // it may hold a machine
   if (parts_->retention) parts_->retention->end();
+  parts_->offsets.end();
   parts_->events.close();
   parts_->http.reset();
   parts_->mtconnect_http.reset();
@@ -546,6 +558,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   parts.imports.begin();
   parts.measurements.begin();
   if (parts.retention) parts.retention->begin();
+  parts.offsets.begin();
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint = dds::ServerEndpoint::open(network->options, parts.machine_service.handlers());

@@ -185,8 +185,9 @@ std::string select_filtered(const RunFilter& filter) {
   if (filter.machine) sql += "AND machine.name = ?1 ";
   if (filter.program) sql += "AND program.name = ?2 ";
   if (filter.state) sql += "AND run.state = ?3 ";
+  if (filter.setup) sql += "AND run.setup = ?4 ";
   if (filter.with_outputs) sql += "AND run.outputs > 0 ";
-  return sql + "AND ?1 IS ?1 AND ?2 IS ?2 AND ?3 IS ?3 ";
+  return sql + "AND ?1 IS ?1 AND ?2 IS ?2 AND ?3 IS ?3 AND ?4 IS ?4 ";
 }
 
 std::optional<std::string> state_of(const RunFilter& filter) {
@@ -202,18 +203,18 @@ Result<std::uint64_t> RunRepository::count(const RunFilter& filter) {
   const auto found = connections_.read([&](sqlite::Database& database) {
     return sqlite::first_row(
         database, sql, [](const sqlite::Statement& row) { return row.number(0); }, filter.machine,
-        filter.program, state);
+        filter.program, state, filter.setup);
   });
   if (!found) return fail(found.error());
   return found->value_or(0);
 }
 
 Result<std::vector<Run>> RunRepository::list(const RunFilter& filter, Page page) {
-  const std::string sql = select_filtered(filter) + "ORDER BY run.number DESC LIMIT ?4 OFFSET ?5";
+  const std::string sql = select_filtered(filter) + "ORDER BY run.number DESC LIMIT ?5 OFFSET ?6";
   const auto state = state_of(filter);
   return connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(database, sql, read_run, filter.machine, filter.program, state,
-                            page.limit, page.offset);
+                            filter.setup, page.limit, page.offset);
   });
 }
 

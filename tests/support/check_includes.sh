@@ -28,6 +28,7 @@ gateway/interpreter/dialects/tnc155: protocol/base gateway/interpreter/core gate
 gateway/interpreter: protocol/base gateway/interpreter
 clients/tools/program_editing: protocol/base gateway/interpreter clients/tools/program_editing clients/tools/tnc_conversion
 clients/tools/tnc_conversion: protocol/base gateway/interpreter clients/tools/tnc_conversion
+clients/tools/statistics: protocol/base clients/tools/statistics
 clients/tools/authority: protocol/base protocol/pki clients/tools/authority
 clients/tools/tnc_probing: protocol/base gateway/interpreter clients/tools/tnc_probing
 gateway/machine: protocol/base gateway/interpreter gateway/machine
@@ -42,7 +43,8 @@ server/ports: protocol storage gateway/interpreter server/library server/machine
 server/paths: protocol/base storage gateway/interpreter clients/tools/comparison clients/tools/offline server/library server/machines server/paths
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
 server/measurements: protocol/base protocol/measurement protocol/process storage clients/tools/report_template server/measurements
-server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/api
+server/offsets: protocol/base protocol/measurement protocol/process storage gateway/interpreter clients/tools/statistics server/library server/offsets
+server/api: protocol storage gateway/interpreter clients/tools/charts server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/offsets server/api
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
@@ -87,8 +89,10 @@ only() {  # pattern, folder
   fi
 }
 only 'dds/' protocol/dds
+only 'cairo' clients/tools/chart_images
 only 'SQLiteCpp|sqlite3' storage/sqlite
-only 'boost/' server/api
+only 'boost/(asio|beast|system)' server/api
+only 'boost/math' clients/tools/statistics
 only 'httplib' clients/lib
 only 'sodium' server/identity
 only 'libxml/' server/mtconnect

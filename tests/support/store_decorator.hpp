@@ -95,8 +95,7 @@ class RecordStoreDecorator : public storage::RecordStore {
                                               storage::Page page) override {
     return inner_.of_run(run, kind, page);
   }
-  Result<std::vector<storage::Record>> of_run_after(const std::string& run,
-                                                    const std::string& kind,
+  Result<std::vector<storage::Record>> of_run_after(const std::string& run, const std::string& kind,
                                                     storage::RecordPlace after,
                                                     std::uint64_t limit) override {
     return inner_.of_run_after(run, kind, after, limit);
@@ -130,16 +129,21 @@ class RecordStoreDecorator : public storage::RecordStore {
 
 /// `store` with one of its parts replaced; the part must outlive it.
 inline storage::Store with(const storage::Store& store, storage::ProgramStore& programs) {
-  return {programs,     store.uploads, store.machines, store.runs,     store.records, store.ports,
-          store.setups, store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements, store.archives};
+  return {programs,      store.uploads,          store.machines,     store.runs,     store.records,
+          store.ports,   store.setups,           store.audit,        store.accounts, store.releases,
+          store.imports, store.report_templates, store.measurements, store.archives, store.offsets};
 }
 inline storage::Store with(const storage::Store& store, storage::MachineStore& machines) {
-  return {store.programs, store.uploads, machines,       store.runs,     store.records, store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements, store.archives};
+  return {store.programs,     store.uploads,  machines,      store.runs,
+          store.records,      store.ports,    store.setups,  store.audit,
+          store.accounts,     store.releases, store.imports, store.report_templates,
+          store.measurements, store.archives, store.offsets};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
-  return {store.programs, store.uploads, store.machines, store.runs,     records,      store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports, store.report_templates, store.measurements, store.archives};
+  return {
+      store.programs, store.uploads,          store.machines,     store.runs,     records,
+      store.ports,    store.setups,           store.audit,        store.accounts, store.releases,
+      store.imports,  store.report_templates, store.measurements, store.archives, store.offsets};
 }
 
 }  // namespace dripline::test_support

@@ -39,9 +39,13 @@ class ApiTest : public ServerTest {
                                 .policy = releases_->policy(),
                                 .clock = clock_,
                                 .on_change = api::publish_imports_to(events_)});
-    measurements_ =
-        std::make_unique<measurements::Measurements>(measurements::Measurements::Parts{
-            .store = *store_, .clock = clock_, .on_part = api::publish_parts_to(events_)});
+    measurements_ = std::make_unique<measurements::Measurements>(measurements::Measurements::Parts{
+        .store = *store_, .clock = clock_, .on_part = api::publish_parts_to(events_)});
+    offsets_ = std::make_unique<offsets::Offsets>(
+        offsets::Offsets::Parts{.store = *store_,
+                                .setups = *setups_,
+                                .clock = clock_,
+                                .on_change = api::publish_offsets_to(events_)});
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .releases = *releases_,
                                                     .setups = *setups_,
@@ -64,7 +68,8 @@ class ApiTest : public ServerTest {
                                                     .backups = backups_.get(),
                                                     .imports = imports_.get(),
                                                     .measurements = measurements_.get(),
-                                                    .retention = retention_.get()});
+                                                    .retention = retention_.get(),
+                                                    .offsets = offsets_.get()});
   }
 
   /// Made when they are asked for, in a folder beside the store.
@@ -206,6 +211,7 @@ class ApiTest : public ServerTest {
   std::unique_ptr<imports::Imports> imports_;
   std::unique_ptr<measurements::Measurements> measurements_;
   std::unique_ptr<library::Retention> retention_;
+  std::unique_ptr<offsets::Offsets> offsets_;
   std::unique_ptr<api::Api> api_;
 };
 
