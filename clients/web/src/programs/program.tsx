@@ -5,12 +5,14 @@ import { addressOf } from '../app/route';
 import { Allowed } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
+import { RevisionPill } from '../parts/revision_pill';
 import { SureButton } from '../parts/sure_button';
 import { useLoaded } from '../parts/use_loaded';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
 import { Compare } from './compare';
 import { download } from './download';
 import { Manage } from './manage';
+import { ReleaseState } from './release';
 import { StartOn } from './start_on';
 import { TextView } from './text_view';
 
@@ -42,7 +44,7 @@ function RevisionList({ revisions, shown }: { revisions: Revision[]; shown: Revi
         {revisions.map((r) => (
           <li key={r.revision}>
             <a class="target" href={addressOf('programs', [r.program, String(r.revision)])} aria-current={r === shown ? 'true' : undefined}>{t.revisionNumber(r.revision)}</a>
-            {r.held && <span class="pill waiting">{t.pending(1)}</span>}
+            <RevisionPill revision={r} />
             <p class="muted">{dateTimeText(r.created)} · {r.author ?? '–'} · {bytesText(r.size)}{r.comment && ` · ${r.comment}`}</p>
           </li>
         ))}
@@ -74,6 +76,7 @@ export function ProgramPage({ name, number }: { name: string; number: number | n
         </div>
         <div>
           <section class="panel"><StartOn revision={shown} /></section>
+          {!shown.held && <ReleaseState revision={shown} revisions={revisions} onDecided={program.reload} />}
           <RevisionList revisions={revisions} shown={shown} />
           <section class="panel">
             <p class="buttons">
