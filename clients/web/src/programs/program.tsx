@@ -1,12 +1,11 @@
 // One program: its revisions, the text of the chosen one, approval, the start on a machine, comparison.
 import type { ProgramWithRevisions, Revision } from '../../generated/api';
-import { get, pathOf, send, withQuery } from '../api/request';
+import { get, pathOf, withQuery } from '../api/request';
 import { addressOf } from '../app/route';
-import { Allowed } from '../parts/allowed';
+import { Decide } from '../imports/decide';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { RevisionPill } from '../parts/revision_pill';
-import { SureButton } from '../parts/sure_button';
 import { useLoaded } from '../parts/use_loaded';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
 import { Compare } from './compare';
@@ -17,20 +16,12 @@ import { StartOn } from './start_on';
 import { TextView } from './text_view';
 
 /// A revision that a machine has sent runs nowhere before it is accepted.
-function Approval({ revision, onJudged }: { revision: Revision; onJudged: () => void }) {
+function Pending({ revision, onDecided }: { revision: Revision; onDecided: () => void }) {
   const t = texts().programs;
-  const command = useCommand();
-  const judge = async (verdict: 'accept' | 'reject') => {
-    if (await command.send(() => send('POST', pathOf('programs', revision.program, 'revisions', revision.revision, verdict)))) onJudged();
-  };
   return (
     <div class="notice warn">
-      <p>{t.isPending}</p>
-      <Allowed to="approve"><p class="buttons">
-        <SureButton class="primary" label={t.accept} question={t.acceptSure(revision.program, revision.revision)} disabled={command.isBusy} onSure={() => void judge('accept')} />
-        <SureButton class="danger" label={t.reject} question={t.rejectSure(revision.program, revision.revision)} disabled={command.isBusy} onSure={() => void judge('reject')} />
-      </p></Allowed>
-      <CommandFault command={command} />
+      <p>{t.isPending} <a href={addressOf('imports', [revision.program, String(revision.revision)])}>{t.whatItChanges}</a></p>
+      <Decide import_={revision} onDecided={onDecided} />
     </div>
   );
 }
@@ -68,7 +59,7 @@ export function ProgramPage({ name, number }: { name: string; number: number | n
         <h1>{name}</h1>
         <span class="muted">{[shown.title, shown.control, t.revisionNumber(shown.revision), bytesText(shown.size)].filter(Boolean).join(' · ')}</span>
       </div>
-      {shown.held && <Approval revision={shown} onJudged={program.reload} />}
+      {shown.held && <Pending key={shown.revision} revision={shown} onDecided={program.reload} />}
       <div class="program-columns">
         <div>
           <TextView program={name} revision={shown.revision} size={shown.size} />
