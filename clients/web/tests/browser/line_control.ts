@@ -9,13 +9,14 @@ export class LineControl {
   private constructor(private readonly server: Server) {
     server.on('connection', (socket) => {
       this.socket = socket;
+      socket.unref(); // it ends with the process, at the latest
       socket.on('data', (bytes) => { this.received += bytes.toString('latin1'); });
       socket.on('error', () => {}); // the server reopens its lines
     });
   }
 
   static async listen(): Promise<LineControl> {
-    const server = createServer();
+    const server = createServer().unref();
     await new Promise<void>((done) => server.listen(0, '127.0.0.1', done));
     return new LineControl(server);
   }
