@@ -1,5 +1,6 @@
 // One program: its revisions, the text of the chosen one, approval, the start on a machine, comparison.
-import type { ProgramWithRevisions, Revision } from '../../generated/api';
+import { useEffect, useMemo, useState } from 'preact/hooks';
+import type { ProgramCheck, ProgramWithRevisions, Revision } from '../../generated/api';
 import { get, pathOf, withQuery } from '../api/request';
 import { addressOf } from '../app/route';
 import { Decide } from '../imports/decide';
@@ -8,9 +9,12 @@ import { Loading } from '../parts/loading';
 import { RevisionPill } from '../parts/revision_pill';
 import { useLoaded } from '../parts/use_loaded';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
+import { Check } from './check';
 import { Compare } from './compare';
 import { download } from './download';
+import { findingsByLine } from './findings';
 import { Manage } from './manage';
+import type { Place } from './pieces';
 import { ReleaseState } from './release';
 import { StartOn } from './start_on';
 import { TextView } from './text_view';
@@ -48,6 +52,10 @@ export function ProgramPage({ name, number }: { name: string; number: number | n
   const t = texts().programs;
   const program = useLoaded((signal) => get<ProgramWithRevisions>(pathOf('programs', name), {}, signal), [name]);
   const command = useCommand();
+  const [check, setCheck] = useState<ProgramCheck | null>(null);
+  const [goTo, setGoTo] = useState<Place | null>(null);
+  const findings = useMemo(() => findingsByLine(check), [check]);
+  useEffect(() => setGoTo(null), [name, number]);
   const revisions = [...(program.value?.revisions ?? [])].sort((a, b) => b.revision - a.revision);
   const shown = revisions.find((r) => r.revision === number) ?? revisions.find((r) => !r.held) ?? revisions[0];
   const { value } = program;
@@ -62,10 +70,11 @@ export function ProgramPage({ name, number }: { name: string; number: number | n
       {shown.held && <Pending key={shown.revision} revision={shown} onDecided={program.reload} />}
       <div class="program-columns">
         <div>
-          <TextView program={name} revision={shown.revision} size={shown.size} />
+          <TextView program={name} revision={shown.revision} size={shown.size} findings={findings} goTo={goTo} />
           <Compare key={shown.revision} revisions={revisions} to={shown} />
         </div>
         <div>
+          {shown.control !== null && <Check key={shown.revision} revision={shown} onChecked={setCheck} onGoTo={setGoTo} />}
           <section class="panel"><StartOn revision={shown} /></section>
           {!shown.held && <ReleaseState revision={shown} revisions={revisions} onDecided={program.reload} />}
           <RevisionList revisions={revisions} shown={shown} />

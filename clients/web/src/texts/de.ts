@@ -265,6 +265,23 @@ export const de: Texts = {
     path: 'Werkzeugweg',
     digest: 'SHA-256',
   },
+  check: {
+    title: 'Prüfung',
+    start: 'Prüfen',
+    again: 'Nochmals prüfen',
+    checks: 'Der Server prüft …',
+    findings: 'Befunde',
+    severities: { warning: 'Warnung', alarm: 'Alarm' },
+    outcomes: {
+      ended: 'Das Programm erreicht sein Ende.', alarm: 'Das Programm löst einen Alarm aus.', fault: '', time: 'Das Programm ist länger, als der Server prüft: dies ist sein Anfang.',
+    },
+    faulted: (fault) => `Das Programm kann nicht bis zum Ende geprüft werden: ${fault}`,
+    warnings: (count) => (count === 0 ? 'Keine Warnungen.' : count === 1 ? '1 Warnung.' : `${count} Warnungen.`),
+    line: (line) => `Zeile ${line}`,
+    column: (line, column) => `Zeile ${line}, Spalte ${column}`,
+    times: (times) => `${times}-mal`,
+    more: 'Es gibt mehr, als aufgeführt sind.',
+  },
   release: {
     title: 'Stand und Freigabe',
     states: { draft: 'Entwurf', in_review: 'In Prüfung', approved: 'Genehmigt', released: 'Freigegeben', withdrawn: 'Zurückgezogen' },

@@ -267,6 +267,23 @@ export const en = {
     path: 'Tool path',
     digest: 'SHA-256',
   },
+  check: {
+    title: 'Check',
+    start: 'Check it',
+    again: 'Check again',
+    checks: 'The server checks it …',
+    findings: 'Findings',
+    severities: { warning: 'Warning', alarm: 'Alarm' },
+    outcomes: {
+      ended: 'The program reaches its end.', alarm: 'The program raises an alarm.', fault: '', time: 'The program is longer than the server checks: this is its beginning.',
+    },
+    faulted: (fault: string) => `The program cannot be checked to its end: ${fault}`,
+    warnings: (count: number) => (count === 0 ? 'No warnings.' : count === 1 ? '1 warning.' : `${count} warnings.`),
+    line: (line: string) => `line ${line}`,
+    column: (line: string, column: string) => `line ${line}, column ${column}`,
+    times: (times: string) => `${times} times`,
+    more: 'There are more than are listed.',
+  },
   release: {
     title: 'State and approval',
     states: { draft: 'Draft', in_review: 'In review', approved: 'Approved', released: 'Released', withdrawn: 'Withdrawn' },
