@@ -107,7 +107,8 @@ void add_modes(Details& details, const client::ActiveModes& modes, const client:
   details.add("compensation", modes.compensation);
   details.add("tool", tool_text(modes));
   details.add("tool lengths",
-              with_unit({{"X", modes.tool_length_x}, {"Z", modes.tool_length_z}}, display));
+              with_unit({{"X", modes.tool_length_x}, {"Z", modes.tool_length_z}},
+                        client::Display{.units = display.units}));  // a radius on lathes too
   details.add("tool radius", length_text(modes.tool_radius, display));
   details.add("work system", modes.work_system);
   details.add("interpolation", modes.motion);
