@@ -23,7 +23,11 @@ export class Shop {
   private server: ChildProcess | null = null;
   private readonly gateways = new Map<string, ChildProcess>();
   private readonly sessions = new Map<string, { name: string; value: string }>();
-  private readonly network = ['--dds-domain', kDomain, '--dds-tag', `web-${process.pid}`];
+  readonly network = ['--dds-domain', kDomain, '--dds-tag', `web-${process.pid}`];
+
+  get serverPid(): number | undefined {
+    return this.server?.pid;
+  }
 
   get token(): string {
     return readFileSync(path.join(this.folder, 'server/token'), 'utf8').trim();
