@@ -88,8 +88,6 @@ struct Dialect {
   /// Units of the control's own memory at power on: of a setup file that names none.
   Units units = Units::Millimeter;
   MachineKind machine = MachineKind::Mill;
-  /// Programs have X as a diameter, and so has the control's position display.
-  bool x_is_diameter = false;
   FeedOverrideSwitch feed_override_switch = {};
   bool waits_at_tool_change = false;  ///< tools are changed by hand: CYCLE START resumes
   /// What the control makes of a program, in its own words; nullptr: it keeps the text. Errors:

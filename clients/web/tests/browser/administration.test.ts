@@ -11,7 +11,7 @@ const { shop, visit } = shopForTests(async (shop) => {
   control = await LineControl.listen();
   await shop.push('O0300', 'O0300\nG21\nM30\n', 'fanuc');
   await shop.addUser('otto', 'operator', ['all']);
-}, (shop) => ['--backups', path.join(shop.folder, 'backups')]);
+}, (shop) => ['--backups', path.join(shop.folder, 'backups'), '--backup-every-hours', '0']);
 after(() => control.end());
 
 test('a backup is made, verified and removed', async () => {

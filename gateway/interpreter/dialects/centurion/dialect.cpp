@@ -92,7 +92,6 @@ const Dialect kCenturionDialect{
     .make = &make,
     .units = Units::Inch,
     .machine = MachineKind::Lathe,
-    .x_is_diameter = true,
     .feed_override_switch = {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
     .waits_at_tool_change = true,  // M6 prompts and waits (manual: M6)
     .panel_tables = &read_panel_tables,
