@@ -37,7 +37,7 @@ export function PendingList() {
   const imports = [...feed.imports.values()].sort((a, b) => a.received.localeCompare(b.received));
   if (imports.length === 0) return <p class="muted">{feed.link.state === 'connecting' ? texts().app.loading : t.none}</p>;
   return (
-    <Table label={t.tabs.pending} heads={[t.program, t.machine, t.class, t.against, t.received, texts().setup.comment]} imports={imports}
+    <Table label={t.tabs.pending} heads={[texts().machine.program, t.machine, t.class, t.against, t.received, texts().setup.comment]} imports={imports}
       cells={(row) => [row.base === null ? null : texts().programs.revisionNumber(row.base), dateTimeText(row.received), row.comment]} />
   );
 }
@@ -59,7 +59,7 @@ export function DecidedList() {
       <Loading of={decided} />
       {decided.value && list.length === 0 && <p class="muted">{t.noneDecided}</p>}
       {list.length > 0 && (
-        <Table label={t.tabs.decided} heads={[t.program, t.machine, t.class, t.decision, t.received, t.who, t.reason]} imports={list}
+        <Table label={t.tabs.decided} heads={[texts().machine.program, t.machine, t.class, t.decision, t.received, t.who, t.reason]} imports={list}
           cells={(row) => [decisionText(row), row.decided === null ? null : dateTimeText(row.decided), row.who, row.reason]} />
       )}
       {(offset > 0 || list.length === kPage) && (

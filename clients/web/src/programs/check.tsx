@@ -43,11 +43,10 @@ function Figures({ check }: { check: ProgramCheck }) {
     [t.rapidLength, lengthOf(check.rapid_mm, check.inch)],
   ];
   return (
-    <details>
-      <summary class="button">{t.facts}</summary>
+    <>
       <dl class="rows">{rows.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
       {Object.keys(check.extents).length > 0 && <Extents of={check} />}
-    </details>
+    </>
   );
 }
 

@@ -88,7 +88,7 @@ export async function exampleShop(): Promise<Shop> {
   const control = await LineControl.listen();
   await shop.api('PUT', 'ports/line-6', { machine: 'mill-6', address: control.address, template: 'fanuc' });
   await control.punch(`%\n${bracket.join('\n').replace('F900.', 'F1100.').replace('Z-6.', 'Z-6.5')}%\n`);
-  await shop.push('O0900', 'O0900 (LOOK AT ME)\nG21 G90 F500.\nG1 X1. F5\nG1 X10.\nX2. ZZ5.\nM30\n', 'fanuc');
+  await shop.push('O0900', 'O0900 (LOOK AT ME)\nG20 G90 F500.\nG1 X1. F5\nG1 X10.\nX2. ZZ5.\nM30\n', 'fanuc');
   await shop.api('POST', 'programs/O0600/revisions/1/submit', { comment: 'second side' });
   await shop.stopMachine('mill-4');
   await until('lathe-1 asks', async () => {
