@@ -198,6 +198,12 @@ struct MachineStatus {
   std::string remote_enable, waits_for;
 };
 
+/// What a control's own position display shows. Values of the API are millimeters and radii.
+struct Display {
+  std::string units = "mm";  ///< or inch
+  std::string x = "radius";  ///< or diameter
+};
+
 struct Machine {
   std::string name, control, description, gateway_version;
   bool connected = false;
@@ -206,6 +212,7 @@ struct Machine {
   /// What is wrong between server and gateway.
   std::vector<std::string> notices;
   std::string first_seen, last_seen;
+  std::optional<Display> display = {};  ///< absent: the control is not known
   std::optional<MachineStatus> status;
 };
 

@@ -82,6 +82,13 @@ struct ComparisonQuery {
   unsigned context = 3;
 };
 
+/// A revision, the latest one unless another is named.
+struct CheckQuery {
+  std::string program;
+  std::optional<std::uint64_t> revision = {};
+  std::string machine = {};  ///< whose setup applies; empty: the control's defaults
+};
+
 struct ReportQuery {
   std::string machine, program;
   Page page;
@@ -214,6 +221,8 @@ class Client {
   Reply<void> reject_import(const DecisionRequest& request);
   /// The server's JSON (clients/tools/comparison/README.md).
   Reply<std::string> compare(const ComparisonQuery& query);
+  /// The server's JSON (server/paths/README.md, "A check").
+  Reply<std::string> check(const CheckQuery& query);
   /// Returns fewer bytes than requested only at the end of the content.
   Reply<Content> content(const ContentRange& range);
 

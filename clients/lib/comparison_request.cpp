@@ -22,4 +22,14 @@ Reply<std::string> Client::compare(const ComparisonQuery& query) {
   return std::move(response->body);
 }
 
+Reply<std::string> Client::check(const CheckQuery& query) {
+  std::string path = impl::path_of("programs", query.program) + "/check";
+  if (query.revision)
+    path = with_query(std::move(path), "revision", std::to_string(*query.revision));
+  path = with_query(std::move(path), "machine", query.machine);
+  auto response = exchange(impl::get(std::move(path)));
+  if (!response) return failed(response.error());
+  return std::move(response->body);
+}
+
 }  // namespace dripline::client

@@ -18,6 +18,7 @@ Api::Api(Services services)
   add_program_routes(router_, services_);
   add_release_routes(router_, services_);
   add_comparison_routes(router_, services_);
+  add_check_routes(router_, services_);
   add_import_routes(router_, services_);
   add_measurement_routes(router_, services_);
   add_chart_routes(router_, services_);
@@ -33,6 +34,7 @@ Api::Api(Services services)
   add_port_routes(router_, services_);
   add_account_routes(router_, services_);
   add_backup_routes(router_, services_);
+  add_certificate_routes(router_, services_);
   add_metrics_routes(router_, services_, times_);
   router_.change_routes([this](Router::Route& route) { protect(route); });
 }

@@ -125,6 +125,7 @@ void add_audit_routes(Router& router, Services& services);
 void add_program_routes(Router& router, Services& services);
 void add_release_routes(Router& router, Services& services);
 void add_comparison_routes(Router& router, Services& services);
+void add_check_routes(Router& router, Services& services);
 void add_import_routes(Router& router, Services& services);
 void add_measurement_routes(Router& router, Services& services);
 void add_chart_routes(Router& router, Services& services);
@@ -140,6 +141,7 @@ void add_port_routes(Router& router, Services& services);
 void add_account_routes(Router& router, Services& services);
 void add_backup_routes(Router& router, Services& services);
 void add_archive_routes(Router& router, Services& services);
+void add_certificate_routes(Router& router, Services& services);
 void add_metrics_routes(Router& router, Services& services, const RequestTimes& times);
 
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer

@@ -19,6 +19,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/audit/verification", Approve},
     RoutePermission{"POST", "/api/v1/audit/verification", Approve},
     RoutePermission{"GET", "/api/v1/events", View},
+    RoutePermission{"GET", "/api/v1/certificates", View},
     RoutePermission{"GET", "/api/v1/metrics", View},
 
     RoutePermission{"GET", "/api/v1/backups", Administer},
@@ -64,6 +65,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/programs/{name}/content", View},
     RoutePermission{"GET", "/api/v1/programs/{name}/path", View},
     RoutePermission{"GET", "/api/v1/programs/{name}/comparison", View},
+    RoutePermission{"GET", "/api/v1/programs/{name}/check", View},
     RoutePermission{"POST", "/api/v1/uploads", Program},
     RoutePermission{"GET", "/api/v1/uploads/{id}", Program},
     RoutePermission{"PUT", "/api/v1/uploads/{id}/content", Program},

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gateway/interpreter/registry.hpp"
 #include "protocol/dds/members.hpp"
 #include "protocol/dds/message.hpp"
 #include "server/machines/machine_registry.hpp"
@@ -172,6 +173,18 @@ json program_json(const storage::ProgramSummary& program, const std::string& tit
   return view;
 }
 
+/// What the control's own position display shows: the units of the program while one is there, and
+/// on a lathe X as its programs have it, as a diameter.
+static json display_json(const machines::MachineView& view) {
+  const auto dialect = interpreter::find_dialect(view.machine.control);
+  if (!dialect) return nullptr;
+  const bool has_program = view.status && !view.status->run.empty() && view.status->modes;
+  const bool is_inch =
+      has_program ? view.status->modes->is_inch : (*dialect)->units == interpreter::Units::Inch;
+  const bool is_lathe = (*dialect)->machine == interpreter::MachineKind::Lathe;
+  return {{"units", is_inch ? "inch" : "mm"}, {"x", is_lathe ? "diameter" : "radius"}};
+}
+
 json machine_json(const machines::MachineView& view) {
   const auto seconds = [](std::chrono::microseconds time) {
     return std::chrono::duration<double>(time).count();
@@ -186,6 +199,7 @@ json machine_json(const machines::MachineView& view) {
       {"notices", machines::notices_of(view)},
       {"first_seen", to_iso8601(view.machine.first_seen)},
       {"last_seen", to_iso8601(view.machine.last_seen)},
+      {"display", display_json(view)},
       {"status", view.status ? status_json(*view.status) : json(nullptr)}};
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/program_check.hpp"
 #include "clients/cli/server/program_diff.hpp"
 #include "clients/cli/server/program_transfer.hpp"
 #include "clients/cli/server/release_commands.hpp"
@@ -228,6 +229,7 @@ void add_program_commands(Command app, Context& context) {
   add_show(group, context);
   add_accept(group, context);
   add_release_commands(group, context);
+  add_program_check(group, context);
   add_program_diff(group, context);
   add_remove(group, context);
   add_copy(group, context);

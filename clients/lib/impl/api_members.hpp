@@ -142,10 +142,17 @@ void members(V& v, Is<MachineStatus> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Display> auto& x) {
+  DRIPLINE_MEMBERS(units, x);
+}
+
+template <class V>
 void members(V& v, Is<Machine> auto& x) {
   DRIPLINE_MEMBERS(name, control, description, gateway_version, connected, clock_ahead_seconds);
   v.later("notices", x.notices);
-  DRIPLINE_MEMBERS(first_seen, last_seen, status);
+  DRIPLINE_MEMBERS(first_seen, last_seen);
+  v.later("display", x.display);
+  DRIPLINE_MEMBERS(status);
 }
 
 template <class V>

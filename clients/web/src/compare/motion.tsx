@@ -1,8 +1,15 @@
 // Where the motion of two revisions differs: a list, and both texts around the chosen place.
 import { useState } from 'preact/hooks';
-import type { ComparedBlock, ComparedMotion, ComparedPlace, Revision } from '../../generated/api';
+import type { ComparedBlock, ComparedMotion, ComparedPlace } from '../../generated/api';
 import { BlockText } from '../path/block_text';
 import { numberText, texts } from '../texts/texts';
+
+/// What the texts around a place are read by.
+export interface ComparedSide {
+  program: string;
+  revision: number;
+  size: number;
+}
 
 export function distanceText(mm: number): string {
   return mm.toFixed(mm < 0.01 ? 6 : 4);
@@ -33,7 +40,7 @@ function Place({ place, isChosen, onChoose }: { place: ComparedPlace; isChosen: 
   );
 }
 
-function Around({ revision, block }: { revision: Revision; block: ComparedBlock }) {
+function Around({ revision, block }: { revision: ComparedSide; block: ComparedBlock }) {
   const t = texts().compare;
   const of = { program: revision.program, revision: revision.revision, size: revision.size };
   return (
@@ -44,7 +51,7 @@ function Around({ revision, block }: { revision: Revision; block: ComparedBlock 
   );
 }
 
-export function Conditions({ motion, from, to }: { motion: ComparedMotion; from: Revision; to: Revision }) {
+export function Conditions({ motion, from, to }: { motion: ComparedMotion; from: ComparedSide; to: ComparedSide }) {
   const t = texts().compare;
   if (motion.conditions.length === 0) return null;
   return (
@@ -62,7 +69,7 @@ export function Conditions({ motion, from, to }: { motion: ComparedMotion; from:
   );
 }
 
-export function Places({ motion, from, to }: { motion: ComparedMotion; from: Revision; to: Revision }) {
+export function Places({ motion, from, to }: { motion: ComparedMotion; from: ComparedSide; to: ComparedSide }) {
   const t = texts().compare;
   const [chosen, setChosen] = useState<number | null>(null);
   const place = chosen === null ? undefined : motion.places[chosen];

@@ -1,12 +1,12 @@
 // The tool path of a program, without running it: #/path/O0100/3?machine=mill-1&line=12. A press on the path chooses its block, a press on
 // a block its part of the path.
 import { useMemo, useState } from 'preact/hooks';
-import type { PathEnd, ProgramWithRevisions, Revision } from '../../generated/api';
+import type { ProgramWithRevisions, Revision } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { durationText } from '../live/progress';
 import { useFeed } from '../live/use_feed';
-import { axisText, kInch, kMillimeter, lengthText, sortAxes } from '../machine/units';
+import { Extents, lengthOf } from '../parts/extents';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
 import { numberText, texts } from '../texts/texts';
@@ -16,30 +16,6 @@ import { kMoves } from './polyline';
 import { usePath, type LoadedPath } from './use_path';
 
 const kShownTools = 100;
-
-function lengthOf(mm: number, isInch: boolean): string {
-  const unit = isInch ? kInch : kMillimeter;
-  return `${lengthText(mm, unit)} ${unit.name}`;
-}
-
-function Extents({ end }: { end: PathEnd }) {
-  const t = texts().path;
-  const unit = end.inch ? kInch : kMillimeter;
-  const value = (axis: string, radius: number) => axisText(axis, axis === 'X' && end.x_is_diameter ? 2 * radius : radius, unit);
-  return (
-    <table>
-      <thead><tr>{[`${t.axis} (${unit.name})`, t.least, t.most].map((name, i) => <th scope="col" key={name} class={i > 0 ? 'number' : ''}>{name}</th>)}</tr></thead>
-      <tbody>
-        {sortAxes(Object.keys(end.extents)).map((axis) => (
-          <tr key={axis}>
-            <th scope="row">{axis}{axis === 'X' && end.x_is_diameter && ' ⌀'}</th>
-            {end.extents[axis]!.map((at, i) => <td key={i} class="number">{value(axis, at)}</td>)}
-          </tr>
-        ))}
-      </tbody>
-    </table>
-  );
-}
 
 function Facts({ path, onChoose }: { path: LoadedPath; onChoose: (line: number) => void }) {
   const t = texts().path;
@@ -55,7 +31,7 @@ function Facts({ path, onChoose }: { path: LoadedPath; onChoose: (line: number) 
       {end.other_axes > 0 && <p class="notice warn">{t.otherAxes(numberText(end.other_axes))}</p>}
       {polyline.tolerance > 0 && <p class="notice">{t.simplified(lengthOf(polyline.tolerance, end.inch))}</p>}
       <dl class="rows">{rows.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
-      {Object.keys(end.extents).length > 0 ? <Extents end={end} /> : <p class="notice">{t.nothingMoves}</p>}
+      {Object.keys(end.extents).length > 0 ? <Extents of={end} /> : <p class="notice">{t.nothingMoves}</p>}
       {end.tools.length > 0 && (
         <>
           <h3>{t.tools}</h3>

@@ -92,8 +92,18 @@ export function RunReport({ id, query }: { id: string; query: URLSearchParams })
         {dateTimeText(run.started ?? run.created)} – {run.ended ? dateTimeText(run.ended) : '…'} · {texts().machine.blockCounts(numberText(run.executed), numberText(run.accepted))}
         {run.content_verified !== null && ` · ${run.content_verified ? t.verified : t.notVerified}`}
       </p>
+      <p class="muted">
+        {run.approval === null ? t.allowedAs[run.allowed_as]
+          : <><a href={addressOf('programs', [run.program, String(run.revision)])}>{t.allowedBy(run.approval)}</a></>}
+        {run.setup !== null && ` · ${t.withSetup(run.setup)}`}
+      </p>
       <div class="head">
         <span>{texts().machine.report(run.outputs)}</span>
+        {run.ended !== null && (
+          <button type="button" title={t.attestationHint} onClick={() => void command.send(() => download(pathOf('runs', id, 'attestation'), `${run.program}-${id.slice(0, 8)}.attestation`))}>
+            {t.attestation}
+          </button>
+        )}
         <Exports onExport={(format) => void command.send(() => download(`${pathOf('reports', id)}?format=${format}`, `${run.program}-${id.slice(0, 8)}.${format === 'text' ? 'txt' : format}`))} />
       </div>
       <CommandFault command={command} />

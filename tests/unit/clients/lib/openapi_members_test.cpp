@@ -70,6 +70,7 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<Revision>(), described("CommittedRevision"));
   EXPECT_EQ(read_by_the_client<Upload>(), described("Upload"));
   EXPECT_EQ(read_by_the_client<Machine>(), described("Machine"));
+  EXPECT_EQ(read_by_the_client<Display>(), described("Display"));
   EXPECT_EQ(read_by_the_client<MachineStatus>(), described("Status"));
   EXPECT_EQ(read_by_the_client<ActiveModes>(), described("ActiveModes"));
   EXPECT_EQ(read_by_the_client<Coordinates>(), described("Coordinates"));

@@ -1,4 +1,4 @@
-// Two revisions of a program compared over the API.
+// Two revisions of a program compared, and one checked, over the API.
 #include "tests/unit/server/api/api_fixture.hpp"
 
 namespace dripline::server_test {
@@ -32,6 +32,20 @@ TEST_F(ComparisonRoutes, RefuseWhatTheyDoNotKnow) {
   EXPECT_EQ(get(route + "?other_revision=9").status, 404);
   EXPECT_EQ(get(route + "?unknown=1").status, 400);
   EXPECT_EQ(call("GET", route, {.body = {}, .headers = {}, .token = "none"}).status, 401);
+}
+
+TEST_F(ComparisonRoutes, CheckARevision) {
+  const auto response = get("/api/v1/programs/O0100/check?revision=1");
+  ASSERT_EQ(response.status, 200) << response.body;
+  EXPECT_EQ(json(response)["outcome"], "ended");
+  EXPECT_EQ(json(response)["revision"], 1);
+  EXPECT_EQ(get("/api/v1/programs/O0100/check?revision=9").status, 404);
+  EXPECT_EQ(get("/api/v1/programs/O0999/check").status, 404);
+  EXPECT_EQ(get("/api/v1/programs/O0100/check?unknown=1").status, 400);
+  EXPECT_EQ(
+      call("GET", "/api/v1/programs/O0100/check", {.body = {}, .headers = {}, .token = "none"})
+          .status,
+      401);
 }
 
 }  // namespace

@@ -47,6 +47,37 @@ TEST_F(MetricsRoute, GivesMachinesRunsHealthAndProcess) {
   EXPECT_NE(text.find("process_resident_memory_bytes "), std::string::npos);
 }
 
+TEST_F(MetricsRoute, CertificatesHaveTheirStateBeforeAndAfterTheirEnd) {
+  for (const char* name : {"lathe-1", "lathe-2", "lathe-3", "lathe-4"}) show_machine(name);
+  machines_.views[0].certificate_expires = clock_.now() + std::chrono::days(400);
+  machines_.views[1].certificate_expires = clock_.now() + std::chrono::days(29);
+  machines_.views[2].certificate_expires = clock_.now() - std::chrono::seconds(1);
+  const auto list = json(get("/api/v1/certificates"))["certificates"];
+  ASSERT_EQ(list.size(), 3U) << list;  // lathe-4 has none
+  EXPECT_EQ(list[0]["machine"], "lathe-1");
+  EXPECT_EQ(list[0]["use"], "gateway");
+  EXPECT_EQ(list[0]["state"], "ok");
+  EXPECT_EQ(list[0]["days_left"], 400);
+  EXPECT_EQ(list[1]["state"], "expiring");
+  EXPECT_EQ(list[2]["state"], "expired");
+}
+
+TEST_F(MetricsRoute, AMachineStatesWhatItsControlShows) {
+  show_machine("lathe-1");
+  const auto display = [this] { return json(get("/api/v1/machines/lathe-1"))["display"]; };
+  machines_.views.back().machine.control = "centurion";
+  EXPECT_EQ(display(), (Json{{"units", "inch"}, {"x", "diameter"}}));
+  dds::Status status;
+  status.run = "run-1";
+  status.modes = dds::ActiveModes{};
+  machines_.views.back().status = status;
+  EXPECT_EQ(display()["units"], "mm") << "the program's unit applies while it is there";
+  machines_.views.back().machine.control = "fanuc";
+  EXPECT_EQ(display()["x"], "radius");
+  machines_.views.back().machine.control = "unheard-of";
+  EXPECT_TRUE(display().is_null());
+}
+
 /// What a strict reader demands: every family once, its help and type before its samples, every
 /// sample of the family that was begun last, ended by a line feed.
 TEST_F(MetricsRoute, IsWhatAPrometheusReads) {

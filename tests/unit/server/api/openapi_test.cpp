@@ -87,6 +87,7 @@ class OpenApi : public ApiTest {
     expect_described("GET", "/api/v1/backups", backups());
     expect_described("DELETE", "/api/v1/backups/{id}", call("DELETE", "/api/v1/backups/" + id));
     expect_described("GET", "/api/v1/metrics", get("/api/v1/metrics"));
+    expect_described("GET", "/api/v1/certificates", get("/api/v1/certificates"));
   }
   void expect_accounts_described() {
     const std::string user = "/api/v1/users/{name}";
@@ -325,6 +326,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
                    get("/api/v1/programs/O0100/comparison?other=O0100-new"));
   expect_described("GET", "/api/v1/programs/{name}/comparison",
                    get("/api/v1/programs/O0100/comparison?other=O0100-new&by=motion"));
+  expect_described("GET", "/api/v1/programs/{name}/check", get("/api/v1/programs/O0100/check"));
   const auto upload = post("/api/v1/uploads", {{"program", "O2"}, {"control", "centurion"}});
   expect_described("POST", "/api/v1/uploads", upload);
   const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");
