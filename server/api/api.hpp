@@ -55,14 +55,14 @@ struct Services {
   const Clock& clock;
   ServerFacts facts;
   std::function<std::uint64_t()> dds_rejected;
-  ports::PortControl* ports = nullptr;  ///< null: a server without serial ports
-  library::Health* health = nullptr;    ///< null: always ok
-  library::Backups* backups = nullptr;  ///< null: a server that makes none
-  imports::Imports* imports = nullptr;  ///< null: a server without an import queue
+  ports::PortControl* ports = nullptr;                 ///< null: a server without serial ports
+  library::Health* health = nullptr;                   ///< null: always ok
+  library::Backups* backups = nullptr;                 ///< null: a server that makes none
+  imports::Imports* imports = nullptr;                 ///< null: a server without an import queue
   measurements::Measurements* measurements = nullptr;  ///< null: a server without measurements
-  library::Retention* retention = nullptr;  ///< null: everything stays in the database
+  library::Retention* retention = nullptr;             ///< null: everything stays in the database
   offsets::Offsets* offsets = nullptr;                 ///< null: a server without offset proposals
-  bool has_tls = false;                 ///< the sockets in front of it do
+  bool has_tls = false;                                ///< the sockets in front of it do
 };
 
 /// The REST API without its sockets: a request in, a response out. Any thread, several at once;

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
-#include "clients/cli/server/archive_commands.hpp"
 #include "clients/cli/measurements/export_formats.hpp"
+#include "clients/cli/server/archive_commands.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"

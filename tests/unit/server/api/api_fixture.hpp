@@ -97,13 +97,13 @@ class ApiTest : public ServerTest {
   void set_up_archives() {
     library::Retention::Options options;
     options.records.age = options.measurements.age = std::chrono::hours(24);
-    retention_ = std::make_unique<library::Retention>(
-        library::Retention::Parts{.store = *store_,
-                                  .clock = clock_,
-                                  .folder = folder_.path(),
-                                  .database = "db",
-                                  .made_by = "dncd 1"},
-        options);
+    retention_ =
+        std::make_unique<library::Retention>(library::Retention::Parts{.store = *store_,
+                                                                       .clock = clock_,
+                                                                       .folder = folder_.path(),
+                                                                       .database = "db",
+                                                                       .made_by = "dncd 1"},
+                                             options);
     make_api(&ports_);
   }
 
