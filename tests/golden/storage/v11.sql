@@ -1,4 +1,4 @@
--- A database of schema version 13 with a bit of everything, as the program of that version left it.
+-- A database of schema version 11 with a bit of everything, as the program of that version left it.
 PRAGMA foreign_keys=OFF;
 BEGIN TRANSACTION;
 CREATE TABLE chunk (
