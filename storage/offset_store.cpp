@@ -6,17 +6,19 @@
 namespace dripline::storage {
 namespace {
 
-constexpr std::array<std::string_view, 4> kStates{"pending", "applied", "rejected", "superseded"};
+constexpr std::array<std::string_view, 4> kProposalStates{"pending", "applied", "rejected",
+                                                          "superseded"};
 
 }  // namespace
 
 std::string_view to_string(OffsetState state) {
-  return kStates.at(static_cast<std::size_t>(state));
+  return kProposalStates.at(static_cast<std::size_t>(state));
 }
 
 Result<OffsetState> parse_offset_state(std::string_view text) {
-  const auto* found = std::ranges::find(kStates, text);
-  if (found != kStates.end()) return static_cast<OffsetState>(found - kStates.begin());
+  const auto* found = std::ranges::find(kProposalStates, text);
+  if (found != kProposalStates.end())
+    return static_cast<OffsetState>(found - kProposalStates.begin());
   return fail(Errc::Syntax, "state '{}': pending, applied, rejected or superseded", text);
 }
 
