@@ -6,19 +6,18 @@
 namespace dripline::storage {
 namespace {
 
-constexpr std::array<std::string_view, 4> kProposalStates{"pending", "applied", "rejected",
-                                                          "superseded"};
+constexpr std::array<std::string_view, 4> kOffsetStates{"pending", "applied", "rejected",
+                                                        "superseded"};
 
 }  // namespace
 
 std::string_view to_string(OffsetState state) {
-  return kProposalStates.at(static_cast<std::size_t>(state));
+  return kOffsetStates.at(static_cast<std::size_t>(state));
 }
 
 Result<OffsetState> parse_offset_state(std::string_view text) {
-  const auto* found = std::ranges::find(kProposalStates, text);
-  if (found != kProposalStates.end())
-    return static_cast<OffsetState>(found - kProposalStates.begin());
+  const auto* found = std::ranges::find(kOffsetStates, text);
+  if (found != kOffsetStates.end()) return static_cast<OffsetState>(found - kOffsetStates.begin());
   return fail(Errc::Syntax, "state '{}': pending, applied, rejected or superseded", text);
 }
 

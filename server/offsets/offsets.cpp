@@ -200,6 +200,161 @@ Result<void> Offsets::keep(const Current& now, Evaluation& evaluation) {
   proposal.last = outcome.last;
   proposal.reasons = reasons_json(outcome.reasons);
   proposal.created = parts_.clock.now();
+  const auto pending = parts_.store.offsets.list(
+      {.machine = now.machine, .target = proposal.target, .state = storage::OffsetState::Pending},
+      {.limit = 1});
+  if (!pending) return fail(pending.error());
+  auto kept = parts_.store.offsets.propose(proposal);
+  if (!kept) return fail(kept.error());
+  const bool is_new = pending->empty() || pending->front().id != kept->id;
+  evaluation.proposal = *std::move(kept);
+  if (is_new) {
+    if (const auto stored = runs_.find(run)) found->second = stored->setup.value_or(0);
+  }
+  return found->second;
+}
+
+private:
+storage::RunStore& runs_;
+std::map<std::string, std::optional<std::uint64_t>> known_;
+};
+
+bool begins_with(const std::string& target, const std::string& prefix) {
+  return target == prefix || (target.starts_with(prefix) && target[prefix.size()] == '.');
+}
+
+}  // namespace
+
+/// A machine as it is now.
+struct Offsets::Current {
+  std::string machine, control, text, unit;
+  std::uint64_t setup = 0;  ///< 0: there is none
+};
+
+Offsets::~Offsets() {
+  end();
+}
+
+void Offsets::end() {
+  worker_.request_stop();
+  if (worker_.joinable()) worker_.join();
+}
+
+void Offsets::begin() {
+  if (const auto machines = parts_.store.machines.list()) {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& machine : *machines) noted_.insert(machine.name);
+  }
+  worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+}
+
+void Offsets::note(const std::string& machine) {
+  {
+    const std::scoped_lock lock(mutex_);
+    noted_.insert(machine);
+  }
+  changed_.notify_one();
+}
+
+void Offsets::publish(const OffsetProposal& proposal) {
+  if (parts_.on_change) parts_.on_change(proposal);
+}
+
+Result<Offsets::Current> Offsets::current_of(const std::string& machine) {
+  const auto known = parts_.store.machines.find(machine);
+  if (!known) return fail(known.error());
+  Current now{.machine = machine, .control = known->control, .text = {}, .unit = {}};
+  const auto setup = parts_.store.setups.find(machine, std::nullopt);
+  if (!setup && setup.error().code != Errc::NotFound) return fail(setup.error());
+  if (setup) {
+    now.text = setup->text;
+    now.setup = setup->number;
+  }
+  auto unit = unit_of(now.text, now.control);
+  if (!unit) return fail(unit.error());
+  now.unit = *std::move(unit);
+  return now;
+}
+
+/// Back from the newest setup as long as the value is the same.
+Result<std::uint64_t> Offsets::in_force_since(const Current& now, const OffsetRule& rule,
+                                              double value) {
+  const auto target = parse_setup_target(rule.target);
+  if (!target) return fail(target.error());
+  std::uint64_t since = now.setup;
+  for (std::uint64_t back = 0; since > 0 && back < kSetupsBack; ++back) {
+    if (since == 1) return value == 0 ? 0 : 1;  // runs before the first setup had the value 0
+    const auto before = parts_.store.setups.find(now.machine, since - 1);
+    if (!before) return fail(before.error());
+    const auto old = value_in_setup(before->text, *target);
+    if (!old || *old != value) return since;
+    --since;
+  }
+  return since;
+}
+
+/// Of the newest measurements, those of runs under the value in force; oldest first.
+Result<std::vector<Deviation>> Offsets::deviations(const Current& now, const OffsetRule& rule,
+                                                   std::uint64_t since) {
+  RunSetups runs(parts_.store.runs);
+  storage::MeasurementFilter filter;
+  filter.machine = now.machine;
+  filter.characteristic = rule.characteristic;
+  std::vector<Deviation> found;
+  std::optional<storage::MeasurementPlace> before;
+  for (std::uint64_t seen = 0; seen < kMeasurementsBack && found.size() < rule.window;) {
+    const auto rows = parts_.store.measurements.list_newest(filter, before, kPageSize);
+    if (!rows) return fail(rows.error());
+    for (const Measurement& m : *rows) {
+      const auto off = measurement::deviation(m);
+      const auto setup = m.run.empty() ? std::nullopt : runs.setup_of(m.run);
+      if (!off || !setup || *setup < since || found.size() == rule.window) continue;
+      found.push_back({m.id, in_setup_unit(*off, m.characteristic.unit, now.unit)});
+    }
+    seen += rows->size();
+    if (rows->size() < kPageSize) break;
+    before = storage::MeasurementPlace{rows->back().time, rows->back().id};
+  }
+  std::ranges::reverse(found);
+  return found;
+}
+
+Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule) {
+  const auto target = parse_setup_target(rule.target);
+  if (!target) return fail(target.error());
+  const auto value = value_in_setup(now.text, *target);
+  if (!value) return fail(value.error());
+  const auto since = in_force_since(now, rule, *value);
+  if (!since) return fail(since.error());
+  const auto measured = deviations(now, rule, *since);
+  if (!measured) return fail(measured.error());
+  return Evaluation{.rule = rule,
+                    .unit = now.unit,
+                    .value = *value,
+                    .since = *since,
+                    .outcome = propose(*measured, *value, rule),
+                    .proposal = {}};
+}
+
+Result<void> Offsets::keep(const Current& now, Evaluation& evaluation) {
+  const Outcome& outcome = evaluation.outcome;
+  if (!outcome.new_value)
+    return parts_.store.offsets.withdraw(now.machine, evaluation.rule.target, parts_.clock.now());
+  OffsetProposal proposal;
+  proposal.machine = now.machine;
+  proposal.rule = evaluation.rule.name;
+  proposal.target = evaluation.rule.target;
+  proposal.unit = now.unit;
+  proposal.old_value = evaluation.value;
+  proposal.new_value = *outcome.new_value;
+  proposal.base = now.setup;
+  proposal.used = outcome.used;
+  proposal.left_out = outcome.left_out;
+  proposal.mean = outcome.mean;
+  proposal.first = outcome.first;
+  proposal.last = outcome.last;
+  proposal.reasons = reasons_json(outcome.reasons);
+  proposal.created = parts_.clock.now();
   auto kept = parts_.store.offsets.propose(proposal);
   if (!kept) return fail(kept.error());
   const bool is_new = kept->created == proposal.created;

@@ -12,7 +12,7 @@ namespace {
 using statistics::ControlChart;
 using statistics::Panel;
 
-constexpr std::size_t kShownFindings = 2;
+constexpr std::size_t kShownFindings = 1;
 
 std::string count_note(const ControlChart& chart) {
   std::string note = fmt::format("{} values", chart.values);
@@ -92,15 +92,25 @@ void draw_points(Canvas& canvas, const Plot& plot, const Panel& panel,
   }
 }
 
+/// Of a CUSUM's two rows only the one that is beyond its limit is marked.
+std::set<std::size_t> marked_of(const Panel& panel, const std::vector<double>& values) {
+  std::set<std::size_t> marked;
+  for (const auto& violation : panel.violations) {
+    const std::size_t i = violation.point;
+    const bool is_beyond = values[i] > panel.upper[i] || values[i] < panel.lower[i];
+    if (panel.lower_points.empty() || is_beyond) marked.insert(i);
+  }
+  return marked;
+}
+
 void draw_panel(Canvas& canvas, const Plot& plot, const Panel& panel, double text) {
   canvas.line(plot.place(plot.x.low, panel.center), plot.place(plot.x.high, panel.center),
               {kCenter, 1.2});
   draw_limit(canvas, plot, panel, panel.upper);
   draw_limit(canvas, plot, panel, panel.lower);
-  std::set<std::size_t> marked;
-  for (const auto& violation : panel.violations) marked.insert(violation.point);
-  draw_points(canvas, plot, panel, panel.points, marked);
-  if (!panel.lower_points.empty()) draw_points(canvas, plot, panel, panel.lower_points, marked);
+  draw_points(canvas, plot, panel, panel.points, marked_of(panel, panel.points));
+  if (!panel.lower_points.empty())
+    draw_points(canvas, plot, panel, panel.lower_points, marked_of(panel, panel.lower_points));
   if (panel.points.empty()) return;
   label_limit(canvas, plot, panel.upper.back(), panel.name == "CUSUM" ? "+h" : "UCL", kLimit, text);
   label_limit(canvas, plot, panel.center, "CL", kCenter, text);

@@ -28,6 +28,11 @@ std::string capability_note(const Capability& capability) {
   return note;
 }
 
+/// No exponent, and digits only where they are known.
+std::string ppm_text(double ppm) {
+  return ppm >= 10 ? fmt::format("{:.0f}", ppm) : fmt::format("{:.2f}", ppm);
+}
+
 std::vector<std::string> notes_of(const HistogramPicture& picture, int decimals) {
   const auto& summary = picture.summary;
   std::vector<std::string> notes{
@@ -37,8 +42,8 @@ std::vector<std::string> notes_of(const HistogramPicture& picture, int decimals)
   if (const auto& capability = picture.capability) {
     notes.push_back(capability_note(*capability));
     std::string note = fmt::format(
-        "{} below and {} above the limits; {:.3g} ppm outside expected ({})", capability->below,
-        capability->above, capability->expected_outside, to_string(capability->shape));
+        "{} below and {} above the limits; {} ppm outside expected ({})", capability->below,
+        capability->above, ppm_text(capability->expected_outside), to_string(capability->shape));
     if (capability->pp && capability->pp->interval) {
       note += fmt::format(", {:.4g} % confidence", capability->confidence * 100);
     }

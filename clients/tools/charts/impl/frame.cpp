@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dripline::charts {
 namespace {
@@ -12,6 +13,24 @@ std::string cut_to(std::string text, double width, double size) {
   auto keep = static_cast<std::size_t>(std::max(1.0, width / text_width("x", size) - 1));
   while (keep > 0 && (static_cast<unsigned char>(text[keep]) & 0xC0U) == 0x80) --keep;
   return text.substr(0, keep) + "\xE2\x80\xA6";
+}
+
+/// Broken between words; what is still too long is cut.
+std::vector<std::string> broken(const std::vector<std::string>& notes, double width, double size) {
+  std::vector<std::string> lines;
+  for (const std::string& note : notes) {
+    std::string line;
+    for (std::string_view left = note; !left.empty();) {
+      const std::string_view word = left.substr(0, left.find(' '));
+      left.remove_prefix(std::min(left.size(), word.size() + 1));
+      const bool is_full =
+          !line.empty() && text_width(line, size) + text_width(word, size) + size > width;
+      if (is_full) lines.push_back(cut_to(std::exchange(line, {}), width, size));
+      line += (line.empty() ? "" : " ") + std::string(word);
+    }
+    lines.push_back(cut_to(line, width, size));
+  }
+  return lines;
 }
 
 }  // namespace
@@ -31,12 +50,13 @@ Frame draw_frame(Canvas& canvas, const Caption& caption, const std::vector<std::
     canvas.text({margin, top}, cut_to(caption.subtitle, width, frame.text), {frame.text});
   }
   const double line = frame.text * 1.4;
+  const std::vector<std::string> lines = broken(notes, width, frame.text);
   const double notes_top =
-      canvas.height() - margin * 0.5 - line * static_cast<double>(notes.size());
+      canvas.height() - margin * 0.5 - line * static_cast<double>(lines.size());
   double y = notes_top;
-  for (const std::string& note : notes) {
+  for (const std::string& note : lines) {
     y += line;
-    canvas.text({margin, y - frame.text * 0.3}, cut_to(note, width, frame.text), {frame.text});
+    canvas.text({margin, y - frame.text * 0.3}, note, {frame.text});
   }
   top += frame.text;
   frame.inside = {margin, top, width, std::max(40.0, notes_top - top)};

@@ -14,7 +14,7 @@ struct Frame {
   Box inside;  ///< what is left for plots and their labels
 };
 
-/// Draws title and notes. Notes that are too long for the width are cut with an ellipsis.
+/// Draws title and notes, which are broken between words where the width ends.
 Frame draw_frame(Canvas& canvas, const Caption& caption, const std::vector<std::string>& notes);
 /// How many ticks fit: one for each so many text sizes.
 int tick_count(double length, double text, double per_tick);
