@@ -1,6 +1,6 @@
 // The floor with many machines: what page and server take of a core, how old a status on screen is, and how large and how quick the first view is.
 // MACHINES (1000) gateways of bench_page_fleet write CHANGES (5) statuses a second each, for SECONDS (30). Prints one JSON object a figure.
-import { spawn } from 'node:child_process';
+import { spawn, type ChildProcess } from 'node:child_process';
 import path from 'node:path';
 import type { Page } from 'playwright-core';
 import { openBrowser, visit } from '../browser/page';
@@ -14,23 +14,32 @@ const kSeconds = Number(process.env.SECONDS ?? 30);
 const figure = (name: string, value: number, unit: string) => console.log(JSON.stringify({ figure: name, value: Math.round(value * 1000) / 1000, unit }));
 const pause = (ms: number) => new Promise((done) => setTimeout(done, ms));
 
+/// As many machines as one process of the fleet has.
+const kPerProcess = 100;
+
 class Fleet {
-  private readonly child;
-  private text = '';
+  private readonly members: Array<{ child: ChildProcess; text: string }> = [];
 
   constructor(shop: Shop) {
     const [domain, tag] = [shop.network[1]!, shop.network[3]!];
-    this.child = spawn(path.join(process.env.DRIPLINE_BIN!, 'bench_page_fleet'), [domain, tag, String(kMachines), String(kChanges)], { stdio: ['pipe', 'pipe', 'inherit'] });
-    this.child.stdout.on('data', (bytes: Buffer) => { this.text += bytes.toString(); });
+    for (let first = 1; first <= kMachines; first += kPerProcess) {
+      const count = Math.min(kPerProcess, kMachines + 1 - first);
+      const child = spawn(path.join(process.env.DRIPLINE_BIN!, 'bench_page_fleet'), [domain, tag, String(first), String(count), String(kChanges)], { stdio: ['pipe', 'pipe', 'inherit'] });
+      const member = { child, text: '' };
+      child.stdout!.on('data', (bytes: Buffer) => { member.text += bytes.toString(); });
+      this.members.push(member);
+    }
   }
   connected(): Promise<void> {
-    return until('the fleet is connected', () => this.text.includes('connected'), 600_000);
+    return until('the fleet is connected', () => this.members.every(({ text }) => text.includes('connected')), 600_000);
   }
-  /// What it has written.
-  async end(): Promise<string> {
-    this.child.stdin.end();
-    await new Promise((done) => this.child.on('exit', done));
-    return this.text.split('\n')[1] ?? '';
+  /// How many changes a second it has written.
+  async end(): Promise<number> {
+    await Promise.all(this.members.map(({ child }) => new Promise<void>((done) => {
+      child.on('exit', () => done());
+      child.stdin!.end();
+    })));
+    return this.members.reduce((sum, { text }) => sum + ((JSON.parse(text.split('\n')[1] || '{}') as { changes_per_second?: number }).changes_per_second ?? 0), 0);
   }
 }
 
@@ -108,7 +117,7 @@ async function main(): Promise<void> {
     await first.page.context().close();
     await page.setViewportSize({ width: 1920, height: 1080 });
     await measureFloor(page, shop, pid);
-    console.log(JSON.stringify({ fleet: JSON.parse((await fleet.end()) || 'null') as unknown }));
+    figure('changes', await fleet.end(), '1/s');
   } finally {
     await browser.close();
     await shop.stop();

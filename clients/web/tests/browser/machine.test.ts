@@ -132,7 +132,7 @@ test('a lathe shows X as a diameter, in the unit of its program', async () => {
   const { page, complaints } = await visit('#/machine/lathe-1');
   await page.getByRole('heading', { name: 'Position (inch)' }).waitFor();
   await page.getByRole('rowheader', { name: 'X ⌀ diameter' }).waitFor();
-  await shop.push('O0310', 'O0310\nG21 G94 G98\nG0 X30. Z-2.\nM0\nM30\n', 'centurion');
+  await shop.push('O0310', 'O0310\nG21 G93 G98\nG0 X30. Z-2.\nM0\nM30\n', 'centurion');
   await shop.start('lathe-1', 'O0310');
   await state(page, 'Program stop').waitFor();
   await page.getByRole('heading', { name: 'Position (mm)' }).waitFor();
