@@ -22,10 +22,10 @@ std::string_view to_string(ArchiveKind kind);  ///< records, measurements
 struct Archive {
   std::uint64_t id = 0;
   ArchiveKind kind = ArchiveKind::Records;
-  std::string machine = {};            ///< of records; empty: of all
-  std::uint64_t epoch = 0;             ///< of records
-  std::uint64_t first = 0, last = 0;   ///< numbers of records, ids of parts
-  std::string file = {};               ///< its name in the folder of archives
+  std::string machine = {};           ///< of records; empty: of all
+  std::uint64_t epoch = 0;            ///< of records
+  std::uint64_t first = 0, last = 0;  ///< numbers of records, ids of parts
+  std::string file = {};              ///< its name in the folder of archives
   Digest sha256 = {};
   std::uint64_t rows = 0, bytes = 0;
   UtcTime first_time{}, last_time{}, created{};

@@ -27,7 +27,7 @@ struct MeasuredPart {
   measurement::Verdict verdict = measurement::Verdict::Unknown;  ///< of all so far
   UtcTime begun{};
   std::optional<UtcTime> ended = {};  ///< absent: lines may follow
-  bool is_superseded = false;    ///< its records were derived again
+  bool is_superseded = false;         ///< its records were derived again
 };
 
 /// A line that was not understood, or what is missing, doubled or out of order.
@@ -44,9 +44,9 @@ struct ReportFinding {
 struct DerivedBatch {
   std::string machine;
   std::uint64_t epoch = 0;
-  std::uint64_t after = 0;    ///< the cursor it begins behind
-  std::uint64_t through = 0;  ///< the cursor it ends with
-  std::string state;          ///< of the interpretation, after it
+  std::uint64_t after = 0;          ///< the cursor it begins behind
+  std::uint64_t through = 0;        ///< the cursor it ends with
+  std::string state;                ///< of the interpretation, after it
   std::vector<MeasuredPart> parts;  ///< new ones and changed ones; ids are given by the caller
   std::vector<measurement::Measurement> measurements;
   std::vector<ReportFinding> findings;

@@ -32,8 +32,8 @@ Result<TemplateScope> parse_template_scope(std::string_view text);
 
 struct TemplateAssignment {
   TemplateScope scope = TemplateScope::Program;
-  std::string subject;  ///< name of the program, machine or macro
-  std::string name;     ///< of the template
+  std::string subject;                        ///< name of the program, machine or macro
+  std::string name;                           ///< of the template
   std::optional<std::uint64_t> version = {};  ///< absent: the newest
   std::string author = {};
   UtcTime created = {};

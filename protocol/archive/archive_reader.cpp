@@ -33,7 +33,7 @@ struct ArchiveReader::Stream {
   std::unique_ptr<ZSTD_DStream, FreeStream> zstd;
   std::span<const std::byte> in;
   std::vector<char> out;
-  std::string text;     ///< decompressed, from `at` on not taken yet
+  std::string text;  ///< decompressed, from `at` on not taken yet
   std::size_t at = 0;
   bool is_in_frame = true, is_at_end = false, is_over = false;
   std::uint64_t rows = 0;
@@ -130,7 +130,8 @@ Result<std::optional<std::string>> ArchiveReader::line() {
       return line;
     }
     if (s.text.size() - s.at >= kMaxLine)
-      return fail(Errc::LimitExceeded, "archive {}: a line of more than {} bytes", s.name, kMaxLine);
+      return fail(Errc::LimitExceeded, "archive {}: a line of more than {} bytes", s.name,
+                  kMaxLine);
     if (s.is_at_end) {
       if (s.at == s.text.size()) return std::optional<std::string>();
       return fail(Errc::Corrupt, "archive {} is cut off", s.name);

@@ -59,8 +59,8 @@ Result<ArchiveWriter> ArchiveWriter::begin(const std::filesystem::path& name, co
   auto file = std::make_unique<File>();
   file->name = name;
   file->temporary = name.string() + ".tmp";
-  file->descriptor = Descriptor(
-      ::open(file->temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0640));
+  file->descriptor =
+      Descriptor(::open(file->temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0640));
   if (!file->descriptor) return refused("open", file->temporary);
   file->stream.reset(ZSTD_createCStream());
   invariant(file->stream != nullptr, "memory for a zstd stream");

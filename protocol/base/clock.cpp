@@ -59,8 +59,8 @@ std::optional<std::chrono::microseconds> take_time(std::string_view& text) {
   if (!minute || *minute > 59 || !take(text, ':')) return std::nullopt;
   const auto second = take_digits(text, 2);
   if (!second || *second > 59) return std::nullopt;
-  std::chrono::microseconds time = std::chrono::hours(*hour) + std::chrono::minutes(*minute) +
-                                   std::chrono::seconds(*second);
+  std::chrono::microseconds time =
+      std::chrono::hours(*hour) + std::chrono::minutes(*minute) + std::chrono::seconds(*second);
   if (!take(text, '.')) return time;
   int scale = 1'000'000;
   if (text.empty()) return std::nullopt;

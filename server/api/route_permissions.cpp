@@ -115,8 +115,10 @@ constexpr std::array kRoutes{
     RoutePermission{"PUT", "/api/v1/report-templates/{name}", Program},
     RoutePermission{"DELETE", "/api/v1/report-templates/{name}", Program},
     RoutePermission{"GET", "/api/v1/report-template-assignments", View},
-    RoutePermission{"PUT", "/api/v1/report-template-assignments/{scope}/{subject}/{template}", Program},
-    RoutePermission{"DELETE", "/api/v1/report-template-assignments/{scope}/{subject}/{template}", Program},
+    RoutePermission{"PUT", "/api/v1/report-template-assignments/{scope}/{subject}/{template}",
+                    Program},
+    RoutePermission{"DELETE", "/api/v1/report-template-assignments/{scope}/{subject}/{template}",
+                    Program},
 
     RoutePermission{"GET", "/api/v1/ports", View},
     RoutePermission{"GET", "/api/v1/ports/{name}", View},

@@ -17,8 +17,8 @@ Result<ReportFormat> parse_report_format(std::string_view text);
 std::string csv_field(const std::string& text);
 
 /// The output lines of one run, or what a machine printed outside any, rendered piece by piece so
-/// that a report of any length needs constant memory and time in proportion to its length. One thread at a time; the store must outlive
-/// it.
+/// that a report of any length needs constant memory and time in proportion to its length. One
+/// thread at a time; the store must outlive it.
 class ReportReader {
  public:
   ReportReader(storage::RecordStore& store, storage::Run run, ReportFormat format);

@@ -22,19 +22,19 @@ std::string one_line(const json& value) {
 }
 
 std::string record_line(const storage::Record& record) {
-  return one_line({{"machine", record.machine},
-                   {"epoch", record.epoch},
-                   {"number", record.number},
-                   {"time", to_iso8601(record.time)},
-                   {"run", record.run.empty() ? json(nullptr) : json(record.run)},
-                   {"kind", record.kind},
-                   {"block", record.block},
-                   {"line", record.line},
-                   {"sequence", record.sequence < 0 ? json(nullptr) : json(record.sequence)},
-                   {"device", record.device},
-                   {"text", record.text},
-                   {"received", record.received ? json(to_iso8601(*record.received))
-                                                : json(nullptr)}});
+  return one_line(
+      {{"machine", record.machine},
+       {"epoch", record.epoch},
+       {"number", record.number},
+       {"time", to_iso8601(record.time)},
+       {"run", record.run.empty() ? json(nullptr) : json(record.run)},
+       {"kind", record.kind},
+       {"block", record.block},
+       {"line", record.line},
+       {"sequence", record.sequence < 0 ? json(nullptr) : json(record.sequence)},
+       {"device", record.device},
+       {"text", record.text},
+       {"received", record.received ? json(to_iso8601(*record.received)) : json(nullptr)}});
 }
 
 json part_json(const storage::MeasuredPart& part) {
@@ -56,9 +56,12 @@ json part_json(const storage::MeasuredPart& part) {
 }
 
 json finding_json(const storage::ReportFinding& finding) {
-  return {{"part", finding.part_id},         {"epoch", finding.record.epoch},
-          {"number", finding.record.number}, {"time", to_iso8601(finding.time)},
-          {"kind", finding.kind},            {"text", finding.text}};
+  return {{"part", finding.part_id},
+          {"epoch", finding.record.epoch},
+          {"number", finding.record.number},
+          {"time", to_iso8601(finding.time)},
+          {"kind", finding.kind},
+          {"text", finding.text}};
 }
 
 }  // namespace
@@ -138,8 +141,8 @@ Result<std::uint64_t> Retention::archive_records(const std::stop_token& stop) {
   for (;;) {
     const auto journals = parts_.store.archives.archivable_records();
     if (!journals) return fail(journals.error());
-    const auto size = rule.rows ? parts_.store.archives.size(ArchiveKind::Records)
-                                : Result<std::uint64_t>(0);
+    const auto size =
+        rule.rows ? parts_.store.archives.size(ArchiveKind::Records) : Result<std::uint64_t>(0);
     if (!size) return size;
     const std::uint64_t excess = rule.rows && *size > *rule.rows ? *size - *rule.rows : 0;
     bool has_made = false;
@@ -163,8 +166,8 @@ Result<std::uint64_t> Retention::archive_records(const std::stop_token& stop) {
       oldest_time = first->front().time;
     }
     if (oldest == nullptr) return made;
-    const auto done = archive_journal(*oldest, UtcTime::max(),
-                                      std::min(excess, options_.file_rows), stop);
+    const auto done =
+        archive_journal(*oldest, UtcTime::max(), std::min(excess, options_.file_rows), stop);
     if (!done) return fail(done.error());
     if (!*done) return made;
     ++made;
@@ -176,16 +179,16 @@ Result<bool> Retention::archive_journal(storage::ArchivableRecords range, UtcTim
   auto piece = parts_.store.archives.records(range, std::min(options_.piece, rows));
   if (!piece) return fail(piece.error());
   if (piece->empty() || piece->front().time >= cutoff) return false;
-  Archive archive{.kind = ArchiveKind::Records,
-                  .machine = range.machine,
-                  .epoch = range.epoch,
-                  .first = range.first,
-                  .file = fmt::format("records-{}-{}-{}.jsonl.zst", range.machine, range.epoch,
-                                      range.first),
-                  .first_time = piece->front().time};
+  Archive archive{
+      .kind = ArchiveKind::Records,
+      .machine = range.machine,
+      .epoch = range.epoch,
+      .first = range.first,
+      .file = fmt::format("records-{}-{}-{}.jsonl.zst", range.machine, range.epoch, range.first),
+      .first_time = piece->front().time};
   auto writer = archive::ArchiveWriter::begin(
-      parts_.folder / archive.file, {std::string(to_string(archive.kind)), range.machine,
-                                     parts_.database, parts_.made_by});
+      parts_.folder / archive.file,
+      {std::string(to_string(archive.kind)), range.machine, parts_.database, parts_.made_by});
   if (!writer) return fail(writer.error());
   while (!piece->empty()) {
     if (stop.stop_requested()) return false;

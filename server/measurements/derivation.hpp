@@ -26,8 +26,8 @@ struct Session {
 
   UsedTemplate used;
   report_template::ReportInterpreter interpreter;
-  storage::MeasuredPart part;  ///< id 0: none is open
-  std::uint64_t unmatched = 0;  ///< lines in the open part
+  storage::MeasuredPart part;                                   ///< id 0: none is open
+  std::uint64_t unmatched = 0;                                  ///< lines in the open part
   measurement::Verdict announced = measurement::Verdict::Good;  ///< of the open part
 };
 
@@ -67,8 +67,7 @@ class Derivation {
                                                     const std::string& program)>
         templates;
   };
-  Derivation(std::string machine, MachineState state, Sources sources,
-             std::uint64_t next_part_id);
+  Derivation(std::string machine, MachineState state, Sources sources, std::uint64_t next_part_id);
 
   /// Templates that were assigned since apply outside runs at once, to a run from its beginning
   /// only: a run has one version of each. Errors: those of the sources; then it is not to be used

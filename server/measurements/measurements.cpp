@@ -7,9 +7,9 @@
 namespace dripline::measurements {
 namespace {
 
-constexpr std::uint64_t kPiece = 1000;       ///< records of a transaction
-constexpr std::size_t kMaxDue = 1024;        ///< actions that wait
-constexpr std::uint64_t kRunPiece = 4000;    ///< records read at a time, of a whole run
+constexpr std::uint64_t kPiece = 1000;     ///< records of a transaction
+constexpr std::size_t kMaxDue = 1024;      ///< actions that wait
+constexpr std::uint64_t kRunPiece = 4000;  ///< records read at a time, of a whole run
 
 /// Another time it may go well.
 bool is_passing(const Error& error) {
@@ -126,9 +126,10 @@ Derivation::Sources Measurements::sources(const std::string& machine) {
             if (!run) return fail(run.error());
             return std::optional(RunFacts{run->machine, run->program, run->revision});
           },
-          .templates = [this](const std::string& name, const std::string& program) {
-            return cache_.templates_of(name, program);
-          }};
+          .templates =
+              [this](const std::string& name, const std::string& program) {
+                return cache_.templates_of(name, program);
+              }};
 }
 
 /// A state that cannot be read (of another version of this program) is dropped: the parts that were
@@ -264,12 +265,9 @@ Result<storage::ReportTemplateVersion> Measurements::push(const std::string& nam
                                                           const std::string& text,
                                                           const storage::Actor& who) {
   if (const auto read = report_template::read_template(text); !read) return fail(read.error());
-  auto pushed = parts_.store.report_templates.push({.name = name,
-                                                    .version = 0,
-                                                    .text = text,
-                                                    .author = who.name,
-                                                    .created = parts_.clock.now()},
-                                                   who);
+  auto pushed = parts_.store.report_templates.push(
+      {.name = name, .version = 0, .text = text, .author = who.name, .created = parts_.clock.now()},
+      who);
   cache_.drop();
   return pushed;
 }

@@ -29,8 +29,8 @@ class Measurements {
   struct Parts {
     const storage::Store& store;
     const Clock& clock;
-    /// A part has a verdict: outside its limits at once, otherwise when it is complete. Called after
-    /// the commit; must return soon.
+    /// A part has a verdict: outside its limits at once, otherwise when it is complete. Called
+    /// after the commit; must return soon.
     std::function<void(const storage::MeasuredPart&)> on_part = {};
     Hold hold_queue = {};    ///< empty: this server has no queues
     Hold hold_machine = {};  ///< empty: it holds nothing

@@ -5,8 +5,8 @@
 namespace dripline::measurements {
 namespace {
 
-using nlohmann::json;
 using measurement::Verdict;
+using nlohmann::json;
 
 constexpr const char* kActions[] = {"none", "hold_queue", "hold_machine"};
 

@@ -19,8 +19,7 @@ Result<UsedTemplate> read(const storage::ReportTemplateVersion& version) {
   return UsedTemplate{
       .name = version.name,
       .version = version.version,
-      .content =
-          std::make_shared<const report_template::ReportTemplate>(*std::move(content))};
+      .content = std::make_shared<const report_template::ReportTemplate>(*std::move(content))};
 }
 
 bool applies(const TemplateAssignment& assignment, const std::string& machine,

@@ -16,8 +16,7 @@ const std::string kSelect =
 Archive read_archive(const sqlite::Statement& row) {
   Archive archive;
   archive.id = row.number(0);
-  archive.kind =
-      row.text(1) == "measurements" ? ArchiveKind::Measurements : ArchiveKind::Records;
+  archive.kind = row.text(1) == "measurements" ? ArchiveKind::Measurements : ArchiveKind::Records;
   archive.machine = row.text(2);
   archive.epoch = row.number(3);
   archive.first = row.number(4);
@@ -43,12 +42,12 @@ Result<std::optional<Archive>> find_archive(sqlite::Database& database, std::uin
 
 Result<std::uint64_t> remove_records(sqlite::Database& database, const Archive& archive,
                                      std::uint64_t limit) {
-  static const std::string kSql =
-      fmt::format("DELETE FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
-                  "AND epoch = ?2 AND number IN (SELECT number FROM record WHERE machine = "
-                  "(SELECT id FROM machine WHERE name = ?1) AND epoch = ?2 AND number BETWEEN ?3 "
-                  "AND ?4 AND {} ORDER BY number LIMIT ?5)",
-                  kNoMemory);
+  static const std::string kSql = fmt::format(
+      "DELETE FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
+      "AND epoch = ?2 AND number IN (SELECT number FROM record WHERE machine = "
+      "(SELECT id FROM machine WHERE name = ?1) AND epoch = ?2 AND number BETWEEN ?3 "
+      "AND ?4 AND {} ORDER BY number LIMIT ?5)",
+      kNoMemory);
   auto done = sqlite::run(database, kSql, archive.machine, archive.epoch, archive.first,
                           archive.last, limit);
   if (!done) return fail(done.error());

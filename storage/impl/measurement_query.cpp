@@ -33,9 +33,8 @@ std::string key_sql(Along along, bool is_newest_first) {
   sql += along == Along::MachineAndName ? "AND name = ?2 " : "AND (?2 IS NULL OR name = ?2) ";
   if (along == Along::OutsideLimits) sql += "AND verdict >= 2 ";
   sql += "AND time_us >= ?3 AND time_us < ?4 ";
-  sql += along == Along::Part
-             ? fmt::format("AND id {} ?6 AND ?5 IS NOT NULL ", compare)
-             : fmt::format("AND (time_us, id) {} (?5, ?6) ", compare);
+  sql += along == Along::Part ? fmt::format("AND id {} ?6 AND ?5 IS NOT NULL ", compare)
+                              : fmt::format("AND (time_us, id) {} (?5, ?6) ", compare);
   sql += "AND is_superseded <= ?7 AND (?8 IS NULL OR verdict = ?8) ";
   sql += along == Along::Part
              ? fmt::format("ORDER BY id{} LIMIT ?9", direction)
@@ -74,7 +73,7 @@ Result<std::vector<std::int64_t>> parts_of_run(sqlite::Database& database, const
 struct Search {
   std::optional<std::int64_t> name;
   Along along = Along::Machine;
-  std::vector<std::int64_t> owners;             ///< machines or parts
+  std::vector<std::int64_t> owners;  ///< machines or parts
 };
 
 Result<Search> search_of(sqlite::Database& database, const MeasurementFilter& filter) {
@@ -119,9 +118,11 @@ Result<std::vector<Key>> find_keys(sqlite::Database& database, const Measurement
   for (const std::int64_t owner : search->owners) {
     const auto found = sqlite::all_rows(
         database, key_sql_of(search->along, order.is_newest_first),
-        [](const sqlite::Statement& row) { return Key{row.integer(0), row.integer(1)}; }, owner,
-        search->name, micros(filter.since, kFirst), micros(filter.until, kLast), from.time, from.id,
-        filter.with_superseded ? 1 : 0, verdict, limit);
+        [](const sqlite::Statement& row) {
+          return Key{row.integer(0), row.integer(1)};
+        },
+        owner, search->name, micros(filter.since, kFirst), micros(filter.until, kLast), from.time,
+        from.id, filter.with_superseded ? 1 : 0, verdict, limit);
     if (!found) return fail(found.error());
     keys.insert(keys.end(), found->begin(), found->end());
   }
@@ -276,8 +277,8 @@ Result<std::vector<std::string>> query_characteristics(sqlite::Database& databas
                                                        const std::optional<std::string>& machine) {
   const auto read = [](const sqlite::Statement& row) { return row.text(0); };
   if (!machine) {
-    return sqlite::all_rows(
-        database, "SELECT name FROM characteristic_name ORDER BY name LIMIT 10000", read);
+    return sqlite::all_rows(database,
+                            "SELECT name FROM characteristic_name ORDER BY name LIMIT 10000", read);
   }
   return sqlite::all_rows(
       database,

@@ -93,9 +93,9 @@ Result<void> save_parts(sqlite::Database& database, std::int64_t machine,
   std::uint64_t last = 0;
   for (const MeasuredPart& part : parts) {
     auto saved = sqlite::run(database, kSave, part.id, machine, optional_text(part.run),
-                             part.program, part.revision, part.template_name,
-                             part.template_version, part.number, part.serial, part.measurements,
-                             part.findings, static_cast<int>(part.verdict), part.begun, part.ended);
+                             part.program, part.revision, part.template_name, part.template_version,
+                             part.number, part.serial, part.measurements, part.findings,
+                             static_cast<int>(part.verdict), part.begun, part.ended);
     if (!saved) return saved;
     if (database.changes() == 0)
       return fail(Errc::Conflict, "part {} is another machine's", part.id);
@@ -146,8 +146,7 @@ Result<void> add_derived(sqlite::Database& database, std::int64_t machine,
   return add_findings(database, machine, batch.findings);
 }
 
-Result<void> put_state(sqlite::Database& database, std::int64_t machine,
-                       const std::string& state) {
+Result<void> put_state(sqlite::Database& database, std::int64_t machine, const std::string& state) {
   return sqlite::run(database,
                      "INSERT INTO measurement_state (machine, state) VALUES (?1, ?2) ON CONFLICT "
                      "(machine) DO UPDATE SET state = excluded.state",
@@ -298,9 +297,8 @@ Result<std::vector<ReportFinding>> MeasurementRepository::findings(const PartFil
 
 Result<std::vector<std::string>> MeasurementRepository::characteristics(
     const std::optional<std::string>& machine) {
-  return connections_.read([&](sqlite::Database& database) {
-    return query_characteristics(database, machine);
-  });
+  return connections_.read(
+      [&](sqlite::Database& database) { return query_characteristics(database, machine); });
 }
 
 }  // namespace dripline::storage

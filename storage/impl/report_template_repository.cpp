@@ -116,8 +116,8 @@ Result<void> ReportTemplateRepository::remove(const std::string& name, const Act
         name);
     if (!done) return done;
     if (database.changes() == 0) return fail(no_such(name, {}));
-    done = sqlite::run(database, "DELETE FROM report_template_assignment WHERE template = ?1",
-                       name);
+    done =
+        sqlite::run(database, "DELETE FROM report_template_assignment WHERE template = ?1", name);
     if (!done) return done;
     return add_audit(database, {.time = time,
                                 .who = who,
@@ -157,10 +157,10 @@ Result<void> ReportTemplateRepository::assign(const TemplateAssignment& assignme
 Result<void> ReportTemplateRepository::unassign(const TemplateAssignment& assignment,
                                                 const Actor& who) {
   return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    auto done = sqlite::run(
-        database,
-        "DELETE FROM report_template_assignment WHERE scope = ?1 AND subject = ?2 AND template = ?3",
-        to_string(assignment.scope), assignment.subject, assignment.name);
+    auto done = sqlite::run(database,
+                            "DELETE FROM report_template_assignment WHERE scope = ?1 AND subject = "
+                            "?2 AND template = ?3",
+                            to_string(assignment.scope), assignment.subject, assignment.name);
     if (!done) return done;
     if (database.changes() == 0) {
       return fail(Errc::NotFound, "report template {} is not assigned to {}", assignment.name,

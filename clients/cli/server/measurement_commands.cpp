@@ -116,8 +116,9 @@ void add_measurement_commands(Command report, Context& context) {
   auto options = std::make_shared<MeasurementsCommand>();
   add_choice(listed, options);
   listed.add_option("--characteristic", options->query.characteristic, "Only this characteristic");
-  listed.add_option("--since", options->query.since, "Not before this time, UTC: 2026-11-21 or "
-                                                     "2026-11-21T07:40:06Z");
+  listed.add_option("--since", options->query.since,
+                    "Not before this time, UTC: 2026-11-21 or "
+                    "2026-11-21T07:40:06Z");
   listed.add_option("--until", options->query.until, "Before this time");
   listed.add_option("--verdict", options->query.verdict, "Only this verdict")
       .check(one_of({"good", "unknown", "rework", "scrap"}));

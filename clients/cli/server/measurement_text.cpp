@@ -114,8 +114,7 @@ Table measurement_table(const ordered_json& measurements) {
     table.add({time_text(text_at(one, "time")), text_at(one, "machine"), number_at(one, "part"),
                text_at(one, "serial"), text_at(one, "characteristic"), value_at(one, "actual"),
                value_at(one, "nominal"), value_at(one, "lower"), value_at(one, "upper"),
-               text_at(one, "unit"), text_at(one, "tool"),
-               verdict_cell(text_at(one, "verdict"))});
+               text_at(one, "unit"), text_at(one, "tool"), verdict_cell(text_at(one, "verdict"))});
   }
   return table;
 }

@@ -80,8 +80,7 @@ int push_template(Context& context, client::Client& client, const TemplateChoice
 int remove_template(Context& context, client::Client& client, const TemplateChoice& command) {
   const auto removed = client.remove_report_template(command.name);
   if (!removed) return complain(removed.error());
-  context.print(
-      fmt::format("Removed {}; what it has measured stays.\n", printable(command.name)));
+  context.print(fmt::format("Removed {}; what it has measured stays.\n", printable(command.name)));
   return kExitOk;
 }
 
@@ -108,9 +107,8 @@ int assign_template(Context& context, client::Client& client, const AssignmentCh
   if (!assignment) return kExitUsage;
   const auto assigned = client.assign_report_template(*assignment);
   if (!assigned) return complain(assigned.error());
-  context.print(fmt::format("{} is for {} {}, from its next run on.\n",
-                            printable(assignment->name), assignment->scope,
-                            printable(assignment->subject)));
+  context.print(fmt::format("{} is for {} {}, from its next run on.\n", printable(assignment->name),
+                            assignment->scope, printable(assignment->subject)));
   return kExitOk;
 }
 
@@ -136,9 +134,8 @@ class Trial {
     const auto taken = interpreter_.take(line);
     ++lines_;
     if (!taken.is_understood) ++unmatched_;
-    const auto* rule = taken.is_understood
-                           ? &interpreter_.report_template().rules.at(taken.rule)
-                           : nullptr;
+    const auto* rule =
+        taken.is_understood ? &interpreter_.report_template().rules.at(taken.rule) : nullptr;
     print(line.text, rule, taken);
   }
   int end() {

@@ -80,8 +80,7 @@ class FormReader {
   std::vector<Field> fields;
 
  private:
-  static constexpr const char* kNumber =
-      R"([ \t]*([+-]?[ \t]*(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)))";
+  static constexpr const char* kNumber = R"([ \t]*([+-]?[ \t]*(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)))";
   static constexpr const char* kNumberWithComma =
       R"([ \t]*([+-]?[ \t]*(?:[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)))";
 
@@ -114,8 +113,8 @@ class FormReader {
     field.name = inside;
     field.kind = kind_of(inside);
     if (inside.empty() || !std::ranges::all_of(inside, is_word_character)) {
-      return fail(Errc::Syntax,
-                  "form '{}': '{}' is no name of a field: letters, digits and '_'", form_, inside);
+      return fail(Errc::Syntax, "form '{}': '{}' is no name of a field: letters, digits and '_'",
+                  form_, inside);
     }
     if (!type.empty() && type != "number" && type != "word" && type != "text") {
       return fail(Errc::Syntax, "form '{}': '{}' of field {} is not number, word or text", form_,
@@ -125,10 +124,9 @@ class FormReader {
     if (is_number(field.kind) && (type == "word" || type == "text"))
       return fail(Errc::Conflict, "form '{}': field {} is a number", form_, inside);
     fields.push_back(std::move(field));
-    add(has_number ? Piece::Number : Piece::Word,
-        has_number        ? number_
-        : type == "text" ? R"((\S(?:.*?\S)?))"
-                          : R"((\S+?))");
+    add(has_number ? Piece::Number : Piece::Word, has_number       ? number_
+                                                  : type == "text" ? R"((\S(?:.*?\S)?))"
+                                                                   : R"((\S+?))");
     return {};
   }
 
@@ -214,8 +212,7 @@ Result<void> LineForm::compile(const std::string& pattern) {
   options.set_max_mem(kPatternMemory);
   options.set_encoding(re2::RE2::Options::EncodingLatin1);
   auto compiled = std::make_shared<const re2::RE2>(pattern, options);
-  if (!compiled->ok())
-    return fail(Errc::Syntax, "pattern '{}': {}", text_, compiled->error());
+  if (!compiled->ok()) return fail(Errc::Syntax, "pattern '{}': {}", text_, compiled->error());
   pattern_ = std::move(compiled);
   return {};
 }

@@ -57,8 +57,9 @@ struct FieldText {
 class LineForm {
  public:
   /// Literal text with fields: "BORE {feature} D {actual}". A blank stands for any blanks, beside a
-  /// number or a sign like | and : also for none. Blanks and control characters at the ends of a line do not matter. A
-  /// number may have blanks before and behind its sign. `{name:number}`, `{name:word}` and
+  /// number or a sign like | and : also for none. Blanks and control characters at the ends of a
+  /// line do not matter. A number may have blanks before and behind its sign. `{name:number}`,
+  /// `{name:word}` and
   /// `{name:text}` (with blanks) say what a free field is; without it is a word. `{{`, `}}` are
   /// braces. Errors: Syntax, LimitExceeded.
   static Result<LineForm> of_form(std::string_view form, bool has_decimal_comma);

@@ -39,10 +39,9 @@ std::optional<double> LineNumbers::*member_of(FieldKind kind) {
 
 /// What `line` has goes before what lines before it had.
 void add_missing(LineNumbers& line, const LineNumbers& before) {
-  for (const auto member :
-       {&LineNumbers::actual, &LineNumbers::deviation, &LineNumbers::nominal, &LineNumbers::lower,
-        &LineNumbers::upper, &LineNumbers::tolerance, &LineNumbers::upper_deviation,
-        &LineNumbers::lower_deviation}) {
+  for (const auto member : {&LineNumbers::actual, &LineNumbers::deviation, &LineNumbers::nominal,
+                            &LineNumbers::lower, &LineNumbers::upper, &LineNumbers::tolerance,
+                            &LineNumbers::upper_deviation, &LineNumbers::lower_deviation}) {
     if (!(line.*member)) line.*member = before.*member;
   }
   line.decimals = std::max(line.decimals, before.decimals);
@@ -151,10 +150,10 @@ ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<Field
     const std::string_view shown = trimmed(text);
     if (!is_number(field->kind)) {
       if (shown.size() > kMaxName) {
-        add_finding(FindingKind::BadValue,
-                    fmt::format("{} of {} characters: at most {}", field->name, shown.size(),
-                                kMaxName),
-                    events);
+        add_finding(
+            FindingKind::BadValue,
+            fmt::format("{} of {} characters: at most {}", field->name, shown.size(), kMaxName),
+            events);
         continue;
       }
       made.texts[field->name] = shown;
@@ -352,8 +351,8 @@ void ReportInterpreter::find_missing(std::vector<ReportEvent>& events) {
     add_finding(kind, std::move(text), events);
   };
   if (const LineForm* form = next_of_partial()) {
-    miss(FindingKind::Incomplete, fmt::format("'{}' did not come behind '{}'", form->text(),
-                                              state_.partial->texts.back()));
+    miss(FindingKind::Incomplete,
+         fmt::format("'{}' did not come behind '{}'", form->text(), state_.partial->texts.back()));
   }
   for (const auto& [from, to] : state_.missing) miss(FindingKind::Missing, counts_text(from, to));
   if (state_.expected) {

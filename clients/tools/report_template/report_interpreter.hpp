@@ -48,7 +48,7 @@ using ReportEvent = std::variant<PartBegun, Value, Finding, PartEnded>;
 
 struct Taken {
   bool is_understood = false;
-  std::size_t rule = 0;                                      ///< of the template; if understood
+  std::size_t rule = 0;                                     ///< of the template; if understood
   std::vector<std::pair<std::string, std::string>> fields;  ///< as written in the line
   std::vector<ReportEvent> events;
 };

@@ -55,8 +55,8 @@ struct ReportState {
   std::optional<std::int64_t> highest;            ///< count so far
   std::vector<std::pair<std::int64_t, std::int64_t>> missing;  ///< counts below it, from and to
   std::optional<std::uint64_t> expected;
-  std::uint64_t lines = 0;  ///< with values
-  bool is_judged = false;   ///< a value had limits
+  std::uint64_t lines = 0;                                  ///< with values
+  bool is_judged = false;                                   ///< a value had limits
   measurement::Verdict worst = measurement::Verdict::Good;  ///< of those that had
   bool is_incomplete = false;
   friend bool operator==(const ReportState&, const ReportState&) = default;

@@ -117,8 +117,8 @@ Result<void> check_definition(const Definition& definition, const toml::node& no
     return fail(Errc::Conflict, "line {}: tolerance {} is negative", line_of(node),
                 *definition.tolerance);
   }
-  if (definition.tolerance && (definition.lower || definition.upper ||
-                               definition.lower_deviation || definition.upper_deviation)) {
+  if (definition.tolerance && (definition.lower || definition.upper || definition.lower_deviation ||
+                               definition.upper_deviation)) {
     return fail(Errc::Conflict, "line {}: a tolerance beside limits", line_of(node));
   }
   return {};
@@ -188,8 +188,8 @@ class RuleReader {
   Result<void> read_form(LineRule& rule, std::string_view key, const toml::node& node) {
     const auto text = read_text(key, node, kMaxForm);
     if (!text) return fail(text.error());
-    auto form = key == "form" ? LineForm::of_form(*text, has_decimal_comma_)
-                              : LineForm::of_pattern(*text);
+    auto form =
+        key == "form" ? LineForm::of_form(*text, has_decimal_comma_) : LineForm::of_pattern(*text);
     if (!form) {
       return fail(form.error().code, "line {}: {}", line_of(node), form.error().what);
     }

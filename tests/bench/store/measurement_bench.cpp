@@ -1,6 +1,7 @@
-// Measurements at scale, as a program of its own because filling takes minutes: measurement_bench [ROWS] [MACHINES].
-// Prints how fast rows are stored, their bytes, the 95th percentile of queries by machine, time and characteristic, how fast they are
-// exported, and how many records a second are stored beside readers. Default: 200,000 rows of 20 machines.
+// Measurements at scale, as a program of its own because filling takes minutes: measurement_bench
+// [ROWS] [MACHINES]. Prints how fast rows are stored, their bytes, the 95th percentile of queries
+// by machine, time and characteristic, how fast they are exported, and how many records a second
+// are stored beside readers. Default: 200,000 rows of 20 machines.
 #include <stdlib.h>
 #include <algorithm>
 #include <atomic>
@@ -269,9 +270,9 @@ int main(int argc, char** argv) {
     auto store = SqliteStore::open(options, clock);
     invariant(store.has_value(), "the store opens");
     fill(**store, rows, machines);
-    fmt::print("{:.0f} bytes a row in the file\n",
-               static_cast<double>(std::filesystem::file_size(options.file)) /
-                   static_cast<double>(rows));
+    fmt::print(
+        "{:.0f} bytes a row in the file\n",
+        static_cast<double>(std::filesystem::file_size(options.file)) / static_cast<double>(rows));
     query(**store, rows, machines);
     time_export(**store, rows, machines);
     time_report(**store, 500'000);

@@ -1,4 +1,5 @@
-// An archive's bytes. Properties: they are read to their end or refused with a reason, with the same result however they come.
+// An archive's bytes. Properties: they are read to their end or refused with a reason, with the
+// same result however they come.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,6 @@
-// A template, a NUL, and lines. Properties: any template is read or refused; any line is interpreted; the state written and read
-// between two lines changes nothing and stays bounded; a value has a name, is finite and has a verdict by its limits.
+// A template, a NUL, and lines. Properties: any template is read or refused; any line is
+// interpreted; the state written and read between two lines changes nothing and stays bounded; a
+// value has a name, is finite and has a verdict by its limits.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// The templates of deploy/templates on what simulated controls really print: the programs run on the interpreters of their
-// controls, with probes on simulated workpieces.
+// The templates of deploy/templates on what simulated controls really print: the programs run on
+// the interpreters of their controls, with probes on simulated workpieces.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -40,10 +40,10 @@ class Recorder final : public interpreter::EventSink {
     using enum interpreter::Axis;
     for (const auto& [letter, axis] : {std::pair("X", X), std::pair("Y", Y), std::pair("Z", Z)})
       at[letter] = event.result->at.linear(axis).mm();
-    records.push_back({"probe", nlohmann::json{{"until", "contact"},
-                                               {"tripped", event.result->tripped},
-                                               {"at", at}}
-                                    .dump()});
+    records.push_back(
+        {"probe",
+         nlohmann::json{{"until", "contact"}, {"tripped", event.result->tripped}, {"at", at}}
+             .dump()});
   }
   void on_alarm(const interpreter::Alarm& event) override {
     alarm = fmt::format("{} {}", event.diagnostic.id, event.diagnostic.text);
@@ -92,7 +92,8 @@ Read read_with(const std::string& name, const Recorder& recorder) {
   const auto add = [&](const std::vector<ReportEvent>& events) {
     for (const auto& event : events) {
       if (const auto* value = std::get_if<Value>(&event)) read.values.push_back(*value);
-      if (const auto* finding = std::get_if<Finding>(&event)) read.findings.push_back(finding->text);
+      if (const auto* finding = std::get_if<Finding>(&event))
+        read.findings.push_back(finding->text);
       if (const auto* ended = std::get_if<PartEnded>(&event)) read.parts.push_back(ended->part);
     }
   };
@@ -129,10 +130,9 @@ TEST(ReportTemplates, AreAllGood) {
 }
 
 TEST(ReportTemplates, UnderstandASurfaceOfTheMacros) {
-  const auto recorder = run("fanuc",
-                            probing("{ X = 10.0, Y = 4.0, Z = -2.0 }",
-                                    "{ axis = \"X\", at = 22.012 }"),
-                            with_macro("G65P9711X25.S7.H.02"));
+  const auto recorder =
+      run("fanuc", probing("{ X = 10.0, Y = 4.0, Z = -2.0 }", "{ axis = \"X\", at = 22.012 }"),
+          with_macro("G65P9711X25.S7.H.02"));
   const auto read = read_with("dripline-macros", recorder);
   ASSERT_EQ(read.values.size(), 1u);
   EXPECT_NEAR(read.value("X7").actual, 25.012, 0.0015);
@@ -195,10 +195,11 @@ TEST(ReportTemplates, UnderstandAnInspectionOfACenturion) {
 }
 
 TEST(ReportTemplates, UnderstandTheTouchProbeOfATnc) {
-  const auto recorder = run("tnc155", "start = { Z = 60.0 }\n[probe]\nsurface = [ { axis = \"Z\", at = -0.75 } ]\n",
-                            "0 BEGIN PGM 7 MM\n1 TOOL DEF 9 L+0,000 R+2,000\n2 TOOL CALL 9 Z S1\n"
-                            "3 TCH PROBE 0.0 REF. PLANE Q5 Z-\n"
-                            "4 TCH PROBE 0.1 X+10,000 Y+20,000 Z+0,000\n5 END PGM 7 MM\n");
+  const auto recorder =
+      run("tnc155", "start = { Z = 60.0 }\n[probe]\nsurface = [ { axis = \"Z\", at = -0.75 } ]\n",
+          "0 BEGIN PGM 7 MM\n1 TOOL DEF 9 L+0,000 R+2,000\n2 TOOL CALL 9 Z S1\n"
+          "3 TCH PROBE 0.0 REF. PLANE Q5 Z-\n"
+          "4 TCH PROBE 0.1 X+10,000 Y+20,000 Z+0,000\n5 END PGM 7 MM\n");
   const auto read = read_with("tnc-probe", recorder);
   ASSERT_EQ(read.values.size(), 3u);
   EXPECT_NEAR(read.value("Z1").actual, -0.75, 1e-6);
@@ -215,11 +216,10 @@ TEST(ReportTemplates, UnderstandPrintedParametersOfATnc) {
 
 TEST(ReportTemplates, UnderstandSurfacePoints) {
   Recorder recorder;
-  recorder.records = {
-      {"output", "START"},
-      {"output", "G800 N1 X10. Y20. Z-5. I0. J0. K1. O0. U0.05 L-0.05"},
-      {"output", "G801 N1 X10. Y20.001 Z-4.988 R3."},
-      {"output", "G802 N1 DEVIATION 0.012"}};
+  recorder.records = {{"output", "START"},
+                      {"output", "G800 N1 X10. Y20. Z-5. I0. J0. K1. O0. U0.05 L-0.05"},
+                      {"output", "G801 N1 X10. Y20.001 Z-4.988 R3."},
+                      {"output", "G802 N1 DEVIATION 0.012"}};
   const auto read = read_with("surface-inspection", recorder);
   EXPECT_EQ(read.values.size(), 4u);
   EXPECT_EQ(read.value("Z 1").actual, -4.988);

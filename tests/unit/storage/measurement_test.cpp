@@ -233,8 +233,9 @@ TEST_F(Measurements, KeepVersionsOfTemplates) {
   EXPECT_EQ(templates.find("bore", 1)->text, "x");
   EXPECT_EQ(templates.find("bore", 3).error().code, Errc::NotFound);
   EXPECT_EQ(templates.list()->size(), 1u);
-  EXPECT_EQ(templates.assign({.subject = "p.nc", .name = "bore", .version = 3}, "anna").error().code,
-            Errc::NotFound);
+  EXPECT_EQ(
+      templates.assign({.subject = "p.nc", .name = "bore", .version = 3}, "anna").error().code,
+      Errc::NotFound);
   ASSERT_TRUE(templates.assign({.subject = "p.nc", .name = "bore", .version = 1}, "anna"));
   EXPECT_EQ(templates.assignments()->front().version, 1u);
   ASSERT_TRUE(templates.remove("bore", "anna", clock_.now()));

@@ -106,11 +106,11 @@ Result<Value> make_value(const ReportTemplate& report_template, const LineRule& 
     if (!decimals) decimals = layer->decimals;
   }
   static const std::string kMillimeter = "mm";
-  made.unit = unit_of(first_text(
-      {&parts.unit, &own.unit, &rule.definition.unit, &report_template.defaults.unit, &kMillimeter}));
+  made.unit = unit_of(first_text({&parts.unit, &own.unit, &rule.definition.unit,
+                                  &report_template.defaults.unit, &kMillimeter}));
   made.decimals = decimals.value_or(numbers.decimals);
-  value.tool = first_text(
-      {&parts.tool, &own.tool, &rule.definition.tool, &report_template.defaults.tool});
+  value.tool =
+      first_text({&parts.tool, &own.tool, &rule.definition.tool, &report_template.defaults.tool});
   if (auto set = set_limits(made, limits); !set) return fail(set.error());
   if (numbers.actual) {
     value.actual = *numbers.actual;

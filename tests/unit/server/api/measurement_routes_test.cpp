@@ -59,7 +59,8 @@ TEST_F(MeasurementRoutes, ListWhatWasMeasured) {
             "scrap");
   EXPECT_EQ(json(get("/api/v1/measurements?verdict=scrap"))["measurements"].size(), 1u);
   EXPECT_EQ(json(get("/api/v1/measurements?machine=lathe-1&characteristic=D,%20bore&run=run-1"))
-                ["measurements"].size(),
+                ["measurements"]
+                    .size(),
             3u);
   EXPECT_EQ(json(get("/api/v1/measurements?since=2100-01-01"))["measurements"].size(), 0u);
 }

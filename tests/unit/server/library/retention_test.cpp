@@ -186,8 +186,13 @@ TEST_F(RetentionTest, MovesEndedPartsWithTheirMeasurements) {
     value.record = {7, id};
     batch.measurements.push_back(value);
   }
-  batch.findings = {{.machine = "lathe-1", .run = {}, .part_id = 1, .record = {7, 1},
-                     .time = clock_.now(), .kind = "doubled", .text = "x"}};
+  batch.findings = {{.machine = "lathe-1",
+                     .run = {},
+                     .part_id = 1,
+                     .record = {7, 1},
+                     .time = clock_.now(),
+                     .kind = "doubled",
+                     .text = "x"}};
   ASSERT_TRUE(store_->measurements.commit(batch));
   clock_.advance(std::chrono::hours(100));
   auto retention = make({}, {.age = std::chrono::hours(24), .rows = {}});

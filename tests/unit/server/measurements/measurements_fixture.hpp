@@ -30,9 +30,10 @@ class MeasurementsTest : public server_test::ServerTest {
                                             measurement::to_string(part.verdict),
                                             part.ended ? "" : " so far"));
             },
-        .hold_queue = [this](const auto& part, const auto& why) { return hold("queue", part, why); },
-        .hold_machine =
-            [this](const auto& part, const auto& why) { return hold("machine", part, why); },
+        .hold_queue = [this](const auto& part,
+                             const auto& why) { return hold("queue", part, why); },
+        .hold_machine = [this](const auto& part,
+                               const auto& why) { return hold("machine", part, why); },
         .retry = std::chrono::milliseconds(20)});
     measurements_->begin();
   }
@@ -98,8 +99,8 @@ class MeasurementsTest : public server_test::ServerTest {
   /// As soon as so many were held.
   std::vector<std::string> held(std::size_t count) {
     std::unique_lock lock(mutex_);
-    EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(60),
-                                  [&] { return held_.size() >= count; }));
+    EXPECT_TRUE(
+        changed_.wait_for(lock, std::chrono::seconds(60), [&] { return held_.size() >= count; }));
     return held_;
   }
 

@@ -74,8 +74,8 @@ TEST_F(MeasurementsTest, OfAMacroMindOnlyItsOwnLines) {
 TEST_F(MeasurementsTest, TakeTheProgramsTemplateFirst) {
   start();
   use(kBore, storage::TemplateScope::Machine, "lathe-1");
-  ASSERT_TRUE(measurements_->push("own", "[[line]]\nform='D {actual}'\ncharacteristic='own'\n",
-                                  "anna"));
+  ASSERT_TRUE(
+      measurements_->push("own", "[[line]]\nform='D {actual}'\ncharacteristic='own'\n", "anna"));
   ASSERT_TRUE(measurements_->assign(
       {.scope = storage::TemplateScope::Program, .subject = "O0100", .name = "own"}, "anna"));
   make_run("r1");
@@ -168,7 +168,7 @@ TEST_F(MeasurementsTest, CanBeDerivedAgain) {
   EXPECT_EQ(measurements_->derive("r1", {}, {}).error().code, Errc::Conflict) << "it goes on";
   print({"run_ended"});
   settle();
-  use(std::string(kBore) + "[[line]]\nform='LOAD {actual}'\ncharacteristic='load'\n" , 
+  use(std::string(kBore) + "[[line]]\nform='LOAD {actual}'\ncharacteristic='load'\n",
       storage::TemplateScope::Program);
   const auto again = measurements_->derive("r1", {}, {});
   ASSERT_TRUE(again) << again.error().what;

@@ -50,7 +50,8 @@ INSTANTIATE_TEST_SUITE_P(
         FormCase{"lonely_brace", "D }", "", "form 'D }': '}' without '{' at 3"},
         FormCase{"bad_name", "{a b}", "",
                  "form '{a b}': 'a b' is no name of a field: letters, digits and '_'"},
-        FormCase{"number_as_text", "{actual:text}", "", "form '{actual:text}': field actual is a number"},
+        FormCase{"number_as_text", "{actual:text}", "",
+                 "form '{actual:text}': field actual is a number"},
         FormCase{"empty", " ", "", "a form is empty"}),
     [](const auto& i) { return i.param.name; });
 

@@ -1,5 +1,6 @@
-// Templates for reports that nobody here wrote: forms that the documents of public macro and post processor libraries and of
-// a measuring instrument give, with values of our own. Each takes less than ten lines.
+// Templates for reports that nobody here wrote: forms that the documents of public macro and post
+// processor libraries and of a measuring instrument give, with values of our own. Each takes less
+// than ten lines.
 #include "tests/unit/clients/tools/report_template/reading.hpp"
 
 namespace dripline::report_template {
@@ -26,8 +27,8 @@ ignore = true
   reading.take("G800 N1 X10.0000 Y20.0000 Z-5.0000 I0.000000 J0.000000 K1.000000 O0. U0.05 L-0.05");
   reading.take("G801 N1 X10.0000 Y20.0010 Z-4.9380 R3.0000");
   reading.take("END").end();
-  EXPECT_EQ(reading.brought, (Brought{"[", "X1=10.0000 good", "Y1=20.0010 good", "Z1=-4.9380 scrap",
-                                      "] scrap"}));
+  EXPECT_EQ(reading.brought,
+            (Brought{"[", "X1=10.0000 good", "Y1=20.0010 good", "Z1=-4.9380 scrap", "] scrap"}));
 }
 
 /// Columns between bars, as a digital readout prints its tolerance report (HEIDENHAIN ND 1300,
@@ -41,8 +42,8 @@ characteristic = "{kind}{id} {axis}"
   Reading reading(toml);
   reading.take("|P|Cir 3  |r  | 12.0041 | 12.0000 | 11.9900 | 12.0100 |--+--|\r\n");
   reading.take("|F|Cir 4  |X  |-40.0210 |-40.0000 |-40.0200 |-39.9800 |+----|\r\n").end();
-  EXPECT_EQ(reading.brought, (Brought{"[", "Cir3 r=12.0041 good", "Cir4 X=-40.0210 scrap",
-                                      "] scrap"}));
+  EXPECT_EQ(reading.brought,
+            (Brought{"[", "Cir3 r=12.0041 good", "Cir4 X=-40.0210 scrap", "] scrap"}));
 }
 
 /// What a Grbl 1.1 board answers to a probe move, as its interface is documented.

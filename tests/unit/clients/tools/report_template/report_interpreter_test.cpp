@@ -6,8 +6,7 @@ namespace {
 TEST(ReportInterpreter, TakesLimitsFromTheLine) {
   Reading reading("[[line]]\nform = '{characteristic} {actual} NOM {nominal} TOL {tolerance}'\n");
   reading.take("D1 40.018 NOM 40.000 TOL 0.020").take("D1 40.021 NOM 40. TOL .02").end();
-  EXPECT_EQ(reading.brought,
-            (Brought{"[", "D1=40.018 good", "D1=40.021 scrap", "] scrap"}));
+  EXPECT_EQ(reading.brought, (Brought{"[", "D1=40.018 good", "D1=40.021 scrap", "] scrap"}));
   EXPECT_EQ(reading.values[0].characteristic.lower, 40 - 0.02);
   EXPECT_EQ(reading.values[0].characteristic.decimals, 3);
 }
@@ -28,8 +27,8 @@ tool = "T3"
 upper = 0.01
 )");
   reading.take("B 1.5000").take("B 1.5015").take("F 0.01").take("F 0.011").take("X 7").end();
-  EXPECT_EQ(reading.brought, (Brought{"[", "bore=1.5000 rework", "bore=1.5015 good",
-                                      "F=0.01 good", "F=0.011 scrap", "X=7 unknown", "] scrap"}));
+  EXPECT_EQ(reading.brought, (Brought{"[", "bore=1.5000 rework", "bore=1.5015 good", "F=0.01 good",
+                                      "F=0.011 scrap", "X=7 unknown", "] scrap"}));
   EXPECT_EQ(reading.values[0].tool, "T3");
   EXPECT_EQ(reading.values[0].characteristic.unit, "inch");
 }
@@ -139,17 +138,15 @@ TEST(CountedReport, IsCompleteInOrder) {
 TEST(CountedReport, NamesMissingLines) {
   Reading reading(kCounted);
   reading.take("BEGIN").take("2 D 1").take("5 D 1").take("END 7");
-  EXPECT_EQ(reading.brought,
-            (Brought{"[", "D2=1 good", "D5=1 good", "missing: line 1 did not come",
-                     "missing: lines 3 to 4 did not come", "missing: lines 6 to 7 did not come",
-                     "] unknown"}));
+  EXPECT_EQ(reading.brought, (Brought{"[", "D2=1 good", "D5=1 good", "missing: line 1 did not come",
+                                      "missing: lines 3 to 4 did not come",
+                                      "missing: lines 6 to 7 did not come", "] unknown"}));
 }
 
 TEST(CountedReport, TakesADoubledLineOnce) {
   Reading reading(kCounted);
   reading.take("BEGIN").take("1 D 1").take("1 D 1").take("END 1");
-  EXPECT_EQ(reading.brought,
-            (Brought{"[", "D1=1 good", "doubled: line 1 came again", "] good"}));
+  EXPECT_EQ(reading.brought, (Brought{"[", "D1=1 good", "doubled: line 1 came again", "] good"}));
 }
 
 TEST(CountedReport, TakesALateLine) {
@@ -200,14 +197,15 @@ TEST(ReportInterpreter, MissesRequiredCharacteristics) {
 TEST(ReportInterpreter, RefusesLimitsThatExcludeEachOther) {
   Reading reading("[[line]]\nform = '{characteristic} {actual} {lower} {upper}'\n");
   reading.take("A 1 3 2").end();
-  EXPECT_EQ(reading.brought,
-            (Brought{"[", "bad_value: A: its lower limit 3 is above its upper limit 2",
-                     "] unknown"}));
+  EXPECT_EQ(
+      reading.brought,
+      (Brought{"[", "bad_value: A: its lower limit 3 is above its upper limit 2", "] unknown"}));
 }
 
 TEST(ReportInterpreter, TakesOnlyItsSources) {
-  Reading reading("sources = ['probe']\n[[line]]\nform = 'PROBE contact Z {actual}'\n"
-                  "characteristic = 'Z{ordinal}'\n");
+  Reading reading(
+      "sources = ['probe']\n[[line]]\nform = 'PROBE contact Z {actual}'\n"
+      "characteristic = 'Z{ordinal}'\n");
   reading.take("PROBE contact Z 1.0");
   EXPECT_TRUE(reading.brought.empty());
   reading.take(R"({"to":{"Z":-5},"until":"contact","tripped":true,"at":{"Z":-1.25}})", "probe");
