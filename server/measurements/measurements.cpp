@@ -119,7 +119,7 @@ bool Measurements::derive_all(const std::stop_token& stop) {
   return true;
 }
 
-Derivation::Sources Measurements::sources(const std::string& machine) {
+Derivation::Sources Measurements::sources() {
   return {.run = [this](const std::string& id) -> Result<std::optional<RunFacts>> {
             const auto run = parts_.store.runs.find(id);
             if (!run && run.error().code == Errc::NotFound) return std::optional<RunFacts>();
@@ -159,7 +159,7 @@ Result<void> Measurements::derive_piece(const storage::UnderivedRecords& records
         records.machine, {records.epoch, records.derived}, kPiece);
     if (!piece) return fail(piece.error());
     const std::vector<DueAction> known = state->due;
-    Derivation derivation(records.machine, *std::move(state), sources(records.machine), *next);
+    Derivation derivation(records.machine, *std::move(state), sources(), *next);
     if (auto begun = derivation.begin(); !begun) return begun;
     for (const storage::Record& record : *piece) {
       if (auto taken = derivation.take(record); !taken) return taken;
@@ -303,7 +303,7 @@ Result<std::vector<storage::MeasuredPart>> Measurements::derive(
   if (!storage::is_finished(run->state))
     return fail(Errc::Conflict, "run {} has not ended: its report is derived as it comes", id);
   const std::lock_guard lock(derive_mutex_);
-  Derivation::Sources from = sources(run->machine);
+  Derivation::Sources from = sources();
   if (name) {
     auto used = cache_.find(*name, version);
     if (!used) return fail(used.error());

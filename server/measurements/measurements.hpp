@@ -71,7 +71,7 @@ class Measurements {
   static constexpr std::uint64_t kMaxRunRecords = 2'000'000;
 
  private:
-  Derivation::Sources sources(const std::string& machine);
+  Derivation::Sources sources();
   void work(const std::stop_token& stop);
   /// False: the store refuses, or a machine's records cannot be derived now.
   bool derive_all(const std::stop_token& stop);

@@ -97,9 +97,16 @@ Result<std::vector<UsedTemplate>> TemplateCache::templates_of(const std::string&
 
 Result<UsedTemplate> TemplateCache::find(const std::string& name,
                                          std::optional<std::uint64_t> version) {
+  if (version) {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = read_.find({name, *version}); known != read_.end()) return known->second;
+  }
   const auto found = store_.find(name, version);
   if (!found) return fail(found.error());
-  return read(*found);
+  auto used = read(*found);
+  if (!used) return used;
+  const std::lock_guard lock(mutex_);
+  return read_.emplace(std::pair(found->name, found->version), *std::move(used)).first->second;
 }
 
 }  // namespace dripline::measurements

@@ -82,13 +82,14 @@ std::string_view to_string(ArchiveKind kind) {
 
 Result<std::vector<ArchivableRecords>> ArchiveRepository::archivable_records() {
   static const std::string kSql = fmt::format(
-      "SELECT machine.name, c.epoch, "
-      "(SELECT min(number) FROM record WHERE machine = c.machine AND epoch = c.epoch AND {}), "
-      "min(e.last, iif(EXISTS (SELECT 1 FROM report_template_assignment), c.number, e.last)), "
-      "(SELECT min(number) FROM record WHERE machine = c.machine AND epoch = c.epoch AND run IN "
-      "(SELECT id FROM run WHERE machine = c.machine AND state IN ('ordered', 'active'))) "
-      "FROM record_epoch AS e JOIN measurement_cursor AS c ON c.machine = e.machine AND c.epoch = "
-      "e.epoch JOIN machine ON machine.id = e.machine ORDER BY machine.name, e.epoch",
+      "SELECT machine.name, e.epoch, "
+      "(SELECT min(number) FROM record WHERE machine = e.machine AND epoch = e.epoch AND {}), "
+      // As long as nothing is assigned nothing is derived, and no cursor moves.
+      "iif(EXISTS (SELECT 1 FROM report_template_assignment), coalesce(c.number, 0), e.last), "
+      "(SELECT min(number) FROM record WHERE machine = e.machine AND epoch = e.epoch AND run IN "
+      "(SELECT id FROM run WHERE machine = e.machine AND state IN ('ordered', 'active'))) "
+      "FROM record_epoch AS e JOIN machine ON machine.id = e.machine LEFT JOIN measurement_cursor "
+      "AS c ON c.machine = e.machine AND c.epoch = e.epoch ORDER BY machine.name, e.epoch",
       kNoMemory);
   const auto rows = connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(database, kSql, [](const sqlite::Statement& row) {

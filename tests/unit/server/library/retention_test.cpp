@@ -134,7 +134,6 @@ TEST_F(RetentionTest, FinishesWhatALastServerBegan) {
   print(5);
   clock_.advance(std::chrono::hours(100));
   {
-    std::stop_source stopped;
     auto retention = make({.age = std::chrono::hours(24), .rows = {}});
     ASSERT_EQ(retention.apply(), 1u);
   }
