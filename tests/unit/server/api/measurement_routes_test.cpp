@@ -128,7 +128,7 @@ TEST_F(MeasurementRoutes, RefuseWhatTheyDoNotKnow) {
   expect_error(get("/api/v1/measurements?verdict=fine"), 400, "syntax", "fine");
   expect_error(get("/api/v1/measurements?after=1"), 400, "syntax", "after");
   expect_error(get("/api/v1/measurements?order=random"), 400, "syntax", "random");
-  expect_error(get("/api/v1/measurements?format=pdf"), 400, "unsupported", "pdf");
+  expect_error(get("/api/v1/measurements?format=pdf"), 422, "unsupported", "pdf");
   expect_error(get("/api/v1/measurements?colour=red"), 400, "syntax", "colour");
   expect_error(put("/api/v1/report-templates/bore", "[[line]]\n"), 400, "syntax",
                "line 1: a line needs a form");

@@ -58,9 +58,17 @@ TEST_F(KilledMeasurements, LoseAndDoubleNothing) {
   measurements_.reset();
   make_run("r1");
   constexpr int kParts = 3000;
-  for (int part = 0; part < kParts; ++part)
-    print({fmt::format("PART {}", part), "D 40.001", part % 7 == 0 ? "D 40.1" : "D 40.002"});
-  print({"run_ended"});
+  std::vector<std::string> lines;
+  for (int part = 0; part < kParts; ++part) {
+    for (const auto& line : {fmt::format("PART {}", part), std::string("D 40.001"),
+                             std::string(part % 7 == 0 ? "D 40.1" : "D 40.002")})
+      lines.push_back(line);
+    if (lines.size() < 300) continue;
+    print(lines);
+    lines.clear();
+  }
+  lines.emplace_back("run_ended");
+  print(lines);
   std::mt19937 random(20261124);
   std::uniform_int_distribution<unsigned> some(0, 700);
   for (int kill = 0; kill < 8; ++kill) derive_in_a_process(some(random));
