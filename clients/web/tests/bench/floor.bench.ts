@@ -59,7 +59,7 @@ async function ageOnScreen(page: Page): Promise<number[]> {
 
 async function measureFloor(page: Page, shop: Shop, browser: number): Promise<void> {
   await page.goto(`${shop.url}/#/floor`);
-  await page.waitForFunction((count) => document.querySelectorAll('.card').length === count, kMachines);
+  await page.waitForFunction((count) => document.querySelectorAll('.card').length >= count, kMachines);
   await pause(5000); // the first drawing is not what a screen on the wall does all day
   const before = { page: usesOf(browser), server: usesOf(shop.serverPid!) };
   const begin = performance.now();
@@ -109,7 +109,6 @@ async function main(): Promise<void> {
   await shop.startMachine('mill-0', { control: 'fanuc' });
   await measureFirstView(first.page, shop);
   await shop.stopMachine('mill-0');
-  await shop.api('DELETE', 'machines/mill-0');
   const fleet = new Fleet(shop);
   try {
     await fleet.connected();
