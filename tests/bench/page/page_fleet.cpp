@@ -50,7 +50,10 @@ dds::Status first_status(const std::string& machine) {
   status.buffered_seconds = 4;
   status.remote_enable = dds::RemoteEnable::Unattended;
   status.waits_for = dds::WaitsFor::Nothing;
-  status.modes = dds::ActiveModes{.motion = dds::MotionKind::Line, .feed = 600, .tool = 3};
+  status.modes.emplace();
+  status.modes->motion = dds::MotionKind::Line;
+  status.modes->feed = 600;
+  status.modes->tool = 3;
   status.modes->work_system = "G54";
   status.coordinates.emplace();
   status.coordinates->following_error.emplace();
