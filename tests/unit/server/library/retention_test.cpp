@@ -32,6 +32,11 @@ class RetentionTest : public server_test::ServerTest {
                       .made_by = "test"},
                      options);
   }
+  static std::uint64_t apply(Retention& retention) {
+    const auto made = retention.apply();
+    EXPECT_TRUE(made) << made.error().what;
+    return made.value_or(0);
+  }
   /// One record a minute.
   void print(std::uint64_t count, const std::string& run = "", const std::string& kind = "output") {
     storage::RecordBatch batch;
@@ -79,9 +84,9 @@ TEST_F(RetentionTest, MovesWhatIsOldIntoArchives) {
   print(25);
   clock_.advance(std::chrono::hours(23));
   auto retention = make({.age = std::chrono::hours(24), .rows = {}});
-  EXPECT_EQ(retention.apply(), 0u) << "25 minutes are not a day";
+  EXPECT_EQ(apply(retention), 0u) << "25 minutes are not a day";
   clock_.advance(std::chrono::minutes(48));
-  EXPECT_EQ(retention.apply(), 2u);
+  EXPECT_EQ(apply(retention), 2u);
   ASSERT_EQ(stored().size(), 12u);
   EXPECT_EQ(stored().front(), 14u);
   const auto list = retention.list({}).value();
@@ -93,13 +98,13 @@ TEST_F(RetentionTest, MovesWhatIsOldIntoArchives) {
   ASSERT_EQ(rows.size(), 10u);
   EXPECT_EQ(rows[3]["text"], "X4");
   EXPECT_EQ(rows[3]["number"], 4);
-  EXPECT_EQ(retention.apply(), 0u);
+  EXPECT_EQ(apply(retention), 0u);
 }
 
 TEST_F(RetentionTest, KeepsTheNewestRows) {
   print(25);
   auto retention = make({.age = {}, .rows = 12});
-  EXPECT_EQ(retention.apply(), 2u);
+  EXPECT_EQ(apply(retention), 2u);
   EXPECT_EQ(stored().size(), 12u);
   EXPECT_EQ(stored().back(), 25u);
 }
@@ -112,10 +117,10 @@ TEST_F(RetentionTest, LeavesRunsThatGoOnAndWhatAControlKeeps) {
   print(5, "r1");
   clock_.advance(std::chrono::hours(100));
   auto retention = make({.age = std::chrono::hours(24), .rows = {}});
-  EXPECT_EQ(retention.apply(), 1u);
+  EXPECT_EQ(apply(retention), 1u);
   EXPECT_EQ(stored(), (std::vector<std::uint64_t>{1, 2, 8, 9, 10, 11, 12}));
   ASSERT_TRUE(store_->runs.set_state("r1", storage::RunState::Aborted, "test"));
-  EXPECT_EQ(retention.apply(), 1u);
+  EXPECT_EQ(apply(retention), 1u);
   EXPECT_EQ(stored(), (std::vector<std::uint64_t>{1, 2}));
 }
 
@@ -146,7 +151,7 @@ TEST_F(RetentionTest, FinishesWhatALastServerBegan) {
                              archives() / "copy");
   ASSERT_TRUE(store_->archives.add(again, "test"));
   auto retention = make({});
-  EXPECT_EQ(retention.apply(), 0u);
+  EXPECT_EQ(apply(retention), 0u);
   EXPECT_TRUE(stored().empty());
   EXPECT_TRUE(store_->archives.unremoved()->empty());
 }
@@ -195,7 +200,7 @@ TEST_F(RetentionTest, MovesEndedPartsWithTheirMeasurements) {
   ASSERT_TRUE(store_->measurements.commit(batch));
   clock_.advance(std::chrono::hours(100));
   auto retention = make({}, {.age = std::chrono::hours(24), .rows = {}});
-  EXPECT_EQ(retention.apply(), 1u);
+  EXPECT_EQ(apply(retention), 1u);
   EXPECT_EQ(store_->measurements.list({}, {}, 10)->size(), 1u);
   EXPECT_EQ(store_->measurements.part(1).error().code, Errc::NotFound);
   EXPECT_TRUE(store_->measurements.part(3)) << "it has not ended";

@@ -119,10 +119,10 @@ TEST_F(OffsetsTest, ASetupThatSomebodySavedSinceIsNotOverwritten) {
 
 TEST_F(OffsetsTest, NewMeasurementsSupersedeAPendingOne) {
   use_rules();
-  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  for (const double actual : {40.018, 40.02, 40.022}) measure(actual);
   const auto first = only_proposal();
-  measure(40.03);
-  measure(40.03);
+  measure(40.026);
+  measure(40.026);
   const auto second = only_proposal();
   EXPECT_NE(second.id, first.id);
   EXPECT_EQ(store_->offsets.find(first.id)->state, OffsetState::Superseded);
