@@ -1,4 +1,4 @@
--- Version 13: report templates; what reports say as measurements, and the verdict on each part.
+-- Version 11: report templates; what reports say as measurements, and the verdict on each part.
 
 -- Report templates -------------------------------------------------------------------------------
 

@@ -1,4 +1,4 @@
--- Version 14: corrections of tool wear and work offsets, proposed from measurements.
+-- Version 12: corrections of tool wear and work offsets, proposed from measurements.
 
 -- What follows from deviations on a machine, every version of it.
 CREATE TABLE offset_rules (

@@ -152,9 +152,9 @@ TEST_P(KeptFile, HasAnImportQueue) {
 }
 
 /// What was reported before version 11 is passed over: no template was there for it.
-TEST_P(KeptFile, HasMeasurementsSinceVersion13) {
+TEST_P(KeptFile, HasMeasurementsSinceVersion11) {
   reopen();
-  const bool has_them = version() >= 13;
+  const bool has_them = version() >= 11;
   EXPECT_EQ(store_->measurements.list({.run = "r1"}, {}, 10)->size(), has_them ? 1u : 0u);
   EXPECT_TRUE(store_->measurements.underived()->empty());
   EXPECT_EQ(store_->measurements.next_part_id(), has_them ? 2u : 1u);
