@@ -19,7 +19,7 @@ start = { X = 50.0, Z = 80.0 }
 [control]
 tool_changer = true
 [probe]
-surface = [ { plane = { axis = "Z", at = -1.0 } } ]
+surface = [ { axis = "Z", at = -1.0 } ]
 )";
 constexpr const char* kSetup =
     "units = \"mm\"\n\n[[tool]]\nnumber = 3\nwear = { Z = 0.0 }  # finishing\n";

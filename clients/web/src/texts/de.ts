@@ -274,7 +274,7 @@ export const de: Texts = {
     findings: 'Befunde',
     severities: { warning: 'Warnung', alarm: 'Alarm' },
     outcomes: {
-      ended: 'Das Programm erreicht sein Ende.', alarm: 'Das Programm löst einen Alarm aus.', fault: '', time: 'Das Programm ist länger, als der Server prüft: dies ist sein Anfang.',
+      ended: 'Das Programm erreicht sein Ende.', alarm: 'Das Programm löst einen Alarm aus.', fault: 'Ein Fehler hat die Prüfung beendet.', time: 'Das Programm ist länger, als der Server prüft: dies ist sein Anfang.',
     },
     faulted: (fault) => `Das Programm kann nicht bis zum Ende geprüft werden: ${fault}`,
     warnings: (count) => (count === 0 ? 'Keine Warnungen.' : count === 1 ? '1 Warnung.' : `${count} Warnungen.`),

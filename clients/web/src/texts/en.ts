@@ -276,7 +276,7 @@ export const en = {
     findings: 'Findings',
     severities: { warning: 'Warning', alarm: 'Alarm' },
     outcomes: {
-      ended: 'The program reaches its end.', alarm: 'The program raises an alarm.', fault: '', time: 'The program is longer than the server checks: this is its beginning.',
+      ended: 'The program reaches its end.', alarm: 'The program raises an alarm.', fault: 'The check was ended by a fault.', time: 'The program is longer than the server checks: this is its beginning.',
     },
     faulted: (fault: string) => `The program cannot be checked to its end: ${fault}`,
     warnings: (count: number) => (count === 0 ? 'No warnings.' : count === 1 ? '1 warning.' : `${count} warnings.`),
