@@ -57,16 +57,23 @@ const std::string& key_sql_of(Along along, bool is_newest_first) {
 
 Result<std::vector<std::int64_t>> machines_of(sqlite::Database& database,
                                               const std::optional<std::string>& name) {
-  const auto read = [](const sqlite::Statement& row) { return row.integer(0); };
-  if (name)
-    return sqlite::all_rows(database, "SELECT id FROM machine WHERE name = ?1", read, *name);
-  return sqlite::all_rows(database, "SELECT machine FROM measurement_state ORDER BY machine", read);
+  return sqlite::all_rows(
+      database, "SELECT id FROM machine WHERE ?1 IS NULL OR name = ?1 ORDER BY id",
+      [](const sqlite::Statement& row) { return row.integer(0); }, name);
 }
 
-Result<std::vector<std::int64_t>> parts_of_run(sqlite::Database& database, const std::string& run) {
-  return sqlite::all_rows(
-      database, "SELECT id FROM measured_part WHERE run = ?1 ORDER BY id",
-      [](const sqlite::Statement& row) { return row.integer(0); }, run);
+/// Those of another machine than the filter's are left out: what a gateway reports of foreign
+/// runs is not shown.
+Result<std::vector<std::int64_t>> parts_of(sqlite::Database& database,
+                                           const MeasurementFilter& filter) {
+  static const std::string kSql =
+      "SELECT id FROM measured_part WHERE {} AND (?2 IS NULL OR machine = (SELECT id FROM machine "
+      "WHERE name = ?2)) ORDER BY id";
+  static const std::string kOne = fmt::format(fmt::runtime(kSql), "id = ?1");
+  static const std::string kOfRun = fmt::format(fmt::runtime(kSql), "run = ?1");
+  const auto read = [](const sqlite::Statement& row) { return row.integer(0); };
+  return filter.part_id ? sqlite::all_rows(database, kOne, read, *filter.part_id, filter.machine)
+                        : sqlite::all_rows(database, kOfRun, read, *filter.run, filter.machine);
 }
 
 /// What the keys are looked for with.
@@ -90,10 +97,8 @@ Result<Search> search_of(sqlite::Database& database, const MeasurementFilter& fi
     search.along = Along::OutsideLimits;
   }
   if (filter.run || filter.part_id) search.along = Along::Part;
-  Result<std::vector<std::int64_t>> owners =
-      filter.part_id ? std::vector{static_cast<std::int64_t>(*filter.part_id)}
-      : filter.run   ? parts_of_run(database, *filter.run)
-                     : machines_of(database, filter.machine);
+  auto owners = search.along == Along::Part ? parts_of(database, filter)
+                                            : machines_of(database, filter.machine);
   if (!owners) return fail(owners.error());
   search.owners = *std::move(owners);
   return search;
@@ -235,9 +240,7 @@ Result<std::vector<Measurement>> query_measurements(sqlite::Database& database,
   for (const Key& key : *keys) {
     auto row = sqlite::first_row(database, kRow, read_measurement, key.id);
     if (!row) return fail(row.error());
-    // Of another machine than the run's own: what a gateway says of foreign runs is not shown.
-    if (*row && (!filter.machine || (*row)->machine == *filter.machine))
-      rows.push_back(std::move(**row));
+    if (*row) rows.push_back(std::move(**row));
   }
   return rows;
 }
