@@ -21,4 +21,10 @@ Result<OffsetState> parse_offset_state(std::string_view text) {
   return fail(Errc::Syntax, "state '{}': pending, applied, rejected or superseded", text);
 }
 
+Result<void> check_pending(const OffsetProposal& proposal) {
+  if (proposal.state == OffsetState::Pending) return {};
+  return fail(Errc::Conflict, "offset proposal {} is {} already", proposal.id,
+              to_string(proposal.state));
+}
+
 }  // namespace dripline::storage

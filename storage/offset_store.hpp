@@ -53,6 +53,11 @@ struct OffsetProposal {
   std::optional<std::uint64_t> setup;  ///< applied: the setup that it became
 };
 
+struct KeptProposal {
+  OffsetProposal proposal;
+  bool is_new = false;  ///< false: it was pending before
+};
+
 struct OffsetDecision {
   std::uint64_t id = 0;
   Actor who = {};
@@ -65,6 +70,9 @@ struct OffsetFilter {
   std::optional<std::string> machine = {}, target = {};
   std::optional<OffsetState> state = {};
 };
+
+/// Errors: Conflict (it is decided already).
+Result<void> check_pending(const OffsetProposal& proposal);
 
 /// Rules and proposals. Promises of every store: storage/store.hpp.
 class OffsetStore {
@@ -81,7 +89,7 @@ class OffsetStore {
   /// Keeps it as pending; the pending one for the same value is superseded. When that one is made
   /// of the same measurements and gives the same value it is returned, and nothing changes.
   /// `id`, `state` and what is decided are the store's own.
-  virtual Result<OffsetProposal> propose(const OffsetProposal& proposal) = 0;
+  virtual Result<KeptProposal> propose(const OffsetProposal& proposal) = 0;
   /// Nothing follows from the measurements any more: its pending proposal, if any, is superseded.
   virtual Result<void> withdraw(const std::string& machine, const std::string& target,
                                 UtcTime now) = 0;

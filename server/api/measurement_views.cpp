@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/measurement/measurement_json.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/library/report_reader.hpp"
 
 namespace dripline::api {
@@ -11,11 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-json text_or_null(const std::string& text) {
-  return text.empty() ? json(nullptr) : json(text);
-}
-
-json number_or_null(std::uint64_t number) {
+json unless_zero(std::uint64_t number) {
   return number == 0 ? json(nullptr) : json(number);
 }
 
@@ -34,7 +31,7 @@ json part_json(const storage::MeasuredPart& part) {
           {"machine", part.machine},
           {"run", text_or_null(part.run)},
           {"program", text_or_null(part.program)},
-          {"revision", number_or_null(part.revision)},
+          {"revision", unless_zero(part.revision)},
           {"template", part.template_name},
           {"template_version", part.template_version},
           {"part_number", text_or_null(part.number)},
@@ -43,7 +40,7 @@ json part_json(const storage::MeasuredPart& part) {
           {"findings", part.findings},
           {"verdict", measurement::to_string(part.verdict)},
           {"begun", to_iso8601(part.begun)},
-          {"ended", part.ended ? json(to_iso8601(*part.ended)) : json(nullptr)},
+          {"ended", time_or_null(part.ended)},
           {"superseded", part.is_superseded}};
 }
 
@@ -51,7 +48,7 @@ json finding_json(const storage::ReportFinding& finding) {
   return {{"id", finding.id},
           {"machine", finding.machine},
           {"run", text_or_null(finding.run)},
-          {"part", number_or_null(finding.part_id)},
+          {"part", unless_zero(finding.part_id)},
           {"epoch", finding.record.epoch},
           {"number", finding.record.number},
           {"time", to_iso8601(finding.time)},
@@ -70,7 +67,7 @@ json assignment_json(const storage::TemplateAssignment& assignment) {
   return {{"scope", storage::to_string(assignment.scope)},
           {"subject", assignment.subject},
           {"template", assignment.name},
-          {"version", assignment.version ? json(*assignment.version) : json(nullptr)},
+          {"version", number_or_null(assignment.version)},
           {"author", assignment.author},
           {"created", to_iso8601(assignment.created)}};
 }

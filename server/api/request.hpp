@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
 #include "server/identity/caller.hpp"
 
@@ -37,6 +40,9 @@ struct Request {
   const std::string& parameter(const std::string& name) const { return parameters.at(name); }
 };
 
+/// What a database can hold.
+inline constexpr std::uint64_t kMaxNumber = std::numeric_limits<std::int64_t>::max();
+
 /// Reads the query parameters that a handler knows; any other is an error of finish().
 class QueryReader {
  public:
@@ -44,10 +50,19 @@ class QueryReader {
   std::optional<std::string> text(const std::string& name);
   /// Without a sign, at most `highest`.
   std::optional<std::uint64_t> number(const std::string& name, std::uint64_t highest);
-  /// Errors: Syntax (not a number, unknown parameter), LimitExceeded; the first error.
+  /// As parse_iso8601 reads it.
+  std::optional<UtcTime> time(const std::string& name);
+  /// yes or no; without it no.
+  bool flag(const std::string& name);
+  /// What was not asked for, taken out.
+  std::map<std::string, std::string> rest() { return std::exchange(left_, {}); }
+  /// Errors: Syntax (no number, no time, neither yes nor no, unknown parameter), LimitExceeded; the
+  /// first error.
   Result<void> finish();
 
  private:
+  void note(Error error);
+
   std::map<std::string, std::string> left_;
   std::optional<Error> error_;
 };

@@ -5,6 +5,7 @@
 #include "gateway/interpreter/registry.hpp"
 #include "protocol/dds/members.hpp"
 #include "protocol/dds/message.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/machines/machine_registry.hpp"
 
 namespace dripline::api {
@@ -126,14 +127,6 @@ json status_json(const dds::Status& status) {
   return view;
 }
 
-json optional_text(const std::string& text) {
-  return text.empty() ? json(nullptr) : json(text);
-}
-
-json optional_time(const std::optional<UtcTime>& time) {
-  return time ? json(to_iso8601(*time)) : json(nullptr);
-}
-
 json sequence_number(std::int64_t sequence) {
   return sequence < 0 ? json(nullptr) : json(sequence);
 }
@@ -152,16 +145,16 @@ json revision_json(const storage::Revision& revision, const std::string& title) 
           {"revision", revision.number},
           {"size", revision.size},
           {"sha256", revision.content.hex()},
-          {"title", optional_text(title)},
-          {"control", optional_text(revision.control)},
-          {"comment", optional_text(revision.comment)},
-          {"author", optional_text(revision.author)},
+          {"title", text_or_null(title)},
+          {"control", text_or_null(revision.control)},
+          {"comment", text_or_null(revision.comment)},
+          {"author", text_or_null(revision.author)},
           {"created", to_iso8601(revision.created)},
           {"held", revision.is_held},
-          {"accepted", optional_time(revision.accepted)},
+          {"accepted", time_or_null(revision.accepted)},
           {"state", storage::to_string(revision.state)},
-          {"released", optional_time(revision.released)},
-          {"withdrawn", optional_time(revision.withdrawn)}};
+          {"released", time_or_null(revision.released)},
+          {"withdrawn", time_or_null(revision.withdrawn)}};
 }
 
 json program_json(const storage::ProgramSummary& program, const std::string& title) {
@@ -191,9 +184,9 @@ json machine_json(const machines::MachineView& view) {
   };
   return {
       {"name", view.machine.name},
-      {"control", optional_text(view.machine.control)},
-      {"description", optional_text(view.machine.description)},
-      {"gateway_version", optional_text(view.machine.gateway_version)},
+      {"control", text_or_null(view.machine.control)},
+      {"description", text_or_null(view.machine.description)},
+      {"gateway_version", text_or_null(view.machine.gateway_version)},
       {"connected", view.is_connected},
       {"clock_ahead_seconds", view.clock_ahead ? json(seconds(*view.clock_ahead)) : json(nullptr)},
       {"notices", machines::notices_of(view)},
@@ -210,21 +203,21 @@ json run_json(const storage::Run& run) {
           {"revision", run.revision},
           {"sha256", run.content.hex()},
           {"size", run.size},
-          {"control", optional_text(run.control)},
+          {"control", text_or_null(run.control)},
           {"state", storage::to_string(run.state)},
           {"sent", run.counters.sent},
           {"accepted", run.counters.accepted},
           {"executed", run.counters.executed},
           {"line", run.line},
           {"sequence", sequence_number(run.sequence)},
-          {"reason", optional_text(run.reason)},
+          {"reason", text_or_null(run.reason)},
           {"content_verified", run.content_verified ? json(*run.content_verified) : json(nullptr)},
-          {"author", optional_text(run.author)},
+          {"author", text_or_null(run.author)},
           {"created", to_iso8601(run.created)},
-          {"started", optional_time(run.started)},
-          {"ended", optional_time(run.ended)},
+          {"started", time_or_null(run.started)},
+          {"ended", time_or_null(run.ended)},
           {"outputs", run.outputs},
-          {"setup", run.setup ? json(*run.setup) : json(nullptr)},
+          {"setup", number_or_null(run.setup)},
           {"allowed_as", storage::to_string(run.allowed_as)},
           {"approval", run.approval ? json(*run.approval) : json(nullptr)}};
 }
@@ -234,8 +227,8 @@ json setup_json(const storage::SetupRevision& setup) {
           {"revision", setup.number},
           {"size", setup.size},
           {"sha256", setup.sha256.hex()},
-          {"comment", optional_text(setup.comment)},
-          {"author", optional_text(setup.author)},
+          {"comment", text_or_null(setup.comment)},
+          {"author", text_or_null(setup.author)},
           {"created", to_iso8601(setup.created)}};
 }
 
@@ -244,13 +237,13 @@ json record_json(const storage::Record& record) {
           {"epoch", record.epoch},
           {"number", record.number},
           {"time", to_iso8601(record.time)},
-          {"received", optional_time(record.received)},
-          {"run", optional_text(record.run)},
+          {"received", time_or_null(record.received)},
+          {"run", text_or_null(record.run)},
           {"kind", record.kind},
           {"block", record.block},
           {"line", record.line},
           {"sequence", sequence_number(record.sequence)},
-          {"device", optional_text(record.device)},
+          {"device", text_or_null(record.device)},
           {"text", record.text}};
 }
 
@@ -261,8 +254,8 @@ json report_json(const storage::Run& run) {
           {"revision", run.revision},
           {"state", storage::to_string(run.state)},
           {"lines", run.outputs},
-          {"started", optional_time(run.started)},
-          {"ended", optional_time(run.ended)}};
+          {"started", time_or_null(run.started)},
+          {"ended", time_or_null(run.ended)}};
 }
 
 json audit_json(const storage::AuditEntry& entry) {

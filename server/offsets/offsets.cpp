@@ -4,7 +4,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "gateway/interpreter/registry.hpp"
 #include "protocol/process/log.hpp"
 
 namespace dripline::offsets {
@@ -18,15 +17,6 @@ constexpr std::uint64_t kSetupsBack = 200;       ///< that are looked through fo
 constexpr std::uint64_t kMeasurementsBack = 5'000;  ///< under other setups, or without a nominal
 constexpr std::uint64_t kPageSize = 500;
 constexpr double kMillimetersPerInch = 25.4;
-
-/// Of the setup's file: as it states, else the control's own.
-Result<std::string> unit_of(const std::string& text, const std::string& control) {
-  auto stated = unit_of_setup(text);
-  if (!stated || !stated->empty()) return stated;
-  const auto dialect = interpreter::find_dialect(control);
-  if (!dialect) return fail(dialect.error());
-  return std::string((*dialect)->units == interpreter::Units::Inch ? "in" : "mm");
-}
 
 /// Lengths in the setup's unit; anything else as it is.
 double in_setup_unit(double value, const std::string& unit, const std::string& setup_unit) {
@@ -63,10 +53,6 @@ class RunSetups {
   storage::RunStore& runs_;
   std::map<std::string, std::optional<std::uint64_t>> known_;
 };
-
-bool begins_with(const std::string& target, const std::string& prefix) {
-  return target == prefix || (target.starts_with(prefix) && target[prefix.size()] == '.');
-}
 
 }  // namespace
 
@@ -115,7 +101,7 @@ Result<Offsets::Current> Offsets::current_of(const std::string& machine) {
     now.text = setup->text;
     now.setup = setup->number;
   }
-  auto unit = unit_of(now.text, now.control);
+  auto unit = unit_in_force(now.text, now.control);
   if (!unit) return fail(unit.error());
   now.unit = *std::move(unit);
   return now;
@@ -200,15 +186,10 @@ Result<void> Offsets::keep(const Current& now, Evaluation& evaluation) {
   proposal.last = outcome.last;
   proposal.reasons = reasons_json(outcome.reasons);
   proposal.created = parts_.clock.now();
-  const auto pending = parts_.store.offsets.list(
-      {.machine = now.machine, .target = proposal.target, .state = storage::OffsetState::Pending},
-      {.limit = 1});
-  if (!pending) return fail(pending.error());
   auto kept = parts_.store.offsets.propose(proposal);
   if (!kept) return fail(kept.error());
-  const bool is_new = pending->empty() || pending->front().id != kept->id;
-  evaluation.proposal = *std::move(kept);
-  if (is_new) {
+  evaluation.proposal = std::move(kept->proposal);
+  if (kept->is_new) {
     process::log_info("offset proposal {} machine={} {}: {} to {} {}", evaluation.proposal->id,
                       now.machine, proposal.target, proposal.old_value, proposal.new_value,
                       proposal.unit);
@@ -253,16 +234,18 @@ Result<std::vector<Evaluation>> Offsets::look(const std::string& machine) {
                    .comment = fmt::format("within the policy, version {}", stored->version),
                    .time = {},
                    .is_automatic = true});
-      if (!applied) evaluation->outcome.reasons.push_back("not applied: " + applied.error().what);
-      if (auto decided = parts_.store.offsets.find(evaluation->proposal->id))
-        evaluation->proposal = *decided;
+      if (applied) {
+        evaluation->proposal = *applied;
+      } else {
+        evaluation->outcome.reasons.push_back("not applied: " + applied.error().what);
+      }
     }
     evaluations.push_back(*std::move(evaluation));
   }
   return evaluations;
 }
 
-Result<storage::SetupRevision> Offsets::approve(const storage::OffsetDecision& given) {
+Result<OffsetProposal> Offsets::approve(const storage::OffsetDecision& given) {
   if (given.comment.size() > kMaxComment)
     return fail(Errc::LimitExceeded, "a comment of {} bytes, at most {}", given.comment.size(),
                 kMaxComment);
@@ -270,6 +253,7 @@ Result<storage::SetupRevision> Offsets::approve(const storage::OffsetDecision& g
   decision.time = parts_.clock.now();
   const auto proposal = parts_.store.offsets.find(decision.id);
   if (!proposal) return fail(proposal.error());
+  if (auto pending = storage::check_pending(*proposal); !pending) return fail(pending.error());
   const auto now = current_of(proposal->machine);
   if (!now) return fail(now.error());
   if (now->setup != proposal->base) {
@@ -291,11 +275,12 @@ Result<storage::SetupRevision> Offsets::approve(const storage::OffsetDecision& g
                                      decision.who, [&](const storage::SetupRevision& setup) {
                                        return parts_.store.offsets.apply(decision, setup);
                                      });
-  if (!saved) return saved;
+  if (!saved) return fail(saved.error());
   process::log_info("offset proposal {} machine={} applied as setup {} by={}", proposal->id,
                     proposal->machine, saved->number, decision.who.name);
-  if (const auto decided = parts_.store.offsets.find(decision.id)) publish(*decided);
-  return saved;
+  auto decided = parts_.store.offsets.find(decision.id);
+  if (decided) publish(*decided);
+  return decided;
 }
 
 Result<OffsetProposal> Offsets::reject(storage::OffsetDecision decision) {
@@ -308,95 +293,6 @@ Result<OffsetProposal> Offsets::reject(storage::OffsetDecision decision) {
   auto rejected = parts_.store.offsets.reject(decision);
   if (rejected) publish(*rejected);
   return rejected;
-}
-
-Result<void> Offsets::add_runs(HistoryEntry& entry, std::uint64_t until) {
-  for (std::uint64_t setup = entry.setup.number; setup < until && entry.runs.size() < kMaxRuns;
-       ++setup) {
-    storage::RunFilter filter;
-    filter.machine = entry.setup.machine;
-    filter.setup = setup;
-    auto runs = parts_.store.runs.list(filter, {.limit = kMaxRuns - entry.runs.size()});
-    if (!runs) return fail(runs.error());
-    entry.runs.insert(entry.runs.end(), runs->rbegin(), runs->rend());
-  }
-  for (const storage::Run& run : entry.runs) {
-    storage::PartFilter filter;
-    filter.run = run.id;
-    const auto parts = parts_.store.measurements.parts(filter, {.limit = kPageSize});
-    if (!parts) return fail(parts.error());
-    entry.parts += parts->size();
-    entry.good += static_cast<std::uint64_t>(
-        std::ranges::count(*parts, measurement::Verdict::Good,
-                           [](const storage::MeasuredPart& part) { return part.verdict; }));
-  }
-  return {};
-}
-
-Result<std::vector<HistoryEntry>> Offsets::history(const std::string& machine,
-                                                   const std::string& target, storage::Page page) {
-  const auto known = parts_.store.machines.find(machine);
-  if (!known) return fail(known.error());
-  const auto setups = parts_.store.setups.list(machine, page);
-  if (!setups) return fail(setups.error());
-  std::map<std::uint64_t, OffsetProposal> proposals;
-  storage::OffsetFilter filter{
-      .machine = machine, .target = {}, .state = storage::OffsetState::Applied};
-  const auto applied = parts_.store.offsets.list(filter, {.limit = page.limit + page.offset});
-  if (!applied) return fail(applied.error());
-  for (const auto& proposal : *applied) proposals.emplace(proposal.setup.value_or(0), proposal);
-
-  std::vector<HistoryEntry> entries;
-  std::map<std::string, double> values;           // as they are now
-  std::map<std::string, std::size_t> last_entry;  // of each value, the one that is in force
-  const auto close = [&](const std::string& name, std::uint64_t until) -> Result<void> {
-    const auto found = last_entry.find(name);
-    return found == last_entry.end() ? Result<void>{} : add_runs(entries[found->second], until);
-  };
-  for (auto at = setups->rbegin(); at != setups->rend(); ++at) {
-    const auto setup = parts_.store.setups.find(machine, at->number);
-    if (!setup) return fail(setup.error());
-    const auto stated = values_in_setup(setup->text);
-    const auto unit = unit_of(setup->text, known->control);
-    if (!stated || !unit) continue;  // kept before its control read it so: nothing to compare
-    for (const NamedValue& named : *stated) {
-      if (!target.empty() && !begins_with(named.target, target)) continue;
-      const auto before = values.find(named.target);
-      if (before != values.end() && before->second == named.value) continue;
-      if (auto closed = close(named.target, at->number); !closed) return fail(closed.error());
-      values[named.target] = named.value;
-      last_entry[named.target] = entries.size();
-      HistoryEntry entry{.target = named.target, .unit = *unit, .value = named.value, .setup = *at};
-      const auto proposal = proposals.find(at->number);
-      if (proposal != proposals.end() && proposal->second.target == named.target)
-        entry.proposal = proposal->second;
-      entries.push_back(std::move(entry));
-    }
-  }
-  if (!setups->empty()) {
-    for (const auto& [name, index] : last_entry) {
-      if (auto closed = close(name, setups->front().number + 1); !closed)
-        return fail(closed.error());
-    }
-  }
-  std::ranges::reverse(entries);
-  return entries;
-}
-
-Result<InForce> Offsets::in_force(const std::string& id) {
-  auto run = parts_.store.runs.find(id);
-  if (!run) return fail(run.error());
-  InForce result{.run = *std::move(run), .unit = {}, .values = {}};
-  if (!result.run.setup) return result;
-  const auto setup = parts_.store.setups.find(result.run.machine, result.run.setup);
-  if (!setup) return fail(setup.error());
-  auto values = values_in_setup(setup->text);
-  if (!values) return fail(values.error());
-  auto unit = unit_of(setup->text, result.run.control);
-  if (!unit) return fail(unit.error());
-  result.values = *std::move(values);
-  result.unit = *std::move(unit);
-  return result;
 }
 
 void Offsets::work(const std::stop_token& stop) {

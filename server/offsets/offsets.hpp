@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "server/library/setups.hpp"
+#include "server/offsets/offset_history.hpp"
 #include "server/offsets/proposal.hpp"
 #include "server/offsets/setup_value.hpp"
 #include "storage/store.hpp"
@@ -25,24 +26,6 @@ struct Evaluation {
   std::uint64_t since = 0;  ///< the first setup with that value; 0: before there was one
   Outcome outcome;
   std::optional<storage::OffsetProposal> proposal;  ///< pending, or applied at once
-};
-
-/// A value of a machine's setup and the time while it was in force.
-struct HistoryEntry {
-  std::string target, unit;
-  double value = 0;
-  storage::SetupRevision setup;  ///< that brought it, without its text
-  std::optional<storage::OffsetProposal> proposal = {};
-  std::vector<storage::Run> runs = {};  ///< cut under it, oldest first; at most kMaxRuns
-  std::uint64_t parts = 0, good = 0;
-};
-
-/// What was in force while a run was cut: its setup, for all of its blocks. What the program itself
-/// changed is the control's memory (deploy/docs/control-memory.md).
-struct InForce {
-  storage::Run run;
-  std::string unit;
-  std::vector<NamedValue> values;
 };
 
 /// Turns measurements into corrections of setups: proposed with their reasons, decided by a person
@@ -75,22 +58,17 @@ class Offsets {
   /// machine without rules has none.
   Result<std::vector<Evaluation>> look(const std::string& machine);
 
-  /// The setup that it became. Errors: NotFound, Conflict (decided already; another setup is the
-  /// newest), Unsupported (the setup's layout), those of the control, LimitExceeded (the comment).
-  Result<storage::SetupRevision> approve(const storage::OffsetDecision& decision);
+  /// As it is then, with the setup that it became. Errors: NotFound, Conflict (decided already;
+  /// another setup is the newest), Unsupported (the setup's layout), those of the control,
+  /// LimitExceeded (the comment).
+  Result<storage::OffsetProposal> approve(const storage::OffsetDecision& decision);
   /// Errors: NotFound, Conflict, Syntax (no reason), LimitExceeded (the comment).
   Result<storage::OffsetProposal> reject(storage::OffsetDecision decision);
 
-  /// Values of tools and offsets whose name begins with `target` ("T3", "T3.wear.X", "G54"), newest
-  /// first; at most as many setups back as the page says. Errors: those of the store.
-  Result<std::vector<HistoryEntry>> history(const std::string& machine, const std::string& target,
-                                            storage::Page page);
-  /// Errors: NotFound.
-  Result<InForce> in_force(const std::string& run);
+  OffsetHistory history() const { return OffsetHistory(parts_.store); }
   storage::OffsetStore& stored() { return parts_.store.offsets; }
 
   static constexpr std::size_t kMaxComment = 512;
-  static constexpr std::uint64_t kMaxRuns = 1000;
 
  private:
   struct Current;
@@ -100,7 +78,6 @@ class Offsets {
                                             std::uint64_t since);
   Result<Evaluation> evaluate(const Current& now, const OffsetRule& rule);
   Result<void> keep(const Current& now, Evaluation& evaluation);
-  Result<void> add_runs(HistoryEntry& entry, std::uint64_t until);
   void publish(const storage::OffsetProposal& proposal);
   void work(const std::stop_token& stop);
 

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <optional>
 
+#include "gateway/interpreter/registry.hpp"
+
 namespace dripline::offsets {
 namespace {
 
@@ -247,6 +249,14 @@ Result<std::string> unit_of_setup(std::string_view text) {
   const auto setup = parse(text);
   if (!setup) return fail(setup.error());
   return (*setup)["units"].value_or<std::string>("");
+}
+
+Result<std::string> unit_in_force(std::string_view text, std::string_view control) {
+  auto stated = unit_of_setup(text);
+  if (!stated || !stated->empty()) return stated;
+  const auto dialect = interpreter::find_dialect(control);
+  if (!dialect) return fail(dialect.error());
+  return std::string((*dialect)->units == interpreter::Units::Inch ? "in" : "mm");
 }
 
 }  // namespace dripline::offsets

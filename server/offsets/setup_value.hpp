@@ -40,5 +40,7 @@ Result<std::vector<NamedValue>> values_in_setup(std::string_view toml);
 
 /// "mm" or "in" as the setup states it; empty: it is the control's. Errors: Syntax.
 Result<std::string> unit_of_setup(std::string_view toml);
+/// The same, or the control's own. Errors: those of find_dialect too.
+Result<std::string> unit_in_force(std::string_view toml, std::string_view control);
 
 }  // namespace dripline::offsets

@@ -66,8 +66,9 @@ Result<OffsetProposal> find_proposal(sqlite::Database& database, std::uint64_t i
 
 Result<OffsetProposal> find_pending(sqlite::Database& database, std::uint64_t id) {
   auto proposal = find_proposal(database, id);
-  if (!proposal || proposal->state == OffsetState::Pending) return proposal;
-  return fail(Errc::Conflict, "offset proposal {} is {} already", id, to_string(proposal->state));
+  if (!proposal) return proposal;
+  if (auto pending = check_pending(*proposal); !pending) return fail(pending.error());
+  return proposal;
 }
 
 Result<std::optional<OffsetProposal>> pending_of(sqlite::Database& database,
@@ -129,15 +130,15 @@ Result<OffsetRules> OffsetRepository::rules(const std::string& machine) {
   });
 }
 
-Result<OffsetProposal> OffsetRepository::propose(const OffsetProposal& given) {
+Result<KeptProposal> OffsetRepository::propose(const OffsetProposal& given) {
   if (auto named = check_machine_name(given.machine); !named) return fail(named.error());
-  return connections_.write([&](sqlite::Database& database) -> Result<OffsetProposal> {
+  return connections_.write([&](sqlite::Database& database) -> Result<KeptProposal> {
     auto pending = pending_of(database, given.machine, given.target);
     if (!pending) return fail(pending.error());
     if (const auto& known = *pending) {
       if (known->last == given.last && known->new_value == given.new_value &&
           known->base == given.base) {
-        return std::move(**pending);
+        return KeptProposal{std::move(**pending), false};
       }
       if (auto done = supersede(database, known->id, given.created); !done)
         return fail(done.error());
@@ -154,7 +155,7 @@ Result<OffsetProposal> OffsetRepository::propose(const OffsetProposal& given) {
     if (!kept) return fail(kept.error());
     auto stored = pending_of(database, given.machine, given.target);
     if (!stored) return fail(stored.error());
-    return std::move(**stored);
+    return KeptProposal{std::move(**stored), true};
   });
 }
 

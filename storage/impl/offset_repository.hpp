@@ -11,7 +11,7 @@ class OffsetRepository final : public OffsetStore {
 
   Result<OffsetRules> save_rules(const OffsetRules& rules, const Actor& who) override;
   Result<OffsetRules> rules(const std::string& machine) override;
-  Result<OffsetProposal> propose(const OffsetProposal& proposal) override;
+  Result<KeptProposal> propose(const OffsetProposal& proposal) override;
   Result<void> withdraw(const std::string& machine, const std::string& target,
                         UtcTime now) override;
   Result<OffsetProposal> find(std::uint64_t id) override;

@@ -30,7 +30,7 @@ CREATE TABLE offset_proposal (
   decided_us INTEGER,           -- NULL: pending
   who        TEXT NOT NULL DEFAULT '',
   comment    TEXT NOT NULL DEFAULT '',
-  is_automatic INTEGER NOT NULL DEFAULT 0 CHECK (is_automatic IN (0, 1)),  -- applied within the policy, seen by nobody
+  is_automatic INTEGER NOT NULL DEFAULT 0 CHECK (is_automatic IN (0, 1)),  -- applied within the policy, without a person
   setup      INTEGER,           -- applied: the setup that it became
   CHECK ((state = 'applied') = (setup IS NOT NULL))
 ) STRICT;

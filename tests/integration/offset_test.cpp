@@ -27,15 +27,26 @@ constexpr const char* kTemplate =
     "[[line]]\nform = \"L {actual}\"\ncharacteristic = \"L\"\nnominal = -1.0\nlower = -1.1\nupper "
     "= -0.9\n"
     "tool = \"T3\"\n";
-constexpr const char* kRules =
-    "[[rule]]\nname = \"L\"\ncharacteristic = \"L\"\ntarget = \"T3.wear.Z\"\nscale = -1\ngain = "
-    "1.0\n"
-    "dead_band = 0.005\nmax_step = 0.1\nmin_count = 3\nwindow = 3\n";
+/// Of three values, one that differs is always an outlier.
+constexpr const char* kRules = R"([[rule]]
+name = "L"
+characteristic = "L"
+target = "T3.wear.Z"
+scale = -1
+gain = 1.0
+dead_band = 0.005
+max_step = 0.1
+min_count = 3
+window = 3
+outlier = 0
+)";
 
+/// A simulated probe meets the face in the program's coordinates, whatever the tool's wear is: the
+/// program takes the wear in force (P624, Z of offset 3) off, by which a real tool is shifted.
 std::string program(double drift) {
   return fmt::format(
-      "O0900\n(TOUCH THE FACE WITH THE TOOL)\nG21 G90 G98\nT0303 M6\nG0 X10.\nZ5.\n"
-      "PROBE1 Z-3. F100\nP3=P208+{:.4f}\nPOPEN P0\nDPRNT [L #3]\nPROBE2 Z5. F500\nM30\n",
+      "O0900\n(TOUCH THE FACE WITH THE TOOL)\nG21 G98\nT0303 M6\nG0 X10.\nZ5.\n"
+      "PROBE1 G1 Z-3. F100\nP3=P208+{:.4f}-P624\nPOPEN P0\nDPRNT [L #3]\nPROBE2 Z5. F500\nM30\n",
       drift);
 }
 

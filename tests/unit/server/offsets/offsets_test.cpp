@@ -35,8 +35,10 @@ TEST_F(OffsetsTest, AnApprovedOneIsTheNextSetup) {
   use_rules();
   for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
   const auto proposal = only_proposal();
-  const auto saved = offsets_->approve(
+  const auto approved = offsets_->approve(
       {.id = proposal.id, .who = "anna", .comment = "checked by hand", .time = {}});
+  ASSERT_TRUE(approved) << approved.error().what;
+  const auto saved = store_->setups.find("lathe-1", std::nullopt);
   ASSERT_TRUE(saved) << saved.error().what;
   EXPECT_EQ(saved->number, 2U);
   EXPECT_EQ(store_->setups.find("lathe-1", 2)->text,
@@ -172,7 +174,7 @@ TEST_F(OffsetsTest, AMachineWithoutASetupGetsOne) {
   proposal.reasons = "[]";
   const auto kept = store_->offsets.propose(proposal);
   ASSERT_TRUE(kept) << kept.error().what;
-  ASSERT_TRUE(offsets_->approve({.id = kept->id, .who = "anna", .time = {}}));
+  ASSERT_TRUE(offsets_->approve({.id = kept->proposal.id, .who = "anna", .time = {}}));
   EXPECT_EQ(store_->setups.find("lathe-2", std::nullopt)->text,
             "[[tool]]\nnumber = 1\nwear = { Z = -0.001 }\n");
 }
@@ -185,7 +187,7 @@ TEST_F(OffsetsTest, HistoryShowsEveryValueWithItsRunsAndParts) {
   const auto proposal = only_proposal();
   ASSERT_TRUE(offsets_->approve({.id = proposal.id, .who = "anna", .time = {}}));
   const std::string after = measure(40.0);
-  const auto history = offsets_->history("lathe-1", "T3", {});
+  const auto history = offsets_->history().list("lathe-1", "T3", {});
   ASSERT_TRUE(history) << history.error().what;
   ASSERT_EQ(history->size(), 2U);
   const HistoryEntry& now = history->front();
@@ -203,8 +205,8 @@ TEST_F(OffsetsTest, HistoryShowsEveryValueWithItsRunsAndParts) {
   ASSERT_EQ(before.runs.size(), 3U);
   EXPECT_EQ(before.runs[0].id, first);
   EXPECT_EQ(before.good, 3U);
-  EXPECT_TRUE(offsets_->history("lathe-1", "T4", {})->empty());
-  EXPECT_FALSE(offsets_->history("lathe-9", "T3", {}));
+  EXPECT_TRUE(offsets_->history().list("lathe-1", "T4", {})->empty());
+  EXPECT_FALSE(offsets_->history().list("lathe-9", "T3", {}));
 }
 
 TEST_F(OffsetsTest, ValuesInForceAreThoseOfTheRunsSetup) {
@@ -214,12 +216,12 @@ TEST_F(OffsetsTest, ValuesInForceAreThoseOfTheRunsSetup) {
   measure(40.02);
   ASSERT_TRUE(offsets_->approve({.id = only_proposal().id, .who = "anna", .time = {}}));
   const std::string after = measure(40.0);
-  const auto then = offsets_->in_force(first);
+  const auto then = offsets_->history().in_force(first);
   ASSERT_TRUE(then);
   ASSERT_EQ(then->values.size(), 1U);
   EXPECT_DOUBLE_EQ(then->values[0].value, 0.1);
-  EXPECT_DOUBLE_EQ(offsets_->in_force(after)->values[0].value, 0.09);
-  EXPECT_FALSE(offsets_->in_force("no-run"));
+  EXPECT_DOUBLE_EQ(offsets_->history().in_force(after)->values[0].value, 0.09);
+  EXPECT_FALSE(offsets_->history().in_force("no-run"));
 }
 
 TEST_F(OffsetsTest, TheWorkerLooksWhenSomethingWasMeasured) {

@@ -2,6 +2,7 @@
 
 #include "server/api/api.hpp"
 #include "server/api/json_object.hpp"
+#include "server/api/nullable_json.hpp"
 
 namespace dripline::api {
 
@@ -14,10 +15,6 @@ constexpr std::size_t kMaxRulesBody = offsets::kMaxRuleText;
 
 Response without_offsets() {
   return error_response({Errc::Unsupported, "this server has no offset proposals"});
-}
-
-json offset_text(const std::string& text) {
-  return text.empty() ? json(nullptr) : json(text);
 }
 
 json offset_json(const OffsetProposal& proposal) {
@@ -39,11 +36,11 @@ json offset_json(const OffsetProposal& proposal) {
           {"last", proposal.last},
           {"reasons", std::move(reasons)},
           {"created", to_iso8601(proposal.created)},
-          {"decided", proposal.decided ? json(to_iso8601(*proposal.decided)) : json(nullptr)},
-          {"who", offset_text(proposal.who)},
-          {"comment", offset_text(proposal.comment)},
+          {"decided", time_or_null(proposal.decided)},
+          {"who", text_or_null(proposal.who)},
+          {"comment", text_or_null(proposal.comment)},
           {"automatic", proposal.is_automatic},
-          {"setup", proposal.setup ? json(*proposal.setup) : json(nullptr)}};
+          {"setup", number_or_null(proposal.setup)}};
 }
 
 json rules_json(const storage::OffsetRules& rules) {
@@ -70,8 +67,8 @@ json history_json(const offsets::HistoryEntry& entry) {
             {"value", entry.value},
             {"setup", entry.setup.number},
             {"time", to_iso8601(entry.setup.created)},
-            {"who", offset_text(entry.setup.author)},
-            {"why", offset_text(entry.setup.comment)},
+            {"who", text_or_null(entry.setup.author)},
+            {"why", text_or_null(entry.setup.comment)},
             {"proposal", entry.proposal ? offset_json(*entry.proposal) : json(nullptr)},
             {"runs", json::array()},
             {"parts", entry.parts},
@@ -133,9 +130,7 @@ Response approve_offset(Services& services, const Request& request) {
   if (services.offsets == nullptr) return without_offsets();
   const auto decision = read_decision(services, request);
   if (!decision) return error_response(decision.error());
-  if (const auto applied = services.offsets->approve(*decision); !applied)
-    return error_response(applied.error());
-  return value_response(200, services.offsets->stored().find(decision->id), offset_json);
+  return value_response(200, services.offsets->approve(*decision), offset_json);
 }
 
 Response reject_offset(Services& services, const Request& request) {
@@ -177,20 +172,21 @@ Response show_history(Services& services, const Request& request) {
   const storage::Page page = read_page(query);
   const std::string target = query.text("target").value_or("");
   if (auto good = query.finish(); !good) return error_response(good.error());
-  return list_response(
-      "history", services.offsets->history(request.parameter("name"), target, page), history_json);
+  return list_response("history",
+                       services.offsets->history().list(request.parameter("name"), target, page),
+                       history_json);
 }
 
 Response show_in_force(Services& services, const Request& request) {
   if (services.offsets == nullptr) return without_offsets();
-  const auto found = services.offsets->in_force(request.parameter("id"));
+  const auto found = services.offsets->history().in_force(request.parameter("id"));
   if (!found) return error_response(found.error());
   json view{{"run", found->run.id},
             {"machine", found->run.machine},
-            {"setup", found->run.setup ? json(*found->run.setup) : json(nullptr)},
+            {"setup", number_or_null(found->run.setup)},
             {"first_block", 1},
             {"last_block", found->run.counters.executed},
-            {"unit", offset_text(found->unit)},
+            {"unit", text_or_null(found->unit)},
             {"values", json::array()}};
   for (const auto& value : found->values)
     view["values"].push_back({{"target", value.target}, {"value", value.value}});

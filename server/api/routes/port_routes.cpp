@@ -4,6 +4,7 @@
 
 #include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 #include "server/ports/port_control.hpp"
 
@@ -11,10 +12,6 @@ namespace dripline::api {
 namespace {
 
 using nlohmann::json;
-
-json optional_text(std::string_view text) {
-  return text.empty() ? json(nullptr) : json(text);
-}
 
 std::string_view phase_name(wire::Phase phase) {
   constexpr std::string_view kNames[] = {"idle", "sending", "receiving", "requesting"};
@@ -39,14 +36,14 @@ json line_json(const wire::LineState& line) {
   return {{"phase", phase_name(line.phase)},
           {"stopped", line.is_stopped},
           {"stopping", line.is_stopping},
-          {"waiting_for", optional_text(line.waiting_for)},
+          {"waiting_for", text_or_null(line.waiting_for)},
           {"without_limit", line.may_wait_without_limit}};
 }
 
 json request_json(const ports::PortRequest& request) {
   return {{"since", to_iso8601(request.since)},
-          {"program", optional_text(request.program)},
-          {"answer", optional_text(request.answer)}};
+          {"program", text_or_null(request.program)},
+          {"answer", text_or_null(request.answer)}};
 }
 
 std::string hex(std::string_view bytes) {
@@ -64,28 +61,27 @@ json transfer_json(const ports::PortTransfer& transfer) {
           {"size", transfer.size},
           {"sent", transfer.sent},
           {"state", to_string(transfer.state)},
-          {"reason", optional_text(transfer.reason)}};
+          {"reason", text_or_null(transfer.reason)}};
 }
 
 json port_json(const ports::PortView& view) {
-  return {
-      {"name", view.port.name},
-      {"machine", view.port.machine},
-      {"address", view.port.address},
-      {"template", optional_text(view.port.line_template)},
-      {"settings", own_settings_json(view.port)},
-      {"rules", optional_text(view.port.rules)},
-      {"enabled", view.port.is_enabled},
-      {"effective", settings_json(view.settings)},
-      {"open", view.is_open},
-      {"fault", optional_text(view.fault)},
-      {"line", line_json(view.line)},
-      {"run", optional_text(view.run)},
-      {"transfer", view.transfer ? transfer_json(*view.transfer) : json(nullptr)},
-      {"sent", view.sent},
-      {"received", view.received},
-      {"waiting_since", view.waiting_since ? json(to_iso8601(*view.waiting_since)) : json(nullptr)},
-      {"request", view.request ? request_json(*view.request) : json(nullptr)}};
+  return {{"name", view.port.name},
+          {"machine", view.port.machine},
+          {"address", view.port.address},
+          {"template", text_or_null(view.port.line_template)},
+          {"settings", own_settings_json(view.port)},
+          {"rules", text_or_null(view.port.rules)},
+          {"enabled", view.port.is_enabled},
+          {"effective", settings_json(view.settings)},
+          {"open", view.is_open},
+          {"fault", text_or_null(view.fault)},
+          {"line", line_json(view.line)},
+          {"run", text_or_null(view.run)},
+          {"transfer", view.transfer ? transfer_json(*view.transfer) : json(nullptr)},
+          {"sent", view.sent},
+          {"received", view.received},
+          {"waiting_since", time_or_null(view.waiting_since)},
+          {"request", view.request ? request_json(*view.request) : json(nullptr)}};
 }
 
 /// `bytes` in hexadecimal: any byte, one line.
@@ -102,9 +98,9 @@ json port_test_json(const ports::PortTest& test) {
 }
 
 json verdict_json(const ports::RuleVerdict& verdict) {
-  return {{"rule", optional_text(verdict.rule)},
+  return {{"rule", text_or_null(verdict.rule)},
           {"action", verdict.action},
-          {"argument", optional_text(verdict.argument)},
+          {"argument", text_or_null(verdict.argument)},
           {"why", verdict.why}};
 }
 
@@ -114,7 +110,7 @@ json port_templates_json() {
   for (const wire::LineTemplate& row : wire::line_templates()) {
     templates.push_back({{"name", row.name},
                          {"title", row.title},
-                         {"control", optional_text(row.control)},
+                         {"control", text_or_null(row.control)},
                          {"settings", settings_json(row.settings)}});
   }
   const wire::LineSettings defaults;

@@ -2,6 +2,7 @@
 
 #include "protocol/pki/certificate.hpp"
 #include "server/api/api.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/library/certificate_watch.hpp"
 
 namespace dripline::api {
@@ -31,7 +32,7 @@ json certificate_json(const WatchedCertificate& certificate, UtcTime now) {
   const bool is_over = certificate.expires <= now;
   const bool is_near = left < pki::kExpiryWarning.count();
   return {{"use", library::to_string(certificate.use)},
-          {"machine", certificate.machine.empty() ? json(nullptr) : json(certificate.machine)},
+          {"machine", text_or_null(certificate.machine)},
           {"expires", to_iso8601(certificate.expires)},
           {"days_left", left},
           {"state", is_over   ? "expired"

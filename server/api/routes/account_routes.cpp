@@ -3,6 +3,7 @@
 #include "server/api/access_control.hpp"
 #include "server/api/account_bodies.hpp"
 #include "server/api/api.hpp"
+#include "server/api/nullable_json.hpp"
 
 namespace dripline::api {
 namespace {
@@ -10,10 +11,6 @@ namespace {
 using identity::Caller;
 using identity::Credential;
 using nlohmann::json;
-
-json time_or_null(const std::optional<UtcTime>& time) {
-  return time ? json(to_iso8601(*time)) : json(nullptr);
-}
 
 json user_json(const identity::User& user) {
   return {{"name", user.name},
@@ -35,7 +32,7 @@ json token_json(const Credential& token, identity::Role users_role) {
           {"created", to_iso8601(token.created)},
           {"expires", time_or_null(token.expires)},
           {"used", time_or_null(token.used)},
-          {"used_from", token.used_from.empty() ? json(nullptr) : json(token.used_from)}};
+          {"used_from", text_or_null(token.used_from)}};
 }
 
 json group_json(const identity::MachineGroup& group) {

@@ -16,7 +16,7 @@ class OffsetRoutes : public ApiTest {
     proposal.new_value = new_value;
     proposal.created = clock_.now();
     proposal.reasons = R"(["mean deviation +0.02"])";
-    return store_->offsets.propose(proposal)->id;
+    return store_->offsets.propose(proposal)->proposal.id;
   }
   std::string path(std::uint64_t id, const std::string& verb) const {
     return fmt::format("/api/v1/machines/lathe-1/offsets/{}/{}", id, verb);
@@ -34,7 +34,7 @@ TEST_F(OffsetRoutes, ListShowAndApprove) {
   EXPECT_EQ(json(applied)["state"], "applied");
   EXPECT_EQ(json(applied)["setup"], 1);
   EXPECT_EQ(json(applied)["who"], "admin");
-  expect_error(post(path(id, "approve"), Json::object()), 409, "conflict", "is the newest by now");
+  expect_error(post(path(id, "approve"), Json::object()), 409, "conflict", "is applied already");
   const auto history = json(get("/api/v1/machines/lathe-1/offset-history?target=T3"));
   ASSERT_EQ(history["history"].size(), 1U) << history.dump();
   EXPECT_EQ(history["history"][0]["value"], -0.01);

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
@@ -9,14 +10,10 @@ namespace {
 using library::Backups;
 using nlohmann::json;
 
-json optional_time(const std::optional<UtcTime>& time) {
-  return time ? json(to_iso8601(*time)) : json(nullptr);
-}
-
 json backup_json(const backup::Backup& backup) {
   return {{"id", backup.id},           {"made", to_iso8601(backup.made)},
           {"made_by", backup.made_by}, {"size", backup.size},
-          {"added", backup.added},     {"verified", optional_time(backup.verified)}};
+          {"added", backup.added},     {"verified", time_or_null(backup.verified)}};
 }
 
 json work_json(const Backups::Work& work) {

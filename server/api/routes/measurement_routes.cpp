@@ -1,4 +1,3 @@
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/names.hpp"
@@ -18,14 +17,6 @@ Response without_measurements() {
   return error_response({Errc::Unsupported, "this server has no measurements"});
 }
 
-Result<std::optional<UtcTime>> read_time(QueryReader& query, const char* name) {
-  const auto text = query.text(name);
-  if (!text) return std::optional<UtcTime>();
-  const auto time = parse_iso8601(*text);
-  if (!time) return fail(time.error().code, "query parameter '{}': {}", name, time.error().what);
-  return std::optional(*time);
-}
-
 Result<std::optional<measurement::Verdict>> read_verdict(QueryReader& query) {
   const auto text = query.text("verdict");
   if (!text) return std::optional<measurement::Verdict>();
@@ -34,32 +25,18 @@ Result<std::optional<measurement::Verdict>> read_verdict(QueryReader& query) {
   return std::optional(*verdict);
 }
 
-Result<bool> read_flag(QueryReader& query, const char* name) {
-  const std::string text = query.text(name).value_or("no");
-  if (text == "yes" || text == "no") return text == "yes";
-  return fail(Errc::Syntax, "query parameter '{}' is '{}': yes or no", name, text);
-}
-
-constexpr auto kHighest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-
 Result<storage::MeasurementFilter> read_measurement_filter(QueryReader& query) {
   storage::MeasurementFilter filter;
   filter.machine = query.text("machine");
   filter.run = query.text("run");
   filter.characteristic = query.text("characteristic");
-  filter.part_id = query.number("part", kHighest);
-  const auto since = read_time(query, "since");
-  if (!since) return fail(since.error());
-  filter.since = *since;
-  const auto until = read_time(query, "until");
-  if (!until) return fail(until.error());
-  filter.until = *until;
+  filter.part_id = query.number("part", kMaxNumber);
+  filter.since = query.time("since");
+  filter.until = query.time("until");
   const auto verdict = read_verdict(query);
   if (!verdict) return fail(verdict.error());
   filter.verdict = *verdict;
-  const auto superseded = read_flag(query, "superseded");
-  if (!superseded) return fail(superseded.error());
-  filter.with_superseded = *superseded;
+  filter.with_superseded = query.flag("superseded");
   return filter;
 }
 
@@ -75,7 +52,7 @@ Result<std::optional<storage::MeasurementPlace>> read_place(QueryReader& query) 
   const auto time = parse_unsigned(std::string_view(*text).substr(0, colon));
   const auto id =
       parse_unsigned(colon == std::string::npos ? "" : std::string_view(*text).substr(colon + 1));
-  if (!time || !id || *time > kHighest || *id > kHighest)
+  if (!time || !id || *time > kMaxNumber || *id > kMaxNumber)
     return fail(Errc::Syntax, "query parameter 'after' is '{}': the 'next' of an answer", *text);
   return std::optional(storage::MeasurementPlace{
       UtcTime{std::chrono::microseconds{static_cast<std::int64_t>(*time)}}, *id});
@@ -166,9 +143,7 @@ Result<storage::PartFilter> read_part_filter(QueryReader& query) {
   const auto verdict = read_verdict(query);
   if (!verdict) return fail(verdict.error());
   filter.verdict = *verdict;
-  const auto superseded = read_flag(query, "superseded");
-  if (!superseded) return fail(superseded.error());
-  filter.with_superseded = *superseded;
+  filter.with_superseded = query.flag("superseded");
   return filter;
 }
 

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
@@ -17,7 +18,7 @@ Response without_archives() {
 json archive_json(const storage::Archive& archive) {
   return {{"id", archive.id},
           {"kind", storage::to_string(archive.kind)},
-          {"machine", archive.machine.empty() ? json(nullptr) : json(archive.machine)},
+          {"machine", text_or_null(archive.machine)},
           {"file", archive.file},
           {"sha256", archive.sha256.hex()},
           {"rows", archive.rows},

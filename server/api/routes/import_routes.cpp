@@ -2,6 +2,7 @@
 
 #include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
@@ -10,38 +11,30 @@ namespace {
 
 using nlohmann::json;
 
-json import_text(const std::string& text) {
-  return text.empty() ? json(nullptr) : json(text);
-}
-
-json import_time(const std::optional<UtcTime>& time) {
-  return time ? json(to_iso8601(*time)) : json(nullptr);
-}
-
 json import_json(const storage::Import& import) {
   const storage::Revision& revision = import.revision;
   json view{{"program", revision.program},
             {"revision", revision.number},
             {"machine", import.machine},
-            {"control", import_text(revision.control)},
+            {"control", text_or_null(revision.control)},
             {"size", revision.size},
             {"sha256", revision.content.hex()},
-            {"comment", import_text(revision.comment)},
+            {"comment", text_or_null(revision.comment)},
             {"received", to_iso8601(revision.created)},
             {"state", storage::to_string(import.state)},
             {"class", nullptr},
             {"base", nullptr},
             {"fault", nullptr},
             {"compared", nullptr},
-            {"decided", import_time(import.decided)},
-            {"who", import_text(import.who)},
-            {"reason", import_text(import.reason)},
+            {"decided", time_or_null(import.decided)},
+            {"who", text_or_null(import.who)},
+            {"reason", text_or_null(import.reason)},
             {"at_once", import.is_at_once},
             {"accepted_as", nullptr}};
   if (const auto& found = import.compared) {
-    view["class"] = import_text(found->edit);
+    view["class"] = text_or_null(found->edit);
     if (found->base) view["base"] = *found->base;
-    view["fault"] = import_text(found->fault);
+    view["fault"] = text_or_null(found->fault);
     view["compared"] = to_iso8601(found->time);
   }
   if (!import.target.empty())
@@ -76,7 +69,7 @@ Response show_import(Services& services, const Request& request) {
   if (!shown) return error_response(shown.error());
   json view = import_json(shown->import);
   view["compared_with"] = shown->base ? json(shown->base->number) : json(nullptr);
-  view["comparison_fault"] = import_text(shown->fault);
+  view["comparison_fault"] = text_or_null(shown->fault);
   auto comparison = json::parse(shown->comparison, nullptr, false);
   if (comparison.is_object()) view["comparison"] = std::move(comparison);
   return json_response(200, view);

@@ -1,11 +1,8 @@
-#include <limits>
 
 #include "server/api/api.hpp"
 
 namespace dripline::api {
 namespace {
-
-constexpr std::uint64_t kMaxNumber = std::numeric_limits<std::int64_t>::max();
 
 Response check_program(Services& services, const Request& request) {
   paths::CheckRequest checked;

@@ -3,6 +3,7 @@
 #include "server/api/access_control.hpp"
 #include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
@@ -44,7 +45,7 @@ json decision_json(const library::Releases& releases, const storage::Decision& d
           {"state", storage::to_string(storage::state_after(decision.step))},
           {"time", to_iso8601(decision.time)},
           {"who", decision.who.name},
-          {"comment", decision.comment.empty() ? json(nullptr) : json(decision.comment)},
+          {"comment", text_or_null(decision.comment)},
           {"text", releases.text_of(decision)},
           {"signature", decision.signature.hex()}};
 }

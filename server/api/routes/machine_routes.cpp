@@ -57,7 +57,7 @@ Response list_setups(Services& services, const Request& request) {
 
 Response show_setup(Services& services, const Request& request) {
   QueryReader query(request);
-  const auto number = query.number("revision", std::numeric_limits<std::int64_t>::max());
+  const auto number = query.number("revision", kMaxNumber);
   if (auto good = query.finish(); !good) return error_response(good.error());
   const auto setup = services.setups.find(request.parameter("name"), number);
   if (!setup) return error_response(setup.error());
@@ -88,7 +88,7 @@ Response save_setup(Services& services, const Request& request) {
   const auto control = query.text("control");
   library::SetupText text;
   text.comment = query.text("comment").value_or("");
-  text.base = query.number("base", std::numeric_limits<std::int64_t>::max());
+  text.base = query.number("base", kMaxNumber);
   if (auto good = query.finish(); !good) return error_response(good.error());
   text.machine = request.parameter("name");
   if (auto named = check_machine_name(text.machine); !named) return error_response(named.error());

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 
 #include "clients/tools/charts/measurement_chart.hpp"
 #include "server/api/api.hpp"
@@ -19,49 +18,25 @@ struct ChartQuery {
   charts::ChartRequest chart;
 };
 
-std::optional<std::string> take(std::map<std::string, std::string>& texts,
-                                const std::string& name) {
-  const auto found = texts.find(name);
-  if (found == texts.end()) return std::nullopt;
-  std::string text = std::move(found->second);
-  texts.erase(found);
-  return text;
-}
-
-Result<std::optional<UtcTime>> take_time(std::map<std::string, std::string>& texts,
-                                         const std::string& name) {
-  const auto text = take(texts, name);
-  if (!text) return std::optional<UtcTime>();
-  const auto time = parse_iso8601(*text);
-  if (!time) return fail(time.error().code, "query parameter '{}': {}", name, time.error().what);
-  return std::optional(*time);
-}
-
 /// Names of the measurements are taken out, the rest is the picture's.
 Result<ChartQuery> read_chart_query(const Request& request) {
-  auto texts = request.target.query;
+  QueryReader reader(request);
   ChartQuery query;
-  query.filter.machine = take(texts, "machine");
-  query.filter.run = take(texts, "run");
-  query.filter.characteristic = take(texts, "characteristic");
+  query.filter.machine = reader.text("machine");
+  query.filter.run = reader.text("run");
+  query.filter.characteristic = reader.text("characteristic");
   if (!query.filter.characteristic) {
     return fail(Errc::Syntax, "query parameter 'characteristic' is missing: a chart is of one");
   }
-  const auto since = take_time(texts, "since");
-  if (!since) return fail(since.error());
-  query.filter.since = *since;
-  const auto until = take_time(texts, "until");
-  if (!until) return fail(until.error());
-  query.filter.until = *until;
-  if (const auto last = take(texts, "last")) {
-    const auto number = parse_unsigned(*last);
-    if (!number || *number == 0 || *number > kMaxCharted) {
-      return fail(Errc::LimitExceeded, "query parameter 'last' is '{}': 1 to {}", *last,
-                  kMaxCharted);
-    }
-    query.last = *number;
+  query.filter.since = reader.time("since");
+  query.filter.until = reader.time("until");
+  query.last = reader.number("last", kMaxCharted).value_or(kUsuallyCharted);
+  const auto of_picture = reader.rest();
+  if (auto good = reader.finish(); !good) return fail(good.error());
+  if (query.last == 0) {
+    return fail(Errc::LimitExceeded, "query parameter 'last' is 0: 1 to {}", kMaxCharted);
   }
-  auto chart = charts::parse_chart_request(texts);
+  auto chart = charts::parse_chart_request(of_picture);
   if (!chart) return fail(chart.error());
   query.chart = *std::move(chart);
   return query;

@@ -13,7 +13,7 @@ class MeasurementRoutes : public ApiTest {
   api::Response put(const std::string& target, const std::string& body = "") {
     return call("PUT", target, {.body = body, .headers = {}});
   }
-  /// A run that has printed three values and a line that nobody knows.
+  /// A run that has printed three values and a line that no template knows.
   void measure() {
     ASSERT_EQ(put("/api/v1/report-templates/bore", kTemplate).status, 200);
     ASSERT_EQ(put("/api/v1/report-template-assignments/program/O0100/bore").status, 204);

@@ -26,7 +26,7 @@ Response begin_upload(Services& services, const Request& request) {
 
 Response append_upload(Services& services, const Request& request) {
   QueryReader query(request);
-  const auto offset = query.number("offset", std::numeric_limits<std::int64_t>::max());
+  const auto offset = query.number("offset", kMaxNumber);
   if (auto good = query.finish(); !good) return error_response(good.error());
   if (!offset) return error_response({Errc::Syntax, "query parameter 'offset' is missing"});
   if (request.body.empty()) return error_response({Errc::Syntax, "the piece is empty"});
@@ -191,7 +191,7 @@ Response unsatisfiable(const Error& error, std::uint64_t size) {
 
 Response send_content(Services& services, const Request& request) {
   QueryReader query(request);
-  const auto number = query.number("revision", std::numeric_limits<std::int64_t>::max());
+  const auto number = query.number("revision", kMaxNumber);
   if (auto good = query.finish(); !good) return error_response(good.error());
   const auto revision = services.programs.revision(request.parameter("name"), number);
   if (!revision) return error_response(revision.error());
@@ -242,7 +242,7 @@ Response refused_path(const Error& error) {
 
 Response send_path(Services& services, const Request& request) {
   QueryReader query(request);
-  const auto number = query.number("revision", std::numeric_limits<std::int64_t>::max());
+  const auto number = query.number("revision", kMaxNumber);
   const auto machine = query.text("machine");
   const auto tolerance = read_tolerance(query.text("tolerance"));
   if (auto good = query.finish(); !good) return error_response(good.error());
