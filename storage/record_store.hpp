@@ -96,11 +96,10 @@ class RecordStore {
   /// instance from their controls' own memory. In order of their names, without those that printed
   /// nothing.
   virtual Result<std::vector<MachineReport>> machine_reports() = 0;
-  /// The lines of one of them, in order of (epoch, number); none of an unknown machine.
-  virtual Result<std::vector<Record>> machine_report(const std::string& machine, Page page) = 0;
-  virtual Result<std::vector<Record>> machine_report_after(const std::string& machine,
-                                                           RecordPlace after,
-                                                           std::uint64_t limit) = 0;
+  /// The lines of one of them after a place, in order of (epoch, number); none of an unknown
+  /// machine.
+  virtual Result<std::vector<Record>> machine_report(const std::string& machine, RecordPlace after,
+                                                     std::uint64_t limit) = 0;
   /// What its control kept after its runs, newest first; with `run` after this one alone.
   virtual Result<std::vector<MemoryReport>> memory_reports(const std::string& machine,
                                                            const std::optional<std::string>& run,

@@ -53,7 +53,7 @@ ReportReader::ReportReader(storage::RecordStore& store, const std::string& machi
 }
 
 Result<std::vector<storage::Record>> ReportReader::records() const {
-  if (run_.id.empty()) return store_.machine_report_after(run_.machine, place_, kLinesPerPiece);
+  if (run_.id.empty()) return store_.machine_report(run_.machine, place_, kLinesPerPiece);
   return store_.of_run_after(run_.id, "output", place_, kLinesPerPiece);
 }
 

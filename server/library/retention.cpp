@@ -124,7 +124,12 @@ Result<void> Retention::remove_rows(const Archive& archive, const std::stop_toke
   return {};
 }
 
-Result<void> Retention::keep(Archive archive, const std::stop_token& stop) {
+Result<void> Retention::keep(archive::ArchiveWriter& writer, Archive archive,
+                             const std::stop_token& stop) {
+  const auto written = writer.end();
+  if (!written) return fail(written.error());
+  archive.sha256 = written->sha256;
+  archive.bytes = written->bytes;
   archive.created = parts_.clock.now();
   const auto id = parts_.store.archives.add(archive, kWho);
   if (!id) return fail(id.error());
@@ -206,11 +211,7 @@ Result<bool> Retention::archive_journal(storage::ArchivableRecords range, UtcTim
     piece = parts_.store.archives.records(range, options_.piece);
     if (!piece) return fail(piece.error());
   }
-  const auto written = writer->end();
-  if (!written) return fail(written.error());
-  archive.sha256 = written->sha256;
-  archive.bytes = written->bytes;
-  if (auto kept = keep(std::move(archive), stop); !kept) return fail(kept.error());
+  if (auto kept = keep(*writer, std::move(archive), stop); !kept) return fail(kept.error());
   return true;
 }
 
@@ -282,11 +283,7 @@ Result<bool> Retention::archive_parts(UtcTime cutoff, std::uint64_t rows,
     parts = store.ended_parts(archive.last, options_.piece);
     if (!parts) return fail(parts.error());
   }
-  const auto written = writer->end();
-  if (!written) return fail(written.error());
-  archive.sha256 = written->sha256;
-  archive.bytes = written->bytes;
-  if (auto kept = keep(std::move(archive), stop); !kept) return fail(kept.error());
+  if (auto kept = keep(*writer, std::move(archive), stop); !kept) return fail(kept.error());
   return true;
 }
 

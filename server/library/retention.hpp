@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "protocol/archive/archive_writer.hpp"
 #include "protocol/base/clock.hpp"
 #include "storage/store.hpp"
 
@@ -64,7 +65,9 @@ class Retention {
   Result<bool> archive_journal(storage::ArchivableRecords range, UtcTime cutoff, std::uint64_t rows,
                                const std::stop_token& stop);
   Result<bool> archive_parts(UtcTime cutoff, std::uint64_t rows, const std::stop_token& stop);
-  Result<void> keep(storage::Archive archive, const std::stop_token& stop);
+  /// Ends the file, lists it, and takes its rows out of the tables.
+  Result<void> keep(archive::ArchiveWriter& writer, storage::Archive archive,
+                    const std::stop_token& stop);
 
   const Parts parts_;
   const Options options_;

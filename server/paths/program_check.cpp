@@ -19,8 +19,6 @@ using interpreter::Diagnostic;
 using interpreter::Origin;
 using nlohmann::json;
 
-constexpr std::uint64_t kBlocksAStep = 2048;
-
 /// Warnings and the alarm, each once for its place, however often that is executed: a loop must not
 /// hide what is after it. Bounded.
 class Findings final : public interpreter::EventSink {
@@ -80,7 +78,7 @@ struct Checked {
 Checked run_to_end(interpreter::OfflineRun& run, std::chrono::milliseconds limit) {
   const auto end = std::chrono::steady_clock::now() + limit;
   for (;;) {
-    const auto is_over = run.step(kBlocksAStep);
+    const auto is_over = run.step(kStepBlocks);
     if (!is_over) return {Outcome::Fault, is_over.error().what};
     if (*is_over) return {run.outcome().ended ? Outcome::Ended : Outcome::Alarm, {}};
     if (std::chrono::steady_clock::now() >= end) return {Outcome::Time, {}};

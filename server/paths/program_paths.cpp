@@ -19,7 +19,6 @@ using nlohmann::json;
 /// Of one piece: what comes first ends it, so that a client that leaves is noticed soon.
 constexpr std::size_t kPieceBytes = 256 * 1024;
 constexpr std::uint64_t kPieceBlocks = 65'536;
-constexpr std::uint64_t kStepBlocks = 2048;
 
 enum class Frame : char { Json = 'J', Points = 'P' };
 

@@ -184,9 +184,9 @@ Result<std::vector<Record>> RecordRepository::of_machine_after(const std::string
   });
 }
 
-Result<std::vector<Record>> RecordRepository::machine_report_after(const std::string& machine,
-                                                                   RecordPlace after,
-                                                                   std::uint64_t limit) {
+Result<std::vector<Record>> RecordRepository::machine_report(const std::string& machine,
+                                                             RecordPlace after,
+                                                             std::uint64_t limit) {
   static const std::string kSelect =
       "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, "
       "received_us FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
@@ -264,19 +264,6 @@ Result<std::vector<MemoryReport>> RecordRepository::memory_reports(
       reports.push_back({place.run, place.time, *std::move(texts)});
     }
     return reports;
-  });
-}
-
-Result<std::vector<Record>> RecordRepository::machine_report(const std::string& machine,
-                                                             Page page) {
-  static const std::string kSelect =
-      "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, "
-      "received_us "
-      "FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
-      "AND run IS NULL AND kind IN ('output', 'probe') "
-      "ORDER BY epoch, number LIMIT ?2 OFFSET ?3";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSelect, read_record, machine, page.limit, page.offset);
   });
 }
 

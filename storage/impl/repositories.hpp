@@ -54,10 +54,9 @@ class RecordRepository final : public RecordStore {
                                            RecordPlace after, std::uint64_t limit) override;
   Result<std::vector<Record>> of_machine_after(const std::string& machine, RecordPlace after,
                                                std::uint64_t limit) override;
-  Result<std::vector<Record>> machine_report_after(const std::string& machine, RecordPlace after,
-                                                   std::uint64_t limit) override;
+  Result<std::vector<Record>> machine_report(const std::string& machine, RecordPlace after,
+                                             std::uint64_t limit) override;
   Result<std::vector<MachineReport>> machine_reports() override;
-  Result<std::vector<Record>> machine_report(const std::string& machine, Page page) override;
   Result<std::vector<MemoryReport>> memory_reports(const std::string& machine,
                                                    const std::optional<std::string>& run,
                                                    Page page) override;

@@ -87,7 +87,6 @@ Result<SetupRevision> save_setup(sqlite::Database& database, const SetupRevision
 
 Result<SetupRevision> SetupRepository::save(const SetupRevision& setup,
                                             std::optional<std::uint64_t> base) {
-  if (auto checked = check_setup(setup); !checked) return fail(checked.error());
   const UtcTime now = clock_.now();
   return connections_.write(
       [&](sqlite::Database& database) { return save_setup(database, setup, base, now); });

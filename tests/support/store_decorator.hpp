@@ -105,17 +105,13 @@ class RecordStoreDecorator : public storage::RecordStore {
                                                         std::uint64_t limit) override {
     return inner_.of_machine_after(machine, after, limit);
   }
-  Result<std::vector<storage::Record>> machine_report_after(const std::string& machine,
-                                                            storage::RecordPlace after,
-                                                            std::uint64_t limit) override {
-    return inner_.machine_report_after(machine, after, limit);
+  Result<std::vector<storage::Record>> machine_report(const std::string& machine,
+                                                      storage::RecordPlace after,
+                                                      std::uint64_t limit) override {
+    return inner_.machine_report(machine, after, limit);
   }
   Result<std::vector<storage::MachineReport>> machine_reports() override {
     return inner_.machine_reports();
-  }
-  Result<std::vector<storage::Record>> machine_report(const std::string& machine,
-                                                      storage::Page page) override {
-    return inner_.machine_report(machine, page);
   }
   Result<std::vector<storage::MemoryReport>> memory_reports(const std::string& machine,
                                                             const std::optional<std::string>& run,

@@ -49,6 +49,9 @@ Result<interpreter::Setup> interpretation_setup(const machines::RunSources& sour
 storage::Run interpreted_run(const machines::RunSources& sources, const storage::Revision& revision,
                              const std::string& machine);
 
+/// Blocks that are interpreted between two looks at the time or at what was made.
+inline constexpr std::uint64_t kStepBlocks = 2048;
+
 /// By axis letter: the smallest and the largest coordinate, mm or degrees.
 nlohmann::json extents_json(const interpreter::Summary& summary);
 

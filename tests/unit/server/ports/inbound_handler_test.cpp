@@ -59,15 +59,15 @@ TEST_F(PortServiceTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
   start_ports();
   add_port(mill(kCalls));
   line().write("B 2\nPROBE Z-1.125\n");
-  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 2; }));
-  EXPECT_EQ(texts_of(*store_->records.machine_report("mill", {})),
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 2; }));
+  EXPECT_EQ(texts_of(*store_->records.machine_report("mill", {}, 100)),
             (std::vector<std::string>{"B 2", "PROBE Z-1.125"}));
   ports_.reset();  // the server stops, and starts again
   start_ports();
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
   line().write("B 3\n");
-  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 3; }));
-  EXPECT_EQ(store_->records.machine_report("mill", {})->back().text, "B 3");
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 3; }));
+  EXPECT_EQ(store_->records.machine_report("mill", {}, 100)->back().text, "B 3");
   EXPECT_EQ(store_->records.machine_reports()->at(0).lines, 3u);
 }
 
@@ -82,7 +82,7 @@ TEST_F(PortServiceTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
       "\x12"
       "B 2\n\x14\x12"
       "B 3\n\x14");
-  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 2; }));
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 2; }));
   EXPECT_EQ(ports_->port("com1")->fault, "") << "nothing is wrong with it";
 }
 
@@ -155,8 +155,8 @@ TEST_F(PortServiceTest, NumbersItsRecordsAfterAllBeforeThemWhateverTheClockShows
   add_port(mill());
   add_port(mill());  // changed: the same epoch
   line().write("B 2\n");
-  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 1; }));
-  EXPECT_EQ(store_->records.machine_report("mill", {})->at(0).epoch, machine.epoch + 1);
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 1; }));
+  EXPECT_EQ(store_->records.machine_report("mill", {}, 100)->at(0).epoch, machine.epoch + 1);
 }
 
 TEST_F(PortServiceTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
