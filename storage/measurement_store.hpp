@@ -44,7 +44,7 @@ struct ReportFinding {
 struct DerivedBatch {
   std::string machine;
   std::uint64_t epoch = 0;
-  std::uint64_t after = 0;          ///< the cursor it begins behind
+  std::uint64_t after = 0;          ///< the cursor it begins after
   std::uint64_t through = 0;        ///< the cursor it ends with
   std::string state;                ///< of the interpretation, after it
   std::vector<MeasuredPart> parts;  ///< new ones and changed ones; ids are given by the caller

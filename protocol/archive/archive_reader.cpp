@@ -171,7 +171,7 @@ Result<std::optional<std::string>> ArchiveReader::next() {
   }
   const auto rest = line();
   if (!rest) return fail(rest.error());
-  if (*rest) return fail(Errc::Corrupt, "archive {} goes on behind its end", s.name);
+  if (*rest) return fail(Errc::Corrupt, "archive {} continues after its end", s.name);
   s.is_over = true;
   return std::optional<std::string>();
 }

@@ -213,11 +213,11 @@ void Measurements::act(const std::stop_token& stop) {
       due_.pop_front();
     }
     carry_out(due.action);
-    settle(due.machine, due.action);
+    resolve_due(due.machine, due.action);
   }
 }
 
-void Measurements::settle(const std::string& machine, const DueAction& due) {
+void Measurements::resolve_due(const std::string& machine, const DueAction& due) {
   const std::lock_guard lock(derive_mutex_);
   auto state = state_of(machine);
   if (!state) return;  // it is carried out again after a restart

@@ -82,7 +82,7 @@ class Measurements {
   void take_due(const std::string& machine, const std::vector<DueAction>& due);
   void carry_out(const DueAction& due);
   /// It is not due any more, also after a restart.
-  void settle(const std::string& machine, const DueAction& due);
+  void resolve_due(const std::string& machine, const DueAction& due);
   /// What was not carried out before the last end of the server.
   void take_all_due();
   void wake();

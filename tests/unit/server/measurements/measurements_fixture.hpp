@@ -78,7 +78,7 @@ class MeasurementsTest : public server_test::ServerTest {
     ASSERT_TRUE(stored) << stored.error().what;
     if (measurements_) measurements_->note();
   }
-  void settle() {
+  void wait_until_derived() {
     const auto waited = measurements_->wait(std::chrono::seconds(60));
     ASSERT_TRUE(waited) << waited.error().what;
   }

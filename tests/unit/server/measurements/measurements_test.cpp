@@ -12,7 +12,7 @@ TEST_F(MeasurementsTest, FollowTheRecords) {
   make_run("r1");
   print({"run_started", "PART 1", "D 40.010", "D 40.015"});
   print({"PART 2", "D 39.999", "run_ended"});
-  settle();
+  wait_until_derived();
   const auto rows = all();
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].actual, 40.01);
@@ -33,7 +33,7 @@ TEST_F(MeasurementsTest, ListLinesThatNothingKnows) {
   use(kBore);
   make_run("r1");
   print({"PART 1", "D 40", "LOAD 12", "", "run_ended"});
-  settle();
+  wait_until_derived();
   EXPECT_EQ(findings({.run = "r1"}), (Texts{"unmatched: LOAD 12"}));
   EXPECT_EQ(store_->measurements.parts({}, {})->at(0).findings, 1u);
 }
@@ -43,7 +43,7 @@ TEST_F(MeasurementsTest, LeaveOtherProgramsAlone) {
   use(kBore, storage::TemplateScope::Program, "O0200");
   make_run("r1");
   print({"PART 1", "D 40", "run_ended"});
-  settle();
+  wait_until_derived();
   EXPECT_TRUE(all().empty());
   EXPECT_TRUE(findings().empty());
   EXPECT_TRUE(store_->measurements.underived()->empty()) << "but they are passed";
@@ -54,7 +54,7 @@ TEST_F(MeasurementsTest, TakeWhatAMachinePrintsOutsideRuns) {
   use(kBore, storage::TemplateScope::Machine, "lathe-1");
   print({"PART 1", "D 40", "PART 2"}, "");
   print({"PART 9", "D 40"}, "", "lathe-2");
-  settle();
+  wait_until_derived();
   ASSERT_EQ(all().size(), 1u);
   EXPECT_EQ(all()[0].run, "");
   EXPECT_EQ(all()[0].machine, "lathe-1");
@@ -66,7 +66,7 @@ TEST_F(MeasurementsTest, OfAMacroMindOnlyItsOwnLines) {
   use(kBore, storage::TemplateScope::Macro, "O9712");
   make_run("r1");
   print({"SOMETHING ELSE", "PART 1", "D 40", "GARBLED", "run_ended"});
-  settle();
+  wait_until_derived();
   EXPECT_EQ(all().size(), 1u);
   EXPECT_EQ(findings(), (Texts{"unmatched: GARBLED"})) << "only while a part of it is open";
 }
@@ -80,7 +80,7 @@ TEST_F(MeasurementsTest, TakeTheProgramsTemplateFirst) {
       {.scope = storage::TemplateScope::Program, .subject = "O0100", .name = "own"}, "anna"));
   make_run("r1");
   print({"D 40", "PART 1", "run_ended"});
-  settle();
+  wait_until_derived();
   ASSERT_EQ(all().size(), 1u);
   EXPECT_EQ(all()[0].characteristic.name, "own");
   EXPECT_TRUE(findings().empty()) << "the machine's template knows PART";
@@ -91,11 +91,11 @@ TEST_F(MeasurementsTest, JudgeAPartAtOnceAndHold) {
   use(kBore);
   make_run("r1");
   print({"PART 1", "D 39.9"});
-  settle();
+  wait_until_derived();
   EXPECT_EQ(judged(), (Texts{"1 rework so far"}));
   EXPECT_EQ(held(1), (Texts{"queue of lathe-1: part 1 1 is rework"}));
   print({"D 40.5", "D 40.6", "run_ended"});
-  settle();
+  wait_until_derived();
   EXPECT_EQ(judged(), (Texts{"1 rework so far", "1 scrap so far", "1 scrap"}));
   EXPECT_EQ(held(2).at(1), "machine of lathe-1: part 1 1 is scrap");
   EXPECT_EQ(store_->measurements.parts({}, {})->at(0).verdict, Verdict::Scrap);
@@ -107,13 +107,13 @@ TEST_F(MeasurementsTest, HoldAfterARestart) {
   use(kBore);
   make_run("r1");
   print({"PART 1", "D 40.5"});
-  settle();
+  wait_until_derived();
   held(1);
   measurements_.reset();
   start();
-  settle();
+  wait_until_derived();
   print({"D 40.5"});
-  settle();
+  wait_until_derived();
   EXPECT_EQ(held(1).size(), 1u) << "carried out once";
   measurements_.reset();
   auto state = store_->measurements.state("lathe-1").value();
@@ -130,12 +130,12 @@ TEST_F(MeasurementsTest, ContinueAPartOverARestart) {
   use(kBore);
   make_run("r1");
   print({"PART 1", "D 40"});
-  settle();
+  wait_until_derived();
   measurements_.reset();
   print({"D 40.001", "run_ended"});
   reopen();
   start();
-  settle();
+  wait_until_derived();
   EXPECT_EQ(all().size(), 2u);
   const auto parts = store_->measurements.parts({}, {});
   ASSERT_EQ(parts->size(), 1u);
@@ -147,12 +147,12 @@ TEST_F(MeasurementsTest, KeepOneVersionForARun) {
   use(kBore);
   make_run("r1");
   print({"PART 1", "D 40"});
-  settle();
+  wait_until_derived();
   use("[[line]]\nform='D {actual}'\ncharacteristic='new'\n");
   print({"D 40", "run_ended"});
   make_run("r2");
   print({"D 40", "run_ended"}, "r2");
-  settle();
+  wait_until_derived();
   const auto rows = all();
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[1].characteristic.name, "D");
@@ -164,10 +164,10 @@ TEST_F(MeasurementsTest, CanBeDerivedAgain) {
   use(kBore);
   make_run("r1");
   print({"PART 1", "D 40", "LOAD 12"});
-  settle();
-  EXPECT_EQ(measurements_->derive("r1", {}, {}).error().code, Errc::Conflict) << "it goes on";
+  wait_until_derived();
+  EXPECT_EQ(measurements_->derive("r1", {}, {}).error().code, Errc::Conflict) << "it continues";
   print({"run_ended"});
-  settle();
+  wait_until_derived();
   use(std::string(kBore) + "[[line]]\nform='LOAD {actual}'\ncharacteristic='load'\n",
       storage::TemplateScope::Program);
   const auto again = measurements_->derive("r1", {}, {});
@@ -189,7 +189,7 @@ TEST_F(MeasurementsTest, TakeNothingOfAnotherMachinesRun) {
   use(kBore, storage::TemplateScope::Macro, "O9712");
   make_run("r1", "lathe-1");
   print({"PART 1", "D 40"}, "r1", "lathe-2");
-  settle();
+  wait_until_derived();
   EXPECT_TRUE(all().empty());
 }
 
