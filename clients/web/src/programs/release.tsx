@@ -8,8 +8,7 @@ import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { RevisionPill } from '../parts/revision_pill';
 import { SureButton } from '../parts/sure_button';
-import { useLoaded } from '../parts/use_loaded';
-import { usePolicy } from '../parts/use_policy';
+import { useLoaded, type Loaded } from '../parts/use_loaded';
 import { dateTimeText, texts } from '../texts/texts';
 import { saveText } from './download';
 import { stepsOf, type OfferedStep, type Step, type StepRefusal } from './release_steps';
@@ -75,11 +74,17 @@ function ruleText(policy: ReleasePolicy): string {
   return policy.runs === 'open' ? t.runsOpen : policy.prove_out.machines.length > 0 ? t.runsReleasedBut(policy.prove_out.machines.join(', ')) : t.runsReleased;
 }
 
-/// `revisions`: all of the program.
-export function ReleaseState({ revision, revisions, onDecided }: { revision: Revision; revisions: Revision[]; onDecided: () => void }) {
+interface Props {
+  policy: Loaded<ReleasePolicy>;
+  revision: Revision;
+  /// All of the program.
+  revisions: Revision[];
+  onDecided: () => void;
+}
+
+export function ReleaseState({ policy, revision, revisions, onDecided }: Props) {
   const t = texts().release;
   const session = useSessionState();
-  const policy = usePolicy();
   const states = useLoaded(
     (signal) => get<RevisionStates>(pathOf('programs', revision.program, 'revisions', revision.revision, 'states'), {}, signal),
     [revision.program, revision.revision, revision.state]);
