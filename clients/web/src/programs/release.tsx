@@ -2,8 +2,7 @@
 import { useState } from 'preact/hooks';
 import type { Decision, ReleasePolicy, Revision, RevisionStates } from '../../generated/api';
 import { get, pathOf, send } from '../api/request';
-import { sessionState } from '../api/session';
-import { useSessionState } from '../parts/allowed';
+import { refusalText, useSessionState } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { RevisionPill } from '../parts/revision_pill';
@@ -15,11 +14,8 @@ import { stepsOf, type OfferedStep, type Step, type StepRefusal } from './releas
 
 const kMaxComment = 1024;
 
-function refusalText(refusal: StepRefusal): string {
-  const { roles, needsRole } = texts().session;
-  const state = sessionState();
-  if ('isOwn' in refusal) return texts().release.fourEyes;
-  return needsRole('session' in state ? roles[state.session.role] : '', roles[refusal.needs]);
+function stepRefusalText(refusal: StepRefusal): string {
+  return 'isOwn' in refusal ? texts().release.fourEyes : refusalText(refusal);
 }
 
 function Steps({ revision, steps, onDecided }: { revision: Revision; steps: OfferedStep[]; onDecided: () => void }) {
@@ -33,7 +29,7 @@ function Steps({ revision, steps, onDecided }: { revision: Revision; steps: Offe
     setComment('');
     onDecided();
   };
-  const refusals = [...new Set(steps.flatMap(({ step, refusal }) => (refusal ? [`${t.steps[step]}: ${refusalText(refusal)}`] : [])))];
+  const refusals = [...new Set(steps.flatMap(({ step, refusal }) => (refusal ? [`${t.steps[step]}: ${stepRefusalText(refusal)}`] : [])))];
   const needing = steps.filter((offered) => offered.needsComment && offered.refusal === null).map(({ step }) => t.steps[step]);
   return (
     <>
