@@ -15,7 +15,7 @@ export function sortCertificates(certificates: Certificate[]): Certificate[] {
 
 export function CertificateList() {
   const t = texts().certificates;
-  const certificates = useRefreshed((signal) => get<Certificates>(pathOf('certificates'), {}, signal), kIntervalMs);
+  const certificates = useRefreshed((signal) => get<Certificates>(pathOf('certificates'), {}, signal), () => kIntervalMs);
   const list = sortCertificates(certificates.value?.certificates ?? []);
   return (
     <section class="panel" aria-labelledby="certificates">
