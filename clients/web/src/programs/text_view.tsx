@@ -82,13 +82,14 @@ function Lines({ piece, label, findings, goTo }: { piece: Piece; label: string; 
 export function TextView({ program, revision, size, findings, goTo }: Props) {
   const t = texts().programs;
   const of = { program, revision, size };
-  const begin = rangeFrom({ offset: 0, line: 1 }, size);
-  const [range, setRange] = useState(begin);
+  const [moved, setMoved] = useState<{ program: string; revision: number; range: Range } | null>(null);
+  // Another revision is read from its beginning.
+  const range = moved?.program === program && moved.revision === revision ? moved.range : rangeFrom({ offset: 0, line: 1 }, size);
+  const moveTo = (next: Range) => setMoved({ program, revision, range: next });
   const piece = useLoaded((signal) => loadPiece(of, range, signal), [program, revision, range.first, range.end]);
   const { value } = piece;
-  useEffect(() => setRange(begin), [program, revision]);
   useEffect(() => {
-    if (goTo && value && !holdsPlace(value, goTo.offset)) setRange(rangeAround(goTo, size));
+    if (goTo && value && !holdsPlace(value, goTo.offset)) moveTo(rangeAround(goTo, size));
   }, [goTo]);
   const hasMore = value !== null && value.end < size;
   const hasBefore = value !== null && value.offset > 0;
@@ -98,8 +99,8 @@ export function TextView({ program, revision, size, findings, goTo }: Props) {
       {value && <Lines piece={value} label={t.textOf(program, revision)} findings={findings} goTo={goTo} />}
       {value && (hasBefore || hasMore) && (
         <p class="buttons">
-          <button type="button" disabled={!hasBefore} onClick={() => setRange(rangeBefore(value))}>{t.previous}</button>
-          <button type="button" disabled={!hasMore} onClick={() => setRange(rangeFrom(nextOf(value), size))}>{t.next}</button>
+          <button type="button" disabled={!hasBefore} onClick={() => moveTo(rangeBefore(value))}>{t.previous}</button>
+          <button type="button" disabled={!hasMore} onClick={() => moveTo(rangeFrom(nextOf(value), size))}>{t.next}</button>
           <span class="muted">{t.piece(numberText(value.line), numberText(value.line + value.lines.length - 1), bytesText(size))}</span>
         </p>
       )}
