@@ -5,9 +5,9 @@ import type { ProgramWithRevisions, Revision } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { durationText } from '../live/progress';
-import { useFeed } from '../live/use_feed';
 import { Extents, lengthOf } from '../parts/extents';
 import { Loading } from '../parts/loading';
+import { SetupChoice, useMachinesOf } from '../parts/setup_choice';
 import { useLoaded } from '../parts/use_loaded';
 import { numberText, texts } from '../texts/texts';
 import { BlockText } from './block_text';
@@ -43,19 +43,9 @@ function Facts({ path, onChoose }: { path: LoadedPath; onChoose: (line: number) 
 }
 
 function MachineChoice({ revision, machine }: { revision: Revision; machine: string }) {
-  const t = texts().path;
-  const feed = useFeed('machines');
-  const fitting = [...feed.machines.values()].filter((row) => row.control === revision.control).map((row) => row.name).sort();
+  const machines = useMachinesOf(revision.control);
   const choose = (name: string) => { location.hash = addressOf('path', [revision.program, String(revision.revision)], { machine: name }); };
-  return (
-    <label class="inline">
-      {t.setupOf}
-      <select value={machine} onChange={(e) => choose(e.currentTarget.value)}>
-        <option value="">{t.noSetup}</option>
-        {fitting.map((name) => <option key={name} value={name}>{name}</option>)}
-      </select>
-    </label>
-  );
+  return <SetupChoice class="inline" machines={machines} value={machine} onChoose={choose} />;
 }
 
 function Path({ revision, machine, firstLine }: { revision: Revision; machine: string; firstLine: number | null }) {

@@ -4,9 +4,9 @@ import type { ProgramCheck, ProgramDiagnostic, Revision } from '../../generated/
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { durationText } from '../live/progress';
-import { useFeed } from '../live/use_feed';
 import { Extents, lengthOf } from '../parts/extents';
 import { Loading } from '../parts/loading';
+import { SetupChoice, useMachinesOf } from '../parts/setup_choice';
 import { useLoaded } from '../parts/use_loaded';
 import { numberText, texts } from '../texts/texts';
 import { sortFindings } from './findings';
@@ -58,8 +58,7 @@ interface Props {
 
 export function Check({ revision, onChecked, onGoTo }: Props) {
   const t = texts().check;
-  const feed = useFeed('machines');
-  const machines = [...feed.machines.values()].filter((row) => row.control === revision.control).map((row) => row.name).sort();
+  const machines = useMachinesOf(revision.control);
   const only = machines.length === 1 ? machines[0]! : '';
   const [chosen, setChosen] = useState<string | null>(null);
   const [isAsked, setAsked] = useState(revision.size <= kMaxAtOnce);
@@ -75,13 +74,7 @@ export function Check({ revision, onChecked, onGoTo }: Props) {
   return (
     <section class="panel" aria-labelledby="check">
       <h2 id="check">{t.title}</h2>
-      <label>
-        {texts().path.setupOf}
-        <select value={machine} onChange={(e) => setChosen(e.currentTarget.value)}>
-          <option value="">{texts().path.noSetup}</option>
-          {machines.map((name) => <option key={name} value={name}>{name}</option>)}
-        </select>
-      </label>
+      <SetupChoice machines={machines} value={machine} onChoose={setChosen} />
       {!isAsked && <p class="buttons"><button type="button" onClick={() => setAsked(true)}>{t.start}</button></p>}
       {isAsked && !found && check.fault === null && <p class="muted" role="status">{t.checks}</p>}
       {check.fault !== null && <><Loading of={check} /><p class="buttons"><button type="button" onClick={check.reload}>{t.again}</button></p></>}
