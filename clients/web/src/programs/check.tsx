@@ -4,6 +4,7 @@ import type { ProgramCheck, ProgramDiagnostic, Revision } from '../../generated/
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { durationText } from '../live/progress';
+import { useFeed } from '../live/use_feed';
 import { Extents, lengthOf } from '../parts/extents';
 import { Loading } from '../parts/loading';
 import { SetupChoice, useMachinesOf } from '../parts/setup_choice';
@@ -63,11 +64,13 @@ export function Check({ revision, onChecked, onGoTo }: Props) {
   const [chosen, setChosen] = useState<string | null>(null);
   const [isAsked, setAsked] = useState(revision.size <= kMaxAtOnce);
   const machine = chosen ?? only;
+  // Which machine is the only one is known with the list: before it the server would interpret the program without a setup, and then again.
+  const isReady = useFeed('link').link.state !== 'connecting' && isAsked;
   const check = useLoaded(async (signal) => {
-    if (!isAsked) return null;
+    if (!isReady) return null;
     const found = await get<ProgramCheck>(pathOf('programs', revision.program, 'check'), { revision: revision.revision, machine }, signal);
     return { found, machine };
-  }, [revision.program, revision.revision, machine, isAsked]);
+  }, [revision.program, revision.revision, machine, isReady]);
   // What is on its way is not of the machine that is shown.
   const found = check.value && check.value.machine === machine ? check.value.found : null;
   useEffect(() => onChecked(found), [found]);
