@@ -74,6 +74,7 @@ export function Check({ revision, onChecked, onGoTo }: Props) {
   // What is on its way is not of the machine that is shown.
   const found = check.value && check.value.machine === machine ? check.value.found : null;
   useEffect(() => onChecked(found), [found]);
+  useEffect(() => () => onChecked(null), []);
   return (
     <section class="panel" aria-labelledby="check">
       <h2 id="check">{t.title}</h2>
