@@ -50,11 +50,10 @@ function MachineChoice({ revision, machine }: { revision: Revision; machine: str
 
 function Path({ revision, machine, firstLine }: { revision: Revision; machine: string; firstLine: number | null }) {
   const t = texts().path;
-  const [version, setVersion] = useState(0);
   const [chosen, setChosen] = useState<number | null>(firstLine);
   const [showsRapids, setRapids] = useState(true);
   const of = { program: revision.program, revision: revision.revision, size: revision.size };
-  const path = usePath({ ...of, machine }, () => setVersion((before) => before + 1));
+  const path = usePath({ ...of, machine });
   const { polyline } = path;
   const isComplete = path.end !== null;
   // A line that moves nothing chooses the next one that does.
@@ -70,7 +69,7 @@ function Path({ revision, machine, firstLine }: { revision: Revision; machine: s
   return (
     <div class="path-columns" data-complete={isComplete}>
       <section class="panel" aria-label={t.title}>
-        <PathCanvas polyline={polyline} version={version} isComplete={isComplete} isLathe={path.begin?.lathe ?? false} selection={selection} showsRapids={showsRapids}
+        <PathCanvas polyline={polyline} version={path.version} isComplete={isComplete} isLathe={path.begin?.lathe ?? false} selection={selection} showsRapids={showsRapids}
           label={t.pathOf(revision.program, revision.revision)} onPick={(picked) => setChosen(polyline.lines[picked]!)} onNext={next} />
         <p class="legend">
           {kMoves.map((move) => <span key={move} class={`key ${move}`}>{t.moves[move]}</span>)}
