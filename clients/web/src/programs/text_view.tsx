@@ -5,6 +5,7 @@ import type { ProgramDiagnostic } from '../../generated/api';
 import { fetchApi, pathOf, withQuery } from '../api/request';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
+import type { ProgramRevision } from '../path/block_text';
 import { bytesText, numberText, texts } from '../texts/texts';
 import { holdsPlace, nextOf, pieceOf, rangeAround, rangeBefore, rangeFrom, type Piece, type Place, type Range } from './pieces';
 import { partsOf } from './syntax';
@@ -13,20 +14,14 @@ const kLineHeight = 24; // px, as in code.css
 const kMargin = 20;
 const kSigns = { warning: '▲', alarm: '■' };
 
-interface Revision {
-  program: string;
-  revision: number;
-  size: number;
-}
-
-interface Props extends Revision {
+interface Props extends ProgramRevision {
   /// By line.
   findings: Map<number, ProgramDiagnostic[]>;
   /// A line to be gone to; another object is another wish.
   goTo: Place | null;
 }
 
-async function loadPiece({ program, revision, size }: Revision, range: Range, signal: AbortSignal): Promise<Piece> {
+async function loadPiece({ program, revision, size }: ProgramRevision, range: Range, signal: AbortSignal): Promise<Piece> {
   if (range.end === range.first) return pieceOf(new Uint8Array(), range, size);
   const request = withQuery(pathOf('programs', program, 'content'), { revision });
   const response = await fetchApi('GET', request, { range: `bytes=${range.first}-${range.end - 1}` }, signal);
