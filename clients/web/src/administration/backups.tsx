@@ -2,6 +2,7 @@
 import type { Backup, Backups } from '../../generated/api';
 import { ApiError, get, pathOf, send } from '../api/request';
 import { CommandFault, useCommand } from '../parts/command';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { SureButton } from '../parts/sure_button';
 import { useRefreshed } from '../parts/use_refreshed';
@@ -85,7 +86,7 @@ function Shown({ state, onChanged }: { state: Backups; onChanged: () => void }) 
       {state.backups.length > 0 && (
         <div class="scroll" tabIndex={0} role="group" aria-labelledby="backups">
           <table class="data">
-            <thead><tr>{[t.made, t.madeBy, t.size, t.verified, t.actions].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+            <Heads of={[t.made, t.madeBy, t.size, t.verified, t.actions]} />
             <tbody>
               {state.backups.map((backup) => (
                 <Row key={backup.id} backup={backup} isOnly={state.backups.length === 1} isOff={isOff} act={act} />

@@ -4,6 +4,7 @@ import { useState } from 'preact/hooks';
 import type { Port, PortTemplates } from '../../generated/api';
 import { get, pathOf, send } from '../api/request';
 import { CommandFault, useCommand } from '../parts/command';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
 import { texts } from '../texts/texts';
@@ -25,7 +26,7 @@ function Decides({ templates, template, own }: { templates: PortTemplates; templ
       {unknown.length > 0 && <p class="notice warn">{t.unknownSettings(unknown.join(', '))}</p>}
       <div class="scroll settings-table" tabIndex={0} role="region" aria-label={t.decides}>
         <table>
-          <thead><tr>{[t.setting, t.value, t.valueFrom, t.meaning].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+          <Heads of={[t.setting, t.value, t.valueFrom, t.meaning]} />
           <tbody>
             {shown.map((row) => (
               <tr key={row.key} class={row.from}>

@@ -2,6 +2,7 @@
 import type { Server } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { Loading } from '../parts/loading';
+import { Rows } from '../parts/rows';
 import { useRefreshed } from '../parts/use_refreshed';
 import { durationText } from '../live/progress';
 import { dateTimeText, numberText, texts } from '../texts/texts';
@@ -26,7 +27,7 @@ export function ServerState() {
       {value.health.reasons.map((reason) => (
         <p key={reason.subject + reason.detail} class={`notice ${reason.status === 'failed' ? 'bad' : 'warn'}`}><b>{reason.message}</b> {reason.detail}</p>
       ))}
-      <dl class="rows">{rows.map(([name, text]) => <div key={name}><dt>{name}</dt><dd>{text}</dd></div>)}</dl>
+      <Rows of={rows} />
     </section>
   );
 }

@@ -4,6 +4,7 @@ import type { Import, Imports } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
 import { dateTimeText, texts } from '../texts/texts';
@@ -15,7 +16,7 @@ function Table({ label, heads, imports, cells }: { label: string; heads: string[
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={label}>
       <table class="data">
-        <thead><tr>{heads.map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+        <Heads of={heads} />
         <tbody>
           {imports.map((row) => (
             <tr key={`${row.program} ${row.revision}`}>

@@ -7,6 +7,7 @@ import { addressOf } from '../app/route';
 import { durationText } from '../live/progress';
 import { Extents, lengthOf } from '../parts/extents';
 import { Loading } from '../parts/loading';
+import { Rows } from '../parts/rows';
 import { SetupChoice, useMachinesOf } from '../parts/setup_choice';
 import { useLoaded } from '../parts/use_loaded';
 import { numberText, texts } from '../texts/texts';
@@ -30,7 +31,7 @@ function Facts({ path, onChoose }: { path: LoadedPath; onChoose: (line: number) 
       {end.fault && <p class="notice bad" role="alert">{end.fault.line > 0 && <b>{t.faultAt(numberText(end.fault.line))} </b>}{end.fault.id} {end.fault.text}</p>}
       {end.other_axes > 0 && <p class="notice warn">{t.otherAxes(numberText(end.other_axes))}</p>}
       {polyline.tolerance > 0 && <p class="notice">{t.simplified(lengthOf(polyline.tolerance, end.inch))}</p>}
-      <dl class="rows">{rows.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+      <Rows of={rows} />
       {Object.keys(end.extents).length > 0 ? <Extents of={end} /> : <p class="notice">{t.nothingMoves}</p>}
       {end.tools.length > 0 && (
         <>

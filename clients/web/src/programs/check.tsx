@@ -7,6 +7,7 @@ import { durationText } from '../live/progress';
 import { useFeed } from '../live/use_feed';
 import { Extents, lengthOf } from '../parts/extents';
 import { Loading } from '../parts/loading';
+import { Rows } from '../parts/rows';
 import { SetupChoice, useMachinesOf } from '../parts/setup_choice';
 import { useLoaded } from '../parts/use_loaded';
 import { numberText, texts } from '../texts/texts';
@@ -45,7 +46,7 @@ function Figures({ check }: { check: ProgramCheck }) {
   ];
   return (
     <>
-      <dl class="rows">{rows.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+      <Rows of={rows} />
       {Object.keys(check.extents).length > 0 && <Extents of={check} />}
     </>
   );

@@ -4,6 +4,7 @@ import type { MachineReports, Runs } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { CommandFault, useCommand } from '../parts/command';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { RunPill } from '../parts/run_pill';
 import { useLoaded } from '../parts/use_loaded';
@@ -55,7 +56,7 @@ export function ReportList({ query }: { query: URLSearchParams }) {
       <Loading of={runs} />
       <div class="scroll" tabIndex={0} role="region" aria-label={t.title}>
         <table class="data">
-          <thead><tr>{[t.program, t.machine, t.state, t.begun, t.ended, t.blocks, t.linesHead].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+          <Heads of={[t.program, t.machine, t.state, t.begun, t.ended, t.blocks, t.linesHead]} />
           <tbody>
             {list.map((run) => (
               <tr key={run.id}>

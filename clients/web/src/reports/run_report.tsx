@@ -6,6 +6,7 @@ import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
 import { recordText } from '../live/record_text';
 import { CommandFault, useCommand } from '../parts/command';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { RunPill } from '../parts/run_pill';
 import { useLoaded } from '../parts/use_loaded';
@@ -49,7 +50,7 @@ function RecordTable({ records }: { records: ReportRecord[] }) {
       </label>
       <div class="scroll" tabIndex={0} role="region" aria-label={t.tableOfRecords}>
         <table>
-          <thead><tr>{[t.time, t.kind, t.line, t.device, t.text].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+          <Heads of={[t.time, t.kind, t.line, t.device, t.text]} />
           <tbody>
             {shown.map((record) => (
               <tr key={`${record.epoch}/${record.number}`} class={record.kind}>
