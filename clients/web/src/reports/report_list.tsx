@@ -6,6 +6,7 @@ import { addressOf } from '../app/route';
 import { CommandFault, useCommand } from '../parts/command';
 import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
+import { Pages } from '../parts/pages';
 import { RunPill } from '../parts/run_pill';
 import { useLoaded } from '../parts/use_loaded';
 import { download } from '../programs/download';
@@ -72,10 +73,7 @@ export function ReportList({ query }: { query: URLSearchParams }) {
           </tbody>
         </table>
       </div>
-      <p class="buttons">
-        <button type="button" disabled={offset === 0} onClick={() => setOffset(Math.max(0, offset - kPage))}>{t.newer}</button>
-        <button type="button" disabled={list.length < kPage} onClick={() => setOffset(offset + kPage)}>{t.older}</button>
-      </p>
+      <Pages offset={offset} size={kPage} count={list.length} onOffset={setOffset} />
       <OutsideRuns />
     </>
   );
