@@ -37,7 +37,7 @@ function Difference({ shown }: { shown: Shown }) {
 export function ImportPage({ program, revision }: { program: string; revision: number }) {
   const t = texts().imports;
   const feed = useFeed('imports');
-  // Compared, or decided by somebody else: both are events.
+  // Compared, or decided by another user: both are events.
   const live = feed.imports.get(importKey({ program, revision }));
   const loaded = useLoaded((signal) => load(program, revision, signal), [program, revision, live?.state, live?.compared]);
   const head = <h1>{program} <span class="muted">{texts().programs.revisionNumber(revision)}</span></h1>;

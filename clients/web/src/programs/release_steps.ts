@@ -14,7 +14,7 @@ export interface OfferedStep {
   refusal: StepRefusal | null;
 }
 
-/// `all`: the program's revisions, which may have the same bytes from somebody else.
+/// `all`: the program's revisions, which may have the same bytes from another author.
 export function stepsOf(policy: ReleasePolicy, revision: Revision, all: Revision[], caller: Session): OfferedStep[] {
   if (revision.held) return [];
   const isOwn = all.some((other) => other.sha256 === revision.sha256 && other.author === caller.user);
