@@ -12,9 +12,10 @@
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
+#include <memory>
 #include <mutex>
 #include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -72,11 +73,11 @@ void advance(dds::Status& status) {
   ++status.accepted;
   status.sequence = static_cast<std::int64_t>(10 * status.line);
   status.offset = (status.offset + 23) % status.total_bytes;
-  const double turn = static_cast<double>(status.executed) / 40;
-  status.position = {80 * std::cos(turn), 80 * std::sin(turn), -3.5};
+  const double angle = static_cast<double>(status.executed) / 40;
+  status.position = {80 * std::cos(angle), 80 * std::sin(angle), -3.5};
   status.coordinates->target = status.position;
   status.coordinates->program->position = status.position;
-  status.buffered_seconds = 4 + std::sin(turn);
+  status.buffered_seconds = 4 + std::sin(angle);
 }
 
 class Fleet {

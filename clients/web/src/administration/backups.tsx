@@ -1,8 +1,8 @@
 // The server's backups: whether the newest is recent enough, what is being done, and each one with its age and its last verification.
-import { useState } from 'preact/hooks';
 import type { Backup, Backups } from '../../generated/api';
 import { ApiError, get, pathOf, send } from '../api/request';
-import { CommandFault, useCommand, type Command } from '../parts/command';
+import { CommandFault, useCommand } from '../parts/command';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { SureButton } from '../parts/sure_button';
 import { useRefreshed } from '../parts/use_refreshed';
@@ -11,12 +11,16 @@ import { bytesText, dateTimeText, numberText, relativeText, texts } from '../tex
 const kWorkingMs = 1000;
 const kQuietMs = 10_000;
 
-/// null: this server makes no backups.
-async function load(signal: AbortSignal): Promise<Backups | null> {
+interface LoadedState {
+  /// null: this server makes no backups.
+  state: Backups | null;
+}
+
+async function load(signal: AbortSignal): Promise<LoadedState> {
   try {
-    return await get<Backups>(pathOf('backups'), {}, signal);
+    return { state: await get<Backups>(pathOf('backups'), {}, signal) };
   } catch (failure) {
-    if (failure instanceof ApiError && failure.status === 404) return null;
+    if (failure instanceof ApiError && failure.status === 404) return { state: null };
     throw failure;
   }
 }
@@ -40,20 +44,25 @@ function Work({ state }: { state: Backups }) {
   );
 }
 
-function Row({ backup, isOnly, isWorking, command, onChanged }: { backup: Backup; isOnly: boolean; isWorking: boolean; command: Command; onChanged: () => void }) {
+interface RowProps {
+  backup: Backup;
+  isOnly: boolean;
+  isOff: boolean;
+  act: (action: () => Promise<unknown>) => void;
+}
+
+function Row({ backup, isOnly, isOff, act }: RowProps) {
   const t = texts().backups;
-  const isOff = command.isBusy || isWorking;
-  const act = async (action: () => Promise<unknown>) => { if (await command.send(action)) onChanged(); };
   return (
     <tr>
       <th scope="row">{dateTimeText(backup.made)} <span class="muted">{relativeText(backup.made)}</span></th>
       <td>{backup.made_by}</td>
       <td>{bytesText(backup.size)} <span class="muted">{t.added(bytesText(backup.added))}</span></td>
-      <td>{backup.verified === null ? <span class="pill waiting">{t.neverVerified}</span> : <>{dateTimeText(backup.verified)}</>}</td>
+      <td>{backup.verified === null ? <span class="pill waiting">{t.neverVerified}</span> : dateTimeText(backup.verified)}</td>
       <td>
         <span class="row-buttons">
-          <button type="button" aria-label={t.verifyOf(backup.id)} disabled={isOff} onClick={() => void act(() => send('POST', pathOf('backups', backup.id, 'verify')))}>{t.verify}</button>
-          <SureButton class="danger" label={t.remove} question={t.removeSure(backup.id)} disabled={isOff || isOnly} onSure={() => void act(() => send('DELETE', pathOf('backups', backup.id)))} />
+          <button type="button" aria-label={t.verifyOf(backup.id)} disabled={isOff} onClick={() => act(() => send('POST', pathOf('backups', backup.id, 'verify')))}>{t.verify}</button>
+          <SureButton class="danger" label={t.remove} question={t.removeSure(backup.id)} disabled={isOff || isOnly} onSure={() => act(() => send('DELETE', pathOf('backups', backup.id)))} />
         </span>
       </td>
     </tr>
@@ -63,24 +72,24 @@ function Row({ backup, isOnly, isWorking, command, onChanged }: { backup: Backup
 function Shown({ state, onChanged }: { state: Backups; onChanged: () => void }) {
   const t = texts().backups;
   const command = useCommand();
-  const isWorking = state.work !== null;
-  const make = async () => { if (await command.send(() => send('POST', pathOf('backups')))) onChanged(); };
+  const isOff = command.isBusy || state.work !== null;
+  const act = (action: () => Promise<unknown>) => void command.send(action).then((isDone) => { if (isDone) onChanged(); });
   return (
     <>
       <p>{state.every_hours === 0 ? t.onRequest : t.every(numberText(state.every_hours))} <span class="muted">{t.folder(state.folder)}</span></p>
       {state.overdue && <p class="notice bad">{t.overdue}</p>}
       {state.damaged.map((file) => <p key={file} class="notice bad">{t.damaged(file)}</p>)}
-      <p class="buttons"><button type="button" class="primary" disabled={isWorking || command.isBusy} onClick={() => void make()}>{t.make}</button></p>
+      <p class="buttons"><button type="button" class="primary" disabled={isOff} onClick={() => act(() => send('POST', pathOf('backups')))}>{t.make}</button></p>
       <CommandFault command={command} />
       <Work state={state} />
       {state.backups.length === 0 && <p class="notice warn">{t.none}</p>}
       {state.backups.length > 0 && (
         <div class="scroll" tabIndex={0} role="group" aria-labelledby="backups">
           <table class="data">
-            <thead><tr>{[t.made, t.madeBy, t.size, t.verified, t.actions].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+            <Heads of={[t.made, t.madeBy, t.size, t.verified, t.actions]} />
             <tbody>
               {state.backups.map((backup) => (
-                <Row key={backup.id} backup={backup} isOnly={state.backups.length === 1} isWorking={isWorking} command={command} onChanged={onChanged} />
+                <Row key={backup.id} backup={backup} isOnly={state.backups.length === 1} isOff={isOff} act={act} />
               ))}
             </tbody>
           </table>
@@ -92,12 +101,7 @@ function Shown({ state, onChanged }: { state: Backups; onChanged: () => void }) 
 
 export function BackupList() {
   const t = texts().backups;
-  const [interval, setInterval] = useState(kQuietMs);
-  const backups = useRefreshed(async (signal) => {
-    const state = await load(signal);
-    setInterval(state?.work ? kWorkingMs : kQuietMs);
-    return { state };
-  }, interval);
+  const backups = useRefreshed(load, (value) => (value?.state?.work ? kWorkingMs : kQuietMs));
   return (
     <section class="panel" aria-labelledby="backups">
       <h2 id="backups">{t.title}</h2>

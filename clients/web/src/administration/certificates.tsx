@@ -1,6 +1,7 @@
 // The certificates that server and machines depend on, and when they expire.
 import type { Certificate, Certificates } from '../../generated/api';
 import { get, pathOf } from '../api/request';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { useRefreshed } from '../parts/use_refreshed';
 import { dateTimeText, relativeText, texts } from '../texts/texts';
@@ -15,7 +16,7 @@ export function sortCertificates(certificates: Certificate[]): Certificate[] {
 
 export function CertificateList() {
   const t = texts().certificates;
-  const certificates = useRefreshed((signal) => get<Certificates>(pathOf('certificates'), {}, signal), kIntervalMs);
+  const certificates = useRefreshed((signal) => get<Certificates>(pathOf('certificates'), {}, signal), () => kIntervalMs);
   const list = sortCertificates(certificates.value?.certificates ?? []);
   return (
     <section class="panel" aria-labelledby="certificates">
@@ -26,7 +27,7 @@ export function CertificateList() {
       {list.length > 0 && (
         <div class="scroll" tabIndex={0} role="group" aria-labelledby="certificates">
           <table class="data">
-            <thead><tr>{[t.of, t.expires, t.state].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+            <Heads of={[t.of, t.expires, t.state]} />
             <tbody>
               {list.map((row) => (
                 <tr key={`${row.use} ${row.machine}`}>

@@ -1,6 +1,8 @@
 // The release policy in force: it is a file of the server, and is shown here as it was read.
 import type { ReleasePolicy } from '../../generated/api';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
+import { Rows } from '../parts/rows';
 import { usePolicy } from '../parts/use_policy';
 import { kSteps } from '../programs/release_steps';
 import { texts } from '../texts/texts';
@@ -11,7 +13,7 @@ function Steps({ policy }: { policy: ReleasePolicy }) {
   return (
     <div class="scroll" tabIndex={0} role="group" aria-labelledby="policy">
       <table class="data">
-        <thead><tr>{[t.step, t.from, t.role, t.needs].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+        <Heads of={[t.step, t.from, t.role, t.needs]} />
         <tbody>
           {kSteps.map((step) => {
             const rule = policy.steps[step];
@@ -20,7 +22,7 @@ function Steps({ policy }: { policy: ReleasePolicy }) {
                 <th scope="row">{release.steps[step]}</th>
                 <td>{rule.from.map((state) => release.states[state]).join(', ') || '–'}</td>
                 <td>{texts().session.roles[rule.role]}</td>
-                <td>{[rule.four_eyes ? t.fourEyes : null, rule.comment ? t.comment : null].filter(Boolean).join(', ') || '–'}</td>
+                <td>{[rule.four_eyes && t.fourEyes, rule.comment && t.comment].filter(Boolean).join(', ') || '–'}</td>
               </tr>
             );
           })}
@@ -28,6 +30,16 @@ function Steps({ policy }: { policy: ReleasePolicy }) {
       </table>
     </div>
   );
+}
+
+function rowsOf({ runs, prove_out, imports }: ReleasePolicy): Array<[string, string]> {
+  const t = texts().policy;
+  const { machines, role } = prove_out;
+  return [
+    [t.runs, t.runsOf[runs]],
+    [t.proveOut, machines.length === 0 ? t.noMachine : t.proveOutBy(machines.join(', '), texts().session.roles[role])],
+    [t.atOnce, imports.accept_at_once.map((word) => texts().imports.classes[word]).join(', ') || t.nothing],
+  ];
 }
 
 export function Policy() {
@@ -41,11 +53,7 @@ export function Policy() {
       <Loading of={policy} />
       {value && (
         <>
-          <dl class="rows">
-            <div><dt>{t.runs}</dt><dd>{t.runsOf[value.runs]}</dd></div>
-            <div><dt>{t.proveOut}</dt><dd>{value.prove_out.machines.length === 0 ? t.noMachine : t.proveOutBy(value.prove_out.machines.join(', '), texts().session.roles[value.prove_out.role])}</dd></div>
-            <div><dt>{t.atOnce}</dt><dd>{value.imports.accept_at_once.map((word) => texts().imports.classes[word]).join(', ') || t.nothing}</dd></div>
-          </dl>
+          <Rows of={rowsOf(value)} />
           <Steps policy={value} />
           <p class="hint mono">{t.digest} {value.sha256}</p>
           <p class="hint mono">{t.publicKey} {value.public_key}</p>

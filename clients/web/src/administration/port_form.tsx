@@ -4,16 +4,11 @@ import { useState } from 'preact/hooks';
 import type { Port, PortTemplates } from '../../generated/api';
 import { get, pathOf, send } from '../api/request';
 import { CommandFault, useCommand } from '../parts/command';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
 import { texts } from '../texts/texts';
-import { readSettings, shownSettings, unknownSettings } from './port_settings';
-
-/// What is typed may not be readable yet: then the lines before it apply.
-function readWhatCanBe(text: string): Record<string, string> {
-  const lines = text.split('\n').filter((line) => /^\s*[\w-]+\s*=\s*\S/.test(line));
-  return readSettings(lines.join('\n'), (line) => line);
-}
+import { readSettings, readTypedSettings, shownSettings, unknownSettings } from './port_settings';
 
 function Decides({ templates, template, own }: { templates: PortTemplates; template: string; own: Record<string, string> }) {
   const t = texts().ports;
@@ -25,7 +20,7 @@ function Decides({ templates, template, own }: { templates: PortTemplates; templ
       {unknown.length > 0 && <p class="notice warn">{t.unknownSettings(unknown.join(', '))}</p>}
       <div class="scroll settings-table" tabIndex={0} role="region" aria-label={t.decides}>
         <table>
-          <thead><tr>{[t.setting, t.value, t.valueFrom, t.meaning].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+          <Heads of={[t.setting, t.value, t.valueFrom, t.meaning]} />
           <tbody>
             {shown.map((row) => (
               <tr key={row.key} class={row.from}>
@@ -76,7 +71,7 @@ export function PortForm({ port, onStored }: { port: Port | null; onStored: () =
       </label>
       <Loading of={templates} />
       <label>{t.settings}<textarea rows={4} spellcheck={false} placeholder="line = 9600e72" value={settings} onInput={(e) => setSettings(e.currentTarget.value)} /></label>
-      {templates.value && <Decides templates={templates.value} template={template} own={readWhatCanBe(settings)} />}
+      {templates.value && <Decides templates={templates.value} template={template} own={readTypedSettings(settings)} />}
       <label>{texts().ports.rules}<textarea rows={3} spellcheck={false} value={rules} onInput={(e) => setRules(e.currentTarget.value)} /></label>
       <label class="check"><input type="checkbox" checked={isEnabled} onChange={(e) => setEnabled(e.currentTarget.checked)} />{t.enabled}</label>
       <p class="buttons"><button type="submit" class="primary" disabled={command.isBusy}>{t.store}</button></p>

@@ -1,12 +1,12 @@
 // The serial ports: how each line is, its test, its monitor, its recording, and its settings.
-import { useEffect, useState } from 'preact/hooks';
+import { useState } from 'preact/hooks';
 import type { Port, PortTest, Ports as PortList } from '../../generated/api';
 import { get, pathOf, send } from '../api/request';
 import { Allowed, refusalText, useRefusal } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { SureButton } from '../parts/sure_button';
-import { useLoaded } from '../parts/use_loaded';
+import { useRefreshed } from '../parts/use_refreshed';
 import { download } from '../programs/download';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
 import { LineMonitor } from './line_monitor';
@@ -77,12 +77,8 @@ function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
 
 export function Ports() {
   const t = texts().administration;
-  const ports = useLoaded((signal) => get<PortList>(pathOf('ports'), {}, signal), []);
+  const ports = useRefreshed((signal) => get<PortList>(pathOf('ports'), {}, signal), () => kIntervalMs);
   const [count, setCount] = useState(0); // an empty form after each port
-  useEffect(() => {
-    const timer = setInterval(ports.reload, kIntervalMs);
-    return () => clearInterval(timer);
-  }, []);
   return (
     <section aria-labelledby="ports">
       <h2 id="ports">{t.ports}</h2>

@@ -64,7 +64,7 @@ function LinkState() {
   return <span class={`link ${link.state}`}>{link.state === 'live' ? t.live : link.state === 'connecting' ? '…' : t.old}</span>;
 }
 
-/// What machines have sent waits for somebody.
+/// How many programs from machines wait for a decision.
 function PendingImports() {
   const { imports } = useFeed('imports');
   return imports.size === 0 ? null : <span class="count"><span aria-hidden="true">{imports.size}</span><span class="visually-hidden">{texts().app.waiting(imports.size)}</span></span>;

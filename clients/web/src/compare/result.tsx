@@ -1,7 +1,8 @@
 // What a comparison of two revisions has found: a sentence, the class of the edit, the places where the motion differs, both texts.
 import type { Comparison } from '../../generated/api';
+import type { ProgramRevision } from '../path/block_text';
 import { numberText, texts } from '../texts/texts';
-import { Conditions, distanceText, Places, type ComparedSide } from './motion';
+import { Conditions, distanceText, Places } from './motion';
 import { SideBySide } from './side_by_side';
 
 function summaryOf({ by, text, motion }: Comparison): string {
@@ -13,7 +14,7 @@ function summaryOf({ by, text, motion }: Comparison): string {
   return t.differentText(t.places(numberText(text.hunk_count)), numberText(text.removed), numberText(text.added));
 }
 
-export function Result({ result, from, to }: { result: Comparison; from: ComparedSide; to: ComparedSide }) {
+export function Result({ result, from, to }: { result: Comparison; from: ProgramRevision; to: ProgramRevision }) {
   const t = texts().compare;
   const { motion, text } = result;
   return (

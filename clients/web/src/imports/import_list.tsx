@@ -4,7 +4,9 @@ import type { Import, Imports } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
+import { Pages } from '../parts/pages';
 import { useLoaded } from '../parts/use_loaded';
 import { dateTimeText, texts } from '../texts/texts';
 import { ClassPill } from './class_pill';
@@ -15,7 +17,7 @@ function Table({ label, heads, imports, cells }: { label: string; heads: string[
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={label}>
       <table class="data">
-        <thead><tr>{heads.map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+        <Heads of={heads} />
         <tbody>
           {imports.map((row) => (
             <tr key={`${row.program} ${row.revision}`}>
@@ -62,12 +64,7 @@ export function DecidedList() {
         <Table label={t.tabs.decided} heads={[texts().machine.program, t.machine, t.class, t.decision, t.received, t.who, t.reason]} imports={list}
           cells={(row) => [decisionText(row), row.decided === null ? null : dateTimeText(row.decided), row.who, row.reason]} />
       )}
-      {(offset > 0 || list.length === kPage) && (
-        <p class="buttons">
-          <button type="button" disabled={offset === 0} onClick={() => setOffset(Math.max(0, offset - kPage))}>{texts().reports.newer}</button>
-          <button type="button" disabled={list.length < kPage} onClick={() => setOffset(offset + kPage)}>{texts().reports.older}</button>
-        </p>
-      )}
+      {(offset > 0 || list.length === kPage) && <Pages offset={offset} size={kPage} count={list.length} onOffset={setOffset} />}
     </>
   );
 }

@@ -20,8 +20,10 @@ interface Shown {
 
 /// A program that was removed since has no revisions any more: its text is in the comparison.
 async function load(program: string, revision: number, signal: AbortSignal): Promise<Shown> {
-  const import_ = await get<ComparedImport>(pathOf('imports', program, revision), {}, signal);
-  const revisions = await get<ProgramWithRevisions>(pathOf('programs', program), {}, signal).then((found) => found.revisions, () => []);
+  const [import_, revisions] = await Promise.all([
+    get<ComparedImport>(pathOf('imports', program, revision), {}, signal),
+    get<ProgramWithRevisions>(pathOf('programs', program), {}, signal).then((found) => found.revisions, () => []),
+  ]);
   return { import_, baseSize: revisions.find((row) => row.revision === import_.compared_with)?.size ?? 0 };
 }
 
@@ -35,7 +37,7 @@ function Difference({ shown }: { shown: Shown }) {
 export function ImportPage({ program, revision }: { program: string; revision: number }) {
   const t = texts().imports;
   const feed = useFeed('imports');
-  // Compared, or decided by somebody else: both are events.
+  // Compared, or decided by another user: both are events.
   const live = feed.imports.get(importKey({ program, revision }));
   const loaded = useLoaded((signal) => load(program, revision, signal), [program, revision, live?.state, live?.compared]);
   const head = <h1>{program} <span class="muted">{texts().programs.revisionNumber(revision)}</span></h1>;

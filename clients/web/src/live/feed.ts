@@ -1,5 +1,5 @@
-// What the page knows of the shop, kept current by one event stream: every machine, each one's latest run, and what machines sent that nobody
-// has decided about. Views read it and are notified when their part has changed, at most four times a second, so that a thousand busy machines stay fluid.
+// What the page knows of the shop, kept current by one event stream: every machine, each one's latest run, and what machines sent that
+// is not decided yet. Views read it and are notified when their part has changed, at most four times a second, so that a thousand busy machines stay fluid.
 import type { Import, Imports, Machine, Machines, Record as ReportRecord, Run, Runs } from '../../generated/api';
 import { ApiError, get, pathOf } from '../api/request';
 import type { StreamEvent } from './event_parser';

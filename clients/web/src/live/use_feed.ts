@@ -2,15 +2,17 @@
 import { useEffect, useReducer } from 'preact/hooks';
 import { feed, type Feed, type Topic } from './feed';
 
-/// What nobody sees is kept nearly current: for a screen reader, and for the moment in which it is scrolled to.
+/// What is not on screen is kept nearly current: for a screen reader, and for the moment in which it is scrolled to.
 const kFarMs = 5000;
 
 /// Of one part: at once while it is near, otherwise now and then.
 export function useFeedNear(topic: Topic, isNear: boolean): Feed {
   const [, redraw] = useReducer((count: number) => count + 1, 0);
   useEffect(() => {
-    redraw(undefined); // it has come near
-    if (isNear) return feed.on(topic, () => redraw(undefined));
+    if (isNear) {
+      redraw(undefined); // what has changed while it was far
+      return feed.on(topic, () => redraw(undefined));
+    }
     let timer: ReturnType<typeof setTimeout> | null = null;
     const end = feed.on(topic, () => {
       timer ??= setTimeout(() => { timer = null; redraw(undefined); }, kFarMs * (0.5 + Math.random()));

@@ -1,5 +1,5 @@
 // The tool path of the program that the machine executes: what has been executed in its colors, what is still to come pale, and where the tool is.
-import { useMemo, useState } from 'preact/hooks';
+import { useMemo } from 'preact/hooks';
 import type { Run, Status } from '../../generated/api';
 import { addressOf } from '../app/route';
 import type { Vector } from '../path/camera';
@@ -19,8 +19,7 @@ function toolOf(position: { [axis: string]: number }, isLathe: boolean): Vector 
 
 export function ExecutedPath({ run, status }: { run: Run; status: NonNullable<Status> }) {
   const t = texts().path;
-  const [version, setVersion] = useState(0);
-  const path = usePath({ program: run.program, revision: run.revision, size: run.size, machine: run.machine, maxPoints: kMaxPoints }, () => setVersion((before) => before + 1));
+  const path = usePath({ program: run.program, revision: run.revision, size: run.size, machine: run.machine, maxPoints: kMaxPoints });
   const { polyline, begin, end } = path;
   const cursor = useMemo(() => new ExecutedCursor(polyline), [polyline]);
   const tool = toolOf(status.position, begin?.lathe ?? false);
@@ -35,7 +34,7 @@ export function ExecutedPath({ run, status }: { run: Run; status: NonNullable<St
       </div>
       {path.fault !== null && <p class="notice">{path.fault}</p>}
       {end?.fault && <p class="notice warn">{end.fault.line > 0 && <b>{t.faultAt(numberText(end.fault.line))} </b>}{end.fault.id} {end.fault.text}</p>}
-      <PathCanvas polyline={polyline} version={version} isComplete={end !== null} isLathe={begin?.lathe ?? false} selection={kNone} showsRapids isSmall
+      <PathCanvas polyline={polyline} version={path.version} isComplete={end !== null} isLathe={begin?.lathe ?? false} selection={kNone} showsRapids isSmall
         executed={{ point, tool }} label={t.executedOf(run.program, numberText(percent))} onPick={nothing} onNext={nothing} />
       <p class="legend"><span class="key executed">{t.executed}</span><span class="key pending">{t.pending}</span><span class="key tool">{t.toolHere}</span></p>
     </section>

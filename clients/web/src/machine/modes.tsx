@@ -1,5 +1,6 @@
 // Feed, spindle, tool and the modal state, as a control's status window has them.
 import type { Display, Machine, Status } from '../../generated/api';
+import { Rows } from '../parts/rows';
 import { numberText, texts } from '../texts/texts';
 import { lengthText, unitOf } from './units';
 
@@ -41,7 +42,7 @@ export function Modes({ machine, status }: { machine: Machine; status: NonNullab
   return (
     <section class="panel live" aria-labelledby="modes">
       <h2 id="modes">{texts().machine.state}</h2>
-      <dl class="rows">{rowsOf(status, machine.display).map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+      <Rows of={rowsOf(status, machine.display)} />
     </section>
   );
 }

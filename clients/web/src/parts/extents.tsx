@@ -18,15 +18,15 @@ export function lengthOf(mm: number, isInch: boolean): string {
 export function Extents({ of }: { of: Extended }) {
   const t = texts().path;
   const unit = of.inch ? kInch : kMillimeter;
-  const value = (axis: string, radius: number) => axisText(axis, axis === 'X' && of.x_is_diameter ? 2 * radius : radius, unit);
+  const isDiameter = (axis: string) => axis === 'X' && of.x_is_diameter;
   return (
     <table>
       <thead><tr>{[`${t.axis} (${unit.name})`, t.least, t.most].map((name, i) => <th scope="col" key={name} class={i > 0 ? 'number' : ''}>{name}</th>)}</tr></thead>
       <tbody>
         {sortAxes(Object.keys(of.extents)).map((axis) => (
           <tr key={axis}>
-            <th scope="row">{axis}{axis === 'X' && of.x_is_diameter && ' ⌀'}</th>
-            {of.extents[axis]!.map((at, i) => <td key={i} class="number">{value(axis, at)}</td>)}
+            <th scope="row">{axis}{isDiameter(axis) && ' ⌀'}</th>
+            {of.extents[axis]!.map((at, i) => <td key={i} class="number">{axisText(axis, at, unit, isDiameter(axis))}</td>)}
           </tr>
         ))}
       </tbody>

@@ -2,8 +2,10 @@
 import { useEffect } from 'preact/hooks';
 import { useLoaded, type Loaded } from './use_loaded';
 
-export function useRefreshed<T>(load: (signal: AbortSignal) => Promise<T>, intervalMs: number): Loaded<T> {
+/// `intervalOf`: by what was loaded last; null: nothing yet.
+export function useRefreshed<T>(load: (signal: AbortSignal) => Promise<T>, intervalOf: (value: T | null) => number): Loaded<T> {
   const loaded = useLoaded(load, []);
+  const intervalMs = intervalOf(loaded.value);
   useEffect(() => {
     const timer = setInterval(loaded.reload, intervalMs);
     return () => clearInterval(timer);

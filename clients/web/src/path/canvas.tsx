@@ -23,7 +23,7 @@ interface Props {
   showsRapids: boolean;
   label: string;
   /// The last point that a machine has come to, and where its tool is; absent: no machine executes it.
-  executed?: { point: number; tool: Vector | null };
+  executed?: { point: number; tool: Vector };
   /// A panel among others: no hints below.
   isSmall?: boolean;
   onPick: (point: number) => void;
@@ -75,9 +75,7 @@ export function PathCanvas(props: Props) {
   };
   const placeTool = () => {
     const at = latest.current.executed?.tool;
-    if (!tool.current) return;
-    tool.current.hidden = !at;
-    if (!at) return;
+    if (!at || !tool.current) return;
     const { x, y } = project(camera.current, screen(), at);
     tool.current.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   };

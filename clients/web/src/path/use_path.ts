@@ -1,5 +1,5 @@
 // Loads a tool path while it is drawn: the server interprets as far as the page reads, and stops when the page leaves.
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import type { PathBegin, PathEnd } from '../../generated/api';
 import { ApiError, fetchApi, pathOf, withQuery } from '../api/request';
 import { faultText } from '../parts/command';
@@ -21,6 +21,8 @@ export interface PathInput {
 
 export interface LoadedPath {
   polyline: Polyline;
+  /// Another number: there are more points.
+  version: number;
   begin: PathBegin | null;
   end: PathEnd | null;
   fault: string | null;
@@ -47,13 +49,10 @@ async function request(input: PathInput, tolerance: number | null, signal: Abort
   }
 }
 
-/// `onMore` follows new points.
-export function usePath(input: PathInput, onMore: () => void): LoadedPath {
+export function usePath(input: PathInput): LoadedPath {
   const { program, revision, size, machine, maxPoints = kMaxPoints } = input;
-  const empty = (): LoadedPath => ({ polyline: new Polyline(maxPoints), begin: null, end: null, fault: null, blocks: 0 });
+  const empty = (): LoadedPath => ({ polyline: new Polyline(maxPoints), version: 0, begin: null, end: null, fault: null, blocks: 0 });
   const [state, setState] = useState(empty);
-  const more = useRef(onMore);
-  more.current = onMore;
   useEffect(() => {
     const ending = new AbortController();
     const next = empty();
@@ -64,8 +63,8 @@ export function usePath(input: PathInput, onMore: () => void): LoadedPath {
       setTimeout(() => {
         isWaiting = false;
         if (ending.signal.aborted) return;
+        ++next.version;
         setState({ ...next });
-        more.current();
       }, next.end === null ? kShowMs : 0);
     };
     const decoder = new PathDecoder(next.polyline, (note) => {

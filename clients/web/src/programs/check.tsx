@@ -7,6 +7,8 @@ import { durationText } from '../live/progress';
 import { useFeed } from '../live/use_feed';
 import { Extents, lengthOf } from '../parts/extents';
 import { Loading } from '../parts/loading';
+import { Rows } from '../parts/rows';
+import { SetupChoice, useMachinesOf } from '../parts/setup_choice';
 import { useLoaded } from '../parts/use_loaded';
 import { numberText, texts } from '../texts/texts';
 import { sortFindings } from './findings';
@@ -44,7 +46,7 @@ function Figures({ check }: { check: ProgramCheck }) {
   ];
   return (
     <>
-      <dl class="rows">{rows.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+      <Rows of={rows} />
       {Object.keys(check.extents).length > 0 && <Extents of={check} />}
     </>
   );
@@ -58,30 +60,26 @@ interface Props {
 
 export function Check({ revision, onChecked, onGoTo }: Props) {
   const t = texts().check;
-  const feed = useFeed('machines');
-  const machines = [...feed.machines.values()].filter((row) => row.control === revision.control).map((row) => row.name).sort();
+  const machines = useMachinesOf(revision.control);
   const only = machines.length === 1 ? machines[0]! : '';
   const [chosen, setChosen] = useState<string | null>(null);
   const [isAsked, setAsked] = useState(revision.size <= kMaxAtOnce);
   const machine = chosen ?? only;
+  // Which machine is the only one is known with the list: before it the server would interpret the program without a setup, and then again.
+  const isReady = useFeed('link').link.state !== 'connecting' && isAsked;
   const check = useLoaded(async (signal) => {
-    if (!isAsked) return null;
+    if (!isReady) return null;
     const found = await get<ProgramCheck>(pathOf('programs', revision.program, 'check'), { revision: revision.revision, machine }, signal);
     return { found, machine };
-  }, [revision.program, revision.revision, machine, isAsked]);
+  }, [revision.program, revision.revision, machine, isReady]);
   // What is on its way is not of the machine that is shown.
   const found = check.value && check.value.machine === machine ? check.value.found : null;
   useEffect(() => onChecked(found), [found]);
+  useEffect(() => () => onChecked(null), []);
   return (
     <section class="panel" aria-labelledby="check">
       <h2 id="check">{t.title}</h2>
-      <label>
-        {texts().path.setupOf}
-        <select value={machine} onChange={(e) => setChosen(e.currentTarget.value)}>
-          <option value="">{texts().path.noSetup}</option>
-          {machines.map((name) => <option key={name} value={name}>{name}</option>)}
-        </select>
-      </label>
+      <SetupChoice machines={machines} value={machine} onChoose={setChosen} />
       {!isAsked && <p class="buttons"><button type="button" onClick={() => setAsked(true)}>{t.start}</button></p>}
       {isAsked && !found && check.fault === null && <p class="muted" role="status">{t.checks}</p>}
       {check.fault !== null && <><Loading of={check} /><p class="buttons"><button type="button" onClick={check.reload}>{t.again}</button></p></>}

@@ -1,4 +1,6 @@
 // A program's text in pieces of whole lines, so that a program of any size can be paged through, and gone to at any of its blocks. Pure.
+import { countLineEnds } from '../machine/text_window';
+
 export const kPieceBytes = 512 * 1024;
 /// Of a piece that is loaded for one block: this much is before it.
 const kBefore = 64 * 1024;
@@ -52,11 +54,5 @@ export function pieceOf(bytes: Uint8Array, { first, known }: Range, size: number
   const cut = isLast ? bytes.length : bytes.lastIndexOf(0x0a) + 1 || bytes.length;
   const text = new TextDecoder().decode(bytes.subarray(begin, cut)).replace(/\n$/, '');
   const lines = cut <= begin ? [] : text.split('\n').map((l) => l.replace(/\r$/, ''));
-  return { offset: first + begin, line: known.line - lineEnds(bytes.subarray(begin, Math.max(begin, known.offset - first))), lines, end: first + cut };
-}
-
-function lineEnds(bytes: Uint8Array): number {
-  let count = 0;
-  for (const byte of bytes) if (byte === 0x0a) ++count;
-  return count;
+  return { offset: first + begin, line: known.line - countLineEnds(bytes.subarray(begin, Math.max(begin, known.offset - first))), lines, end: first + cut };
 }

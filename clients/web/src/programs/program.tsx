@@ -8,6 +8,7 @@ import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { RevisionPill } from '../parts/revision_pill';
 import { useLoaded } from '../parts/use_loaded';
+import { usePolicy } from '../parts/use_policy';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
 import { Check } from './check';
 import { Compare } from './compare';
@@ -51,6 +52,7 @@ function RevisionList({ revisions, shown }: { revisions: Revision[]; shown: Revi
 export function ProgramPage({ name, number }: { name: string; number: number | null }) {
   const t = texts().programs;
   const program = useLoaded((signal) => get<ProgramWithRevisions>(pathOf('programs', name), {}, signal), [name]);
+  const policy = usePolicy();
   const command = useCommand();
   const [check, setCheck] = useState<ProgramCheck | null>(null);
   const [goTo, setGoTo] = useState<Place | null>(null);
@@ -75,8 +77,8 @@ export function ProgramPage({ name, number }: { name: string; number: number | n
         </div>
         <div>
           {shown.control !== null && <Check key={shown.revision} revision={shown} onChecked={setCheck} onGoTo={setGoTo} />}
-          <section class="panel"><StartOn revision={shown} /></section>
-          {!shown.held && <ReleaseState revision={shown} revisions={revisions} onDecided={program.reload} />}
+          <section class="panel"><StartOn revision={shown} policy={policy.value} /></section>
+          {!shown.held && <ReleaseState policy={policy} revision={shown} revisions={revisions} onDecided={program.reload} />}
           <RevisionList revisions={revisions} shown={shown} />
           <section class="panel">
             <p class="buttons">

@@ -3,6 +3,7 @@ import { useState } from 'preact/hooks';
 import { addressOf } from '../app/route';
 import { feed } from '../live/feed';
 import { Allowed, useRefusal } from '../parts/allowed';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { RevisionPill } from '../parts/revision_pill';
 import { useLoaded } from '../parts/use_loaded';
@@ -41,9 +42,7 @@ export function ProgramList() {
       <Loading of={programs} />
       <div class="scroll" tabIndex={0} role="region" aria-label={t.title}>
         <table class="data">
-          <thead>
-            <tr>{[t.name, t.programTitle, t.control, t.revision, t.state, t.size, t.storedAt, t.author].map((name) => <th scope="col" key={name}>{name}</th>)}</tr>
-          </thead>
+          <Heads of={[t.name, t.programTitle, t.control, t.revision, t.state, t.size, t.storedAt, t.author]} />
           <tbody>
             {found.slice(0, kShown).map((p) => (
               <tr key={p.name}>

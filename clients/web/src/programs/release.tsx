@@ -2,25 +2,20 @@
 import { useState } from 'preact/hooks';
 import type { Decision, ReleasePolicy, Revision, RevisionStates } from '../../generated/api';
 import { get, pathOf, send } from '../api/request';
-import { sessionState } from '../api/session';
-import { useSessionState } from '../parts/allowed';
+import { refusalText, useSessionState } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { RevisionPill } from '../parts/revision_pill';
 import { SureButton } from '../parts/sure_button';
-import { useLoaded } from '../parts/use_loaded';
-import { usePolicy } from '../parts/use_policy';
+import { useLoaded, type Loaded } from '../parts/use_loaded';
 import { dateTimeText, texts } from '../texts/texts';
 import { saveText } from './download';
 import { stepsOf, type OfferedStep, type Step, type StepRefusal } from './release_steps';
 
 const kMaxComment = 1024;
 
-function refusalText(refusal: StepRefusal): string {
-  const { roles, needsRole } = texts().session;
-  const state = sessionState();
-  if ('isOwn' in refusal) return texts().release.fourEyes;
-  return needsRole('session' in state ? roles[state.session.role] : '', roles[refusal.needs]);
+function stepRefusalText(refusal: StepRefusal): string {
+  return 'isOwn' in refusal ? texts().release.fourEyes : refusalText(refusal);
 }
 
 function Steps({ revision, steps, onDecided }: { revision: Revision; steps: OfferedStep[]; onDecided: () => void }) {
@@ -34,7 +29,7 @@ function Steps({ revision, steps, onDecided }: { revision: Revision; steps: Offe
     setComment('');
     onDecided();
   };
-  const refusals = [...new Set(steps.flatMap(({ step, refusal }) => (refusal ? [`${t.steps[step]}: ${refusalText(refusal)}`] : [])))];
+  const refusals = [...new Set(steps.flatMap(({ step, refusal }) => (refusal ? [`${t.steps[step]}: ${stepRefusalText(refusal)}`] : [])))];
   const needing = steps.filter((offered) => offered.needsComment && offered.refusal === null).map(({ step }) => t.steps[step]);
   return (
     <>
@@ -75,11 +70,17 @@ function ruleText(policy: ReleasePolicy): string {
   return policy.runs === 'open' ? t.runsOpen : policy.prove_out.machines.length > 0 ? t.runsReleasedBut(policy.prove_out.machines.join(', ')) : t.runsReleased;
 }
 
-/// `revisions`: all of the program.
-export function ReleaseState({ revision, revisions, onDecided }: { revision: Revision; revisions: Revision[]; onDecided: () => void }) {
+interface Props {
+  policy: Loaded<ReleasePolicy>;
+  revision: Revision;
+  /// All of the program.
+  revisions: Revision[];
+  onDecided: () => void;
+}
+
+export function ReleaseState({ policy, revision, revisions, onDecided }: Props) {
   const t = texts().release;
   const session = useSessionState();
-  const policy = usePolicy();
   const states = useLoaded(
     (signal) => get<RevisionStates>(pathOf('programs', revision.program, 'revisions', revision.revision, 'states'), {}, signal),
     [revision.program, revision.revision, revision.state]);

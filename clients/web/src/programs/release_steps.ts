@@ -1,6 +1,6 @@
 // Which steps the policy and the caller's role leave for a revision, and which revisions a machine runs. The server decides anyway. Pure.
 import type { Program, ReleasePolicy, Revision, Session } from '../../generated/api';
-import { kRoles, type Role } from '../api/permissions';
+import { hasRole, type Role } from '../api/permissions';
 
 export const kSteps = ['submit', 'approve', 'reject', 'release', 'withdraw'] as const;
 export type Step = (typeof kSteps)[number];
@@ -14,15 +14,13 @@ export interface OfferedStep {
   refusal: StepRefusal | null;
 }
 
-const has = (role: Role, needs: Role) => kRoles.indexOf(role) >= kRoles.indexOf(needs);
-
-/// `all`: the program's revisions, which may have the same bytes from somebody else.
+/// `all`: the program's revisions, which may have the same bytes from another author.
 export function stepsOf(policy: ReleasePolicy, revision: Revision, all: Revision[], caller: Session): OfferedStep[] {
   if (revision.held) return [];
   const isOwn = all.some((other) => other.sha256 === revision.sha256 && other.author === caller.user);
   return kSteps.filter((step) => policy.steps[step].from.includes(revision.state)).map((step) => {
     const rule = policy.steps[step];
-    const refusal = !has(caller.role, rule.role) ? { needs: rule.role } : rule.four_eyes && isOwn ? { isOwn: true as const } : null;
+    const refusal = !hasRole(caller.role, rule.role) ? { needs: rule.role } : rule.four_eyes && isOwn ? { isOwn: true as const } : null;
     return { step, needsComment: rule.comment, refusal };
   });
 }
@@ -34,7 +32,7 @@ export function runRefusalOf(policy: ReleasePolicy, state: Revision['state'], ma
   if (state === 'withdrawn') return { why: 'withdrawn' };
   if (policy.runs === 'open' || state === 'released') return null;
   if (!policy.prove_out.machines.includes(machine)) return { why: 'notReleased' };
-  return has(caller.role, policy.prove_out.role) ? null : { why: 'proveOut', needs: policy.prove_out.role };
+  return hasRole(caller.role, policy.prove_out.role) ? null : { why: 'proveOut', needs: policy.prove_out.role };
 }
 
 /// The revision that a start names: the newest, if the machine runs it; null: the server takes the latest that the machine does run.

@@ -1,13 +1,12 @@
 // Starts this revision on one of the machines whose control it is for.
 import { useState } from 'preact/hooks';
-import type { Revision } from '../../generated/api';
+import type { ReleasePolicy, Revision } from '../../generated/api';
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
 import { startRun } from '../machine/commands';
 import { Allowed, useSessionState } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { SureButton } from '../parts/sure_button';
-import { usePolicy } from '../parts/use_policy';
 import { texts } from '../texts/texts';
 import { runRefusalOf, type RunRefusal } from './release_steps';
 
@@ -17,14 +16,14 @@ function runRefusalText(refusal: RunRefusal, machine: string): string {
   return refusal.why === 'withdrawn' ? t.isWithdrawn : t.isNotReleased(machine);
 }
 
-export function StartOn({ revision }: { revision: Revision }) {
+/// `policy` null: not known yet; the server decides anyway.
+export function StartOn({ revision, policy }: { revision: Revision; policy: ReleasePolicy | null }) {
   const t = texts().programs;
   const feed = useFeed('machines');
   const command = useCommand();
   const [machine, setMachine] = useState('');
   const fitting = [...feed.machines.values()].filter((m) => m.connected && (revision.control === null || m.control === revision.control));
   const session = useSessionState();
-  const policy = usePolicy().value;
   const refusal = machine !== '' && policy && 'session' in session ? runRefusalOf(policy, revision.state, machine, session.session) : null;
   const start = async () => {
     const request = { machine, program: revision.program, revision: revision.revision, from: '' };

@@ -5,6 +5,7 @@ import type { ProgramDiagnostic } from '../../generated/api';
 import { fetchApi, pathOf, withQuery } from '../api/request';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
+import type { ProgramRevision } from '../path/block_text';
 import { bytesText, numberText, texts } from '../texts/texts';
 import { holdsPlace, nextOf, pieceOf, rangeAround, rangeBefore, rangeFrom, type Piece, type Place, type Range } from './pieces';
 import { partsOf } from './syntax';
@@ -13,20 +14,14 @@ const kLineHeight = 24; // px, as in code.css
 const kMargin = 20;
 const kSigns = { warning: '▲', alarm: '■' };
 
-interface Revision {
-  program: string;
-  revision: number;
-  size: number;
-}
-
-interface Props extends Revision {
+interface Props extends ProgramRevision {
   /// By line.
   findings: Map<number, ProgramDiagnostic[]>;
   /// A line to be gone to; another object is another wish.
   goTo: Place | null;
 }
 
-async function loadPiece({ program, revision, size }: Revision, range: Range, signal: AbortSignal): Promise<Piece> {
+async function loadPiece({ program, revision, size }: ProgramRevision, range: Range, signal: AbortSignal): Promise<Piece> {
   if (range.end === range.first) return pieceOf(new Uint8Array(), range, size);
   const request = withQuery(pathOf('programs', program, 'content'), { revision });
   const response = await fetchApi('GET', request, { range: `bytes=${range.first}-${range.end - 1}` }, signal);
@@ -82,13 +77,14 @@ function Lines({ piece, label, findings, goTo }: { piece: Piece; label: string; 
 export function TextView({ program, revision, size, findings, goTo }: Props) {
   const t = texts().programs;
   const of = { program, revision, size };
-  const begin = rangeFrom({ offset: 0, line: 1 }, size);
-  const [range, setRange] = useState(begin);
+  const [moved, setMoved] = useState<{ program: string; revision: number; range: Range } | null>(null);
+  // Another revision is read from its beginning.
+  const range = moved?.program === program && moved.revision === revision ? moved.range : rangeFrom({ offset: 0, line: 1 }, size);
+  const moveTo = (next: Range) => setMoved({ program, revision, range: next });
   const piece = useLoaded((signal) => loadPiece(of, range, signal), [program, revision, range.first, range.end]);
   const { value } = piece;
-  useEffect(() => setRange(begin), [program, revision]);
   useEffect(() => {
-    if (goTo && value && !holdsPlace(value, goTo.offset)) setRange(rangeAround(goTo, size));
+    if (goTo && value && !holdsPlace(value, goTo.offset)) moveTo(rangeAround(goTo, size));
   }, [goTo]);
   const hasMore = value !== null && value.end < size;
   const hasBefore = value !== null && value.offset > 0;
@@ -98,8 +94,8 @@ export function TextView({ program, revision, size, findings, goTo }: Props) {
       {value && <Lines piece={value} label={t.textOf(program, revision)} findings={findings} goTo={goTo} />}
       {value && (hasBefore || hasMore) && (
         <p class="buttons">
-          <button type="button" disabled={!hasBefore} onClick={() => setRange(rangeBefore(value))}>{t.previous}</button>
-          <button type="button" disabled={!hasMore} onClick={() => setRange(rangeFrom(nextOf(value), size))}>{t.next}</button>
+          <button type="button" disabled={!hasBefore} onClick={() => moveTo(rangeBefore(value))}>{t.previous}</button>
+          <button type="button" disabled={!hasMore} onClick={() => moveTo(rangeFrom(nextOf(value), size))}>{t.next}</button>
           <span class="muted">{t.piece(numberText(value.line), numberText(value.line + value.lines.length - 1), bytesText(size))}</span>
         </p>
       )}

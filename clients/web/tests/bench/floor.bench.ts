@@ -5,7 +5,7 @@ import path from 'node:path';
 import type { Page } from 'playwright-core';
 import { openBrowser, visit } from '../browser/page';
 import { Shop, until } from '../browser/shop';
-import { sumOf, usesOf } from './processes';
+import { childWith, sumOf, usesOf } from './processes';
 
 const kMachines = Number(process.env.MACHINES ?? 1000);
 const kChanges = Number(process.env.CHANGES ?? 5);
@@ -43,7 +43,7 @@ class Fleet {
   }
 }
 
-/// Of the position in the first cards' text: how old what is on screen is, by the server's own stream of the same machines.
+/// Of the first card, again and again: how long ago the gateway wrote the status that it shows. Both clocks are this computer's.
 async function ageOnScreen(page: Page): Promise<number[]> {
   return page.evaluate(async () => {
     const ages: number[] = [];
@@ -105,7 +105,7 @@ async function main(): Promise<void> {
   await shop.startServer();
   const browser = await openBrowser();
   const first = await visit(browser, shop);
-  const pid = Number(process.env.BROWSER_PID ?? 0) || (await browserPid());
+  const pid = childWith('chromium');
   await shop.startMachine('mill-0', { control: 'fanuc' });
   await measureFirstView(first.page, shop);
   await shop.stopMachine('mill-0');
@@ -121,21 +121,6 @@ async function main(): Promise<void> {
     await browser.close();
     await shop.stop();
   }
-}
-
-/// Of the Chromium that this process has started.
-async function browserPid(): Promise<number> {
-  const { readdirSync, readFileSync } = await import('node:fs');
-  for (const name of readdirSync('/proc')) {
-    if (!/^\d+$/.test(name)) continue;
-    try {
-      const parent = readFileSync(`/proc/${name}/stat`, 'latin1').split(') ')[1]!.split(' ')[1];
-      if (Number(parent) === process.pid && readFileSync(`/proc/${name}/cmdline`, 'latin1').includes('chromium')) return Number(name);
-    } catch {
-      // it has ended
-    }
-  }
-  throw new Error('the browser is not found');
 }
 
 void main();

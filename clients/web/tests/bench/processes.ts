@@ -20,11 +20,31 @@ function statOf(pid: number): Stat | null {
   }
 }
 
+function allProcesses(): number[] {
+  return readdirSync('/proc').filter((name) => /^\d+$/.test(name)).map(Number);
+}
+
+/// Empty: it has ended.
+function commandOf(pid: number): string {
+  try {
+    return readFileSync(`/proc/${pid}/cmdline`, 'latin1');
+  } catch {
+    return '';
+  }
+}
+
+/// Of a process that this one has started by a command with this word.
+export function childWith(word: string): number {
+  const found = allProcesses().find((pid) => statOf(pid)?.parent === process.pid && commandOf(pid).includes(word));
+  if (found === undefined) throw new Error(`no process of ${word} is found`);
+  return found;
+}
+
 function familyOf(pid: number): number[] {
   const parents = new Map<number, number>();
-  for (const name of readdirSync('/proc')) {
-    const stat = /^\d+$/.test(name) ? statOf(Number(name)) : null;
-    if (stat) parents.set(Number(name), stat.parent);
+  for (const other of allProcesses()) {
+    const stat = statOf(other);
+    if (stat) parents.set(other, stat.parent);
   }
   const family = [pid];
   for (let i = 0; i < family.length; ++i) for (const [child, parent] of parents) if (parent === family[i]) family.push(child);
@@ -41,13 +61,9 @@ export function usesOf(pid: number): Map<string, Use> {
   const uses = new Map<string, Use>();
   for (const member of familyOf(pid)) {
     const stat = statOf(member);
-    if (!stat) continue;
-    let kind = 'browser';
-    try {
-      kind = /--type=([\w-]+)/.exec(readFileSync(`/proc/${member}/cmdline`, 'latin1'))?.[1] ?? kind;
-    } catch {
-      continue;
-    }
+    const command = commandOf(member);
+    if (!stat || command === '') continue;
+    const kind = /--type=([\w-]+)/.exec(command)?.[1] ?? 'browser';
     const use = uses.get(kind) ?? { seconds: 0, bytes: 0 };
     uses.set(kind, { seconds: use.seconds + stat.seconds, bytes: use.bytes + stat.bytes });
   }
@@ -55,7 +71,5 @@ export function usesOf(pid: number): Map<string, Use> {
 }
 
 export function sumOf(uses: Map<string, Use>): Use {
-  let sum: Use = { seconds: 0, bytes: 0 };
-  for (const { seconds, bytes } of uses.values()) sum = { seconds: sum.seconds + seconds, bytes: sum.bytes + bytes };
-  return sum;
+  return [...uses.values()].reduce((sum, { seconds, bytes }) => ({ seconds: sum.seconds + seconds, bytes: sum.bytes + bytes }), { seconds: 0, bytes: 0 });
 }

@@ -117,6 +117,22 @@ test('a program is checked on the setup of the machine that is chosen', async ()
   await check.getByRole('row', { name: /^X .*10\.000$/ }).waitFor();
 });
 
+test('an opened program is checked once, and another revision is read once', async () => {
+  await shop.push('O0902', 'O0902\nG21 G90 G54\nG1 X10. F500.\nM30\n', 'fanuc');
+  await shop.push('O0902', 'O0902\nG21 G90 G54\nG1 X10. F500.\nG1 Y10.\nM30\n', 'fanuc');
+  const { page } = await visit('#/programs/O0902');
+  const asked: string[] = [];
+  page.on('request', (request) => asked.push(request.url()));
+  await page.reload();
+  await page.getByText('The program reaches its end.').waitFor();
+  assert.equal(asked.filter((url) => url.includes('/check?')).length, 1);
+  await page.getByText('G1 Y10.').waitFor();
+  asked.length = 0;
+  await page.getByRole('link', { name: 'Revision 1', exact: true }).click();
+  await page.getByText('G1 Y10.').waitFor({ state: 'detached' });
+  assert.equal(asked.filter((url) => url.includes('/content?')).length, 1);
+});
+
 test('a program is copied and removed', async () => {
   const { page } = await visit('#/programs/O0800');
   await page.getByText('Copy, rename, remove').click();

@@ -54,7 +54,7 @@ test('a programmer submits, and can do no more', async () => {
 
 test('who pushed it does not approve it', async () => {
   const { page } = await visit('#/programs/O0200', { user: 'vera' });
-  await panel(page).getByText('Approve: The policy asks for somebody else').waitFor();
+  await panel(page).getByText('Approve: The policy asks for another user than the one who pushed this text.').waitFor();
   assert.ok(await panel(page).getByRole('button', { name: 'Approve', exact: true }).isDisabled());
 });
 

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Certificate, PortSetting, PortTemplate } from '../../generated/api';
 import { sortCertificates } from '../../src/administration/certificates';
-import { shownSettings, unknownSettings } from '../../src/administration/port_settings';
+import { readTypedSettings, shownSettings, unknownSettings } from '../../src/administration/port_settings';
 import { readNames } from '../../src/administration/port_transfer';
 import { relativeText } from '../../src/texts/texts';
 
@@ -22,8 +22,12 @@ test('the word of a line decides what is in it, unless the port says otherwise',
   assert.equal(valuesOf({ line: '9600e72', baud: '4800' }).baud, 'own: 4800');
 });
 
-test('a setting that nobody knows is named', () => {
+test('an unknown setting is named', () => {
   assert.deepEqual(unknownSettings(kSettings, { baud: '1', speed: '2' }), ['speed']);
+});
+
+test('of settings that are being typed, the lines that can be read apply', () => {
+  assert.deepEqual(readTypedSettings('eob = lf\nbaud =\nline\rx = 1\nxon = "DC1"'), { eob: 'lf', xon: 'DC1' });
 });
 
 test('programs are taken apart at blanks and commas', () => {

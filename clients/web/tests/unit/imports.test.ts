@@ -11,6 +11,6 @@ test('what the server has not looked at yet is being compared, what it could not
   assert.equal(classOf(importOf({ class: 'geometry' })), 'geometry');
 });
 
-test('what cuts differently warns, and what nobody knows warns most', () => {
+test('what cuts differently warns, and what is not known warns most', () => {
   assert.deepEqual((['comment', 'feed_and_speed', 'geometry', 'unknown'] as const).map(toneOf), ['ready', 'waiting', 'alarm', 'alarm']);
 });
