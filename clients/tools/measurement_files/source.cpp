@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/base/utf8.hpp"
+
 namespace dripline::measurement_files {
 namespace {
 
@@ -18,28 +20,16 @@ constexpr std::array<char32_t, 32> kUpper{
     0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0,      0x017E, 0x0178};
 constexpr char32_t kUnknown = 0xFFFD;
 
-/// Takes one character off; damaged bytes give kUnknown.
+/// Takes one character off; damaged bytes give kUnknown, each by itself.
 char32_t take_character(std::string_view& text) {
-  const auto lead = static_cast<unsigned char>(text.front());
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xC0 ? 0
-                             : lead < 0xE0 ? 2
-                             : lead < 0xF0 ? 3
-                                           : 4;
-  if (length == 0 || length > text.size()) {
-    text.remove_prefix(1);
-    return kUnknown;
-  }
+  const std::size_t length = utf8_length(text);
+  const std::string_view bytes = text.substr(0, std::max<std::size_t>(1, length));
+  text.remove_prefix(bytes.size());
+  if (length == 0) return kUnknown;
+  const auto lead = static_cast<unsigned char>(bytes.front());
   char32_t code = length == 1 ? lead : lead & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    const auto next = static_cast<unsigned char>(text[i]);
-    if ((next & 0xC0U) != 0x80) {
-      text.remove_prefix(i);
-      return kUnknown;
-    }
-    code = (code << 6U) | (next & 0x3FU);
-  }
-  text.remove_prefix(length);
+  for (const char next : bytes.substr(1))
+    code = (code << 6U) | (static_cast<unsigned char>(next) & 0x3FU);
   return code;
 }
 
