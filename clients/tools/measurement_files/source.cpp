@@ -11,7 +11,7 @@
 namespace dripline::measurement_files {
 namespace {
 
-constexpr unsigned kMostDecimals = 17;
+constexpr unsigned kMaxDecimals = 17;
 
 /// Windows-1252 from 0x80 to 0x9F; 0: not used.
 constexpr std::array<char32_t, 32> kUpper{
@@ -49,7 +49,7 @@ void append_utf8(std::string& text, char32_t code) {
 }  // namespace
 
 std::string decimal_text(double value, unsigned decimals) {
-  for (unsigned tried = decimals; tried <= kMostDecimals; ++tried) {
+  for (unsigned tried = decimals; tried <= kMaxDecimals; ++tried) {
     std::string text = fmt::format("{:.{}f}", value, tried);
     double again = 0;
     std::from_chars(text.data(), text.data() + text.size(), again);
@@ -57,7 +57,22 @@ std::string decimal_text(double value, unsigned decimals) {
   }
   // Seventeen digits from the first one that is not 0.
   const double leading = value == 0 ? 0 : std::max(0.0, -std::floor(std::log10(std::abs(value))));
-  return fmt::format("{:.{}f}", value, kMostDecimals + static_cast<unsigned>(leading));
+  return fmt::format("{:.{}f}", value, kMaxDecimals + static_cast<unsigned>(leading));
+}
+
+std::optional<double> parse_finite(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+std::string_view take_until(std::string_view& text, char end) {
+  const auto at = text.find(end);
+  const std::string_view piece = text.substr(0, at);
+  text = at == std::string_view::npos ? std::string_view() : text.substr(at + 1);
+  return piece;
 }
 
 std::string one_line(std::string_view text) {
@@ -99,6 +114,21 @@ std::string from_windows_1252(std::string_view bytes) {
 bool is_same_part(const measurement::Measurement& a, const measurement::Measurement& b) {
   return a.machine == b.machine && a.run == b.run && a.part_id == b.part_id && a.part == b.part &&
          a.serial == b.serial && a.program == b.program;
+}
+
+Result<void> each_part(
+    MeasurementSource& source,
+    const std::function<Result<void>(const std::vector<measurement::Measurement>&)>& visit) {
+  std::vector<measurement::Measurement> part;
+  auto done = source.each([&](const measurement::Measurement& m) -> Result<void> {
+    if (!part.empty() && !is_same_part(part.front(), m)) {
+      if (auto visited = visit(part); !visited) return visited;
+      part.clear();
+    }
+    part.push_back(m);
+    return {};
+  });
+  return done && !part.empty() ? visit(part) : done;
 }
 
 }  // namespace dripline::measurement_files
