@@ -341,11 +341,12 @@ class Client {
   Reply<std::string> offsets_of_run(std::string_view run);
 
  private:
-  Reply<std::string> fetch_text(HttpRequest request, std::string_view body = {});
   Reply<void> send_command(const std::string& path, const CommandRequest& request);
   Reply<HttpResponse> exchange(const HttpRequest& request);
-  /// Both send `body` unless it is empty.
+  /// All three send `body` unless it is empty.
   Reply<void> perform(HttpRequest request, std::string_view body = {});
+  /// The answer as it came.
+  Reply<std::string> fetch_text(HttpRequest request, std::string_view body = {});
   template <class T>
   Reply<T> fetch(HttpRequest request, std::string_view body = {});
   template <class T>

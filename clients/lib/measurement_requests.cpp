@@ -11,6 +11,8 @@ using impl::dumped;
 using impl::get;
 using impl::path_of;
 using impl::with_method;
+using impl::with_number;
+using impl::with_page;
 using impl::with_query;
 
 namespace {
@@ -34,21 +36,13 @@ std::string measurement_path(const MeasurementQuery& query) {
 
 }  // namespace
 
-Reply<std::string> Client::fetch_text(HttpRequest request, std::string_view body) {
-  if (!body.empty()) request.body = body;
-  auto response = exchange(request);
-  if (!response) return failed(response.error());
-  return std::move(response->body);
-}
-
 Reply<std::string> Client::report_templates() {
   return fetch_text(get(path_of("report-templates")));
 }
 
 Reply<std::string> Client::report_template(std::string_view name,
                                            std::optional<std::uint64_t> version) {
-  return fetch_text(get(with_query(path_of("report-templates", name), "version",
-                                   version ? std::to_string(*version) : "")));
+  return fetch_text(get(with_number(path_of("report-templates", name), "version", version)));
 }
 
 Reply<std::string> Client::push_report_template(std::string_view name, std::string_view text) {
@@ -77,7 +71,7 @@ Reply<void> Client::unassign_report_template(const TemplateAssignment& assignmen
 
 Reply<std::string> Client::measurements(const MeasurementQuery& query) {
   std::string path = measurement_path(query);
-  path = with_query(std::move(path), "limit", std::to_string(query.limit));
+  path = with_number(std::move(path), "limit", query.limit);
   path = with_query(std::move(path), "after", query.after);
   return fetch_text(get(with_query(std::move(path), "order", query.newest_first ? "newest" : "")));
 }
@@ -94,13 +88,13 @@ Reply<std::string> Client::parts(const MeasurementQuery& query) {
   path = with_query(std::move(path), "run", query.run);
   path = with_query(std::move(path), "verdict", query.verdict);
   if (query.with_superseded) path = with_query(std::move(path), "superseded", "yes");
-  return fetch_text(get(with_query(std::move(path), "limit", std::to_string(query.limit))));
+  return fetch_text(get(with_number(std::move(path), "limit", query.limit)));
 }
 
 Reply<std::string> Client::report_findings(const MeasurementQuery& query) {
   std::string path = with_query(path_of("report-findings"), "machine", query.machine);
   path = with_query(std::move(path), "run", query.run);
-  return fetch_text(get(with_query(std::move(path), "limit", std::to_string(query.limit))));
+  return fetch_text(get(with_number(std::move(path), "limit", query.limit)));
 }
 
 Reply<std::string> Client::derive_measurements(std::string_view run, const std::string& name,
@@ -112,8 +106,7 @@ Reply<std::string> Client::derive_measurements(std::string_view run, const std::
 }
 
 Reply<std::string> Client::archives(Page page) {
-  std::string path = with_query(path_of("archives"), "limit", std::to_string(page.limit));
-  return fetch_text(get(with_query(std::move(path), "offset", std::to_string(page.offset))));
+  return fetch_text(get(with_page(path_of("archives"), page)));
 }
 
 Reply<std::string> Client::make_archives() {

@@ -11,6 +11,7 @@ using impl::dumped;
 using impl::get;
 using impl::path_of;
 using impl::with_method;
+using impl::with_number;
 using impl::with_query;
 
 Reply<std::string> Client::offsets(const OffsetQuery& query) {
@@ -18,7 +19,7 @@ Reply<std::string> Client::offsets(const OffsetQuery& query) {
   path = with_query(std::move(path), "machine", query.machine);
   path = with_query(std::move(path), "target", query.target);
   path = with_query(std::move(path), "state", query.state);
-  return fetch_text(get(with_query(std::move(path), "limit", std::to_string(query.limit))));
+  return fetch_text(get(with_number(std::move(path), "limit", query.limit)));
 }
 
 Reply<std::string> Client::offset(std::uint64_t id) {
@@ -51,7 +52,7 @@ Reply<std::string> Client::offset_history(std::string_view machine, std::string_
                                           std::uint64_t limit) {
   std::string path = path_of("machines", machine) + "/offset-history";
   path = with_query(std::move(path), "target", target);
-  return fetch_text(get(with_query(std::move(path), "limit", std::to_string(limit))));
+  return fetch_text(get(with_number(std::move(path), "limit", limit)));
 }
 
 Reply<std::string> Client::offsets_of_run(std::string_view run) {

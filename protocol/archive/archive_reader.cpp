@@ -38,6 +38,11 @@ struct ArchiveReader::Stream {
   bool is_in_frame = true, is_at_end = false, is_over = false;
   std::uint64_t rows = 0;
   Sha256 of_lines, of_file;
+
+  void digest_line(std::string_view line) {
+    of_lines.update(line);
+    of_lines.update("\n");
+  }
 };
 
 ArchiveReader::ArchiveReader(std::unique_ptr<Stream> stream) : stream_(std::move(stream)) {}
@@ -82,6 +87,7 @@ Result<ArchiveReader> ArchiveReader::begin(Bytes bytes, std::string name) {
     return fail(Errc::Unsupported, "archive {} is of version {}, this program reads {}",
                 reader.stream_->name, head["dripline_archive"].dump(), kVersion);
   }
+  reader.stream_->digest_line(**first);
   reader.stream_->head = {.kind = text_of(head, "kind"),
                           .machine = text_of(head, "machine"),
                           .database = text_of(head, "database"),
@@ -145,23 +151,12 @@ Result<std::optional<std::string>> ArchiveReader::line() {
 Result<std::optional<std::string>> ArchiveReader::next() {
   Stream& s = *stream_;
   if (s.is_over) return std::optional<std::string>();
-  if (s.rows == 0) {
-    // The first line was taken by begin(): it belongs to the digest too.
-    const nlohmann::ordered_json first{{"dripline_archive", kVersion},
-                                       {"kind", s.head.kind},
-                                       {"machine", s.head.machine},
-                                       {"database", s.head.database},
-                                       {"made_by", s.head.made_by}};
-    s.of_lines = Sha256();
-    s.of_lines.update(first.dump() + "\n");
-  }
   auto text = line();
   if (!text) return text;
   if (!*text) return fail(Errc::Corrupt, "archive {} has no end", s.name);
   if (!(*text)->starts_with(R"({"end":)")) {
     ++s.rows;
-    s.of_lines.update(**text);
-    s.of_lines.update("\n");
+    s.digest_line(**text);
     return text;
   }
   const auto end = nlohmann::json::parse(**text, nullptr, false);

@@ -10,6 +10,7 @@
 
 #include "clients/cli/offline/mapped_file.hpp"
 #include "clients/cli/text/standard_output.hpp"
+#include "clients/lib/output_file.hpp"
 #include "clients/tools/measurement_files/aqdef.hpp"
 #include "clients/tools/measurement_files/part_report.hpp"
 #include "clients/tools/measurement_files/points.hpp"
@@ -23,20 +24,18 @@ using measurement_files::AqdefEncoding;
 using measurement_files::MeasurementSource;
 using measurement_files::Sink;
 
-Result<std::vector<measurement_files::DigitizedPoint>> points(const MeasurementExport& request,
-                                                              MeasurementSource& source) {
+Result<std::vector<measurement_files::DigitizedPoint>> points(MeasurementSource& source) {
   auto found = measurement_files::points_of(source);
   if (found && found->empty()) {
     return fail(Errc::NotFound,
                 "no measurement is a point: their characteristics end with X, Y or Z");
   }
-  static_cast<void>(request);
   return found;
 }
 
 Result<void> write_points(const MeasurementExport& request, MeasurementSource& source,
                           const Sink& sink) {
-  const auto found = points(request, source);
+  const auto found = points(source);
   if (!found) return fail(found.error());
   if (request.format == "points") return measurement_files::write_points_csv(*found, sink);
   if (request.format == "dxf") return measurement_files::write_dxf(*found, 0, sink);
@@ -60,37 +59,22 @@ Result<void> write(const MeasurementExport& request, MeasurementSource& source, 
   return write_points(request, source, sink);
 }
 
-/// The whole file or none of it.
-class OutputFile {
- public:
-  explicit OutputFile(std::string path) : path_(std::move(path)), partial_(path_ + ".partial") {
-    file_ = std::fopen(partial_.c_str(), "wb");
-  }
-  ~OutputFile() {
-    if (file_ != nullptr) std::fclose(file_);
-    if (!is_kept_) ::unlink(partial_.c_str());
-  }
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
-  Result<void> write(std::string_view bytes) {
-    if (file_ != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size())
-      return {};
-    return fail(Errc::Io, "file {} cannot be written", path_);
-  }
-  Result<void> keep() {
-    if (file_ == nullptr || std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0 ||
-        std::rename(partial_.c_str(), path_.c_str()) != 0) {
-      return fail(Errc::Io, "file {} cannot be written", path_);
-    }
-    is_kept_ = true;
-    return {};
-  }
-
- private:
-  std::string path_, partial_;
-  std::FILE* file_ = nullptr;
-  bool is_kept_ = false;
-};
+/// Most formats pass a line at a time: `sink` gets pieces that are worth a system call, and also
+/// what was written before a fault.
+Result<void> write_in_pieces(const MeasurementExport& request, MeasurementSource& source,
+                             const Sink& sink) {
+  constexpr std::size_t kPiece = 64 * 1024;
+  std::string piece;
+  const auto done = write(request, source, [&](std::string_view bytes) -> Result<void> {
+    piece += bytes;
+    if (piece.size() < kPiece) return {};
+    auto passed = sink(piece);
+    piece.clear();
+    return passed;
+  });
+  const auto last = sink(piece);
+  return done ? last : done;
+}
 
 /// The first of the names that is a program on the path.
 std::string find_browser() {
@@ -155,9 +139,11 @@ struct WorkFolder {
 
 Result<void> export_to(const MeasurementExport& request, MeasurementSource& source,
                        const std::string& path) {
-  OutputFile file(path);
-  auto done = write(request, source, [&](std::string_view bytes) { return file.write(bytes); });
-  return done ? file.keep() : done;
+  auto file = client::OutputFile::create(path);
+  if (!file) return fail(file.error());
+  auto done =
+      write_in_pieces(request, source, [&](std::string_view bytes) { return file->write(bytes); });
+  return done ? file->commit() : done;
 }
 
 Result<void> export_pdf(const MeasurementExport& request, MeasurementSource& source) {
@@ -185,8 +171,8 @@ int export_measurements(Context& context, const MeasurementExport& request) {
   if (!source) return context.status;
   if (is_stream) {
     StandardOutput output;
-    const auto done =
-        write(request, *source, [&](std::string_view bytes) { return output.write(bytes); });
+    const auto done = write_in_pieces(request, *source,
+                                      [&](std::string_view bytes) { return output.write(bytes); });
     if (output.error()) return output.complain();
     return done ? kExitOk : complain(done.error());
   }

@@ -47,7 +47,7 @@ ordered_json index_json(const std::optional<statistics::Index>& index) {
   return json;
 }
 
-/// What capability says of the values, and whether they may be normal.
+/// The capability of the values, and whether they may be normal.
 struct Study {
   Capability capability;
   std::optional<statistics::AndersonDarling> normality;  ///< absent: too few values

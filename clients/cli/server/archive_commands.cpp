@@ -1,5 +1,6 @@
 #include "clients/cli/server/archive_commands.hpp"
 
+#include "clients/cli/server/json_answer.hpp"
 #include "clients/cli/server/measurement_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
@@ -10,11 +11,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string text_at(const ordered_json& object, const char* key) {
-  const auto found = object.find(key);
-  return found == object.end() || !found->is_string() ? "" : found->get<std::string>();
-}
-
 /// An empty text allows everything; an id may be shortened.
 bool is_wanted(const std::string& wanted, const std::string& found) {
   return wanted.empty() || found.starts_with(wanted);
@@ -22,12 +18,7 @@ bool is_wanted(const std::string& wanted, const std::string& found) {
 
 int list_archives(Context& context, client::Client& client) {
   const auto answer = client.archives({.limit = 1000});
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-      return kExitOk;
-    }
+  return print_answer(context, client, answer, [&](const ordered_json& shown) {
     Table table({"FILE", "MACHINE", right("ROWS"), right("SIZE"), "FIRST", "LAST", "SHA256"});
     for (const auto& one : shown.at("archives")) {
       table.add({printable(text_at(one, "file")), text_at(one, "machine"),
@@ -36,20 +27,12 @@ int list_archives(Context& context, client::Client& client) {
                  time_text(text_at(one, "last")), short_id(text_at(one, "sha256"))});
     }
     context.print(table);
-    return kExitOk;
   });
 }
 
 int make_archives(Context& context, client::Client& client) {
-  const auto answer = client.make_archives();
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-    } else {
-      context.print(fmt::format("Made {} archives\n", shown.at("made").get<std::uint64_t>()));
-    }
-    return kExitOk;
+  return print_answer(context, client, client.make_archives(), [&](const ordered_json& shown) {
+    context.print(fmt::format("Made {} archives\n", shown.at("made").get<std::uint64_t>()));
   });
 }
 

@@ -2,23 +2,22 @@
 
 #include <fmt/format.h>
 
+#include "protocol/base/units.hpp"
+
 namespace dripline::cli {
 namespace {
-
-constexpr double kMillimetersPerInch = 25.4;
 
 bool is_inch(const client::Display& display) {
   return display.units == "inch";
 }
 
 double in_units(double mm, const client::Display& display) {
-  return is_inch(display) ? mm / kMillimetersPerInch : mm;
+  return is_inch(display) ? Length::mm(mm).inch() : mm;
 }
 
 /// As many decimals as controls show.
 std::string number_text(double mm, const client::Display& display) {
-  return is_inch(display) ? fmt::format("{:.4f}", mm / kMillimetersPerInch)
-                          : fmt::format("{:.3f}", mm);
+  return fmt::format("{:.{}f}", in_units(mm, display), is_inch(display) ? 4 : 3);
 }
 
 std::string axis_text(char axis, double value, const client::Display& display) {

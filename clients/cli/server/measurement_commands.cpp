@@ -2,6 +2,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/server/archive_commands.hpp"
+#include "clients/cli/server/json_answer.hpp"
 #include "clients/cli/server/measurement_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
@@ -39,66 +40,30 @@ int measurements(Context& context, client::Client& client, const MeasurementsCom
       return client.export_measurements(query, command.csv ? "csv" : "jsonl", sink);
     });
   }
-  const auto answer = client.measurements(query);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-    } else if (shown.at("measurements").empty()) {
-      context.print("Nothing was measured.\n");
-    } else {
-      context.print(measurement_table(shown.at("measurements")));
-    }
-    return kExitOk;
-  });
+  return print_listing(context, client, client.measurements(query),
+                       {"measurements", "Nothing was measured.\n", measurement_table});
 }
 
 int parts(Context& context, client::Client& client, const MeasurementsCommand& command) {
   client::MeasurementQuery query = command.query;
   if (const auto status = resolve_run(client, query.run)) return *status;
-  const auto answer = client.parts(query);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-    } else if (shown.at("parts").empty()) {
-      context.print("No part was measured.\n");
-    } else {
-      context.print(part_table(shown.at("parts")));
-    }
-    return kExitOk;
-  });
+  return print_listing(context, client, client.parts(query),
+                       {"parts", "No part was measured.\n", part_table});
 }
 
 int findings(Context& context, client::Client& client, const MeasurementsCommand& command) {
   client::MeasurementQuery query = command.query;
   if (const auto status = resolve_run(client, query.run)) return *status;
-  const auto answer = client.report_findings(query);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-    } else if (shown.at("findings").empty()) {
-      context.print("Every line was understood.\n");
-    } else {
-      context.print(finding_table(shown.at("findings")));
-    }
-    return kExitOk;
-  });
+  return print_listing(context, client, client.report_findings(query),
+                       {"findings", "Every line was understood.\n", finding_table});
 }
 
 int derive(Context& context, client::Client& client, const DeriveCommand& command) {
   std::string run = command.run;
   if (const auto status = resolve_run(client, run)) return *status;
   const auto answer = client.derive_measurements(run, command.name, command.version);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-    } else {
-      context.print(part_table(shown.at("parts")));
-    }
-    return kExitOk;
+  return print_answer(context, client, answer, [&](const ordered_json& shown) {
+    context.print(part_table(shown.at("parts")));
   });
 }
 

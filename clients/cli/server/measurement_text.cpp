@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "clients/cli/server/json_answer.hpp"
 #include "clients/cli/text/value_text.hpp"
 
 namespace dripline::cli {
@@ -13,9 +14,8 @@ using report_template::PartBegun;
 using report_template::PartEnded;
 using report_template::Value;
 
-std::string text_at(const ordered_json& object, const char* key) {
-  const auto found = object.find(key);
-  return found == object.end() || !found->is_string() ? "" : printable(found->get<std::string>());
+std::string shown_at(const ordered_json& object, const char* key) {
+  return printable(text_at(object, key));
 }
 
 std::string number_at(const ordered_json& object, const char* key) {
@@ -79,30 +79,19 @@ ordered_json event_json(const report_template::ReportEvent& event) {
 
 }  // namespace
 
-int shown_json(const client::Client& client, const std::string& answer,
-               const std::function<int(const ordered_json&)>& show) {
-  try {
-    return show(ordered_json::parse(answer));
-  } catch (const ordered_json::exception& unexpected) {  // what the library reports with
-    complain(Error{Errc::Syntax, fmt::format("the answer of {} is not as expected: {}",
-                                             client.address().url, unexpected.what())});
-    return kExitUnreachable;
-  }
-}
-
 Table template_table(const ordered_json& templates, const ordered_json& assignments) {
   Table table({"TEMPLATE", right("VERSION"), "BY", "SAVED", "FOR"});
   for (const auto& one : templates) {
     std::string uses;
     for (const auto& assigned : assignments) {
       if (assigned.at("template") != one.at("name")) continue;
-      uses += fmt::format("{}{} {}", uses.empty() ? "" : ", ", text_at(assigned, "scope"),
-                          text_at(assigned, "subject"));
+      uses += fmt::format("{}{} {}", uses.empty() ? "" : ", ", shown_at(assigned, "scope"),
+                          shown_at(assigned, "subject"));
       if (assigned.at("version").is_number())
         uses += fmt::format(" (version {})", number_at(assigned, "version"));
     }
-    table.add({text_at(one, "name"), number_at(one, "version"), text_at(one, "author"),
-               time_text(text_at(one, "created")), uses});
+    table.add({shown_at(one, "name"), number_at(one, "version"), shown_at(one, "author"),
+               time_text(shown_at(one, "created")), uses});
   }
   return table;
 }
@@ -111,10 +100,11 @@ Table measurement_table(const ordered_json& measurements) {
   Table table({"TIME", "MACHINE", right("PART"), "SERIAL", "CHARACTERISTIC", right("ACTUAL"),
                right("NOMINAL"), right("LOWER"), right("UPPER"), "UNIT", "TOOL", "VERDICT"});
   for (const auto& one : measurements) {
-    table.add({time_text(text_at(one, "time")), text_at(one, "machine"), number_at(one, "part"),
-               text_at(one, "serial"), text_at(one, "characteristic"), value_at(one, "actual"),
+    table.add({time_text(shown_at(one, "time")), shown_at(one, "machine"), number_at(one, "part"),
+               shown_at(one, "serial"), shown_at(one, "characteristic"), value_at(one, "actual"),
                value_at(one, "nominal"), value_at(one, "lower"), value_at(one, "upper"),
-               text_at(one, "unit"), text_at(one, "tool"), verdict_cell(text_at(one, "verdict"))});
+               shown_at(one, "unit"), shown_at(one, "tool"),
+               verdict_cell(shown_at(one, "verdict"))});
   }
   return table;
 }
@@ -123,12 +113,13 @@ Table part_table(const ordered_json& parts) {
   Table table({right("PART"), "MACHINE", "RUN", "PROGRAM", "TEMPLATE", "NUMBER", "SERIAL",
                right("VALUES"), right("FINDINGS"), "VERDICT", "BEGUN", "ENDED"});
   for (const auto& one : parts) {
-    table.add({number_at(one, "id"), text_at(one, "machine"), short_id(text_at(one, "run")),
-               text_at(one, "program"),
-               fmt::format("{}@{}", text_at(one, "template"), number_at(one, "template_version")),
-               text_at(one, "part_number"), text_at(one, "serial"), number_at(one, "measurements"),
-               number_at(one, "findings"), verdict_cell(text_at(one, "verdict")),
-               time_text(text_at(one, "begun")), time_text(text_at(one, "ended"))});
+    table.add({number_at(one, "id"), shown_at(one, "machine"), short_id(shown_at(one, "run")),
+               shown_at(one, "program"),
+               fmt::format("{}@{}", shown_at(one, "template"), number_at(one, "template_version")),
+               shown_at(one, "part_number"), shown_at(one, "serial"),
+               number_at(one, "measurements"), number_at(one, "findings"),
+               verdict_cell(shown_at(one, "verdict")), time_text(shown_at(one, "begun")),
+               time_text(shown_at(one, "ended"))});
   }
   return table;
 }
@@ -136,8 +127,8 @@ Table part_table(const ordered_json& parts) {
 Table finding_table(const ordered_json& findings) {
   Table table({"TIME", "MACHINE", right("PART"), right("RECORD"), "KIND", "TEXT"});
   for (const auto& one : findings) {
-    table.add({time_text(text_at(one, "time")), text_at(one, "machine"), number_at(one, "part"),
-               number_at(one, "number"), text_at(one, "kind"), text_at(one, "text")});
+    table.add({time_text(shown_at(one, "time")), shown_at(one, "machine"), number_at(one, "part"),
+               number_at(one, "number"), shown_at(one, "kind"), shown_at(one, "text")});
   }
   return table;
 }

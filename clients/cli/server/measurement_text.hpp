@@ -11,10 +11,6 @@
 /// How measurements and report templates look.
 namespace dripline::cli {
 
-/// Calls `show` with the server's answer; an answer of another form is complained of.
-int shown_json(const client::Client& client, const std::string& answer,
-               const std::function<int(const nlohmann::ordered_json&)>& show);
-
 Table template_table(const nlohmann::ordered_json& templates,
                      const nlohmann::ordered_json& assignments);
 Table measurement_table(const nlohmann::ordered_json& measurements);

@@ -4,7 +4,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
-#include "clients/cli/server/measurement_text.hpp"
+#include "clients/cli/server/json_answer.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
@@ -45,27 +45,21 @@ std::string decision_text(const ordered_json& offset) {
   return text;
 }
 
+Table offset_table(const ordered_json& offsets) {
+  Table table(
+      {right("ID"), "MACHINE", "VALUE", "CHANGE", right("FROM"), "STATE", "PROPOSED", "WHO"});
+  for (const auto& offset : offsets) {
+    table.add({offset_number(offset, "id"), offset_word(offset, "machine"),
+               offset_word(offset, "target"), change_text(offset), offset_number(offset, "used"),
+               decision_text(offset), time_text(offset_word(offset, "created")),
+               offset_word(offset, "who")});
+  }
+  return table;
+}
+
 int list_offsets(Context& context, client::Client& client, const OffsetChoice& command) {
-  const auto answer = client.offsets(command.query);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-    } else if (shown.at("offsets").empty()) {
-      context.print("No correction is proposed.\n");
-    } else {
-      Table table(
-          {right("ID"), "MACHINE", "VALUE", "CHANGE", right("FROM"), "STATE", "PROPOSED", "WHO"});
-      for (const auto& offset : shown.at("offsets")) {
-        table.add({offset_number(offset, "id"), offset_word(offset, "machine"),
-                   offset_word(offset, "target"), change_text(offset),
-                   offset_number(offset, "used"), decision_text(offset),
-                   time_text(offset_word(offset, "created")), offset_word(offset, "who")});
-      }
-      context.print(table);
-    }
-    return kExitOk;
-  });
+  return print_listing(context, client, client.offsets(command.query),
+                       {"offsets", "No correction is proposed.\n", offset_table});
 }
 
 void print_offset(const Context& context, const ordered_json& offset) {
@@ -91,15 +85,8 @@ void print_offset(const Context& context, const ordered_json& offset) {
 }
 
 int show_one(Context& context, client::Client& client, const client::Reply<std::string>& answer) {
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-    } else {
-      print_offset(context, shown);
-    }
-    return kExitOk;
-  });
+  return print_answer(context, client, answer,
+                      [&](const ordered_json& shown) { print_offset(context, shown); });
 }
 
 int show_offset(Context& context, client::Client& client, const OffsetChoice& command) {
@@ -128,35 +115,29 @@ int reject(Context& context, client::Client& client, const OffsetChoice& command
   return decide(context, client, command, "reject");
 }
 
+void print_evaluation(const Context& context, const ordered_json& rule) {
+  context.print(fmt::format("{}: {} is {} {} since setup {}\n", offset_word(rule, "rule"),
+                            offset_word(rule, "target"), offset_number(rule, "value"),
+                            offset_word(rule, "unit"), offset_number(rule, "since")));
+  for (const auto& reason : rule.at("reasons"))
+    context.print(fmt::format("  {}\n", printable(reason.get<std::string>())));
+  const auto& proposal = rule.at("proposal");
+  if (!proposal.is_object()) return;
+  context.print(fmt::format("  proposal {}: {}, {}\n", offset_number(proposal, "id"),
+                            change_text(proposal), decision_text(proposal)));
+}
+
 int evaluate(Context& context, client::Client& client, const OffsetChoice& command) {
   const auto answer = client.evaluate_offsets(command.machine);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-      return kExitOk;
-    }
-    for (const auto& rule : shown.at("rules")) {
-      context.print(fmt::format("{}: {} is {} {} since setup {}\n", offset_word(rule, "rule"),
-                                offset_word(rule, "target"), offset_number(rule, "value"),
-                                offset_word(rule, "unit"), offset_number(rule, "since")));
-      for (const auto& reason : rule.at("reasons"))
-        context.print(fmt::format("  {}\n", printable(reason.get<std::string>())));
-      if (rule.at("proposal").is_object()) {
-        context.print(fmt::format("  proposal {}: {}, {}\n", offset_number(rule["proposal"], "id"),
-                                  change_text(rule["proposal"]), decision_text(rule["proposal"])));
-      }
-    }
-    return kExitOk;
+  return print_answer(context, client, answer, [&](const ordered_json& shown) {
+    for (const auto& rule : shown.at("rules")) print_evaluation(context, rule);
   });
 }
 
 int show_rules(Context& context, client::Client& client, const OffsetChoice& command) {
   const auto answer = client.offset_rules(command.machine);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    context.print(context.wants_json ? json_text(shown) : shown.at("text").get<std::string>());
-    return kExitOk;
+  return print_answer(context, client, answer, [&](const ordered_json& shown) {
+    context.print(shown.at("text").get<std::string>());
   });
 }
 
@@ -164,57 +145,41 @@ int push_rules(Context& context, client::Client& client, const OffsetChoice& com
   const auto file = MappedFile::open(command.file);
   if (!file) return complain(file.error());
   const auto answer = client.save_offset_rules(command.machine, file->text());
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    context.print(context.wants_json
-                      ? json_text(shown)
-                      : fmt::format("Stored offset rules {} of {}\n",
-                                    offset_number(shown, "version"), command.machine));
-    return kExitOk;
+  return print_answer(context, client, answer, [&](const ordered_json& shown) {
+    context.print(fmt::format("Stored offset rules {} of {}\n", offset_number(shown, "version"),
+                              command.machine));
   });
+}
+
+Table history_table(const ordered_json& history) {
+  Table table({"VALUE", right("IS"), "UNIT", right("SETUP"), "SINCE", "WHO", right("RUNS"),
+               right("PARTS"), right("GOOD"), "FIRST RUN", "LAST RUN", "WHY"});
+  for (const auto& entry : history) {
+    const auto& runs = entry.at("runs");
+    const auto run = [&](std::size_t i) {
+      return runs.empty() ? std::string("-") : short_id(runs.at(i).get<std::string>());
+    };
+    table.add({offset_word(entry, "target"), offset_number(entry, "value"),
+               offset_word(entry, "unit"), offset_number(entry, "setup"),
+               time_text(offset_word(entry, "time")), offset_word(entry, "who"),
+               std::to_string(runs.size()), offset_number(entry, "parts"),
+               offset_number(entry, "good"), run(0), run(runs.empty() ? 0 : runs.size() - 1),
+               offset_word(entry, "why")});
+  }
+  return table;
 }
 
 int history(Context& context, client::Client& client, const OffsetChoice& command) {
   const auto answer = client.offset_history(command.machine, command.target, command.limit);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-      return kExitOk;
-    }
-    if (shown.at("history").empty()) {
-      context.print("No setup states such a value.\n");
-      return kExitOk;
-    }
-    Table table({"VALUE", right("IS"), "UNIT", right("SETUP"), "SINCE", "WHO", right("RUNS"),
-                 right("PARTS"), right("GOOD"), "FIRST RUN", "LAST RUN", "WHY"});
-    for (const auto& entry : shown.at("history")) {
-      const auto& runs = entry.at("runs");
-      const auto run = [&](std::size_t i) {
-        return runs.empty() ? std::string("-") : short_id(runs.at(i).get<std::string>());
-      };
-      table.add({offset_word(entry, "target"), offset_number(entry, "value"),
-                 offset_word(entry, "unit"), offset_number(entry, "setup"),
-                 time_text(offset_word(entry, "time")), offset_word(entry, "who"),
-                 std::to_string(runs.size()), offset_number(entry, "parts"),
-                 offset_number(entry, "good"), run(0), run(runs.empty() ? 0 : runs.size() - 1),
-                 offset_word(entry, "why")});
-    }
-    context.print(table);
-    return kExitOk;
-  });
+  return print_listing(context, client, answer,
+                       {"history", "No setup states such a value.\n", history_table});
 }
 
 int in_force(Context& context, client::Client& client, const OffsetChoice& command) {
   const auto run = find_run(client, command.run);
   if (!run) return complain(run.error());
   const auto answer = client.offsets_of_run(run->id);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    if (context.wants_json) {
-      context.print(json_text(shown));
-      return kExitOk;
-    }
+  return print_answer(context, client, answer, [&](const ordered_json& shown) {
     context.print(fmt::format("Run {}, blocks {} to {}: setup {}\n\n", short_id(run->id),
                               offset_number(shown, "first_block"),
                               offset_number(shown, "last_block"), offset_number(shown, "setup")));
@@ -222,7 +187,6 @@ int in_force(Context& context, client::Client& client, const OffsetChoice& comma
     for (const auto& value : shown.at("values"))
       table.add({offset_word(value, "target"), offset_number(value, "value")});
     context.print(table);
-    return kExitOk;
   });
 }
 

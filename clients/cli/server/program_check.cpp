@@ -5,16 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/json_answer.hpp"
 #include "clients/cli/server/program_name.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
+#include "protocol/base/units.hpp"
 
 namespace dripline::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kMillimetersPerInch = 25.4;
 
 struct ProgramCheck {
   std::string program;
@@ -58,7 +58,7 @@ bool is_inch(const Json& result) {
 }
 
 double length(const Json& result, double mm) {
-  return is_inch(result) ? mm / kMillimetersPerInch : mm;
+  return is_inch(result) ? Length::mm(mm).inch() : mm;
 }
 
 std::string extent_text(const Json& result, char axis, const Json& extent) {
@@ -92,8 +92,7 @@ Details summary_of(const Json& result) {
   return details;
 }
 
-int print_check(const Context& context, const std::string& answer) {
-  const auto result = Json::parse(answer);
+int print_check(const Context& context, const Json& result) {
   context.print(context.wants_json ? json_text(result)
                                    : program_check_text(result, context.has_color()));
   return text_of(result.at("outcome")) == "ended" ? kExitOk : kExitNo;
@@ -107,13 +106,9 @@ int check_program(Context& context, client::Client& client, const ProgramCheck& 
     const int status = complain(answer.error());
     return status == kExitNo ? kExitUsage : status;  // 1 is for programs that do not end
   }
-  try {
-    return print_check(context, *answer);
-  } catch (const nlohmann::json::exception& unexpected) {  // what the library reports with
-    complain(Error{Errc::Syntax, fmt::format("the answer of {} to the check is not as expected: {}",
-                                             client.address().url, unexpected.what())});
-    return kExitUnreachable;
-  }
+  return shown_json(
+      client, *answer, [&](const Json& result) { return print_check(context, result); },
+      " to the check");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/comparison_text.hpp"
+#include "clients/cli/server/json_answer.hpp"
 #include "clients/cli/server/program_name.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
@@ -27,8 +28,7 @@ std::string name_of(const nlohmann::ordered_json& revision) {
                      revision.at("revision").get<std::uint64_t>());
 }
 
-int print_comparison(const Context& context, const std::string& answer) {
-  const auto result = nlohmann::ordered_json::parse(answer);
+int print_comparison(const Context& context, const nlohmann::ordered_json& result) {
   const ComparedNames names{name_of(result.at("first")), name_of(result.at("second"))};
   const int written =
       write_to("-", context.wants_json ? json_text(result)
@@ -44,14 +44,10 @@ int diff_programs(Context& context, client::Client& client, const ProgramDiff& c
   query.by = command.by_motion ? "motion" : command.normalized ? "normalized" : "text";
   const auto answer = client.compare(query);
   if (!answer) return status_of(answer.error());
-  try {
-    return print_comparison(context, *answer);
-  } catch (const nlohmann::json::exception& unexpected) {  // what the library reports with
-    complain(
-        Error{Errc::Syntax, fmt::format("the answer of {} to the comparison is not as expected: {}",
-                                        client.address().url, unexpected.what())});
-    return kExitUnreachable;
-  }
+  return shown_json(
+      client, *answer,
+      [&](const nlohmann::ordered_json& result) { return print_comparison(context, result); },
+      " to the comparison");
 }
 
 }  // namespace

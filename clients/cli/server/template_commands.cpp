@@ -4,6 +4,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
+#include "clients/cli/server/json_answer.hpp"
 #include "clients/cli/server/measurement_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
@@ -48,10 +49,8 @@ int list_templates(Context& context, client::Client& client, const TemplateChoic
 
 int show_template(Context& context, client::Client& client, const TemplateChoice& command) {
   const auto answer = client.report_template(command.name, command.version);
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& shown) {
-    context.print(context.wants_json ? json_text(shown) : shown.at("text").get<std::string>());
-    return kExitOk;
+  return print_answer(context, client, answer, [&](const ordered_json& shown) {
+    context.print(shown.at("text").get<std::string>());
   });
 }
 
@@ -65,15 +64,9 @@ int push_template(Context& context, client::Client& client, const TemplateChoice
   if (const auto read = report_template::read_template(file->text()); !read)
     return complain(Error{read.error().code, command.file + ": " + read.error().what});
   const auto answer = client.push_report_template(command.name, file->text());
-  if (!answer) return complain(answer.error());
-  return shown_json(client, *answer, [&](const ordered_json& pushed) {
-    if (context.wants_json) {
-      context.print(json_text(pushed));
-    } else {
-      context.print(fmt::format("Report template {} version {}\n", command.name,
-                                pushed.at("version").get<std::uint64_t>()));
-    }
-    return kExitOk;
+  return print_answer(context, client, answer, [&](const ordered_json& pushed) {
+    context.print(fmt::format("Report template {} version {}\n", command.name,
+                              pushed.at("version").get<std::uint64_t>()));
   });
 }
 

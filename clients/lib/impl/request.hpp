@@ -1,10 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "clients/lib/http.hpp"
+
+namespace dripline::client {
+struct Page;
+}
 
 /// Parts of the requests that the calls of Client send. Pure.
 namespace dripline::client::impl {
@@ -16,6 +22,10 @@ std::string path_of(std::string_view collection);
 std::string path_of(std::string_view collection, std::string_view item);
 /// Adds `key=value` to a path's query; nothing for an empty value.
 std::string with_query(std::string path, std::string_view key, std::string_view value);
+/// The same for a number; nothing without one.
+std::string with_number(std::string path, std::string_view key,
+                        std::optional<std::uint64_t> number);
+std::string with_page(std::string path, const Page& page);
 /// A body; bytes that are not UTF-8 are replaced.
 std::string dumped(const nlohmann::json& body);
 

@@ -81,14 +81,19 @@ void draw_axes(Canvas& canvas, const Plot& plot, const AxisTitles& titles, doubl
       titles.y, {text_size, Anchor::Middle, false, true});
 }
 
+void label_level(Canvas& canvas, const Plot& plot, double value, Color color, std::string_view name,
+                 double text_size) {
+  canvas.text({plot.box.right() + 5, plot.place_y(value) + text_size * 0.35},
+              fmt::format("{} {:.{}f}", name, value, plot.y.decimals + 1),
+              {text_size, Anchor::Start, false, false, color});
+}
+
 void draw_level(Canvas& canvas, const Plot& plot, double value, const Pen& pen,
                 std::string_view name, double text_size) {
   if (value < plot.y.low || value > plot.y.high) return;
   const double y = plot.place_y(value);
   canvas.line({plot.box.left, y}, {plot.box.right(), y}, pen);
-  canvas.text({plot.box.right() + 5, y + text_size * 0.35},
-              fmt::format("{} {:.{}f}", name, value, plot.y.decimals + 1),
-              {text_size, Anchor::Start, false, false, pen.color});
+  label_level(canvas, plot, value, pen.color, name, text_size);
 }
 
 }  // namespace dripline::charts

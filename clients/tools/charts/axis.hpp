@@ -43,7 +43,12 @@ struct AxisTitles {
 void draw_axes(Canvas& canvas, const Plot& plot, const AxisTitles& titles, double text_size);
 /// The room that the labels and the title of the y axis take on its left.
 double left_margin(const Axis& y, double text_size);
-/// Across the plot at `value` of the y axis, with its name and value on the right.
+inline constexpr Pen kLimitPen{kLimit, 1.4, Dash::Dashed};
+
+/// The name and the value of a level, on the right of the plot.
+void label_level(Canvas& canvas, const Plot& plot, double value, Color color, std::string_view name,
+                 double text_size);
+/// Across the plot at `value` of the y axis, with its label. Outside the axis nothing is drawn.
 void draw_level(Canvas& canvas, const Plot& plot, double value, const Pen& pen,
                 std::string_view name, double text_size);
 

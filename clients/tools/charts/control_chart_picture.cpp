@@ -62,14 +62,7 @@ void draw_limit(Canvas& canvas, const Plot& plot, const Panel& panel,
     const bool is_last = i + 1 == limit.size() || limit[i + 1] != limit[i];
     if (is_last) points.push_back(plot.place(x + 0.5, limit[i]));
   }
-  canvas.polyline(points, {kLimit, 1.4, Dash::Dashed});
-}
-
-void label_limit(Canvas& canvas, const Plot& plot, double value, const char* name, Color color,
-                 double text) {
-  canvas.text({plot.box.right() + 5, plot.place_y(value) + text * 0.35},
-              fmt::format("{} {:.{}f}", name, value, plot.y.decimals + 1),
-              {text, Anchor::Start, false, false, color});
+  canvas.polyline(points, kLimitPen);
 }
 
 void draw_points(Canvas& canvas, const Plot& plot, const Panel& panel,
@@ -112,9 +105,10 @@ void draw_panel(Canvas& canvas, const Plot& plot, const Panel& panel, double tex
   if (!panel.lower_points.empty())
     draw_points(canvas, plot, panel, panel.lower_points, marked_of(panel, panel.lower_points));
   if (panel.points.empty()) return;
-  label_limit(canvas, plot, panel.upper.back(), panel.name == "CUSUM" ? "+h" : "UCL", kLimit, text);
-  label_limit(canvas, plot, panel.center, "CL", kCenter, text);
-  label_limit(canvas, plot, panel.lower.back(), panel.name == "CUSUM" ? "-h" : "LCL", kLimit, text);
+  const bool is_cusum = panel.name == "CUSUM";
+  label_level(canvas, plot, panel.upper.back(), kLimit, is_cusum ? "+h" : "UCL", text);
+  label_level(canvas, plot, panel.center, kCenter, "CL", text);
+  label_level(canvas, plot, panel.lower.back(), kLimit, is_cusum ? "-h" : "LCL", text);
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ void draw_histogram(Canvas& canvas, const HistogramPicture& picture, const Capti
   for (const auto& mark : {picture.tolerance.lower, picture.tolerance.upper, picture.nominal}) {
     if (mark) include(low, high, *mark);
   }
-  const double rough_text = std::clamp(canvas.width() / 75, 9.0, 14.0);
+  const double rough_text = text_size_of(canvas);
   const Axis x = make_axis(low, high, tick_count(canvas.width(), rough_text, 8));
   const Frame frame = draw_frame(canvas, caption, notes_of(picture, x.decimals));
   double most =

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "clients/tools/charts/svg_canvas.hpp"
+#include "clients/tools/statistics/chart_constants.hpp"
 
 namespace dripline::charts {
 namespace {
@@ -70,6 +71,7 @@ statistics::Tolerance tolerance_of(const Measurement& m) {
 }
 
 Result<statistics::Baseline> baseline_of(std::span<const Measurement> measurements,
+                                         std::span<const double> values,
                                          const ChartRequest& request) {
   if (request.center || request.sigma) {
     if (request.center && request.sigma) {
@@ -79,17 +81,17 @@ Result<statistics::Baseline> baseline_of(std::span<const Measurement> measuremen
   }
   const std::size_t count =
       request.baseline == 0 ? measurements.size() : std::min(request.baseline, measurements.size());
-  const auto used = measurements.first(count);
-  return statistics::estimate_baseline(values_of(used), request.settings.kind,
-                                       request.settings.subgroup, source_text(used));
+  return statistics::estimate_baseline(values.first(count), request.settings.kind,
+                                       request.settings.subgroup,
+                                       source_text(measurements.first(count)));
 }
 
 Result<void> draw_control(Canvas& canvas, std::span<const Measurement> measurements,
                           const ChartRequest& request) {
-  const auto baseline = baseline_of(measurements, request);
+  const auto values = values_of(measurements);
+  const auto baseline = baseline_of(measurements, values, request);
   if (!baseline) return fail(baseline.error());
-  const auto chart =
-      statistics::make_control_chart(values_of(measurements), *baseline, request.settings);
+  const auto chart = statistics::make_control_chart(values, *baseline, request.settings);
   if (!chart) return fail(chart.error());
   draw_control_chart(canvas, *chart, caption_of(measurements, request));
   return {};
@@ -194,10 +196,9 @@ void read_settings(Texts& texts, ChartRequest& request) {
   auto& settings = request.settings;
   if (const auto rules = texts.text("rules"))
     texts.take(statistics::parse_rule_set(*rules), settings.rules);
-  const bool is_mean = settings.kind == statistics::ChartKind::MeanRange ||
-                       settings.kind == statistics::ChartKind::MeanDeviation;
-  settings.subgroup =
-      static_cast<std::size_t>(texts.number("subgroup", 1, 100).value_or(is_mean ? 5 : 1));
+  const double usual_subgroup = statistics::is_mean_chart(settings.kind) ? 5 : 1;
+  settings.subgroup = static_cast<std::size_t>(
+      texts.number("subgroup", 1, statistics::kMaxSubgroup).value_or(usual_subgroup));
   settings.ewma_weight = texts.number("lambda", 0.001, 1).value_or(settings.ewma_weight);
   settings.cusum_slack = texts.number("slack", 0, 10).value_or(settings.cusum_slack);
   settings.cusum_decision = texts.number("decision", 0.1, 100).value_or(settings.cusum_decision);

@@ -101,9 +101,8 @@ void draw_contour(Canvas& canvas, const Plot& plot, const ProfilePicture& pictur
 void draw_along(Canvas& canvas, const Plot& plot, const ProfilePicture& picture,
                 const std::vector<ContourDeviation>& found, double text) {
   canvas.line(plot.place(plot.x.low, 0), plot.place(plot.x.high, 0), {kCenter, 1.2});
-  const Pen limit{kLimit, 1.4, Dash::Dashed};
-  if (picture.upper) draw_level(canvas, plot, *picture.upper, limit, "upper", text);
-  if (picture.lower) draw_level(canvas, plot, *picture.lower, limit, "lower", text);
+  if (picture.upper) draw_level(canvas, plot, *picture.upper, kLimitPen, "upper", text);
+  if (picture.lower) draw_level(canvas, plot, *picture.lower, kLimitPen, "lower", text);
   std::vector<Point> points;
   for (const ContourDeviation& point : found)
     points.push_back(plot.place(point.along, point.deviation));
@@ -120,9 +119,9 @@ void draw_along(Canvas& canvas, const Plot& plot, const ProfilePicture& picture,
 }
 
 std::vector<std::string> notes_of(const ProfilePicture& picture,
-                                  const std::vector<ContourDeviation>& found, double magnification,
+                                  const std::vector<ContourDeviation>& found,
+                                  const Extremes& extremes, double magnification,
                                   const std::string& unit) {
-  const Extremes extremes = extremes_of(found);
   const auto outside = std::ranges::count_if(
       found, [&](const ContourDeviation& point) { return is_outside(picture, point.deviation); });
   std::vector<std::string> notes{fmt::format("{} points, deviation {:+.4f} to {:+.4f} {}",
@@ -149,7 +148,7 @@ Result<void> draw_profile(Canvas& canvas, const ProfilePicture& picture, const C
     include(extent.low_v, extent.high_v, point.foot.v + point.normal.v * reach);
   }
   const Frame frame =
-      draw_frame(canvas, caption, notes_of(picture, *found, magnification, caption.unit));
+      draw_frame(canvas, caption, notes_of(picture, *found, extremes, magnification, caption.unit));
   const double text = frame.text;
   Box above = frame.inside;
   above.height = frame.inside.height * 0.62 - text;

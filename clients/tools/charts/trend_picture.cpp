@@ -99,7 +99,7 @@ void draw_trend(Canvas& canvas, const TrendPicture& picture, const Caption& capt
     if (mark) include(low, high, *mark);
   }
   if (!(low <= high)) low = high = 0;
-  const double rough_text = std::clamp(canvas.width() / 75, 9.0, 14.0);
+  const double rough_text = text_size_of(canvas);
   const Axis y = make_axis(low, high, tick_count(canvas.height() * 0.6, rough_text, 2.5));
   const Frame frame = draw_frame(canvas, caption, notes_of(picture, caption.unit, y.decimals));
   Axis x = make_axis(0, longest, tick_count(frame.inside.width, frame.text, 6));
@@ -114,13 +114,11 @@ void draw_trend(Canvas& canvas, const TrendPicture& picture, const Caption& capt
   draw_axes(canvas, plot, {picture.life_unit, with_unit("measured value", caption.unit)},
             frame.text);
   if (picture.tolerance.upper)
-    draw_level(canvas, plot, *picture.tolerance.upper, {kLimit, 1.4, Dash::Dashed}, "upper",
-               frame.text);
+    draw_level(canvas, plot, *picture.tolerance.upper, kLimitPen, "upper", frame.text);
   if (picture.nominal)
     draw_level(canvas, plot, *picture.nominal, {kCenter, 1.2}, "nominal", frame.text);
   if (picture.tolerance.lower)
-    draw_level(canvas, plot, *picture.tolerance.lower, {kLimit, 1.4, Dash::Dashed}, "lower",
-               frame.text);
+    draw_level(canvas, plot, *picture.tolerance.lower, kLimitPen, "lower", frame.text);
   for (std::size_t i = 0; i < picture.lives.size(); ++i) {
     draw_life(canvas, plot, picture.lives[i], kLives[i % kLives.size()]);
   }

@@ -27,6 +27,8 @@ Result<void> write_dfd(MeasurementSource& source, const AqdefProfile& profile, c
 Result<void> write_dfx(MeasurementSource& source, const AqdefProfile& profile, const Sink& sink);
 
 inline constexpr std::size_t kMaxAqdef = 10'000;
+/// Of values, in .dfx and in lines of values.
+inline constexpr char kFieldEnd = 0x14, kCharacteristicEnd = 0x0F;
 
 /// Reads .dfq, or .dfd and .dfx one after the other; values that are marked as not valid are left
 /// out. Only what write_dfq writes comes back: part, characteristic, limits, unit, machine,

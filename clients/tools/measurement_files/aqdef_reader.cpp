@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <optional>
 
@@ -13,16 +12,6 @@ namespace {
 
 using measurement::Measurement;
 
-constexpr char kFieldEnd = 0x14, kCharacteristicEnd = 0x0F;
-
-std::optional<double> number_of(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
-
 /// "01.02.2026/13:14:15", the seconds may be missing.
 std::optional<UtcTime> date_of(std::string_view text) {
   if (text.size() < 16 || text[2] != '.' || text[5] != '.') return std::nullopt;
@@ -32,13 +21,6 @@ std::optional<UtcTime> date_of(std::string_view text) {
   if (text.size() == 16) iso += ":00";
   const auto time = parse_iso8601(iso + 'Z');
   return time ? std::optional(*time) : std::nullopt;
-}
-
-std::string_view take_until(std::string_view& text, char end) {
-  const auto at = text.find(end);
-  const std::string_view piece = text.substr(0, at);
-  text = at == std::string_view::npos ? std::string_view() : text.substr(at + 1);
-  return piece;
 }
 
 struct Field {
@@ -127,7 +109,7 @@ class Reader {
     described.part = current_part_;
     auto& of = described.of;
     const auto take_number = [&](std::optional<double>& into) -> Result<void> {
-      into = number_of(field.value);
+      into = parse_finite(field.value);
       if (into) return {};
       return fail(Errc::Syntax, "K{}/{}: '{}' is no number", field.key, field.number, field.value);
     };
@@ -140,7 +122,7 @@ class Reader {
         return {};
       case 2022:
         of.decimals =
-            static_cast<std::uint8_t>(std::clamp(number_of(field.value).value_or(3), 0.0, 12.0));
+            static_cast<std::uint8_t>(std::clamp(parse_finite(field.value).value_or(3), 0.0, 12.0));
         return {};
       case 2101:
         return take_number(of.nominal);
@@ -183,7 +165,7 @@ class Reader {
   }
 
   Result<void> open(Described& described, std::string_view text) {
-    const auto value = number_of(text);
+    const auto value = parse_finite(text);
     if (!value) return fail(Errc::Syntax, "'{}' is no value", one_line(text.substr(0, 40)));
     Measurement m;
     const Part& part = parts_[described.part];

@@ -15,8 +15,6 @@ namespace {
 using measurement::Characteristic;
 using measurement::Measurement;
 
-constexpr char kFieldEnd = 0x14, kCharacteristicEnd = 0x0F;
-
 struct PartKey {
   std::string program, machine;
   auto operator<=>(const PartKey&) const = default;
@@ -39,7 +37,7 @@ class Catalog {
     }
     const auto [part, is_new_part] =
         parts_.try_emplace(PartKey{m.program, m.machine}, described_.size());
-    if (is_new_part) described_.push_back({part->first, {}});
+    if (is_new_part) described_.push_back({part->first, {}, 1});
     auto& characteristics = described_[part->second].characteristics;
     const auto [found, is_new] = index_.try_emplace(key(part->second, m), characteristics.size());
     if (!is_new) return {};
@@ -48,20 +46,24 @@ class Catalog {
     return fail(Errc::LimitExceeded, "over {} characteristics in one file", kMaxAqdef);
   }
 
+  /// After the last of add().
+  void number_parts() {
+    std::size_t next = 1;
+    for (DescribedPart& part : described_) {
+      part.first = next;
+      next += part.characteristics.size();
+    }
+  }
   /// From 1.
   std::size_t number(const Measurement& m) const {
     const std::size_t part = parts_.at({m.program, m.machine});
-    return first_of(part) + index_.at(key(part, m));
-  }
-  std::size_t first_of(std::size_t part) const {
-    std::size_t first = 1;
-    for (std::size_t i = 0; i < part; ++i) first += described_[i].characteristics.size();
-    return first;
+    return described_[part].first + index_.at(key(part, m));
   }
 
   struct DescribedPart {
     PartKey key;
     std::vector<Characteristic> characteristics;
+    std::size_t first = 1;  ///< number of its first characteristic
   };
   const std::vector<DescribedPart>& parts() const { return described_; }
   std::size_t count() const { return count_; }
@@ -82,6 +84,7 @@ Result<Catalog> catalog_of(MeasurementSource& source) {
   Catalog catalog;
   auto done = source.each([&](const Measurement& m) { return catalog.add(m); });
   if (!done) return fail(done.error());
+  catalog.number_parts();
   return catalog;
 }
 

@@ -108,18 +108,13 @@ Result<void> write_part_report(MeasurementSource& source, const PartReportHead& 
       xml_text(head.title), kStyle);
   if (!head.note.empty()) begin += fmt::format("<p>{}</p>\n", xml_text(head.note));
   if (auto written = sink(begin); !written) return written;
-  std::vector<Measurement> part;
-  auto done = source.each([&](const Measurement& m) -> Result<void> {
-    if (!part.empty() && !is_same_part(part.front(), m)) {
-      if (auto written = sink(section(part)); !written) return written;
-      part.clear();
-    }
-    part.push_back(m);
-    return {};
+  bool is_empty = true;
+  auto done = each_part(source, [&](const std::vector<Measurement>& part) {
+    is_empty = false;
+    return sink(section(part));
   });
   if (!done) return done;
-  if (part.empty()) return fail(Errc::LimitExceeded, "a report of no measurement");
-  if (auto written = sink(section(part)); !written) return written;
+  if (is_empty) return fail(Errc::LimitExceeded, "a report of no measurement");
   return sink(
       "<footer>Limits are as they were when the part was measured. Values are as the machine "
       "reported them.</footer>\n"

@@ -5,9 +5,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <optional>
+
+#include "protocol/base/units.hpp"
 
 namespace dripline::measurement_files {
 namespace {
@@ -70,7 +71,7 @@ Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source) {
     if (m.record != pending.record || m.machine != pending.machine || pending.at[axis]) close();
     pending.record = m.record;
     pending.machine = m.machine;
-    pending.at[axis] = m.characteristic.unit == "inch" ? m.actual * 25.4 : m.actual;
+    pending.at[axis] = m.characteristic.unit == "inch" ? Length::inch(m.actual).mm() : m.actual;
     if (points.size() < kMaxPoints) return {};
     return fail(Errc::LimitExceeded, "over {} digitized points", kMaxPoints);
   });
@@ -123,11 +124,6 @@ Result<void> write_dxf(std::span<const DigitizedPoint> points, double gap, const
 }
 
 namespace {
-
-struct Sums {
-  std::vector<double> heights;
-  std::vector<std::uint32_t> counts;
-};
 
 /// Cells without a point take the mean of neighbors that have a height, in rounds from the outside
 /// of each hole.

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-
 #include "clients/tools/measurement_files/points.hpp"
 
 namespace dripline::measurement_files {
@@ -17,13 +13,9 @@ bool read_numbers(std::string_view line, std::vector<double>& numbers) {
     if (begin == std::string_view::npos) return true;
     line.remove_prefix(begin);
     const std::string_view word = line.substr(0, line.find_first_of(kBetween));
-    double value = 0;
-    const char* first = word.data() + (word.front() == '+' ? 1 : 0);
-    const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-      return false;
-    if (numbers.size() == 3) return false;
-    numbers.push_back(value);
+    const auto value = parse_finite(word.substr(word.front() == '+' ? 1 : 0));
+    if (!value || numbers.size() == 3) return false;
+    numbers.push_back(*value);
     line.remove_prefix(word.size());
   }
 }
@@ -37,10 +29,7 @@ Result<std::vector<DigitizedPoint>> read_points(std::string_view file) {
   if (file.starts_with("\xEF\xBB\xBF")) file.remove_prefix(3);
   while (!file.empty()) {
     ++line;
-    const auto end = std::min(file.find('\n'), file.size());
-    const std::string_view text = file.substr(0, end);
-    file.remove_prefix(std::min(file.size(), end + 1));
-    const bool is_read = read_numbers(text, numbers);
+    const bool is_read = read_numbers(take_until(file, '\n'), numbers);
     if (is_read && numbers.empty()) continue;
     if (!is_read && line == 1) continue;  // the names of the columns
     if (!is_read || numbers.size() < 2)

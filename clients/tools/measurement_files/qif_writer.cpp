@@ -47,7 +47,7 @@ struct Outline {
   Sha256 digest;  ///< of what identifies the measurements
 };
 
-Result<void> add(Outline& outline, const Measurement& m, const std::optional<Measurement>& before) {
+Result<void> add(Outline& outline, const Measurement& m) {
   if (auto known = quantity_of(m.characteristic); !known) return fail(known.error());
   if (!std::isfinite(m.actual)) {
     return fail(Errc::LimitExceeded, "characteristic {}: a value that is not finite",
@@ -56,7 +56,6 @@ Result<void> add(Outline& outline, const Measurement& m, const std::optional<Mea
   const auto [found, is_new] =
       outline.index.try_emplace(key_of(m.characteristic), outline.characteristics.size());
   if (is_new) outline.characteristics.push_back(m.characteristic);
-  if (!before || !is_same_part(*before, m)) ++outline.parts;
   ++outline.measurements;
   outline.has_inch = outline.has_inch || m.characteristic.unit == "inch";
   outline.digest.update(fmt::format("{}/{}/{}/{}/{}/{};", m.machine, m.record.epoch,
@@ -258,29 +257,21 @@ class Writer {
 
 Result<void> write_qif(MeasurementSource& source, const Sink& sink) {
   Outline outline;
-  std::optional<Measurement> before;
-  auto scanned = source.each([&](const Measurement& m) -> Result<void> {
-    auto added = add(outline, m, before);
-    before = m;
-    return added;
+  auto scanned = each_part(source, [&](const std::vector<Measurement>& part) -> Result<void> {
+    ++outline.parts;
+    for (const Measurement& m : part) {
+      if (auto added = add(outline, m); !added) return added;
+    }
+    return {};
   });
   if (!scanned) return scanned;
   if (outline.measurements == 0)
     return fail(Errc::LimitExceeded, "QIF results without a measurement");
   Writer writer(outline, sink);
   if (auto written = writer.head(); !written) return written;
-  std::vector<Measurement> part;
-  auto done = source.each([&](const Measurement& m) -> Result<void> {
-    if (!part.empty() && !is_same_part(part.front(), m)) {
-      if (auto written = writer.part(part); !written) return written;
-      part.clear();
-    }
-    part.push_back(m);
-    return {};
-  });
-  if (!done) return done;
-  if (auto written = writer.part(part); !written) return written;
-  return writer.tail();
+  auto done =
+      each_part(source, [&](const std::vector<Measurement>& part) { return writer.part(part); });
+  return done ? writer.tail() : done;
 }
 
 }  // namespace dripline::measurement_files

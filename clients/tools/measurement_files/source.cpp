@@ -6,10 +6,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/base/utf8.hpp"
+
 namespace dripline::measurement_files {
 namespace {
 
-constexpr unsigned kMostDecimals = 17;
+constexpr unsigned kMaxDecimals = 17;
 
 /// Windows-1252 from 0x80 to 0x9F; 0: not used.
 constexpr std::array<char32_t, 32> kUpper{
@@ -18,28 +20,16 @@ constexpr std::array<char32_t, 32> kUpper{
     0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0,      0x017E, 0x0178};
 constexpr char32_t kUnknown = 0xFFFD;
 
-/// Takes one character off; damaged bytes give kUnknown.
+/// Takes one character off; damaged bytes give kUnknown, each by itself.
 char32_t take_character(std::string_view& text) {
-  const auto lead = static_cast<unsigned char>(text.front());
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xC0 ? 0
-                             : lead < 0xE0 ? 2
-                             : lead < 0xF0 ? 3
-                                           : 4;
-  if (length == 0 || length > text.size()) {
-    text.remove_prefix(1);
-    return kUnknown;
-  }
+  const std::size_t length = utf8_length(text);
+  const std::string_view bytes = text.substr(0, std::max<std::size_t>(1, length));
+  text.remove_prefix(bytes.size());
+  if (length == 0) return kUnknown;
+  const auto lead = static_cast<unsigned char>(bytes.front());
   char32_t code = length == 1 ? lead : lead & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    const auto next = static_cast<unsigned char>(text[i]);
-    if ((next & 0xC0U) != 0x80) {
-      text.remove_prefix(i);
-      return kUnknown;
-    }
-    code = (code << 6U) | (next & 0x3FU);
-  }
-  text.remove_prefix(length);
+  for (const char next : bytes.substr(1))
+    code = (code << 6U) | (static_cast<unsigned char>(next) & 0x3FU);
   return code;
 }
 
@@ -59,7 +49,7 @@ void append_utf8(std::string& text, char32_t code) {
 }  // namespace
 
 std::string decimal_text(double value, unsigned decimals) {
-  for (unsigned tried = decimals; tried <= kMostDecimals; ++tried) {
+  for (unsigned tried = decimals; tried <= kMaxDecimals; ++tried) {
     std::string text = fmt::format("{:.{}f}", value, tried);
     double again = 0;
     std::from_chars(text.data(), text.data() + text.size(), again);
@@ -67,7 +57,22 @@ std::string decimal_text(double value, unsigned decimals) {
   }
   // Seventeen digits from the first one that is not 0.
   const double leading = value == 0 ? 0 : std::max(0.0, -std::floor(std::log10(std::abs(value))));
-  return fmt::format("{:.{}f}", value, kMostDecimals + static_cast<unsigned>(leading));
+  return fmt::format("{:.{}f}", value, kMaxDecimals + static_cast<unsigned>(leading));
+}
+
+std::optional<double> parse_finite(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+std::string_view take_until(std::string_view& text, char end) {
+  const auto at = text.find(end);
+  const std::string_view piece = text.substr(0, at);
+  text = at == std::string_view::npos ? std::string_view() : text.substr(at + 1);
+  return piece;
 }
 
 std::string one_line(std::string_view text) {
@@ -109,6 +114,21 @@ std::string from_windows_1252(std::string_view bytes) {
 bool is_same_part(const measurement::Measurement& a, const measurement::Measurement& b) {
   return a.machine == b.machine && a.run == b.run && a.part_id == b.part_id && a.part == b.part &&
          a.serial == b.serial && a.program == b.program;
+}
+
+Result<void> each_part(
+    MeasurementSource& source,
+    const std::function<Result<void>(const std::vector<measurement::Measurement>&)>& visit) {
+  std::vector<measurement::Measurement> part;
+  auto done = source.each([&](const measurement::Measurement& m) -> Result<void> {
+    if (!part.empty() && !is_same_part(part.front(), m)) {
+      if (auto visited = visit(part); !visited) return visited;
+      part.clear();
+    }
+    part.push_back(m);
+    return {};
+  });
+  return done && !part.empty() ? visit(part) : done;
 }
 
 }  // namespace dripline::measurement_files

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "protocol/base/result.hpp"
 #include "protocol/measurement/measurement.hpp"
@@ -27,6 +29,10 @@ using Sink = std::function<Result<void>(std::string_view)>;
 /// The shortest decimals that give `value` again, `decimals` at least; never an exponent. "nan" and
 /// "inf" do not occur: a measurement that is not finite is refused by who writes it.
 std::string decimal_text(double value, unsigned decimals);
+/// The whole of `text`, as std::from_chars reads it; nullopt: it is none or not finite.
+std::optional<double> parse_finite(std::string_view text);
+/// Takes the text up to `end` off, and `end` with it; without one all that is left.
+std::string_view take_until(std::string_view& text, char end);
 /// Without a line end or a control character, which most formats cannot hold in one field: they
 /// become spaces.
 std::string one_line(std::string_view text);
@@ -36,5 +42,9 @@ std::string from_windows_1252(std::string_view bytes);
 
 /// What belongs together as a workpiece.
 bool is_same_part(const measurement::Measurement& a, const measurement::Measurement& b);
+/// The measurements of one workpiece after the other, never none.
+Result<void> each_part(
+    MeasurementSource& source,
+    const std::function<Result<void>(const std::vector<measurement::Measurement>&)>& visit);
 
 }  // namespace dripline::measurement_files

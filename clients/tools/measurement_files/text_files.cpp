@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -40,8 +39,8 @@ std::string csv_line(const Measurement& m) {
   };
   std::optional<double> off = deviation(m);
   // 39.98 - 40 is not -0.02 in binary; the deviation has the decimals of its terms.
-  if (off)
-    off = std::round(*off * std::pow(10.0, of.decimals + 3)) / std::pow(10.0, of.decimals + 3);
+  const double scale = std::pow(10.0, of.decimals + 3);
+  if (off) off = std::round(*off * scale) / scale;
   return fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", m.id,
       to_iso8601(m.time), csv_field(m.machine), csv_field(m.run), csv_field(m.program), m.revision,
@@ -102,11 +101,8 @@ class CsvFields final : public Fields {
     const auto field = text(name);
     if (!field) return fail(field.error());
     if (field->empty()) return std::optional<double>();
-    double value = 0;
-    const char* begin = field->data() + (field->front() == '+' ? 1 : 0);
-    const auto [end, error] = std::from_chars(begin, field->data() + field->size(), value);
-    if (error == std::errc() && end == field->data() + field->size() && std::isfinite(value))
-      return std::optional<double>(value);
+    const auto value = parse_finite(std::string_view(*field).substr(field->front() == '+' ? 1 : 0));
+    if (value) return value;
     return fail(Errc::Syntax, "{} '{}' is no number", name, *field);
   }
 
@@ -168,7 +164,8 @@ void read_characteristic(FieldReader& reader, measurement::Characteristic& of) {
 Result<Measurement> read_fields(const Fields& fields) {
   FieldReader reader(fields);
   Measurement m;
-  const auto actual = reader.number("actual") ? reader.number("actual") : reader.number("value");
+  auto actual = reader.number("actual");
+  if (!actual) actual = reader.number("value");
   if (!actual && !reader.error()) return fail(Errc::Syntax, "there is no actual value");
   m.actual = actual.value_or(0);
   m.machine = reader.text(fields.has("machine") ? "machine" : "appraiser");  // of a gauge study
@@ -279,9 +276,7 @@ Result<void> read_json_lines(std::string_view file, const Visitor& visit) {
   std::size_t line = 0;
   while (!file.empty()) {
     ++line;
-    const auto end = std::min(file.find('\n'), file.size());
-    std::string_view text = file.substr(0, end);
-    file.remove_prefix(std::min(file.size(), end + 1));
+    const std::string_view text = take_until(file, '\n');
     if (text.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     const auto measurement = read_json_line(text);
     if (!measurement) return fail(at_line(line, measurement.error()));

@@ -19,9 +19,9 @@ Result<measurement::Measurement> read_json_line(std::string_view line);
 inline constexpr std::size_t kMaxLine = 64 * 1024;
 inline constexpr std::size_t kMaxColumns = 256;
 
-/// Reads a file in either form, told apart by its first character; of CSV any columns in any order,
-/// `actual` (or `value`) at least, with comma, semicolon or tab. Empty lines are skipped. Errors:
-/// Syntax (with the line), LimitExceeded.
+/// Reads a file in either form, which its first character determines; of CSV any columns in any
+/// order, `actual` (or `value`) at least, with comma, semicolon or tab. Empty lines are skipped.
+/// Errors: Syntax (with the line), LimitExceeded.
 Result<void> read_measurements(std::string_view file, const Visitor& visit);
 
 }  // namespace dripline::measurement_files

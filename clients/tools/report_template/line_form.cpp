@@ -45,7 +45,7 @@ constexpr bool is_word_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Whether a blank of the form may stand for no blank at all.
+/// Whether a blank of the form may match no blank at all.
 enum class Piece : std::uint8_t { None, Text, Mark, Word, Number };
 
 /// Makes the regular expression of a form, from left to right.
@@ -85,8 +85,10 @@ class FormReader {
       R"([ \t]*([+-]?[ \t]*(?:[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)))";
 
   void add(Piece piece, const std::string& text) {
-    const auto stands_alone = [](Piece one) { return one == Piece::Number || one == Piece::Mark; };
-    const bool is_optional = stands_alone(piece) || stands_alone(last_);
+    const auto needs_no_blank = [](Piece one) {
+      return one == Piece::Number || one == Piece::Mark;
+    };
+    const bool is_optional = needs_no_blank(piece) || needs_no_blank(last_);
     if (has_blank_ && last_ != Piece::None) pattern += is_optional ? "[ \\t]*" : "[ \\t]+";
     pattern += text;
     last_ = piece;

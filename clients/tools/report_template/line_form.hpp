@@ -56,12 +56,12 @@ struct FieldText {
 /// What a line looks like. Immutable; any thread. Time is linear in the line's length (RE2).
 class LineForm {
  public:
-  /// Literal text with fields: "BORE {feature} D {actual}". A blank stands for any blanks, beside a
+  /// Literal text with fields: "BORE {feature} D {actual}". A blank matches any blanks, beside a
   /// number or a sign like | and : also for none. Blanks and control characters at the ends of a
-  /// line do not matter. A number may have blanks before and behind its sign. `{name:number}`,
-  /// `{name:word}` and
-  /// `{name:text}` (with blanks) say what a free field is; without it is a word. `{{`, `}}` are
-  /// braces. Errors: Syntax, LimitExceeded.
+  /// line do not matter. A number may have blanks before and after its sign. `{name:number}`,
+  /// `{name:word}` and `{name:text}` (with blanks) state what a free field is; without it is a
+  /// word.
+  /// `{{`, `}}` are braces. Errors: Syntax, LimitExceeded.
   static Result<LineForm> of_form(std::string_view form, bool has_decimal_comma);
   /// A regular expression of RE2 for the whole line; its named groups are the fields, `actual_X`
   /// for actual.X. Errors: Syntax, LimitExceeded.

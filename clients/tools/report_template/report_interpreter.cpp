@@ -14,34 +14,9 @@ constexpr std::size_t kMaxGaps = 256;  ///< of counts, in a part; more are repor
 constexpr std::array<std::string_view, 6> kFindings{"unmatched", "bad_value", "missing",
                                                     "doubled",   "reordered", "incomplete"};
 
-std::optional<double> LineNumbers::*member_of(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::Actual:
-      return &LineNumbers::actual;
-    case FieldKind::Deviation:
-      return &LineNumbers::deviation;
-    case FieldKind::Nominal:
-      return &LineNumbers::nominal;
-    case FieldKind::Lower:
-      return &LineNumbers::lower;
-    case FieldKind::Upper:
-      return &LineNumbers::upper;
-    case FieldKind::Tolerance:
-      return &LineNumbers::tolerance;
-    case FieldKind::UpperDeviation:
-      return &LineNumbers::upper_deviation;
-    case FieldKind::LowerDeviation:
-      return &LineNumbers::lower_deviation;
-    default:
-      return nullptr;
-  }
-}
-
-/// What `line` has goes before what lines before it had.
+/// `line`'s own numbers have priority over those of earlier lines.
 void add_missing(LineNumbers& line, const LineNumbers& before) {
-  for (const auto member : {&LineNumbers::actual, &LineNumbers::deviation, &LineNumbers::nominal,
-                            &LineNumbers::lower, &LineNumbers::upper, &LineNumbers::tolerance,
-                            &LineNumbers::upper_deviation, &LineNumbers::lower_deviation}) {
+  for (const auto& [name, member] : kLineNumbers) {
     if (!(line.*member)) line.*member = before.*member;
   }
   line.decimals = std::max(line.decimals, before.decimals);
@@ -78,8 +53,8 @@ Taken ReportInterpreter::take(const ReportLine& line) {
   return taken;
 }
 
-/// The next of the lines that follow each other. What is ignored may stand between them; anything
-/// else ends the sequence.
+/// The next of the lines that follow each other. What is ignored may be between them; anything else
+/// ends the sequence.
 bool ReportInterpreter::take_partial(std::string_view line, Taken& taken) {
   ReportState::Partial& partial = *state_.partial;
   if (next_of_partial() == nullptr) {
@@ -110,7 +85,7 @@ bool ReportInterpreter::take_partial(std::string_view line, Taken& taken) {
     return true;
   }
   add_finding(FindingKind::Incomplete,
-              fmt::format("'{}' did not come behind '{}'", rule.steps[partial.step].text(),
+              fmt::format("'{}' did not come after '{}'", rule.steps[partial.step].text(),
                           partial.texts.back()),
               taken.events);
   state_.partial.reset();
@@ -124,23 +99,22 @@ const LineForm* ReportInterpreter::next_of_partial() const {
   return state_.partial->step < steps.size() ? &steps[state_.partial->step] : nullptr;
 }
 
-bool ReportInterpreter::take_rule(std::string_view line, Taken& taken) {
+void ReportInterpreter::take_rule(std::string_view line, Taken& taken) {
   for (std::size_t i = 0; i < template_->rules.size(); ++i) {
     const LineRule& rule = template_->rules[i];
     const auto fields = rule.steps.front().match(line);
     if (!fields) continue;
     taken.is_understood = true;
     taken.rule = i;
-    if (rule.is_ignored) return true;
+    if (rule.is_ignored) return;
     if (rule.steps.size() > 1) {
       state_.partial =
           ReportState::Partial{.rule = i, .step = 1, .texts = {std::string(trimmed(line))}};
     } else {
       apply(i, *fields, taken);
     }
-    return true;
+    return;
   }
-  return false;
 }
 
 ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<FieldText>& texts,
@@ -173,7 +147,8 @@ ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<Field
       continue;
     }
     LineNumbers& numbers = made.numbers[field->of];
-    numbers.*member_of(field->kind) = number->value;
+    const auto* row = std::ranges::find(kLineNumbers, field->name, &LineNumberRow::name);
+    numbers.*(row->member) = number->value;
     numbers.decimals = std::max(numbers.decimals, number->decimals);
   }
   return made;
@@ -232,17 +207,7 @@ void ReportInterpreter::open_part(std::vector<ReportEvent>& events) {
 
 bool ReportInterpreter::take_count(std::int64_t count, std::vector<ReportEvent>& events) {
   const std::int64_t next = state_.highest ? *state_.highest + 1 : template_->first_count;
-  if (count < template_->first_count || (count < next)) {
-    const auto gap = std::ranges::find_if(state_.missing, [&](const auto& missing) {
-      return missing.first <= count && count <= missing.second;
-    });
-    if (gap == state_.missing.end()) {
-      add_finding(FindingKind::Doubled, fmt::format("line {} came again", count), events);
-      return false;
-    }
-    take_earlier(count, events);
-    return true;
-  }
+  if (count < template_->first_count || count < next) return take_earlier(count, events);
   if (count > next) {
     if (state_.missing.size() >= kMaxGaps) {
       state_.is_incomplete = true;
@@ -256,18 +221,23 @@ bool ReportInterpreter::take_count(std::int64_t count, std::vector<ReportEvent>&
   return true;
 }
 
-void ReportInterpreter::take_earlier(std::int64_t count, std::vector<ReportEvent>& events) {
-  add_finding(FindingKind::Reordered,
-              fmt::format("line {} came behind line {}", count, *state_.highest), events);
+bool ReportInterpreter::take_earlier(std::int64_t count, std::vector<ReportEvent>& events) {
   const auto gap = std::ranges::find_if(state_.missing, [&](const auto& missing) {
     return missing.first <= count && count <= missing.second;
   });
+  if (gap == state_.missing.end()) {
+    add_finding(FindingKind::Doubled, fmt::format("line {} came again", count), events);
+    return false;
+  }
+  add_finding(FindingKind::Reordered,
+              fmt::format("line {} came after line {}", count, *state_.highest), events);
   const auto [from, to] = *gap;
   const auto at = state_.missing.erase(gap);
   std::vector<std::pair<std::int64_t, std::int64_t>> rest;
   if (from < count) rest.emplace_back(from, count - 1);
   if (count < to) rest.emplace_back(count + 1, to);
   state_.missing.insert(at, rest.begin(), rest.end());
+  return true;
 }
 
 void ReportInterpreter::take_values(const LineRule& rule, const Fields& fields,
@@ -352,7 +322,7 @@ void ReportInterpreter::find_missing(std::vector<ReportEvent>& events) {
   };
   if (const LineForm* form = next_of_partial()) {
     miss(FindingKind::Incomplete,
-         fmt::format("'{}' did not come behind '{}'", form->text(), state_.partial->texts.back()));
+         fmt::format("'{}' did not come after '{}'", form->text(), state_.partial->texts.back()));
   }
   for (const auto& [from, to] : state_.missing) miss(FindingKind::Missing, counts_text(from, to));
   if (state_.expected) {

@@ -24,7 +24,7 @@ enum class FindingKind : std::uint8_t {
   BadValue,    ///< it has, and a value in it cannot be used
   Missing,     ///< lines of a counted report that did not come
   Doubled,     ///< a line that had come already: nothing is taken from it
-  Reordered,   ///< a line that came behind a later one
+  Reordered,   ///< a line that came after a later one
   Incomplete,  ///< a part or lines that follow each other, without all that belongs to them
 };
 std::string_view to_string(FindingKind kind);  ///< unmatched, bad_value, missing, ...
@@ -80,7 +80,7 @@ class ReportInterpreter {
   };
   bool take_partial(std::string_view line, Taken& taken);
   const LineForm* next_of_partial() const;
-  bool take_rule(std::string_view line, Taken& taken);
+  void take_rule(std::string_view line, Taken& taken);
   void apply(std::size_t rule, const std::vector<FieldText>& texts, Taken& taken);
   Fields read_fields(const std::vector<FieldText>& texts, std::vector<ReportEvent>& events);
   void open_part(std::vector<ReportEvent>& events);
@@ -88,7 +88,7 @@ class ReportInterpreter {
   bool keep_texts(const LineRule& rule, const Fields& fields, std::vector<ReportEvent>& events);
   /// False: the line came before.
   bool take_count(std::int64_t count, std::vector<ReportEvent>& events);
-  void take_earlier(std::int64_t count, std::vector<ReportEvent>& events);
+  bool take_earlier(std::int64_t count, std::vector<ReportEvent>& events);
   void take_values(const LineRule& rule, const Fields& fields, std::vector<ReportEvent>& events);
   void add_value(Value value, std::vector<ReportEvent>& events);
   void add_finding(FindingKind kind, std::string text, std::vector<ReportEvent>& events);

@@ -7,33 +7,20 @@ namespace {
 
 using nlohmann::json;
 
-/// The one list of members: written and read by the same lines.
-template <class Visit>
-void each_number(LineNumbers& numbers, Visit visit) {
-  visit("actual", numbers.actual);
-  visit("deviation", numbers.deviation);
-  visit("nominal", numbers.nominal);
-  visit("lower", numbers.lower);
-  visit("upper", numbers.upper);
-  visit("tolerance", numbers.tolerance);
-  visit("upper_deviation", numbers.upper_deviation);
-  visit("lower_deviation", numbers.lower_deviation);
-}
-
-json numbers_json(LineNumbers numbers) {
+json numbers_json(const LineNumbers& numbers) {
   json made = {{"decimals", numbers.decimals}};
-  each_number(numbers, [&](const char* name, const std::optional<double>& value) {
-    if (value) made[name] = *value;
-  });
+  for (const auto& [name, member] : kLineNumbers) {
+    if (const auto& value = numbers.*member) made[name] = *value;
+  }
   return made;
 }
 
 LineNumbers numbers_of(const json& text) {
   LineNumbers made;
   made.decimals = text.at("decimals").get<std::uint8_t>();
-  each_number(made, [&](const char* name, std::optional<double>& value) {
-    if (text.contains(name)) value = text.at(name).get<double>();
-  });
+  for (const auto& [name, member] : kLineNumbers) {
+    if (text.contains(name)) made.*member = text.at(name).get<double>();
+  }
   return made;
 }
 
@@ -85,13 +72,15 @@ ReportState state_of(const json& text) {
   return state;
 }
 
-/// What no interpretation leaves behind would be computed with.
+/// Counts that no interpretation reaches would overflow the computation.
 bool is_sound(const ReportState& state) {
-  constexpr std::int64_t kMost = 1'000'000'000;  // as read from lines
-  const auto is_count = [](std::int64_t count) { return count >= -kMost && count <= kMost; };
+  constexpr std::int64_t kMaxCount = 1'000'000'000;  // as read from lines
+  const auto is_count = [](std::int64_t count) {
+    return count >= -kMaxCount && count <= kMaxCount;
+  };
   if (state.partial && state.partial->texts.empty()) return false;
   if (state.highest ? !is_count(*state.highest) : !state.missing.empty()) return false;
-  return !state.expected || *state.expected <= std::uint64_t{kMost};
+  return !state.expected || *state.expected <= std::uint64_t{kMaxCount};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -27,6 +28,21 @@ struct LineNumbers {
       lower_deviation;
   std::uint8_t decimals = 0;  ///< the most that one has
   friend bool operator==(const LineNumbers&, const LineNumbers&) = default;
+};
+
+struct LineNumberRow {
+  const char* name;  ///< in forms, and in states
+  std::optional<double> LineNumbers::*member;
+};
+inline constexpr std::array kLineNumbers{
+    LineNumberRow{"actual", &LineNumbers::actual},
+    LineNumberRow{"deviation", &LineNumbers::deviation},
+    LineNumberRow{"nominal", &LineNumbers::nominal},
+    LineNumberRow{"lower", &LineNumbers::lower},
+    LineNumberRow{"upper", &LineNumbers::upper},
+    LineNumberRow{"tolerance", &LineNumbers::tolerance},
+    LineNumberRow{"upper_deviation", &LineNumbers::upper_deviation},
+    LineNumberRow{"lower_deviation", &LineNumbers::lower_deviation},
 };
 
 /// What is known of a part while its lines come.

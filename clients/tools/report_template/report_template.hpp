@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxSteps = 8;  ///< lines of one rule
 inline constexpr std::size_t kMaxCharacteristics = 1000;
 inline constexpr std::size_t kMaxName = 128;  ///< of a characteristic, part, serial, tool
 
-/// What a template says of a characteristic; what a line says itself goes before it.
+/// What a template states of a characteristic; what a line itself states has priority.
 struct Definition {
   std::string name;  ///< replaces the one in the lines; empty: that one stays
   std::optional<double> nominal, lower, upper, tolerance, upper_deviation, lower_deviation;

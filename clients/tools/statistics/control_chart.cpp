@@ -55,10 +55,6 @@ Result<void> check_values(std::span<const double> values) {
               values.size());
 }
 
-bool is_mean_chart(ChartKind kind) {
-  return kind == ChartKind::MeanRange || kind == ChartKind::MeanDeviation;
-}
-
 Result<void> check_subgroup(ChartKind kind, std::size_t subgroup) {
   const std::size_t least = is_mean_chart(kind) ? 2 : 1;
   const std::size_t most = kind == ChartKind::Individuals ? 1 : kMaxSubgroup;
@@ -111,9 +107,13 @@ void mark_beyond(Panel& panel) {
   }
 }
 
+double sigma_of_points(const Baseline& baseline, const ChartSettings& settings) {
+  return baseline.sigma / std::sqrt(static_cast<double>(settings.subgroup));
+}
+
 Panel location_panel(std::string name, std::vector<double> points, const Baseline& baseline,
                      const ChartSettings& settings) {
-  const double sigma = baseline.sigma / std::sqrt(static_cast<double>(settings.subgroup));
+  const double sigma = sigma_of_points(baseline, settings);
   Panel panel = level_panel(std::move(name), std::move(points), baseline.center,
                             baseline.center - 3 * sigma, baseline.center + 3 * sigma);
   panel.violations = find_violations(panel.points, baseline.center, sigma, settings.rules);
@@ -160,7 +160,7 @@ Result<std::vector<Panel>> shewhart(std::span<const double> values, const Baseli
 Panel ewma_panel(const std::vector<double>& points, const Baseline& baseline,
                  const ChartSettings& settings) {
   const double weight = settings.ewma_weight;
-  const double sigma = baseline.sigma / std::sqrt(static_cast<double>(settings.subgroup));
+  const double sigma = sigma_of_points(baseline, settings);
   Panel panel;
   panel.name = "EWMA";
   panel.center = baseline.center;
@@ -182,7 +182,7 @@ Panel ewma_panel(const std::vector<double>& points, const Baseline& baseline,
 /// minus k.
 Panel cusum_panel(const std::vector<double>& points, const Baseline& baseline,
                   const ChartSettings& settings) {
-  const double sigma = baseline.sigma / std::sqrt(static_cast<double>(settings.subgroup));
+  const double sigma = sigma_of_points(baseline, settings);
   const double slack = settings.cusum_slack * sigma;
   const double decision = settings.cusum_decision * sigma;
   std::vector<double> above, below;
@@ -214,6 +214,10 @@ Result<void> check_settings(const ChartSettings& settings) {
 
 std::string_view to_string(ChartKind kind) {
   return std::ranges::find(kKinds, kind, [](const auto& row) { return row.first; })->second;
+}
+
+bool is_mean_chart(ChartKind kind) {
+  return kind == ChartKind::MeanRange || kind == ChartKind::MeanDeviation;
 }
 
 Result<ChartKind> parse_chart_kind(std::string_view name) {

@@ -20,6 +20,8 @@ enum class ChartKind : std::uint8_t {
   Cusum,
 };
 std::string_view to_string(ChartKind kind);  ///< individuals, xbar-r, xbar-s, ewma, cusum
+/// X-bar and R, X-bar and S: its points are means of subgroups.
+bool is_mean_chart(ChartKind kind);
 /// Errors: Syntax.
 Result<ChartKind> parse_chart_kind(std::string_view name);
 

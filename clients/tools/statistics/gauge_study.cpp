@@ -67,7 +67,7 @@ GaugeResult assemble(double repeatability, double reproducibility, double parts,
   result.gauge = component(gauge);
   result.parts = component(parts);
   result.total = std::sqrt(total);
-  // A gauge without variation tells any number of parts apart; 1000 is enough for a whole number.
+  // A gauge without variation distinguishes any number of parts; 1000 is enough for a whole number.
   const double categories = gauge > 0 ? 1.41 * std::sqrt(parts / gauge) : 1000;
   result.distinct_categories = static_cast<int>(std::min(categories, 1000.0));
   if (tolerance && *tolerance > 0) {

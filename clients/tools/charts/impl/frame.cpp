@@ -35,9 +35,13 @@ std::vector<std::string> broken(const std::vector<std::string>& notes, double wi
 
 }  // namespace
 
+double text_size_of(const Canvas& canvas) {
+  return std::clamp(canvas.width() / 75, 9.0, 14.0);
+}
+
 Frame draw_frame(Canvas& canvas, const Caption& caption, const std::vector<std::string>& notes) {
   Frame frame;
-  frame.text = std::clamp(canvas.width() / 75, 9.0, 14.0);
+  frame.text = text_size_of(canvas);
   const double margin = frame.text;
   const double title = frame.text * 1.35;
   const double width = canvas.width() - 2 * margin;

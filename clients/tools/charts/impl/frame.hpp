@@ -14,6 +14,8 @@ struct Frame {
   Box inside;  ///< what is left for plots and their labels
 };
 
+/// The size of all texts of a picture but its title.
+double text_size_of(const Canvas& canvas);
 /// Draws title and notes, which are broken between words where the width ends.
 Frame draw_frame(Canvas& canvas, const Caption& caption, const std::vector<std::string>& notes);
 /// How many ticks fit: one for each so many text sizes.

@@ -117,6 +117,7 @@ TEST(Windows1252, ComesBack) {
   EXPECT_EQ(to_windows_1252(text), "\xD8 40 \x80 \xDF");
   EXPECT_EQ(from_windows_1252(to_windows_1252(text)), text);
   EXPECT_EQ(to_windows_1252("\xE4\xB8\xAD\xFF"), "??");
+  EXPECT_EQ(to_windows_1252("\xC0\x8A"), "??") << "a line end in disguise";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Templates for reports that nobody here wrote: forms that the documents of public macro and post
+// Templates for reports from outside the project: forms that the documents of public macro and post
 // processor libraries and of a measuring instrument give, with values of our own. Each takes less
 // than ten lines.
 #include "tests/unit/clients/tools/report_template/reading.hpp"

@@ -98,9 +98,9 @@ TEST(ReportInterpreter, ReportsLinesThatDoNotFollow) {
   Reading reading(kSpread);
   reading.take("NAME A").take("SINGLE 1.0").take("NAME B").end();
   EXPECT_EQ(reading.brought,
-            (Brought{"incomplete: 'NOM {nominal} TOL {tolerance}' did not come behind 'NAME A'",
-                     "[", "single=1.0 unknown",
-                     "incomplete: 'NOM {nominal} TOL {tolerance}' did not come behind 'NAME B'",
+            (Brought{"incomplete: 'NOM {nominal} TOL {tolerance}' did not come after 'NAME A'", "[",
+                     "single=1.0 unknown",
+                     "incomplete: 'NOM {nominal} TOL {tolerance}' did not come after 'NAME B'",
                      "] unknown"}));
 }
 
@@ -154,8 +154,8 @@ TEST(CountedReport, TakesALateLine) {
   reading.take("BEGIN").take("1 D 1").take("4 D 1").take("3 D 1").take("2 D 1").take("3 D 1");
   reading.take("END 4");
   EXPECT_EQ(reading.brought,
-            (Brought{"[", "D1=1 good", "D4=1 good", "reordered: line 3 came behind line 4",
-                     "D3=1 good", "reordered: line 2 came behind line 4", "D2=1 good",
+            (Brought{"[", "D1=1 good", "D4=1 good", "reordered: line 3 came after line 4",
+                     "D3=1 good", "reordered: line 2 came after line 4", "D2=1 good",
                      "doubled: line 3 came again", "] good"}));
 }
 

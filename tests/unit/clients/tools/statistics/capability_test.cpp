@@ -44,7 +44,7 @@ TEST(Capability, IntervalOfCpAgreesWithMontgomery) {
   EXPECT_NEAR(interval.high, 3.01, 0.005);
 }
 
-// The approximation as it stands in Bissell (1990) and the e-Handbook: Cpk +- z sqrt(1/9n +
+// The approximation of Bissell (1990) and the e-Handbook: Cpk +- z sqrt(1/9n +
 // Cpk^2/2(n-1)).
 TEST(Capability, IntervalOfCpkIsBissells) {
   const Interval interval = bissell_interval(1.33, 100, 99, 0.95);
