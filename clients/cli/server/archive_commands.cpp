@@ -1,7 +1,7 @@
 #include "clients/cli/server/archive_commands.hpp"
 
+#include "clients/cli/measurements/measurement_text.hpp"
 #include "clients/cli/server/json_answer.hpp"
-#include "clients/cli/server/measurement_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "protocol/archive/archive_reader.hpp"

@@ -1,4 +1,4 @@
-#include "clients/cli/server/account_text.hpp"
+#include "clients/cli/accounts/account_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

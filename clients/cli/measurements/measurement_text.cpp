@@ -1,4 +1,4 @@
-#include "clients/cli/server/measurement_text.hpp"
+#include "clients/cli/measurements/measurement_text.hpp"
 
 #include <algorithm>
 

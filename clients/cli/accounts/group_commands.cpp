@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "clients/cli/accounts/account_text.hpp"
 #include "clients/cli/context.hpp"
-#include "clients/cli/server/account_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
 namespace dripline::cli {

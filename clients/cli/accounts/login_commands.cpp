@@ -1,7 +1,7 @@
 #include <memory>
 
+#include "clients/cli/accounts/account_text.hpp"
 #include "clients/cli/context.hpp"
-#include "clients/cli/server/account_text.hpp"
 #include "clients/cli/text/password_prompt.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/lib/saved_logins.hpp"

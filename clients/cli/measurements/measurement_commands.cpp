@@ -1,9 +1,9 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/measurements/measurement_text.hpp"
 #include "clients/cli/server/archive_commands.hpp"
 #include "clients/cli/server/json_answer.hpp"
-#include "clients/cli/server/measurement_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
