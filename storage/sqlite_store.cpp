@@ -6,10 +6,12 @@
 #include <thread>
 
 #include "storage/impl/account_repository.hpp"
+#include "storage/impl/attachment_repository.hpp"
 #include "storage/impl/import_repository.hpp"
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/release_repository.hpp"
 #include "storage/impl/repositories.hpp"
+#include "storage/impl/search_repository.hpp"
 #include "storage/impl/upload_repository.hpp"
 
 namespace dripline::storage {
@@ -61,7 +63,9 @@ struct SqliteStore::Repositories {
         audit(*connections),
         accounts(*connections),
         releases(*connections),
-        imports(*connections) {}
+        imports(*connections),
+        attachments(*connections, uploads, clock),
+        search(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -75,6 +79,8 @@ struct SqliteStore::Repositories {
   AccountRepository accounts;
   ReleaseRepository releases;
   ImportRepository imports;
+  AttachmentRepository attachments;
+  SearchRepository search;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -89,7 +95,8 @@ SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
     : Store{repositories->programs, repositories->uploads, repositories->machines,
             repositories->runs,     repositories->records, repositories->ports,
             repositories->setups,   repositories->audit,   repositories->accounts,
-            repositories->releases, repositories->imports},
+            repositories->releases, repositories->imports, repositories->attachments,
+            repositories->search},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "storage/account_store.hpp"
+#include "storage/attachment_store.hpp"
 #include "storage/audit_store.hpp"
 #include "storage/import_store.hpp"
 #include "storage/machine_store.hpp"
@@ -9,12 +10,13 @@
 #include "storage/record_store.hpp"
 #include "storage/release_store.hpp"
 #include "storage/run_store.hpp"
+#include "storage/search_store.hpp"
 #include "storage/setup_store.hpp"
 #include "storage/upload_store.hpp"
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: eleven interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: thirteen interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -30,6 +32,8 @@ struct Store {
   AccountStore& accounts;
   ReleaseStore& releases;
   ImportStore& imports;
+  AttachmentStore& attachments;
+  SearchStore& search;
 };
 
 }  // namespace dripline::storage
