@@ -160,7 +160,15 @@ json revision_json(const storage::Revision& revision, const std::string& title) 
           {"accepted", optional_time(revision.accepted)},
           {"state", storage::to_string(revision.state)},
           {"released", optional_time(revision.released)},
-          {"withdrawn", optional_time(revision.withdrawn)}};
+          {"withdrawn", optional_time(revision.withdrawn)},
+          {"cam_file", optional_text(revision.cam_file)}};
+}
+
+json fields_json(const storage::ProgramFields& fields) {
+  return {{"part", optional_text(fields.part)},
+          {"operation", optional_text(fields.operation)},
+          {"material", optional_text(fields.material)},
+          {"machine_group", optional_text(fields.machine_group)}};
 }
 
 json program_json(const storage::ProgramSummary& program, const std::string& title) {
@@ -169,6 +177,7 @@ json program_json(const storage::ProgramSummary& program, const std::string& tit
   view["name"] = program.latest.program;
   view["revisions"] = program.revisions;
   view["held_revisions"] = program.held;
+  view.update(fields_json(program.fields));
   return view;
 }
 

@@ -14,12 +14,14 @@
 #include "server/api/http_server.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/imports/imports.hpp"
+#include "server/library/attachments.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
 #include "server/library/certificate_watch.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/health.hpp"
+#include "server/library/program_search.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
 #include "server/machines/machine_registry.hpp"
@@ -172,12 +174,10 @@ struct Server::Parts {
         backups(make_backups(std::move(backup_folder), settings)),
         accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, loaded.users),
         programs(*store, clock, catalog, audit),
-        releases({.decisions = store->releases,
-                  .programs = store->programs,
-                  .clock = clock,
-                  .key = loaded.key,
-                  .database = loaded.identity},
+        releases({.store = *store, .clock = clock, .key = loaded.key, .database = loaded.identity},
                  loaded.policy),
+        attachments(*store),
+        search(*store),
         runs(*store),
         paths({.store = *store, .releases = releases, .clock = clock}),
         imports({.store = *store,
@@ -195,6 +195,8 @@ struct Server::Parts {
         machines(store->runs, machine_service, ports.machines()),
         api({.programs = programs,
              .releases = releases,
+             .attachments = attachments,
+             .search = search,
              .setups = setups,
              .machines = machines,
              .runs = runs,
@@ -325,6 +327,8 @@ struct Server::Parts {
   identity::Accounts accounts;
   library::Programs programs;
   library::Releases releases;
+  library::Attachments attachments;
+  library::ProgramSearch search;
   library::RunHistory runs;
   paths::ProgramPaths paths;
   api::EventHub events;

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "clients/lib/client.hpp"
 #include "clients/lib/http.hpp"
 
 /// Parts of the requests that the calls of Client send. Pure.
@@ -16,6 +17,8 @@ std::string path_of(std::string_view collection);
 std::string path_of(std::string_view collection, std::string_view item);
 /// Adds `key=value` to a path's query; nothing for an empty value.
 std::string with_query(std::string path, std::string_view key, std::string_view value);
+/// Those that are given.
+void add_fields(nlohmann::json& body, const FieldChange& change);
 /// A body; bytes that are not UTF-8 are replaced.
 std::string dumped(const nlohmann::json& body);
 
