@@ -24,7 +24,7 @@ std::string content_disposition(std::string_view name);
 class Attachments {
  public:
   explicit Attachments(const storage::Store& store)
-      : store_(store.attachments), uploads_(store.uploads), programs_(store.programs) {}
+      : store_(store.attachments), uploads_(store.uploads) {}
 
   struct Request {
     storage::AttachmentName name;
@@ -50,7 +50,6 @@ class Attachments {
  private:
   storage::AttachmentStore& store_;
   storage::UploadStore& uploads_;
-  storage::ProgramStore& programs_;
 };
 
 }  // namespace dripline::library

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "gateway/interpreter/core/language/number.hpp"
 #include "gateway/interpreter/dialects/fanuc/options.hpp"
