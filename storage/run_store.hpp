@@ -83,7 +83,8 @@ class RunStore {
 
   /// Errors: Busy (the machine has an unfinished run; named), NotFound (machine or revision),
   /// Conflict (the content is not the revision's, the revision is held, was withdrawn, or is not
-  /// released although the run is allowed as one that is; or the id was used before).
+  /// released although the run is allowed as one that is; what its approval pins was withdrawn; or
+  /// the id was used before).
   virtual Result<void> create(const Run& run) = 0;
   /// Errors: NotFound.
   virtual Result<Run> find(const std::string& id) = 0;

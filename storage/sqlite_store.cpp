@@ -7,6 +7,7 @@
 
 #include "storage/impl/account_repository.hpp"
 #include "storage/impl/archive_repository.hpp"
+#include "storage/impl/attachment_repository.hpp"
 #include "storage/impl/import_repository.hpp"
 #include "storage/impl/measurement_repository.hpp"
 #include "storage/impl/offset_repository.hpp"
@@ -14,6 +15,7 @@
 #include "storage/impl/release_repository.hpp"
 #include "storage/impl/report_template_repository.hpp"
 #include "storage/impl/repositories.hpp"
+#include "storage/impl/search_repository.hpp"
 #include "storage/impl/upload_repository.hpp"
 
 namespace dripline::storage {
@@ -69,7 +71,9 @@ struct SqliteStore::Repositories {
         report_templates(*connections),
         measurements(*connections),
         archives(*connections),
-        offsets(*connections) {}
+        offsets(*connections),
+        attachments(*connections, uploads, clock),
+        search(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -87,6 +91,8 @@ struct SqliteStore::Repositories {
   MeasurementRepository measurements;
   ArchiveRepository archives;
   OffsetRepository offsets;
+  AttachmentRepository attachments;
+  SearchRepository search;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -102,7 +108,8 @@ SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
             repositories->runs,         repositories->records,  repositories->ports,
             repositories->setups,       repositories->audit,    repositories->accounts,
             repositories->releases,     repositories->imports,  repositories->report_templates,
-            repositories->measurements, repositories->archives, repositories->offsets},
+            repositories->measurements, repositories->archives, repositories->offsets,
+            repositories->attachments,  repositories->search},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

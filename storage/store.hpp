@@ -2,6 +2,7 @@
 
 #include "storage/account_store.hpp"
 #include "storage/archive_store.hpp"
+#include "storage/attachment_store.hpp"
 #include "storage/audit_store.hpp"
 #include "storage/import_store.hpp"
 #include "storage/machine_store.hpp"
@@ -13,12 +14,13 @@
 #include "storage/release_store.hpp"
 #include "storage/report_template_store.hpp"
 #include "storage/run_store.hpp"
+#include "storage/search_store.hpp"
 #include "storage/setup_store.hpp"
 #include "storage/upload_store.hpp"
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: fifteen interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: seventeen interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -38,6 +40,8 @@ struct Store {
   MeasurementStore& measurements;
   ArchiveStore& archives;
   OffsetStore& offsets;
+  AttachmentStore& attachments;
+  SearchStore& search;
 };
 
 }  // namespace dripline::storage

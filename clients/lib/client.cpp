@@ -147,6 +147,13 @@ Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* me
 
 template Reply<Revision> Client::fetch(HttpRequest, std::string_view);
 template Reply<RevisionStates> Client::fetch(HttpRequest, std::string_view);
+template Reply<Closure> Client::fetch(HttpRequest, std::string_view);
+template Reply<ProgramHistory> Client::fetch(HttpRequest, std::string_view);
+template Reply<Upload> Client::fetch(HttpRequest, std::string_view);
+template Reply<Attachment> Client::fetch(HttpRequest, std::string_view);
+template Reply<SearchResult> Client::fetch(HttpRequest, std::string_view);
+template Reply<std::vector<Program>> Client::fetch_list(const std::string&, const char*);
+template Reply<std::vector<Attachment>> Client::fetch_list(const std::string&, const char*);
 template Reply<Session> Client::fetch(HttpRequest, std::string_view);
 template Reply<User> Client::fetch(HttpRequest, std::string_view);
 template Reply<Token> Client::fetch(HttpRequest, std::string_view);
@@ -250,6 +257,7 @@ Reply<Upload> Client::open_upload(const UploadRequest& request) {
   Json json{{"program", request.program}};
   if (!request.control.empty()) json["control"] = request.control;
   if (!request.comment.empty()) json["comment"] = request.comment;
+  impl::add_fields(json, request.fields);
   return fetch<Upload>(with_method("POST", path_of("uploads")), dumped(json));
 }
 

@@ -19,12 +19,51 @@ struct Page {
   std::uint64_t offset = 0;
 };
 
+/// New values of fields; what is absent stays, an empty text takes the value away.
+struct FieldChange {
+  std::optional<std::string> part, operation, material, machine_group, cam_file;
+};
+
 struct UploadRequest {
   std::string program;
   /// Empty: the server detects the control; no comment.
   std::string control, comment;
   /// Also replaces a program that is protected.
   bool overrides_protection = false;
+  FieldChange fields = {};
+};
+
+struct AttachmentRequest {
+  std::string program;
+  std::optional<std::uint64_t> revision;  ///< absent: it belongs to the program
+  std::string name;
+  std::string comment;
+};
+
+struct AttachmentRange {
+  std::string program;
+  std::optional<std::uint64_t> revision;
+  std::string name;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;  ///< > 0
+};
+
+/// What listings and searches choose by; empty: all.
+struct ProgramChoice {
+  std::string part, operation, material, machine_group, control, author, state;
+
+  bool is_empty() const {
+    return part.empty() && operation.empty() && material.empty() && machine_group.empty() &&
+           control.empty() && author.empty() && state.empty();
+  }
+};
+
+struct SearchQuery {
+  std::string words;
+  ProgramChoice choice;
+  std::string machine;
+  bool with_replaced = false;
+  std::uint64_t before = 0, limit = 20;
 };
 
 struct CommitRequest {
@@ -188,6 +227,21 @@ class Client {
   Reply<void> export_audit(const std::function<bool(std::string_view)>& sink);
 
   Reply<std::vector<Program>> programs(Page page);
+  /// The next of those that are chosen, past the name `after`.
+  Reply<std::vector<Program>> programs(const ProgramChoice& choice, std::uint64_t limit,
+                                       const std::string& after);
+  Reply<SearchResult> search(const SearchQuery& query);
+  /// `revision`: for the CAM file; absent: the latest.
+  Reply<ProgramHistory> describe_program(std::string_view name,
+                                         std::optional<std::uint64_t> revision,
+                                         const FieldChange& change);
+  /// Those of the program and of `revision`; absent: of all its revisions.
+  Reply<std::vector<Attachment>> attachments(std::string_view program,
+                                             std::optional<std::uint64_t> revision);
+  Reply<Upload> open_attachment(const AttachmentRequest& request);
+  Reply<Attachment> commit_attachment(std::string_view upload, const std::string& sha256);
+  Reply<std::string> attachment_bytes(const AttachmentRange& range);
+  Reply<void> remove_attachment(const AttachmentRequest& attachment);
   Reply<ProgramHistory> program(std::string_view name);
   /// `overrides_protection`: also removes a program that is protected against erasing.
   Reply<void> remove_program(std::string_view name, bool overrides_protection = false);
@@ -200,7 +254,18 @@ class Client {
     std::string program;
     std::uint64_t revision = 0;
     std::string comment;
+    // Of a release:
+    bool has_closure = false;            ///< what it calls is pinned, and released with it
+    std::string machine = {};            ///< its newest setup binds codes to programs
+    std::vector<std::string> with = {};  ///< NAME or NAME@REVISION
   };
+  struct ClosureQuery {
+    std::string program;
+    std::optional<std::uint64_t> revision;  ///< absent: the latest
+    std::string machine;
+    std::vector<std::string> with;
+  };
+  Reply<Closure> closure(const ClosureQuery& query);
   /// `step`: submit, approve, release, withdraw.
   Reply<Revision> decide(std::string_view step, const DecisionRequest& request);
   /// The revision, a draft again; nullopt: it came from a machine and is hidden.

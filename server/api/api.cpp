@@ -17,6 +17,8 @@ Api::Api(Services services)
   add_audit_routes(router_, services_);
   add_program_routes(router_, services_);
   add_release_routes(router_, services_);
+  add_attachment_routes(router_, services_);
+  add_search_routes(router_, services_);
   add_comparison_routes(router_, services_);
   add_check_routes(router_, services_);
   add_import_routes(router_, services_);

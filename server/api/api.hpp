@@ -14,10 +14,12 @@
 #include "server/api/router.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/imports/imports.hpp"
+#include "server/library/attachments.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
 #include "server/library/health.hpp"
+#include "server/library/program_search.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
 #include "server/library/retention.hpp"
@@ -44,6 +46,8 @@ struct ServerFacts {
 struct Services {
   library::Programs& programs;
   library::Releases& releases;
+  library::Attachments& attachments;
+  library::ProgramSearch& search;
   library::Setups& setups;
   machines::MachineControl& machines;
   library::RunHistory& runs;
@@ -124,6 +128,8 @@ void add_server_routes(Router& router, Services& services);
 void add_audit_routes(Router& router, Services& services);
 void add_program_routes(Router& router, Services& services);
 void add_release_routes(Router& router, Services& services);
+void add_attachment_routes(Router& router, Services& services);
+void add_search_routes(Router& router, Services& services);
 void add_comparison_routes(Router& router, Services& services);
 void add_check_routes(Router& router, Services& services);
 void add_import_routes(Router& router, Services& services);

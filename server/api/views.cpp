@@ -154,7 +154,15 @@ json revision_json(const storage::Revision& revision, const std::string& title) 
           {"accepted", time_or_null(revision.accepted)},
           {"state", storage::to_string(revision.state)},
           {"released", time_or_null(revision.released)},
-          {"withdrawn", time_or_null(revision.withdrawn)}};
+          {"withdrawn", time_or_null(revision.withdrawn)},
+          {"cam_file", text_or_null(revision.cam_file)}};
+}
+
+json fields_json(const storage::ProgramFields& fields) {
+  return {{"part", text_or_null(fields.part)},
+          {"operation", text_or_null(fields.operation)},
+          {"material", text_or_null(fields.material)},
+          {"machine_group", text_or_null(fields.machine_group)}};
 }
 
 json program_json(const storage::ProgramSummary& program, const std::string& title) {
@@ -163,6 +171,7 @@ json program_json(const storage::ProgramSummary& program, const std::string& tit
   view["name"] = program.latest.program;
   view["revisions"] = program.revisions;
   view["held_revisions"] = program.held;
+  view.update(fields_json(program.fields));
   return view;
 }
 

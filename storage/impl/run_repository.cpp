@@ -133,6 +133,24 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
   return (*found)->program;
 }
 
+/// Of a run under a release that pins what its program calls: none of that was withdrawn since.
+Result<void> check_pins(sqlite::Database& database, const Run& run) {
+  if (!run.approval) return {};
+  const auto withdrawn = sqlite::first_row(
+      database,
+      "SELECT revision_pin.name, revision_pin.revision FROM revision_pin JOIN revision "
+      "ON revision.program = revision_pin.program AND revision.number = revision_pin.revision "
+      "WHERE revision_pin.step = ?1 AND revision.state <> 'released' LIMIT 1",
+      [](const sqlite::Statement& row) {
+        return fmt::format("{} revision {}", row.text(0), row.number(1));
+      },
+      *run.approval);
+  if (!withdrawn) return fail(withdrawn.error());
+  if (!*withdrawn) return {};
+  return fail(Errc::Conflict, "program {} revision {} calls {}, which was withdrawn", run.program,
+              run.revision, **withdrawn);
+}
+
 Result<void> check_idle(sqlite::Database& database, std::int64_t machine, const std::string& name) {
   const auto unfinished = sqlite::first_row(
       database, "SELECT id FROM run WHERE machine = ?1 AND state IN ('ordered', 'active')",
@@ -166,6 +184,7 @@ Result<void> RunRepository::create(const Run& run) {
     if (!machine) return fail(machine.error());
     const auto program = known_revision(database, run);
     if (!program) return fail(program.error());
+    if (auto allowed = check_pins(database, run); !allowed) return allowed;
     if (!is_finished(run.state)) {
       if (auto idle = check_idle(database, *machine, run.machine); !idle) return idle;
     }

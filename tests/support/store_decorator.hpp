@@ -10,8 +10,16 @@ class ProgramStoreDecorator : public storage::ProgramStore {
  public:
   explicit ProgramStoreDecorator(const storage::Store& inner) : inner_(inner.programs) {}
 
-  Result<std::vector<storage::ProgramSummary>> list(storage::Page page) override {
-    return inner_.list(page);
+  using storage::ProgramStore::list;
+  Result<std::vector<storage::ProgramSummary>> list(const storage::ProgramFilter& filter,
+                                                    storage::Page page) override {
+    return inner_.list(filter, page);
+  }
+  Result<storage::ProgramFields> fields(const std::string& program) override {
+    return inner_.fields(program);
+  }
+  Result<void> describe(const storage::Description& description) override {
+    return inner_.describe(description);
   }
   Result<std::uint64_t> count() override { return inner_.count(); }
   Result<std::vector<storage::Revision>> revisions(const std::string& program) override {
@@ -125,21 +133,25 @@ class RecordStoreDecorator : public storage::RecordStore {
 
 /// `store` with one of its parts replaced; the part must outlive it.
 inline storage::Store with(const storage::Store& store, storage::ProgramStore& programs) {
-  return {programs,      store.uploads,          store.machines,     store.runs,     store.records,
-          store.ports,   store.setups,           store.audit,        store.accounts, store.releases,
-          store.imports, store.report_templates, store.measurements, store.archives, store.offsets};
+  return {programs,           store.uploads,  store.machines, store.runs,
+          store.records,      store.ports,    store.setups,   store.audit,
+          store.accounts,     store.releases, store.imports,  store.report_templates,
+          store.measurements, store.archives, store.offsets,  store.attachments,
+          store.search};
 }
 inline storage::Store with(const storage::Store& store, storage::MachineStore& machines) {
   return {store.programs,     store.uploads,  machines,      store.runs,
           store.records,      store.ports,    store.setups,  store.audit,
           store.accounts,     store.releases, store.imports, store.report_templates,
-          store.measurements, store.archives, store.offsets};
+          store.measurements, store.archives, store.offsets, store.attachments,
+          store.search};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
-  return {
-      store.programs, store.uploads,          store.machines,     store.runs,     records,
-      store.ports,    store.setups,           store.audit,        store.accounts, store.releases,
-      store.imports,  store.report_templates, store.measurements, store.archives, store.offsets};
+  return {store.programs,     store.uploads,  store.machines, store.runs,
+          records,            store.ports,    store.setups,   store.audit,
+          store.accounts,     store.releases, store.imports,  store.report_templates,
+          store.measurements, store.archives, store.offsets,  store.attachments,
+          store.search};
 }
 
 }  // namespace dripline::test_support

@@ -6,7 +6,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/server/json_answer.hpp"
-#include "clients/cli/server/program_name.hpp"
+#include "clients/cli/text/named_revision.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "protocol/base/units.hpp"
@@ -99,7 +99,7 @@ int print_check(const Context& context, const Json& result) {
 }
 
 int check_program(Context& context, client::Client& client, const ProgramCheck& command) {
-  const auto [name, revision] = name_and_revision(command.program);
+  const auto [name, revision] = named_revision(command.program);
   const auto answer =
       client.check({.program = name, .revision = revision, .machine = command.machine});
   if (!answer) {

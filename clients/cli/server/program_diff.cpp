@@ -5,7 +5,7 @@
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/comparison_text.hpp"
 #include "clients/cli/server/json_answer.hpp"
-#include "clients/cli/server/program_name.hpp"
+#include "clients/cli/text/named_revision.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
 namespace dripline::cli {
@@ -38,9 +38,13 @@ int print_comparison(const Context& context, const nlohmann::ordered_json& resul
 
 int diff_programs(Context& context, client::Client& client, const ProgramDiff& command) {
   client::ComparisonQuery query = command.query;
-  std::tie(query.first, query.first_revision) = name_and_revision(command.first);
-  const std::string& second = command.second.empty() ? query.first : command.second;
-  std::tie(query.second, query.second_revision) = name_and_revision(second);
+  const NamedRevision first = named_revision(command.first);
+  const NamedRevision second =
+      named_revision(command.second.empty() ? first.program : command.second);
+  query.first = first.program;
+  query.first_revision = first.revision;
+  query.second = second.program;
+  query.second_revision = second.revision;
   query.by = command.by_motion ? "motion" : command.normalized ? "normalized" : "text";
   const auto answer = client.compare(query);
   if (!answer) return status_of(answer.error());

@@ -92,6 +92,7 @@ void content_members(V& v, P& x) {
   v.later("state", x.state);
   v.later("released", x.released);
   v.later("withdrawn", x.withdrawn);
+  DRIPLINE_MEMBERS(cam_file);
 }
 
 template <class V>
@@ -99,6 +100,7 @@ void members(V& v, Is<Program> auto& x) {
   DRIPLINE_MEMBERS(name, revision, revisions);
   v.later("held_revisions", x.held_revisions);
   content_members(v, x);
+  DRIPLINE_MEMBERS(part, operation, material, machine_group);
 }
 
 template <class V>
@@ -106,6 +108,22 @@ void members(V& v, Is<Revision> auto& x) {
   DRIPLINE_MEMBERS(program, revision);
   content_members(v, x);
   v.flag("unchanged", x.unchanged);
+}
+
+template <class V>
+void members(V& v, Is<Attachment> auto& x) {
+  DRIPLINE_MEMBERS(program, revision, name, size, sha256, comment, author, created);
+}
+
+template <class V>
+void members(V& v, Is<SearchHit> auto& x) {
+  members(v, x.revision);
+  DRIPLINE_MEMBERS(part, operation, material, machine_group, line, text, partly_indexed);
+}
+
+template <class V>
+void members(V& v, Is<SearchResult> auto& x) {
+  DRIPLINE_MEMBERS(hits, next, to_be_indexed);
 }
 
 template <class V>
@@ -165,8 +183,35 @@ void members(V& v, Is<Run> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Pin> auto& x) {
+  DRIPLINE_MEMBERS(program, revision, sha256);
+}
+
+template <class V>
 void members(V& v, Is<Decision> auto& x) {
-  DRIPLINE_MEMBERS(id, step, state, time, who, comment, text, signature);
+  DRIPLINE_MEMBERS(id, step, state, time, who, comment);
+  v.later("closure", x.closure);
+  DRIPLINE_MEMBERS(text, signature);
+}
+
+template <class V>
+void members(V& v, Is<Closure::Site> auto& x) {
+  DRIPLINE_MEMBERS(program, revision, line);
+}
+
+template <class V>
+void members(V& v, Is<Closure::Call> auto& x) {
+  DRIPLINE_MEMBERS(name, program, revision, sha256, state, site);
+}
+
+template <class V>
+void members(V& v, Is<Closure::Missing> auto& x) {
+  DRIPLINE_MEMBERS(name, site);
+}
+
+template <class V>
+void members(V& v, Is<Closure> auto& x) {
+  DRIPLINE_MEMBERS(program, revision, calls, missing, computed);
 }
 
 template <class V>

@@ -6,11 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "clients/lib/client.hpp"
 #include "clients/lib/http.hpp"
-
-namespace dripline::client {
-struct Page;
-}
 
 /// Parts of the requests that the calls of Client send. Pure.
 namespace dripline::client::impl {
@@ -26,6 +23,8 @@ std::string with_query(std::string path, std::string_view key, std::string_view 
 std::string with_number(std::string path, std::string_view key,
                         std::optional<std::uint64_t> number);
 std::string with_page(std::string path, const Page& page);
+/// Those that are given.
+void add_fields(nlohmann::json& body, const FieldChange& change);
 /// A body; bytes that are not UTF-8 are replaced.
 std::string dumped(const nlohmann::json& body);
 

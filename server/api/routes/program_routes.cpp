@@ -6,6 +6,7 @@
 
 #include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
+#include "server/api/content_body.hpp"
 #include "server/api/request.hpp"
 #include "server/api/views.hpp"
 
@@ -77,13 +78,25 @@ void add_upload_routes(Router& router, Services& services) {
 
 namespace {
 
-constexpr std::uint64_t kContentPiece = 256 * 1024;
-
 Response list_programs(Services& services, const Request& request) {
   QueryReader query(request);
   const storage::Page page = read_page(query);
+  storage::ProgramFilter filter{.part = query.text("part"),
+                                .operation = query.text("operation"),
+                                .material = query.text("material"),
+                                .machine_group = query.text("machine_group"),
+                                .control = query.text("control"),
+                                .author = query.text("author"),
+                                .state = {},
+                                .after = query.text("after").value_or("")};
+  const auto state = query.text("state");
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto programs = services.programs.list(page);
+  if (state) {
+    const auto known = storage::parse_revision_state(*state);
+    if (!known) return error_response(known.error());
+    filter.state = *known;
+  }
+  const auto programs = services.programs.list(filter, page);
   if (!programs) return error_response(programs.error());
   auto list = nlohmann::json::array();
   for (const auto& program : *programs) {
@@ -99,8 +112,11 @@ Response program_view(Services& services, const std::string& name) {
   const auto latest = std::ranges::find_if_not(*revisions, is_held);
   const auto held = static_cast<std::uint64_t>(std::ranges::count_if(*revisions, is_held));
   const auto& shown = latest == revisions->end() ? revisions->front() : *latest;
-  auto view = program_json({.latest = shown, .revisions = revisions->size(), .held = held},
-                           services.programs.title(shown));
+  auto fields = services.programs.fields(name);
+  if (!fields) return error_response(fields.error());
+  auto view = program_json(
+      {.latest = shown, .revisions = revisions->size(), .held = held, .fields = *std::move(fields)},
+      services.programs.title(shown));
   auto list = nlohmann::json::array();
   for (const auto& revision : *revisions) {
     list.push_back(revision_json(revision, services.programs.title(revision)));
@@ -113,6 +129,15 @@ Response show_program(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
   return program_view(services, request.parameter("name"));
+}
+
+Response describe_program(Services& services, const Request& request) {
+  auto body = decode_description(request.body);
+  if (!body) return error_response(body.error());
+  body->program = request.parameter("name");
+  body->who = request.who;
+  const auto described = services.programs.describe(*body);
+  return described ? program_view(services, body->program) : error_response(described.error());
 }
 
 Response copy_program(Services& services, const Request& request) {
@@ -155,66 +180,17 @@ Response accept_revision(Services& services, const Request& request) {
   return json_response(200, revision_json(*accepted, services.programs.title(*accepted)));
 }
 
-/// Reads `range` of the content piece by piece.
-BodySource content_source(Services& services, const Digest& content, ByteRange range) {
-  return [&services, content, range]() mutable -> Result<std::optional<std::string>> {
-    if (range.length == 0) return std::nullopt;
-    const auto bytes =
-        services.programs.read(content, range.first, std::min(range.length, kContentPiece));
-    if (!bytes) return fail(bytes.error());
-    if (bytes->empty()) return fail(Errc::Corrupt, "content {} is short", content.hex());
-    range.first += bytes->size();
-    range.length -= bytes->size();
-    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  };
-}
-
-/// Reads the first piece before the head is sent, so that damage there is a clear error.
-Result<BodySource> opened(BodySource source) {
-  auto first = source();
-  if (!first) return fail(first.error());
-  auto head = std::make_shared<std::optional<std::string>>(*std::move(first));
-  return [head, source = std::move(source)]() -> Result<std::optional<std::string>> {
-    if (!*head) return source();
-    std::string text = *std::exchange(*head, std::nullopt);
-    return text;
-  };
-}
-
-Response unsatisfiable(const Error& error, std::uint64_t size) {
-  constexpr int kRangeNotSatisfiable = 416;
-  if (error.code != Errc::LimitExceeded) return error_response(error);
-  Response response = error_response(kRangeNotSatisfiable, error);
-  response.headers.emplace_back("Content-Range", fmt::format("bytes */{}", size));
-  return response;
-}
-
 Response send_content(Services& services, const Request& request) {
   QueryReader query(request);
   const auto number = query.number("revision", kMaxNumber);
   if (auto good = query.finish(); !good) return error_response(good.error());
   const auto revision = services.programs.revision(request.parameter("name"), number);
   if (!revision) return error_response(revision.error());
-  const auto range = parse_byte_range(request.header("range"), revision->size);
-  if (!range) return unsatisfiable(range.error(), revision->size);
-  const ByteRange wanted = range->value_or(ByteRange{.first = 0, .length = revision->size});
-  auto source = opened(content_source(services, revision->content, wanted));
-  if (!source) return error_response(source.error());
-  Response response;
-  response.content_type = "application/octet-stream";
-  response.source = *std::move(source);
-  response.source_length = wanted.length;
-  response.headers = {{"Accept-Ranges", "bytes"},
-                      {"Dripline-Sha256", revision->content.hex()},
-                      {"Dripline-Revision", std::to_string(revision->number)},
-                      {"Dripline-Size", std::to_string(revision->size)}};
-  if (*range) {
-    constexpr int kPartialContent = 206;
-    response.status = kPartialContent;
-    response.headers.emplace_back("Content-Range",
-                                  fmt::format("bytes {}-{}/{}", wanted.first,
-                                              wanted.first + wanted.length - 1, revision->size));
-  }
+  Response response = content_response(services, request, {revision->content, revision->size});
+  if (response.status >= 400) return response;
+  response.headers.emplace_back("Dripline-Sha256", revision->content.hex());
+  response.headers.emplace_back("Dripline-Revision", std::to_string(revision->number));
+  response.headers.emplace_back("Dripline-Size", std::to_string(revision->size));
   return response;
 }
 
@@ -267,6 +243,7 @@ void add_program_routes(Router& router, Services& services) {
   router.add("GET", "/api/v1/programs", with(services, list_programs));
   router.add("GET", "/api/v1/programs/{name}", with(services, show_program));
   router.add("DELETE", "/api/v1/programs/{name}", with(services, remove_program));
+  router.add("PUT", "/api/v1/programs/{name}/fields", with(services, describe_program));
   router.add("POST", "/api/v1/programs/{name}/copy", with(services, copy_program));
   router.add("POST", "/api/v1/programs/{name}/rename", with(services, rename_program));
   router.add("POST", "/api/v1/programs/{name}/revisions/{number}/accept",

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <limits>
+
 #include <nlohmann/json.hpp>
 
 #include "server/api/access_control.hpp"
@@ -39,6 +42,17 @@ json policy_json(const library::Releases& releases) {
           {"public_key", releases.public_key().hex()}};
 }
 
+/// Null: the release pins nothing.
+json pins_json(const storage::Decision& decision) {
+  if (!decision.closure) return nullptr;
+  json pins = json::array();
+  for (const auto& pin : *decision.closure) {
+    pins.push_back(
+        {{"program", pin.program}, {"revision", pin.revision}, {"sha256", pin.content.hex()}});
+  }
+  return pins;
+}
+
 json decision_json(const library::Releases& releases, const storage::Decision& decision) {
   return {{"id", decision.id},
           {"step", storage::to_string(decision.step)},
@@ -46,6 +60,7 @@ json decision_json(const library::Releases& releases, const storage::Decision& d
           {"time", to_iso8601(decision.time)},
           {"who", decision.who.name},
           {"comment", text_or_null(decision.comment)},
+          {"closure", pins_json(decision)},
           {"text", releases.text_of(decision)},
           {"signature", decision.signature.hex()}};
 }
@@ -71,17 +86,12 @@ Response show_states(Services& services, const Request& request) {
                              {"public_key", services.releases.public_key().hex()}});
 }
 
-Response decide(Services& services, const Request& request, RevisionStep step) {
-  const auto number = revision_number(request);
-  if (!number) return error_response(number.error());
-  const auto comment = decode_decision(request.body);
-  if (!comment) return error_response(comment.error());
-  const auto decided = services.releases.decide({.program = request.parameter("name"),
-                                                 .revision = *number,
-                                                 .step = step,
-                                                 .comment = *comment,
-                                                 .who = request.who,
-                                                 .role = request.caller->role});
+Response decide(Services& services, const Request& request, library::Releases::Request wanted) {
+  wanted.who = request.who;
+  wanted.role = request.caller->role;
+  const RevisionStep step = wanted.step;
+  const auto number = std::optional(wanted.revision);
+  const auto decided = services.releases.decide(wanted);
   if (decided) {
     return json_response(200, revision_json(*decided, services.programs.title(*decided)));
   }
@@ -93,6 +103,83 @@ Response decide(Services& services, const Request& request, RevisionStep step) {
                               request.parameter("name"), *number),
        .detail = decided.error().what});
   return forbidden(decided.error().what);
+}
+
+Response decide(Services& services, const Request& request, RevisionStep step) {
+  const auto number = revision_number(request);
+  if (!number) return error_response(number.error());
+  const auto comment = decode_decision(request.body);
+  if (!comment) return error_response(comment.error());
+  return decide(services, request,
+                {.program = request.parameter("name"),
+                 .revision = *number,
+                 .step = step,
+                 .comment = *comment});
+}
+
+Response release(Services& services, const Request& request) {
+  const auto number = revision_number(request);
+  if (!number) return error_response(number.error());
+  const auto body = decode_release(request.body);
+  if (!body) return error_response(body.error());
+  library::Releases::Request wanted{.program = request.parameter("name"),
+                                    .revision = *number,
+                                    .step = RevisionStep::Release,
+                                    .comment = body->comment};
+  if (body->has_closure) {
+    const auto revision = services.programs.revision(wanted.program, *number);
+    if (!revision) return error_response(revision.error());
+    auto closure = services.releases.closure(
+        {.main = *revision, .machine = body->machine, .named = body->named});
+    if (!closure) return error_response(closure.error());
+    wanted.closure = *std::move(closure);
+  }
+  return decide(services, request, std::move(wanted));
+}
+
+json site_json(const library::CallSite& site) {
+  return {{"program", site.program}, {"revision", site.revision}, {"line", site.line}};
+}
+
+json closure_json(const library::Closure& closure) {
+  json calls = json::array(), missing = json::array(), computed = json::array();
+  for (const auto& called : closure.called) {
+    calls.push_back({{"name", called.name},
+                     {"program", called.revision.program},
+                     {"revision", called.revision.number},
+                     {"sha256", called.revision.content.hex()},
+                     {"state", storage::to_string(called.revision.state)},
+                     {"site", called.site ? site_json(*called.site) : json(nullptr)}});
+  }
+  for (const auto& call : closure.missing)
+    missing.push_back({{"name", call.name}, {"site", site_json(call.site)}});
+  for (const auto& site : closure.computed) computed.push_back(site_json(site));
+  return {{"program", closure.main.program},
+          {"revision", closure.main.number},
+          {"calls", std::move(calls)},
+          {"missing", std::move(missing)},
+          {"computed", std::move(computed)}};
+}
+
+Response show_closure(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto number = query.number("revision", std::numeric_limits<std::int64_t>::max());
+  const auto machine = query.text("machine").value_or("");
+  const auto with = query.text("with");
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto revision = services.programs.revision(request.parameter("name"), number);
+  if (!revision) return error_response(revision.error());
+  library::ClosureRequest wanted{.main = *revision, .machine = machine, .named = {}};
+  for (std::size_t at = 0; with && at <= with->size();) {
+    const std::size_t comma = std::min(with->find(',', at), with->size());
+    auto named = parse_named_program(with->substr(at, comma - at));
+    if (!named)
+      return error_response({Errc::Syntax, "query parameter 'with': " + named.error().what});
+    wanted.named.push_back(*std::move(named));
+    at = comma + 1;
+  }
+  const auto closure = services.releases.closure(std::move(wanted));
+  return closure ? json_response(200, closure_json(*closure)) : error_response(closure.error());
 }
 
 /// What came from a machine and waits for acceptance is hidden; what is in review or approved goes
@@ -124,8 +211,9 @@ void add_release_routes(Router& router, Services& services) {
   router.add("GET", "/api/v1/release-policy", with(services, show_policy));
   router.add("GET", revision + "states", with(services, show_states));
   router.add("POST", revision + "reject", with(services, reject));
-  for (const auto step : {RevisionStep::Submit, RevisionStep::Approve, RevisionStep::Release,
-                          RevisionStep::Withdraw}) {
+  router.add("POST", revision + "release", with(services, release));
+  router.add("GET", "/api/v1/programs/{name}/closure", with(services, show_closure));
+  for (const auto step : {RevisionStep::Submit, RevisionStep::Approve, RevisionStep::Withdraw}) {
     router.add(
         "POST", revision + std::string(storage::to_string(step)),
         [&services, step](const Request& request) { return decide(services, request, step); });

@@ -14,12 +14,14 @@
 #include "server/app/state_folder.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/imports/imports.hpp"
+#include "server/library/attachments.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
 #include "server/library/certificate_watch.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/health.hpp"
+#include "server/library/program_search.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
 #include "server/library/retention.hpp"
@@ -88,6 +90,8 @@ struct ServerParts {
   identity::Accounts accounts;
   library::Programs programs;
   library::Releases releases;
+  library::Attachments attachments;
+  library::ProgramSearch search;
   library::RunHistory runs;
   paths::ProgramPaths paths;
   api::EventHub events;

@@ -69,6 +69,12 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<Program>(), described("Program"));
   EXPECT_EQ(read_by_the_client<Revision>(), described("CommittedRevision"));
   EXPECT_EQ(read_by_the_client<Upload>(), described("Upload"));
+  EXPECT_EQ(read_by_the_client<Attachment>(), described("Attachment"));
+  EXPECT_EQ(read_by_the_client<SearchResult>(), described("SearchResult"));
+  EXPECT_EQ(read_by_the_client<Pin>(), described("Pin"));
+  EXPECT_EQ(read_by_the_client<Closure>(), described("Closure"));
+  EXPECT_EQ(read_by_the_client<Closure::Call>(), described("Call"));
+  EXPECT_EQ(read_by_the_client<Closure::Site>(), described("CallSite"));
   EXPECT_EQ(read_by_the_client<Machine>(), described("Machine"));
   EXPECT_EQ(read_by_the_client<Display>(), described("Display"));
   EXPECT_EQ(read_by_the_client<MachineStatus>(), described("Status"));

@@ -27,6 +27,7 @@ class ApiTest : public ServerTest {
                     {.store = store_->accounts, .audit = *audit_, .clock = clock_}, cheap)
                     .value();
     EXPECT_TRUE(accounts_->use_local_secret(kSecret, false));
+    start_search();
     make_api(&ports_);
   }
 
@@ -48,6 +49,8 @@ class ApiTest : public ServerTest {
                                 .on_change = api::publish_offsets_to(events_)});
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .releases = *releases_,
+                                                    .attachments = *attachments_,
+                                                    .search = *search_,
                                                     .setups = *setups_,
                                                     .machines = machines_,
                                                     .runs = *runs_,

@@ -162,6 +162,44 @@ class OpenApiAnswers : public OpenApi {
     expect_described("GET", "/api/v1/release-policy", get("/api/v1/release-policy"));
   }
 
+  void expect_library_described() {
+    push("O6", "O6\nM98 P7\nM98 P8\nCALL [P1]\nM30\n");
+    push("O7", "O7\nM99\n");
+    const std::string program = "/api/v1/programs/{name}", of = "/api/v1/programs/O6";
+    const auto closure = get(of + "/closure?with=O2");
+    EXPECT_EQ(json(closure)["missing"].size(), 1u) << closure.body;
+    expect_described("GET", program + "/closure", closure);
+    const auto described = call("PUT", of + "/fields",
+                                {.body = R"({"part":"4711","cam_file":"o6.f3d"})", .headers = {}});
+    EXPECT_EQ(described.status, 200) << described.body;
+    expect_described("PUT", program + "/fields", described);
+    const auto upload = post(of + "/attachments", {{"name", "setup.pdf"}, {"comment", "side 1"}});
+    expect_described("POST", program + "/attachments", upload);
+    const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");
+    EXPECT_EQ(call("PUT", path + "/content?offset=0", {.body = "%PDF", .headers = {}}).status, 200);
+    const auto attached = call("POST", path + "/attach");
+    EXPECT_EQ(attached.status, 201) << attached.body;
+    expect_described("POST", "/api/v1/uploads/{id}/attach", attached);
+    expect_described("GET", program + "/attachments", get(of + "/attachments"));
+    const std::string one = program + "/attachments/{attachment}";
+    expect_described("GET", one, get(of + "/attachments/setup.pdf"));
+    EXPECT_TRUE(test_support::eventually(
+        [&] { return json(get("/api/v1/search?words=4711"))["hits"].size() == 1; }));
+    expect_described("GET", "/api/v1/search", get("/api/v1/search?words=4711"));
+    expect_described("DELETE", one, call("DELETE", of + "/attachments/setup.pdf"));
+    for (const std::string name : {"O6", "O7"}) {
+      for (const std::string step : {"submit", "approve"})
+        EXPECT_EQ(call("POST", "/api/v1/programs/" + name + "/revisions/1/" + step).status, 200);
+    }
+    push("O8", "O8\nM99\n");
+    for (const std::string step : {"submit", "approve"})
+      EXPECT_EQ(call("POST", "/api/v1/programs/O8/revisions/1/" + step).status, 200);
+    const auto released = post(of + "/revisions/1/release", {{"closure", true}, {"with", {"O7"}}});
+    EXPECT_EQ(released.status, 200) << released.body;
+    expect_described("GET", program + "/revisions/{number}/states",
+                     get(of + "/revisions/1/states"));
+  }
+
   void expect_imports_described() {
     push("O4", "N1\n");
     for (const std::string number : {"2", "3", "4"}) {
@@ -338,6 +376,7 @@ TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
   expect_memory_described();
   expect_ports_described();
   expect_judgment_described();
+  expect_library_described();
   expect_described("POST", "/api/v1/programs/{name}/copy",
                    post("/api/v1/programs/O2/copy", {{"to", "O20"}, {"revision", 1}}));
   expect_described("POST", "/api/v1/programs/{name}/rename",

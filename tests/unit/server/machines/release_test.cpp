@@ -80,6 +80,44 @@ TEST_F(MachineRelease, ACalledProgramIsReleasedTooOrIsNotFound) {
             "began");
 }
 
+TEST_F(MachineRelease, ANewerSubprogramThanTheReleasePinsDoesNotRun) {
+  begin();
+  push("O0100", "M98 P0200\nM30\n");
+  push("O0200", "G04\nM99\n");
+  for (const std::string program : {"O0100", "O0200"}) {
+    decide(program, 1, storage::RevisionStep::Submit);
+    decide(program, 1, storage::RevisionStep::Approve);
+  }
+  const auto main = programs_->revision("O0100", 1).value();
+  auto closure = releases_->closure({.main = main, .machine = {}, .named = {}});
+  ASSERT_TRUE(closure) << closure.error().what;
+  const auto released = releases_->decide({.program = "O0100",
+                                           .revision = 1,
+                                           .step = storage::RevisionStep::Release,
+                                           .comment = {},
+                                           .who = {"anna", "token", ""},
+                                           .role = Role::Approver,
+                                           .closure = *std::move(closure)});
+  ASSERT_TRUE(released) << released.error().what;
+  const auto pinned = programs_->revision("O0200", 1).value();
+  EXPECT_EQ(pinned.state, storage::RevisionState::Released) << "with its caller";
+  release("O0200", "G01 X99\nM99\n");
+  release("O0300", "M99\n");
+  clock_.advance(std::chrono::seconds(1));
+  const auto run = try_start({.program = "O0100"});
+  ASSERT_TRUE(run) << run.error().what;
+  request(run->id, 0, 100, "O0200");
+  EXPECT_EQ(fed(1), "G04\nM99\n") << "revision 2 is released and newer";
+  EXPECT_EQ(first_block().content, pinned.content.hex());
+  const auto other = machines::resolve_called_program({*store_, *releases_, clock_}, *run, "O0300");
+  ASSERT_FALSE(other) << "what was not approved with it is not called";
+  EXPECT_EQ(other.error().code, Errc::NotFound);
+  end(run->id);
+  decide("O0200", 1, storage::RevisionStep::Withdraw);
+  EXPECT_EQ(try_start({.program = "O0100"}).error().what,
+            "program O0100 revision 1 calls O0200 revision 1, which was withdrawn");
+}
+
 TEST_F(MachineRelease, ARestartIsJudgedAnew) {
   begin();
   release("O0100", "M30\n");

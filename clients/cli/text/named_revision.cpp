@@ -1,10 +1,10 @@
-#include "clients/cli/server/program_name.hpp"
+#include "clients/cli/text/named_revision.hpp"
 
 #include <charconv>
 
 namespace dripline::cli {
 
-std::pair<std::string, std::optional<std::uint64_t>> name_and_revision(const std::string& text) {
+NamedRevision named_revision(const std::string& text) {
   const std::size_t at = text.rfind('@');
   if (at == std::string::npos) return {text, std::nullopt};
   std::uint64_t number = 0;
