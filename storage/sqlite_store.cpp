@@ -6,11 +6,14 @@
 #include <thread>
 
 #include "storage/impl/account_repository.hpp"
+#include "storage/impl/folder_repository.hpp"
 #include "storage/impl/import_repository.hpp"
+#include "storage/impl/job_repository.hpp"
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/release_repository.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/upload_repository.hpp"
+#include "storage/impl/webhook_repository.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -61,7 +64,10 @@ struct SqliteStore::Repositories {
         audit(*connections),
         accounts(*connections),
         releases(*connections),
-        imports(*connections) {}
+        imports(*connections),
+        folders(*connections),
+        jobs(*connections),
+        webhooks(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -75,6 +81,9 @@ struct SqliteStore::Repositories {
   AccountRepository accounts;
   ReleaseRepository releases;
   ImportRepository imports;
+  FolderRepository folders;
+  JobRepository jobs;
+  WebhookRepository webhooks;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -89,7 +98,8 @@ SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
     : Store{repositories->programs, repositories->uploads, repositories->machines,
             repositories->runs,     repositories->records, repositories->ports,
             repositories->setups,   repositories->audit,   repositories->accounts,
-            repositories->releases, repositories->imports},
+            repositories->releases, repositories->imports, repositories->folders,
+            repositories->jobs,     repositories->webhooks},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

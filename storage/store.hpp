@@ -2,7 +2,9 @@
 
 #include "storage/account_store.hpp"
 #include "storage/audit_store.hpp"
+#include "storage/folder_store.hpp"
 #include "storage/import_store.hpp"
+#include "storage/job_store.hpp"
 #include "storage/machine_store.hpp"
 #include "storage/port_store.hpp"
 #include "storage/program_store.hpp"
@@ -11,10 +13,11 @@
 #include "storage/run_store.hpp"
 #include "storage/setup_store.hpp"
 #include "storage/upload_store.hpp"
+#include "storage/webhook_store.hpp"
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: eleven interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: fourteen interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -30,6 +33,9 @@ struct Store {
   AccountStore& accounts;
   ReleaseStore& releases;
   ImportStore& imports;
+  FolderStore& folders;
+  JobStore& jobs;
+  WebhookStore& webhooks;
 };
 
 }  // namespace dripline::storage

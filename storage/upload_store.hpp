@@ -19,6 +19,8 @@ struct Upload {
   std::uint64_t received = 0;  ///< bytes; the next piece begins here
   UtcTime created;
   bool is_held = false;  ///< a machine sent it: becomes a held revision
+  /// The file of a hot folder that it comes from: stored in the transaction of its revision.
+  std::optional<std::uint64_t> folder_file = {};
 };
 
 /// Programs while they arrive in pieces. Promises of every store: storage/store.hpp.
@@ -41,8 +43,9 @@ class UploadStore {
   /// For an upload begun without a control, when it was detected from the text. Errors: NotFound.
   virtual Result<void> set_control(const std::string& id, const std::string& control) = 0;
   /// Makes the upload a new revision of its program, or returns the latest one when it has the very
-  /// same content; for a held upload also the newest held one with that content. Errors: NotFound,
-  /// Corrupt (the content's SHA-256 is not `expected`), Syntax (empty).
+  /// same content; for a held upload also the newest held one with that content. Errors: NotFound
+  /// (also its folder's file, which is not Taken any more), Corrupt (the content's SHA-256 is not
+  /// `expected`), Syntax (empty).
   virtual Result<Revision> commit(const std::string& id, const std::optional<Digest>& expected) = 0;
   virtual Result<void> abandon(const std::string& id) = 0;
   /// `passed` more time has elapsed (by a steady clock; the time of day may jump). Drops uploads

@@ -6,6 +6,7 @@
 #include "protocol/base/random.hpp"
 #include "storage/impl/content.hpp"
 #include "storage/impl/content_seal.hpp"
+#include "storage/impl/folder_repository.hpp"
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
@@ -23,6 +24,8 @@ UploadRow read_upload_row(const sqlite::Statement& row) {
   UploadRow found;
   found.upload = {row.text(0), row.text(1),   row.text(2), row.text(3),
                   row.text(4), row.number(6), row.time(7), row.integer(8) != 0};
+  if (const auto file = row.optional_integer(9))
+    found.upload.folder_file = static_cast<std::uint64_t>(*file);
   found.content = {row.integer(5), row.number(6)};
   return found;
 }
@@ -31,7 +34,8 @@ UploadRow read_upload_row(const sqlite::Statement& row) {
 Result<UploadRow> find_row(sqlite::Database& database, const std::string& id) {
   auto row = sqlite::first_row(
       database,
-      "SELECT upload.id, program, control, comment, author, content, size, created_us, held "
+      "SELECT upload.id, program, control, comment, author, content, size, created_us, held, "
+      "folder_file "
       "FROM upload JOIN content ON content.id = upload.content WHERE upload.id = ?1",
       read_upload_row, id);
   if (!row) return fail(row.error());
@@ -101,9 +105,9 @@ Result<Upload> UploadRepository::begin(const Upload& upload) {
     const auto inserted = sqlite::run(
         database,
         "INSERT INTO upload (id, program, control, comment, author, content, created_us, "
-        "touched_us, held) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7, ?8)",
+        "touched_us, held, folder_file) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7, ?8, ?9)",
         begun.id, begun.program, begun.control, begun.comment, begun.author, *content,
-        begun.created, begun.is_held ? 1 : 0);
+        begun.created, begun.is_held ? 1 : 0, begun.folder_file);
     if (!inserted) return fail(inserted.error());
     return begun;
   });
@@ -252,7 +256,11 @@ Result<Revision> UploadRepository::commit(const std::string& id,
     }
     const auto content = name_content(database, row->content, *digest);
     if (!content) return fail(content.error());
-    return publish_revision(database, row->upload, *content, clock_.now());
+    auto revision = publish_revision(database, row->upload, *content, clock_.now());
+    if (!revision || !row->upload.folder_file) return revision;
+    auto stored = store_folder_file(database, *row->upload.folder_file, *revision);
+    if (!stored) return fail(stored.error());
+    return revision;
   });
   if (published) table_.erase(id);
   return published;

@@ -114,16 +114,19 @@ class RecordStoreDecorator : public storage::RecordStore {
 
 /// `store` with one of its parts replaced; the part must outlive it.
 inline storage::Store with(const storage::Store& store, storage::ProgramStore& programs) {
-  return {programs,     store.uploads, store.machines, store.runs,     store.records, store.ports,
-          store.setups, store.audit,   store.accounts, store.releases, store.imports};
+  return {programs,      store.uploads, store.machines, store.runs,     store.records,
+          store.ports,   store.setups,  store.audit,    store.accounts, store.releases,
+          store.imports, store.folders, store.jobs,     store.webhooks};
 }
 inline storage::Store with(const storage::Store& store, storage::MachineStore& machines) {
-  return {store.programs, store.uploads, machines,       store.runs,     store.records, store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports};
+  return {store.programs, store.uploads, machines,    store.runs,     store.records,
+          store.ports,    store.setups,  store.audit, store.accounts, store.releases,
+          store.imports,  store.folders, store.jobs,  store.webhooks};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
-  return {store.programs, store.uploads, store.machines, store.runs,     records,      store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports};
+  return {store.programs, store.uploads, store.machines, store.runs,     records,
+          store.ports,    store.setups,  store.audit,    store.accounts, store.releases,
+          store.imports,  store.folders, store.jobs,     store.webhooks};
 }
 
 }  // namespace dripline::test_support

@@ -151,9 +151,22 @@ TEST_P(KeptFile, HasAnImportQueue) {
   EXPECT_EQ(waiting->front().compared->fault.empty(), version() >= 10);
 }
 
+TEST_P(KeptFile, HasHotFoldersJobsAndWebhooksSinceVersion12) {
+  reopen();
+  const bool has_them = version() >= 12;
+  EXPECT_EQ(store_->folders.unfinished("cam")->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->jobs.list("m1", true, {})->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->webhooks.list()->size(), has_them ? 1u : 0u);
+  if (!has_them) return;
+  EXPECT_EQ(store_->folders.unfinished("cam")->at(0).target, "done/p.nc");
+  EXPECT_EQ(store_->jobs.find(1)->completed, 1u);
+  EXPECT_EQ(store_->jobs.hold_of("m1").value()->reason, "bore is wide");
+  EXPECT_EQ(store_->webhooks.find("erp")->waiting, 1u);
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
-                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql"),
+                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v12.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });
