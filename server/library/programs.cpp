@@ -40,6 +40,7 @@ Result<storage::Upload> Programs::begin(const UploadRequest& request, const stor
   upload.author = who.name;
   upload.created = clock_.now();
   upload.is_held = request.is_held;
+  upload.folder_file = request.folder_file;
   return uploads_.begin(upload);
 }
 

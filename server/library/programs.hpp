@@ -25,6 +25,7 @@ struct UploadRequest {
   std::string control;  ///< empty: determined from the text
   std::string comment;
   bool is_held = false;  ///< it came from a machine: the revision waits for acceptance
+  std::optional<std::uint64_t> folder_file = {};  ///< it came from a hot folder
 };
 
 struct Committed {

@@ -39,6 +39,7 @@ server/machines: protocol storage gateway/interpreter server/library server/mach
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
 server/paths: protocol/base storage gateway/interpreter clients/tools/comparison clients/tools/offline server/library server/machines server/paths
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
+server/folders: protocol/base protocol/process storage server/library server/machines server/paths server/folders
 server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/imports server/api
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect
 server/web: protocol/base server/api server/web
