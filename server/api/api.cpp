@@ -19,6 +19,9 @@ Api::Api(Services services)
   add_release_routes(router_, services_);
   add_comparison_routes(router_, services_);
   add_import_routes(router_, services_);
+  add_folder_routes(router_, services_);
+  add_webhook_routes(router_, services_);
+  add_job_routes(router_, services_);
   add_upload_routes(router_, services_);
   add_machine_routes(router_, services_);
   add_run_routes(router_, services_);

@@ -12,12 +12,14 @@
 #include "server/api/event_hub.hpp"
 #include "server/api/request_times.hpp"
 #include "server/api/router.hpp"
+#include "server/folders/folders.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/imports/imports.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
 #include "server/library/health.hpp"
+#include "server/library/job_queue.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
 #include "server/library/run_history.hpp"
@@ -25,6 +27,7 @@
 #include "server/machines/machine_control.hpp"
 #include "server/paths/program_paths.hpp"
 #include "server/ports/port_control.hpp"
+#include "server/webhooks/webhooks.hpp"
 
 namespace dripline::api {
 
@@ -44,6 +47,7 @@ struct Services {
   library::Setups& setups;
   machines::MachineControl& machines;
   library::RunHistory& runs;
+  library::JobQueue& jobs;
   paths::ProgramPaths& paths;
   library::AuditTrail& audit;
   library::AuditChain& chain;
@@ -52,11 +56,13 @@ struct Services {
   const Clock& clock;
   ServerFacts facts;
   std::function<std::uint64_t()> dds_rejected;
-  ports::PortControl* ports = nullptr;  ///< null: a server without serial ports
-  library::Health* health = nullptr;    ///< null: always ok
-  library::Backups* backups = nullptr;  ///< null: a server that makes none
-  imports::Imports* imports = nullptr;  ///< null: a server without an import queue
-  bool has_tls = false;                 ///< the sockets in front of it do
+  ports::PortControl* ports = nullptr;     ///< null: a server without serial ports
+  library::Health* health = nullptr;       ///< null: always ok
+  library::Backups* backups = nullptr;     ///< null: a server that makes none
+  imports::Imports* imports = nullptr;     ///< null: a server without an import queue
+  folders::Folders* folders = nullptr;     ///< null: a server without hot folders
+  webhooks::Webhooks* webhooks = nullptr;  ///< null: a server without webhooks
+  bool has_tls = false;                    ///< the sockets in front of it do
 };
 
 /// The REST API without its sockets: a request in, a response out. Any thread, several at once;
@@ -114,6 +120,9 @@ void add_program_routes(Router& router, Services& services);
 void add_release_routes(Router& router, Services& services);
 void add_comparison_routes(Router& router, Services& services);
 void add_import_routes(Router& router, Services& services);
+void add_folder_routes(Router& router, Services& services);
+void add_webhook_routes(Router& router, Services& services);
+void add_job_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);
 void add_run_routes(Router& router, Services& services);

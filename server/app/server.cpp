@@ -12,7 +12,9 @@
 #include "protocol/process/log.hpp"
 #include "server/api/api.hpp"
 #include "server/api/http_server.hpp"
+#include "server/folders/folders.hpp"
 #include "server/identity/accounts.hpp"
+#include "server/identity/revoked_certificates.hpp"
 #include "server/imports/imports.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
@@ -28,12 +30,14 @@
 #include "server/ports/line_machines.hpp"
 #include "server/ports/port_service.hpp"
 #include "server/web/page.hpp"
+#include "server/webhooks/webhooks.hpp"
 #include "storage/sqlite_store.hpp"
 
 namespace dripline::app {
 namespace {
 
 constexpr auto kUploadLife = std::chrono::hours(24);
+constexpr std::chrono::seconds kWebhookTimeout{5};
 /// Of the database, for damage; what a bigger one needs longer for is looked at beside the work.
 constexpr std::chrono::seconds kCheckBeforeStart{10};
 
@@ -78,6 +82,10 @@ Result<api::HttpOptions> http_options(const Settings& settings) {
   if (settings.tls_certificate.empty() != settings.tls_key.empty()) {
     return fail(Errc::Denied, "tls-certificate and tls-key belong together: give both or none");
   }
+  if (settings.tls_key.empty() && !settings.tls_client_ca.empty())
+    return fail(Errc::Denied, "tls-client-ca: there are no certificates without tls-certificate");
+  if (settings.tls_client_ca.empty() && !settings.tls_client_revoked.empty())
+    return fail(Errc::Denied, "tls-client-revoked belongs to tls-client-ca: give both or none");
   api::HttpOptions options;
   options.address = *address;
   options.max_body = api::Api::kMaxBody;
@@ -85,7 +93,9 @@ Result<api::HttpOptions> http_options(const Settings& settings) {
   options.limits.per_address = settings.http_connections_per_address;
   options.limits.event_streams = settings.http_event_streams;
   if (!settings.tls_key.empty()) {
-    options.tls = api::TlsFiles{.certificate = settings.tls_certificate, .key = settings.tls_key};
+    options.tls = api::TlsFiles{.certificate = settings.tls_certificate,
+                                .key = settings.tls_key,
+                                .client_authority = settings.tls_client_ca};
   }
   if (auto safe = api::check_exposure(*address, options.tls.has_value()); !safe) {
     return fail(safe.error());
@@ -160,6 +170,7 @@ struct Server::Parts {
       : clock(system_clock),
         dds_certificate_expires(setup.certificate_expires),
         certificate_expires(expiry_of(settings)),
+        revoked_file(settings.tls_client_revoked),
         folder(std::move(state_folder)),
         store(std::move(opened)),
         health(clock),
@@ -179,13 +190,27 @@ struct Server::Parts {
                   .database = loaded.identity},
                  loaded.policy),
         runs(*store),
+        jobs({.store = *store, .releases = releases, .clock = clock}),
         paths({.store = *store, .releases = releases, .clock = clock}),
         imports({.store = *store,
                  .paths = paths,
                  .policy = releases.policy(),
                  .clock = clock,
                  .on_change = api::publish_imports_to(events)}),
+        folders({.programs = programs,
+                 .catalog = catalog,
+                 .sources = {.store = *store, .releases = releases, .clock = clock},
+                 .spool = folder.path(),
+                 .on_fault = folders_watch()},
+                settings.folders),
         setups(store->setups, catalog, audit),
+        webhook_sender(webhooks::make_http_sender(kWebhookTimeout)),
+        webhooks({.store = store->webhooks,
+                  .sender = *webhook_sender,
+                  .clock = clock,
+                  .server = loaded.identity,
+                  .on_fault = webhooks_watch()},
+                 {}),
         mtconnect(make_mtconnect(settings, loaded)),
         machine_service({.store = *store, .releases = releases, .clock = clock}, machine_options(),
                         machine_listener()),
@@ -198,6 +223,7 @@ struct Server::Parts {
              .setups = setups,
              .machines = machines,
              .runs = runs,
+             .jobs = jobs,
              .paths = paths,
              .audit = audit,
              .chain = chain,
@@ -216,6 +242,8 @@ struct Server::Parts {
              .health = &health,
              .backups = backups.get(),
              .imports = &imports,
+             .folders = &folders,
+             .webhooks = &webhooks,
              .has_tls = !settings.tls_key.empty()}),
         tidied(clock.steady_now()) {}
 
@@ -255,6 +283,26 @@ struct Server::Parts {
                               .subject = "records",
                               .what = "records of a machine cannot be stored",
                               .detail = fmt::format("machine={}: {}", machine, fault)});
+    };
+  }
+
+  std::function<void(const std::string& name, const std::string& fault)> folders_watch() {
+    return [this](const std::string& name, const std::string& fault) {
+      using Level = library::Health::Level;
+      health.report(name, {.level = fault.empty() ? Level::Ok : Level::Degraded,
+                           .subject = "folders",
+                           .what = "a hot folder cannot be read, or its files cannot be taken",
+                           .detail = fmt::format("folder={}: {}", name, fault)});
+    };
+  }
+
+  std::function<void(const std::string& name, const std::string& fault)> webhooks_watch() {
+    return [this](const std::string& name, const std::string& fault) {
+      using Level = library::Health::Level;
+      health.report(name, {.level = fault.empty() ? Level::Ok : Level::Degraded,
+                           .subject = "webhooks",
+                           .what = "a webhook has not been delivered for long",
+                           .detail = fmt::format("webhook={}: {}", name, fault)});
     };
   }
 
@@ -314,6 +362,7 @@ struct Server::Parts {
   const Clock& clock;
   std::optional<UtcTime> dds_certificate_expires;  ///< nullopt: without DDS Security
   std::optional<UtcTime> certificate_expires;      ///< nullopt: without TLS
+  std::string revoked_file;                        ///< of clients' certificates; empty: none
   StateFolder folder;
   std::unique_ptr<storage::SqliteStore> store;
   library::Health health;
@@ -326,10 +375,14 @@ struct Server::Parts {
   library::Programs programs;
   library::Releases releases;
   library::RunHistory runs;
+  library::JobQueue jobs;
   paths::ProgramPaths paths;
   api::EventHub events;
   imports::Imports imports;
+  folders::Folders folders;
   library::Setups setups;
+  std::unique_ptr<webhooks::Sender> webhook_sender;
+  webhooks::Webhooks webhooks;
   std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
   machines::MachineService machine_service;
   ports::PortService ports;
@@ -362,12 +415,27 @@ struct Server::Parts {
     ports.open_due();
     if (mtconnect) mtconnect->observer().reconcile(machines.machines());
     accounts.store_uses();
+    (void)revoke_certificates();
     certificates.look(watched_certificates());
     if (dds_certificate_expires && clock.now() >= *dds_certificate_expires)
       machine_service.lose_gateways();
     sound = chain.look();
     health.report("", chain.finding());
     return sound;
+  }
+
+  /// What the file says now; of a file that cannot be read what it said last stays in force.
+  Result<void> revoke_certificates() {
+    if (revoked_file.empty()) return {};
+    auto serials = identity::read_revoked(revoked_file);
+    using Level = library::Health::Level;
+    health.report("", {.level = serials ? Level::Ok : Level::Degraded,
+                       .subject = "certificates",
+                       .what = "the list of revoked certificates cannot be read",
+                       .detail = serials ? "" : serials.error().what});
+    if (!serials) return fail(Errc::Denied, "tls-client-revoked: {}", serials.error().what);
+    accounts.revoke_certificates(*std::move(serials));
+    return {};
   }
 
   /// The machines that are known and their tools, then the sockets.
@@ -478,8 +546,11 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   Parts& parts = *server->parts_;
   if (auto used = parts.accounts.use_local_secret(*token, settings.recover_admin); !used)
     return fail(used.error());
+  if (auto read = parts.revoke_certificates(); !read) return fail(read.error());
   parts.programs.on_held([&parts](const auto& revision) { parts.imports.note(revision); });
   parts.imports.begin();
+  parts.folders.begin();
+  parts.webhooks.begin();
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint = dds::ServerEndpoint::open(network->options, parts.machine_service.handlers());

@@ -41,7 +41,7 @@ server/paths: protocol/base storage gateway/interpreter clients/tools/comparison
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
 server/folders: protocol/base protocol/process storage server/library server/machines server/paths server/folders
 server/webhooks: protocol/base protocol/process storage server/webhooks
-server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/imports server/api
+server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/imports server/folders server/webhooks server/api
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect
 server/web: protocol/base server/api server/web
 server/app: protocol storage server

@@ -16,6 +16,16 @@ struct Call {
   std::string token = kSecret;
 };
 
+/// A webhook's receiver that takes everything.
+class FakeSender final : public webhooks::Sender {
+ public:
+  Result<void> send(const webhooks::Delivery& delivery, const std::stop_token&) override {
+    sent.push_back(delivery);
+    return {};
+  }
+  std::vector<webhooks::Delivery> sent;
+};
+
 /// The API on a real store and fake machines, without sockets.
 class ApiTest : public ServerTest {
  protected:
@@ -39,11 +49,28 @@ class ApiTest : public ServerTest {
                                 .policy = releases_->policy(),
                                 .clock = clock_,
                                 .on_change = api::publish_imports_to(events_)});
+    jobs_ = std::make_unique<library::JobQueue>(
+        library::JobQueue::Parts{.store = *store_, .releases = *releases_, .clock = clock_});
+    folders::FolderSettings folder;
+    folder.name = "cam";
+    folder.path = folder_.path() / "cam";
+    folders_ = std::make_unique<folders::Folders>(
+        folders::HotFolder::Parts{
+            .programs = *programs_,
+            .catalog = catalog_,
+            .sources = {.store = *store_, .releases = *releases_, .clock = clock_},
+            .spool = folder_.path()},
+        std::vector{folder});  // nobody looks at it
+    webhooks_ = std::make_unique<webhooks::Webhooks>(
+        webhooks::Webhooks::Parts{
+            .store = store_->webhooks, .sender = sender_, .clock = clock_, .server = "db"},
+        webhooks::Webhooks::Options{});
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .releases = *releases_,
                                                     .setups = *setups_,
                                                     .machines = machines_,
                                                     .runs = *runs_,
+                                                    .jobs = *jobs_,
                                                     .paths = *paths_,
                                                     .audit = *audit_,
                                                     .chain = *chain_,
@@ -59,7 +86,9 @@ class ApiTest : public ServerTest {
                                                     .ports = ports,
                                                     .health = &health_,
                                                     .backups = backups_.get(),
-                                                    .imports = imports_.get()});
+                                                    .imports = imports_.get(),
+                                                    .folders = folders_.get(),
+                                                    .webhooks = webhooks_.get()});
   }
 
   /// Made when they are asked for, in a folder beside the store.
@@ -185,6 +214,10 @@ class ApiTest : public ServerTest {
   api::EventHub events_;
   std::unique_ptr<paths::ProgramPaths> paths_;
   std::unique_ptr<imports::Imports> imports_;
+  std::unique_ptr<library::JobQueue> jobs_;
+  std::unique_ptr<folders::Folders> folders_;
+  FakeSender sender_;
+  std::unique_ptr<webhooks::Webhooks> webhooks_;
   std::unique_ptr<api::Api> api_;
 };
 

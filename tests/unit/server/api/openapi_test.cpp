@@ -180,6 +180,8 @@ class OpenApi : public ApiTest {
     }
     expect_described("GET", "/api/v1/programs", get("/api/v1/programs"));
     expect_imports_described();
+    expect_jobs_described();
+    expect_folders_and_webhooks_described();
     const std::string path = "/api/v1/programs/{name}/revisions/{number}/";
     expect_described("POST", path + "accept",
                      call("POST", "/api/v1/programs/O3/revisions/1/accept"));
@@ -221,6 +223,50 @@ class OpenApi : public ApiTest {
     expect_described("GET", "/api/v1/imports", get("/api/v1/imports?state=decided"));
     for (const std::string number : {"2", "3", "4"})
       expect_described("GET", path, get("/api/v1/imports/O4/" + number));
+  }
+
+  void expect_jobs_described() {
+    const std::string machine = "/api/v1/machines/{name}", lathe = "/api/v1/machines/lathe-1";
+    add_machine("lathe-1");
+    const auto added = post(lathe + "/jobs", {{"program", "O4"}, {"comment", "steel"}});
+    EXPECT_EQ(added.status, 201) << added.body;
+    expect_described("POST", machine + "/jobs", added);
+    const auto pinned = post(lathe + "/jobs", {{"program", "O4"}, {"revision", 1}});
+    const std::string job = lathe + "/jobs/" + json(pinned)["id"].dump();
+    expect_described("PUT", machine + "/jobs/{job}",
+                     call("PUT", job, {.body = R"({"place":1})", .headers = {}}));
+    expect_described("POST", machine + "/start-job", post(lathe + "/start-job", Json::object()));
+    expect_described(
+        "PUT", machine + "/job-hold",
+        call("PUT", lathe + "/job-hold", {.body = R"({"reason":"wide"})", .headers = {}}));
+    expect_described("GET", machine + "/jobs", get(lathe + "/jobs"));
+    expect_described("DELETE", machine + "/job-hold", call("DELETE", lathe + "/job-hold"));
+    expect_described("DELETE", machine + "/jobs/{job}", call("DELETE", job));
+    expect_described("GET", machine + "/jobs", get(lathe + "/jobs?state=closed"));
+  }
+  void expect_folders_and_webhooks_described() {
+    storage::FolderFile file;
+    file.folder = "cam";
+    file.name = "1\n.nc";
+    file.state = storage::FolderFileState::Failed;
+    file.reason = "its name";
+    file.taken = clock_.now();
+    ASSERT_TRUE(store_->folders.begin(file));
+    expect_described("GET", "/api/v1/folders", get("/api/v1/folders"));
+    const auto files = get("/api/v1/folders/cam/files");
+    EXPECT_EQ(json(files)["files"][0]["name"], "1%0A.nc");
+    expect_described("GET", "/api/v1/folders/{name}/files", files);
+    const std::string hook = "/api/v1/webhooks/{name}";
+    const auto added = post("/api/v1/webhooks", {{"name", "erp"}, {"url", "http://erp/"}});
+    EXPECT_EQ(added.status, 201) << added.body;
+    EXPECT_EQ(json(added)["secret"].get<std::string>().size(), 64u);
+    expect_described("POST", "/api/v1/webhooks", added);
+    const auto listed = get("/api/v1/webhooks");
+    EXPECT_EQ(listed.body.find("secret"), std::string::npos) << "shown once";
+    expect_described("GET", "/api/v1/webhooks", listed);
+    expect_described("POST", hook + "/test", call("POST", "/api/v1/webhooks/erp/test"));
+    EXPECT_EQ(sender_.sent.size(), 1u);
+    expect_described("DELETE", hook, call("DELETE", "/api/v1/webhooks/erp"));
   }
 
   Json document_;
