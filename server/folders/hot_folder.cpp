@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "protocol/process/log.hpp"
-#include "server/paths/program_check.hpp"
+#include "server/paths/text_check.hpp"
 
 namespace dripline::folders {
 namespace {
@@ -252,11 +252,11 @@ Result<NamedProgram> HotFolder::name(const Taken& taken) const {
 Result<void> HotFolder::check(const NamedProgram& named, const FileCopy& copy,
                               const std::stop_token& stop) const {
   if (!settings_.is_checked) return {};
-  const auto verdict = paths::check_program(parts_.sources, {.text = copy.text(),
-                                                             .name = named.program,
-                                                             .control = named.control,
-                                                             .machine = named.machine,
-                                                             .stop = stop});
+  const auto verdict = paths::check_text(parts_.sources, {.text = copy.text(),
+                                                          .name = named.program,
+                                                          .control = named.control,
+                                                          .machine = named.machine,
+                                                          .stop = stop});
   if (!verdict) return fail(verdict.error());
   if (!*verdict) return {};
   return fail(Errc::Syntax, "{} would not take it: {}",

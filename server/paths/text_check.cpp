@@ -1,4 +1,4 @@
-#include "server/paths/program_check.hpp"
+#include "server/paths/text_check.hpp"
 
 #include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/registry.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using Verdict = Result<std::optional<std::string>>;
 
-constexpr std::uint64_t kStepBlocks = 16'384;
+constexpr std::uint64_t kBlocksAtOnce = 16'384;
 constexpr std::uint64_t kMaxCalled = 16 * 1024 * 1024;  ///< bytes of a program that is called
 
 std::string in_words(const interpreter::Diagnostic& diagnostic) {
@@ -37,17 +37,17 @@ Verdict check_memory(const interpreter::Dialect& dialect, const interpreter::Set
   return std::optional(in_words(verdict->refused.front()));
 }
 
-Verdict run_to_end(interpreter::OfflineRun run, const machines::RunSources& sources,
-                   const ProgramText& program) {
-  const auto limit = sources.clock.steady_now() + kMaxCheck;
+Verdict run_text_to_end(interpreter::OfflineRun run, const machines::RunSources& sources,
+                        const ProgramText& program) {
+  const auto limit = sources.clock.steady_now() + kMaxTextCheck;
   for (;;) {
-    const auto is_over = run.step(kStepBlocks);
+    const auto is_over = run.step(kBlocksAtOnce);
     // A question without an answer, or too many blocks: the program's own doing.
     if (!is_over) return std::optional(is_over.error().what);
     if (*is_over) break;
     if (program.stop.stop_requested() || sources.clock.steady_now() >= limit)
       return fail(Errc::Timeout, "program {} is not checked in {} s", program.name,
-                  kMaxCheck.count());
+                  kMaxTextCheck.count());
   }
   const auto outcome = run.outcome();
   if (outcome.ended) return std::optional<std::string>();
@@ -59,7 +59,7 @@ Verdict run_to_end(interpreter::OfflineRun run, const machines::RunSources& sour
 
 }  // namespace
 
-Verdict check_program(const machines::RunSources& sources, const ProgramText& program) {
+Verdict check_text(const machines::RunSources& sources, const ProgramText& program) {
   const auto dialect = interpreter::find_dialect(program.control);
   if (!dialect) return fail(Errc::Unsupported, "{}", dialect.error().what);
   const auto setup = interpretation_setup(sources, program.machine, **dialect);
@@ -76,7 +76,7 @@ Verdict check_program(const machines::RunSources& sources, const ProgramText& pr
   interpreter::EventSink no_sink;
   auto begun = interpreter::OfflineRun::begin(**dialect, *setup, source, no_sink, kLimits);
   if (!begun) return fail(begun.error());
-  return run_to_end(*std::move(begun), sources, program);
+  return run_text_to_end(*std::move(begun), sources, program);
 }
 
 }  // namespace dripline::paths

@@ -22,11 +22,12 @@ struct ProgramText {
 
 /// What `dnc check` does, with the machine's setup and the programs of the library that it calls:
 /// the program is interpreted up to its end. Returns why a control would not take it, as "line 12:
-/// F0031 ..."; nullopt: it would. Waits, at most kMaxCheck. Errors: Unsupported (the control is not
-/// known, or the setup is not for it), Timeout (it takes longer, or `stop`), those of the store.
-Result<std::optional<std::string>> check_program(const machines::RunSources& sources,
-                                                 const ProgramText& program);
+/// F0031 ..."; nullopt: it would. Waits, at most kMaxTextCheck. Errors: Unsupported (the control is
+/// not known, or the setup is not for it), Timeout (it takes longer, or `stop`), those of the
+/// store.
+Result<std::optional<std::string>> check_text(const machines::RunSources& sources,
+                                              const ProgramText& program);
 
-inline constexpr std::chrono::seconds kMaxCheck{120};
+inline constexpr std::chrono::seconds kMaxTextCheck{120};
 
 }  // namespace dripline::paths
