@@ -8,7 +8,9 @@
 #include "storage/impl/account_repository.hpp"
 #include "storage/impl/archive_repository.hpp"
 #include "storage/impl/attachment_repository.hpp"
+#include "storage/impl/folder_repository.hpp"
 #include "storage/impl/import_repository.hpp"
+#include "storage/impl/job_repository.hpp"
 #include "storage/impl/measurement_repository.hpp"
 #include "storage/impl/offset_repository.hpp"
 #include "storage/impl/program_repository.hpp"
@@ -17,6 +19,7 @@
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/search_repository.hpp"
 #include "storage/impl/upload_repository.hpp"
+#include "storage/impl/webhook_repository.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -73,7 +76,10 @@ struct SqliteStore::Repositories {
         archives(*connections),
         offsets(*connections),
         attachments(*connections, uploads, clock),
-        search(*connections) {}
+        search(*connections),
+        folders(*connections),
+        jobs(*connections),
+        webhooks(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -93,6 +99,9 @@ struct SqliteStore::Repositories {
   OffsetRepository offsets;
   AttachmentRepository attachments;
   SearchRepository search;
+  FolderRepository folders;
+  JobRepository jobs;
+  WebhookRepository webhooks;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -109,7 +118,8 @@ SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
             repositories->setups,       repositories->audit,    repositories->accounts,
             repositories->releases,     repositories->imports,  repositories->report_templates,
             repositories->measurements, repositories->archives, repositories->offsets,
-            repositories->attachments,  repositories->search},
+            repositories->attachments,  repositories->search,   repositories->folders,
+            repositories->jobs,         repositories->webhooks},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

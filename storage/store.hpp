@@ -4,7 +4,9 @@
 #include "storage/archive_store.hpp"
 #include "storage/attachment_store.hpp"
 #include "storage/audit_store.hpp"
+#include "storage/folder_store.hpp"
 #include "storage/import_store.hpp"
+#include "storage/job_store.hpp"
 #include "storage/machine_store.hpp"
 #include "storage/measurement_store.hpp"
 #include "storage/offset_store.hpp"
@@ -17,10 +19,11 @@
 #include "storage/search_store.hpp"
 #include "storage/setup_store.hpp"
 #include "storage/upload_store.hpp"
+#include "storage/webhook_store.hpp"
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: seventeen interfaces, so that a service names the ones it
+/// What the server keeps, in domain words: twenty interfaces, so that a service names the ones it
 /// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
 /// may be called from any thread; each is one transaction. When it has returned success, what it
 /// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
@@ -42,6 +45,9 @@ struct Store {
   OffsetStore& offsets;
   AttachmentStore& attachments;
   SearchStore& search;
+  FolderStore& folders;
+  JobStore& jobs;
+  WebhookStore& webhooks;
 };
 
 }  // namespace dripline::storage

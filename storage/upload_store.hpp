@@ -23,6 +23,8 @@ struct Upload {
   /// It becomes an attachment of this name (AttachmentStore::commit); absent: a revision.
   std::optional<std::string> attachment = {};
   std::optional<std::uint64_t> attachment_revision = {};  ///< absent: of the program
+  /// The file of a hot folder that it comes from: stored in the transaction of its revision.
+  std::optional<std::uint64_t> folder_file = {};
 };
 
 /// Programs while they arrive in pieces. Promises of every store: storage/store.hpp.
@@ -48,7 +50,8 @@ class UploadStore {
   /// Makes the upload a new revision of its program, or returns the latest one when it has the very
   /// same content; for a held upload also the newest held one with that content. Its `change` is in
   /// force either way. Errors: NotFound, Corrupt (the content's SHA-256 is not `expected`), Syntax
-  /// (empty), Conflict (it is an upload of an attachment, or its machine group was removed).
+  /// (empty), Conflict (it is an upload of an attachment, or its machine group was removed),
+  /// NotFound (also its folder's file, which is not Taken any more).
   virtual Result<Revision> commit(const std::string& id, const std::optional<Digest>& expected) = 0;
   virtual Result<void> abandon(const std::string& id) = 0;
   /// `passed` more time has elapsed (by a steady clock; the time of day may jump). Drops uploads

@@ -77,6 +77,9 @@ auto fetch_all(std::uint64_t limit, Fetch fetch) -> decltype(fetch(client::Page{
 void add_program_commands(Command app, Context& context);
 void add_import_commands(Command app, Context& context);
 void add_offset_commands(Command app, Context& context);
+void add_folder_commands(Command app, Context& context);
+void add_webhook_commands(Command app, Context& context);
+void add_job_commands(Command app, Context& context);
 void add_machine_commands(Command app, Context& context);
 void add_run_commands(Command app, Context& context);
 void add_port_commands(Command app, Context& context);

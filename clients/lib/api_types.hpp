@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "clients/lib/intake_types.hpp"
+
 /// The server's answers (server/api/README.md) as plain values. Words and times stay the text that
 /// the server sent, so that an older client shows the words of a newer server; times are ISO 8601
 /// UTC, lengths millimeters. An absent text is empty; other absent values are nullopt. Each type's
@@ -290,6 +292,7 @@ struct Run {
   std::optional<std::uint64_t> setup;     ///< the machine's setup it was started with
   std::string allowed_as;                 ///< open, released, prove_out
   std::optional<std::uint64_t> approval;  ///< the Decision that released its revision
+  std::optional<std::uint64_t> job;       ///< of the machine's queue
 };
 
 /// The tools, offsets and parameters that a machine's control has before a program starts.

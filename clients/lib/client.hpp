@@ -284,6 +284,33 @@ class Client {
   Reply<Revision> accept_import(const AcceptRequest& request);
   /// The comment is the reason.
   Reply<void> reject_import(const DecisionRequest& request);
+  struct JobRequest {
+    std::string machine, program;
+    std::optional<std::uint64_t> revision;
+    std::uint64_t quantity = 1, parts_per_run = 1;
+    std::string comment;
+    std::optional<std::uint64_t> place;  ///< 1: the first; absent: at the end
+  };
+  /// Open ones in their order; otherwise done and removed ones, newest first.
+  Reply<JobList> jobs(std::string_view machine, bool is_open, Page page);
+  Reply<Job> add_job(const JobRequest& request);
+  Reply<Job> move_job(std::string_view machine, std::uint64_t job, std::uint64_t place);
+  Reply<void> remove_job(std::string_view machine, std::uint64_t job);
+  /// The next one unless one is named.
+  Reply<Run> start_job(std::string_view machine, std::optional<std::uint64_t> job);
+  Reply<void> hold_jobs(std::string_view machine, const std::string& reason);
+  Reply<void> release_jobs(std::string_view machine);
+
+  Reply<std::vector<Webhook>> webhooks();
+  /// With its secret. `kinds` empty: all.
+  Reply<Webhook> add_webhook(const std::string& name, const std::string& url,
+                             const std::vector<std::string>& kinds);
+  Reply<void> remove_webhook(std::string_view name);
+  Reply<WebhookTest> test_webhook(std::string_view name);
+
+  Reply<std::vector<Folder>> folders();
+  /// Newest first.
+  Reply<std::vector<FolderFile>> folder_files(std::string_view folder, Page page);
   /// The server's JSON (clients/tools/comparison/README.md).
   Reply<std::string> compare(const ComparisonQuery& query);
   /// The server's JSON (server/paths/README.md, "A check").

@@ -27,6 +27,9 @@ Api::Api(Services services)
   add_offset_routes(router_, services_);
   add_report_template_routes(router_, services_);
   add_archive_routes(router_, services_);
+  add_folder_routes(router_, services_);
+  add_webhook_routes(router_, services_);
+  add_job_routes(router_, services_);
   add_upload_routes(router_, services_);
   add_machine_routes(router_, services_);
   add_run_routes(router_, services_);

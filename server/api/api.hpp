@@ -12,6 +12,7 @@
 #include "server/api/event_hub.hpp"
 #include "server/api/request_times.hpp"
 #include "server/api/router.hpp"
+#include "server/folders/folders.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/imports/imports.hpp"
 #include "server/library/attachments.hpp"
@@ -19,6 +20,7 @@
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
 #include "server/library/health.hpp"
+#include "server/library/job_queue.hpp"
 #include "server/library/program_search.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
@@ -30,6 +32,7 @@
 #include "server/offsets/offsets.hpp"
 #include "server/paths/program_paths.hpp"
 #include "server/ports/port_control.hpp"
+#include "server/webhooks/webhooks.hpp"
 
 namespace dripline::api {
 
@@ -51,6 +54,7 @@ struct Services {
   library::Setups& setups;
   machines::MachineControl& machines;
   library::RunHistory& runs;
+  library::JobQueue& jobs;
   paths::ProgramPaths& paths;
   library::AuditTrail& audit;
   library::AuditChain& chain;
@@ -66,6 +70,8 @@ struct Services {
   measurements::Measurements* measurements = nullptr;  ///< null: a server without measurements
   library::Retention* retention = nullptr;             ///< null: everything stays in the database
   offsets::Offsets* offsets = nullptr;                 ///< null: a server without offset proposals
+  folders::Folders* folders = nullptr;                 ///< null: a server without hot folders
+  webhooks::Webhooks* webhooks = nullptr;              ///< null: a server without webhooks
   bool has_tls = false;                                ///< the sockets in front of it do
 };
 
@@ -137,6 +143,9 @@ void add_measurement_routes(Router& router, Services& services);
 void add_chart_routes(Router& router, Services& services);
 void add_offset_routes(Router& router, Services& services);
 void add_report_template_routes(Router& router, Services& services);
+void add_folder_routes(Router& router, Services& services);
+void add_webhook_routes(Router& router, Services& services);
+void add_job_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);
 void add_run_routes(Router& router, Services& services);

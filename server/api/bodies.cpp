@@ -264,6 +264,51 @@ Result<machines::StartRequest> decode_start(std::string_view body) {
   return start;
 }
 
+Result<JobBody> decode_job(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  JobBody read;
+  read.job.program = object->required_text("program", kMaxName);
+  read.job.revision = object->optional_unsigned("revision");
+  read.job.quantity = object->optional_unsigned("quantity").value_or(1);
+  read.job.parts_per_run = object->optional_unsigned("parts_per_run").value_or(1);
+  read.job.comment = object->optional_text("comment", library::JobQueue::kMaxText).value_or("");
+  read.place = object->optional_unsigned("place");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = check_program_name(read.job.program); !good) return fail(good.error());
+  return read;
+}
+
+Result<std::uint64_t> decode_job_move(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const auto place = object->optional_unsigned("place");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (!place) return fail(Errc::Syntax, "member 'place' is missing: 1 is the first");
+  return *place;
+}
+
+Result<std::optional<std::uint64_t>> decode_job_start(std::string_view body) {
+  auto object = JsonObject::parse(body.empty() ? "{}" : body);
+  if (!object) return fail(object.error());
+  const auto job = object->optional_unsigned("job");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return job;
+}
+
+Result<WebhookBody> decode_webhook(std::string_view body) {
+  constexpr std::size_t kMaxUrl = 1024;
+  constexpr std::size_t kMaxKinds = 16;
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  WebhookBody read;
+  read.name = object->required_text("name", kMaxName);
+  read.url = object->required_text("url", kMaxUrl);
+  read.kinds = object->optional_texts("kinds", kMaxName, kMaxKinds);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return read;
+}
+
 Result<std::string> decode_restart(std::string_view body) {
   auto object = JsonObject::parse(body.empty() ? "{}" : body);
   if (!object) return fail(object.error());

@@ -7,6 +7,7 @@
 
 #include "protocol/base/digest.hpp"
 #include "server/library/attachments.hpp"
+#include "server/library/job_queue.hpp"
 #include "server/library/program_closure.hpp"
 #include "server/library/programs.hpp"
 #include "server/machines/machine_control.hpp"
@@ -62,6 +63,24 @@ Result<std::string> decode_rename(std::string_view body);
 
 /// The author is left empty.
 Result<machines::StartRequest> decode_start(std::string_view body);
+struct JobBody {
+  storage::Job job;  ///< its machine is left empty
+  std::optional<std::uint64_t> place;
+};
+/// `{program, revision?, quantity?, parts_per_run?, comment?, place?}`.
+Result<JobBody> decode_job(std::string_view body);
+/// `{place}`.
+Result<std::uint64_t> decode_job_move(std::string_view body);
+/// `{job?}`, or nothing.
+Result<std::optional<std::uint64_t>> decode_job_start(std::string_view body);
+
+struct WebhookBody {
+  std::string name, url;
+  std::vector<std::string> kinds;
+};
+/// `{name, url, kinds?}`.
+Result<WebhookBody> decode_webhook(std::string_view body);
+
 /// Where a run is to continue: {"at"?}.
 Result<std::string> decode_restart(std::string_view body);
 

@@ -33,8 +33,10 @@ struct Request {
   std::string body;
   std::map<std::string, std::string> parameters;  ///< `{name}` of the route; set by the router
   std::string address;                            ///< of the client; set by the sockets
-  storage::Actor who;                             ///< the caller, for authors and the audit trail
-  std::optional<identity::Caller> caller;         ///< set by the API; absent: anybody
+  /// Of the client, verified; set by the sockets.
+  std::optional<identity::ClientCertificate> certificate;
+  storage::Actor who;                      ///< the caller, for authors and the audit trail
+  std::optional<identity::Caller> caller;  ///< set by the API; absent: anybody
 
   std::string header(const std::string& lower_case_name) const;
   const std::string& parameter(const std::string& name) const { return parameters.at(name); }

@@ -38,6 +38,10 @@ Result<api::HttpOptions> http_options(const Settings& settings) {
   if (settings.tls_certificate.empty() != settings.tls_key.empty()) {
     return fail(Errc::Denied, "tls-certificate and tls-key belong together: give both or none");
   }
+  if (settings.tls_key.empty() && !settings.tls_client_ca.empty())
+    return fail(Errc::Denied, "tls-client-ca: there are no certificates without tls-certificate");
+  if (settings.tls_client_ca.empty() && !settings.tls_client_revoked.empty())
+    return fail(Errc::Denied, "tls-client-revoked belongs to tls-client-ca: give both or none");
   api::HttpOptions options;
   options.address = *address;
   options.max_body = api::Api::kMaxBody;
@@ -45,7 +49,9 @@ Result<api::HttpOptions> http_options(const Settings& settings) {
   options.limits.per_address = settings.http_connections_per_address;
   options.limits.event_streams = settings.http_event_streams;
   if (!settings.tls_key.empty()) {
-    options.tls = api::TlsFiles{.certificate = settings.tls_certificate, .key = settings.tls_key};
+    options.tls = api::TlsFiles{.certificate = settings.tls_certificate,
+                                .key = settings.tls_key,
+                                .client_authority = settings.tls_client_ca};
   }
   if (auto safe = api::check_exposure(*address, options.tls.has_value()); !safe) {
     return fail(safe.error());

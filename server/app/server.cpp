@@ -89,8 +89,11 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   ServerParts& parts = *server->parts_;
   if (auto used = parts.accounts.use_local_secret(*token, settings.recover_admin); !used)
     return fail(used.error());
+  if (auto read = parts.revoke_certificates(); !read) return fail(read.error());
   parts.programs.on_held([&parts](const auto& revision) { parts.imports.note(revision); });
   parts.imports.begin();
+  parts.folders.begin();
+  parts.webhooks.begin();
   parts.measurements.begin();
   if (parts.retention) parts.retention->begin();
   parts.offsets.begin();

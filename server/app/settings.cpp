@@ -149,6 +149,14 @@ constexpr std::array kRows{
         text_value<&Settings::tls_certificate>()},
     Row{"tls-key", "FILE", "", "", "Private key of the certificate (PEM)",
         text_value<&Settings::tls_key>()},
+    Row{"tls-client-ca", "FILE", "", "none",
+        "Authority of clients' certificates (PEM): who shows one is the user of its common name, "
+        "without a token",
+        text_value<&Settings::tls_client_ca>()},
+    Row{"tls-client-revoked", "FILE", "", "none",
+        "Serials of clients' certificates that are not accepted any more, one a line; read again "
+        "when it changes",
+        text_value<&Settings::tls_client_revoked>()},
     Row{"policy", "FILE", "", "what is pushed may run",
         "Which revisions machines run, and who submits, approves and releases them (TOML)",
         text_value<&Settings::policy>()},
@@ -221,7 +229,8 @@ constexpr std::array kRows{
         number_value<0, 1000, &Settings::log_files>()},
 };
 
-constexpr const char* kPorts = "port";  ///< the tables [[port]] are read here, not by the rows
+constexpr const char* kPorts = "port";      ///< the tables [[port]] are read here, not by the rows
+constexpr const char* kFolders = "folder";  ///< likewise [[folder]], by server/folders
 
 Result<void> apply_ports(Settings& settings, std::string_view text, const std::string& folder) {
   const toml::table table = toml::parse(text);  // the rows were read from it before
@@ -255,7 +264,10 @@ CommandLine wrong_use(const Error& error) {
 
 Result<void> apply_toml(Settings& settings, std::string_view text, const std::string& folder) {
   const process::SettingsReader reader(std::span<const Row>(kRows), settings);
-  if (auto read = reader.read_toml(text, {kPorts}); !read) return read;
+  if (auto read = reader.read_toml(text, {kPorts, kFolders}); !read) return read;
+  auto folders = folders::read_folders(text);
+  if (!folders) return fail(folders.error());
+  settings.folders = *std::move(folders);
   return apply_ports(settings, text, folder);
 }
 

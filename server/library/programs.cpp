@@ -69,6 +69,7 @@ Result<storage::Upload> Programs::begin(const UploadRequest& request, const stor
   upload.created = clock_.now();
   upload.is_held = request.is_held;
   upload.change = request.change;
+  upload.folder_file = request.folder_file;
   return uploads_.begin(upload);
 }
 

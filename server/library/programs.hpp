@@ -26,6 +26,7 @@ struct UploadRequest {
   std::string comment;
   bool is_held = false;              ///< it came from a machine: the revision waits for acceptance
   storage::FieldChange change = {};  ///< of the program and its new revision
+  std::optional<std::uint64_t> folder_file = {};  ///< it came from a hot folder
 };
 
 struct Committed {

@@ -1,6 +1,7 @@
 #include "storage/impl/repositories.hpp"
 
 #include "storage/impl/content.hpp"
+#include "storage/impl/job_repository.hpp"
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
@@ -13,7 +14,7 @@ const std::string kSelect =
     "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
     "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS revision.sha256, "
     "run.allowed_as, "
-    "run.approval FROM run "
+    "run.approval, run.job FROM run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
     "LEFT JOIN content ON content.sha256 = run.sha256 ";
@@ -51,6 +52,7 @@ Run read_run(const sqlite::Statement& row) {
   run.allowed_as = parse_run_allowance(row.text(23)).value_or(RunAllowance::Released);
   if (const auto approval = row.optional_integer(24))
     run.approval = static_cast<std::uint64_t>(*approval);
+  if (const auto job = row.optional_integer(25)) run.job = static_cast<std::uint64_t>(*job);
   return run;
 }
 
@@ -165,15 +167,16 @@ Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPla
       database,
       "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
       "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
-      "ended_us, setup, sha256, allowed_as, approval) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
+      "ended_us, setup, sha256, allowed_as, approval, job) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, "
+      "?9, "
       "?10, ?11, ?12, ?13, "
       "?14, "
-      "?15, ?16, ?17, ?18, ?19, ?20, ?21, ?22)",
+      "?15, ?16, ?17, ?18, ?19, ?20, ?21, ?22, ?23)",
       run.id, place.machine, place.program, run.revision, run.control, to_string(run.state),
       run.counters.sent, run.counters.accepted, run.counters.executed, run.line, run.sequence,
       run.reason, run.executed_content, run.content_verified, run.author, run.created, run.started,
       run.ended, run.setup, std::span<const std::byte>(run.content.bytes),
-      to_string(run.allowed_as), run.approval);
+      to_string(run.allowed_as), run.approval, run.job);
 }
 
 }  // namespace
@@ -185,6 +188,7 @@ Result<void> RunRepository::create(const Run& run) {
     const auto program = known_revision(database, run);
     if (!program) return fail(program.error());
     if (auto allowed = check_pins(database, run); !allowed) return allowed;
+    if (auto good = check_job(database, run); !good) return good;
     if (!is_finished(run.state)) {
       if (auto idle = check_idle(database, *machine, run.machine); !idle) return idle;
     }

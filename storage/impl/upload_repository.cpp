@@ -8,6 +8,7 @@
 #include "storage/impl/content.hpp"
 #include "storage/impl/content_seal.hpp"
 #include "storage/impl/field_rows.hpp"
+#include "storage/impl/folder_repository.hpp"
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
@@ -30,6 +31,8 @@ UploadRow read_upload_row(const sqlite::Statement& row) {
   found.upload.attachment = row.optional_text(14);
   if (const auto revision = row.optional_integer(15))
     found.upload.attachment_revision = static_cast<std::uint64_t>(*revision);
+  if (const auto file = row.optional_integer(16))
+    found.upload.folder_file = static_cast<std::uint64_t>(*file);
   found.content = {row.integer(5), row.number(6)};
   return found;
 }
@@ -39,7 +42,7 @@ Result<UploadRow> find_row(sqlite::Database& database, const std::string& id) {
   auto row = sqlite::first_row(
       database,
       "SELECT upload.id, program, control, comment, author, content, size, created_us, held, part, "
-      "operation, material, machine_group, cam_file, attachment, attachment_revision "
+      "operation, material, machine_group, cam_file, attachment, attachment_revision, folder_file "
       "FROM upload JOIN content ON content.id = upload.content WHERE upload.id = ?1",
       read_upload_row, id);
   if (!row) return fail(row.error());
@@ -115,12 +118,12 @@ Result<Upload> UploadRepository::begin(const Upload& upload) {
         database,
         "INSERT INTO upload (id, program, control, comment, author, content, created_us, "
         "touched_us, held, part, operation, material, machine_group, cam_file, attachment, "
-        "attachment_revision) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7, ?8, ?9, ?10, ?11, ?12, ?13, "
-        "?14, ?15)",
+        "attachment_revision, folder_file) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7, ?8, ?9, ?10, "
+        "?11, ?12, ?13, ?14, ?15, ?16)",
         begun.id, begun.program, begun.control, begun.comment, begun.author, *content,
         begun.created, begun.is_held ? 1 : 0, begun.change.part, begun.change.operation,
         begun.change.material, begun.change.machine_group, begun.change.cam_file, begun.attachment,
-        begun.attachment_revision);
+        begun.attachment_revision, begun.folder_file);
     if (!inserted) return fail(inserted.error());
     return begun;
   });
@@ -287,7 +290,11 @@ auto UploadRepository::finish(const std::string& id, const std::optional<Digest>
     }
     const auto content = name_content(database, row->content, *digest);
     if (!content) return fail(content.error());
-    return publish(database, row->upload, *content, *digest);
+    auto revision = publish(database, row->upload, *content, *digest);
+    if (!revision || !row->upload.folder_file) return revision;
+    auto stored = store_folder_file(database, *row->upload.folder_file, *revision);
+    if (!stored) return fail(stored.error());
+    return revision;
   });
   if (published) table_.erase(id);
   return published;

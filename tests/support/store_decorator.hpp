@@ -137,21 +137,20 @@ inline storage::Store with(const storage::Store& store, storage::ProgramStore& p
           store.records,      store.ports,    store.setups,   store.audit,
           store.accounts,     store.releases, store.imports,  store.report_templates,
           store.measurements, store.archives, store.offsets,  store.attachments,
-          store.search};
+          store.search,       store.folders,  store.jobs,     store.webhooks};
 }
 inline storage::Store with(const storage::Store& store, storage::MachineStore& machines) {
   return {store.programs,     store.uploads,  machines,      store.runs,
           store.records,      store.ports,    store.setups,  store.audit,
           store.accounts,     store.releases, store.imports, store.report_templates,
           store.measurements, store.archives, store.offsets, store.attachments,
-          store.search};
+          store.search,       store.folders,  store.jobs,     store.webhooks};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
   return {store.programs,     store.uploads,  store.machines, store.runs,
           records,            store.ports,    store.setups,   store.audit,
           store.accounts,     store.releases, store.imports,  store.report_templates,
           store.measurements, store.archives, store.offsets,  store.attachments,
-          store.search};
-}
+          store.search,       store.folders,  store.jobs,     store.webhooks};
 
 }  // namespace dripline::test_support

@@ -180,6 +180,7 @@ void members(V& v, Is<Run> auto& x) {
                    ended, outputs, setup);
   v.later("allowed_as", x.allowed_as);
   v.later("approval", x.approval);
+  v.later("job", x.job);
 }
 
 template <class V>
@@ -217,6 +218,46 @@ void members(V& v, Is<Closure> auto& x) {
 template <class V>
 void members(V& v, Is<RevisionStates> auto& x) {
   DRIPLINE_MEMBERS(state, steps, public_key);
+}
+
+template <class V>
+void members(V& v, Is<Job> auto& x) {
+  DRIPLINE_MEMBERS(id, machine, program, revision, quantity, parts_per_run, completed, runs, state,
+                   comment, author, created);
+}
+
+template <class V>
+void members(V& v, Is<JobList::Hold> auto& x) {
+  DRIPLINE_MEMBERS(who, reason, since);
+}
+
+template <class V>
+void members(V& v, Is<JobList> auto& x) {
+  DRIPLINE_MEMBERS(jobs, hold);
+}
+
+template <class V>
+void members(V& v, Is<Webhook> auto& x) {
+  DRIPLINE_MEMBERS(name, url, kinds, author, created, delivered, delivered_at, waiting, lost,
+                   failures, failing_since, fault);
+  v.later("secret", x.secret);
+}
+
+template <class V>
+void members(V& v, Is<WebhookTest> auto& x) {
+  DRIPLINE_MEMBERS(delivered, fault);
+}
+
+template <class V>
+void members(V& v, Is<Folder> auto& x) {
+  DRIPLINE_MEMBERS(name, path, machine, control, fault, looked, waiting, stored, failed,
+                   last_refused, last_reason);
+}
+
+template <class V>
+void members(V& v, Is<FolderFile> auto& x) {
+  DRIPLINE_MEMBERS(folder, name, size, sha256, state, program, revision, reason, target, taken,
+                   moved);
 }
 
 template <class V>

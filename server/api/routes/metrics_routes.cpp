@@ -87,6 +87,36 @@ void add_audit(MetricsText& out, const library::AuditChain::State& state) {
   }
 }
 
+void add_webhooks(MetricsText& out, webhooks::Webhooks& all) {
+  const auto webhooks = all.list();
+  if (!webhooks || webhooks->empty()) return;
+  const auto each = [&](std::string_view name, std::string_view help, auto&& value) {
+    out.gauge(name, help);
+    for (const auto& webhook : *webhooks)
+      out.sample(static_cast<double>(value(webhook)), {{"webhook", webhook.name}});
+  };
+  each("dripline_webhook_events_waiting", "Events that a webhook has not got.",
+       [](const storage::Webhook& webhook) { return webhook.waiting; });
+  each("dripline_webhook_failures", "Failed deliveries since the last success.",
+       [](const storage::Webhook& webhook) { return webhook.failures; });
+  each("dripline_webhook_events_lost", "Events dropped because a webhook failed too long.",
+       [](const storage::Webhook& webhook) { return webhook.lost; });
+}
+
+void add_folders(MetricsText& out, const folders::Folders& all) {
+  const auto states = all.states();
+  if (states.empty()) return;
+  const auto each = [&](std::string_view name, std::string_view help, auto&& value) {
+    out.gauge(name, help);
+    for (const auto& state : states)
+      out.sample(static_cast<double>(value(state)), {{"folder", state.settings.name}});
+  };
+  each("dripline_folder_ok", "1: the hot folder can be read, and its files moved.",
+       [](const folders::FolderState& state) { return state.fault.empty() ? 1 : 0; });
+  each("dripline_folder_files_waiting", "Files that are not complete, or wait for another try.",
+       [](const folders::FolderState& state) { return state.waiting; });
+}
+
 /// One family after the other, as the format demands, so the machines are gone through for each.
 void add_machines(MetricsText& out, const std::vector<MachineView>& views) {
   const auto each = [&](std::string_view name, std::string_view help, auto&& value) {
@@ -185,6 +215,8 @@ Response list_metrics(Services& services, const RequestTimes& times, const Reque
   add_certificates(out, services);
   if (services.backups != nullptr) add_backups(out, services.backups->state());
   add_audit(out, services.chain.state());
+  if (services.webhooks != nullptr) add_webhooks(out, *services.webhooks);
+  if (services.folders != nullptr) add_folders(out, *services.folders);
   add_disk(out, services.facts.data_dir);
   add_process(out);
 

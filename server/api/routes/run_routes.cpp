@@ -114,6 +114,7 @@ Response restart_run(Services& services, const Request& request) {
   start.author = request.who.name;
   start.role = request.caller->role;
   start.restart = {original->id, *at};
+  start.job = original->job;
   const std::string what = fmt::format("run {} at {} on {}", original->id, *at, original->machine);
   start.before = [&audit = services.audit, who = request.who, what](const storage::Run& run) {
     return audit.write_before(

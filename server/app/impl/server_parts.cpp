@@ -4,14 +4,22 @@
 #include <array>
 
 #include "protocol/process/log.hpp"
+#include "server/identity/revoked_certificates.hpp"
 
 namespace dripline::app {
 namespace {
+
+constexpr std::chrono::seconds kWebhookTimeout{5};
 
 std::string host_name() {
   std::array<char, 256> name{};
   if (::gethostname(name.data(), name.size() - 1) != 0) return "dncd";
   return name.data();
+}
+
+/// Who holds a machine or its queue.
+std::string template_of(const storage::MeasuredPart& part) {
+  return fmt::format("report template {} version {}", part.template_name, part.template_version);
 }
 
 api::HttpHandlers mtconnect_handlers(mtconnect::Agent& agent) {
@@ -30,6 +38,7 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
     : clock(system_clock),
       dds_certificate_expires(setup.certificate_expires),
       certificate_expires(https_certificate_expiry(settings)),
+      revoked_file(settings.tls_client_revoked),
       folder(std::move(state_folder)),
       store(std::move(opened)),
       health(clock),
@@ -46,12 +55,19 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
       attachments(*store),
       search(*store),
       runs(*store),
+      jobs({.store = *store, .releases = releases, .clock = clock}),
       paths({.store = *store, .releases = releases, .clock = clock}),
       imports({.store = *store,
                .paths = paths,
                .policy = releases.policy(),
                .clock = clock,
                .on_change = api::publish_imports_to(events)}),
+      folders({.programs = programs,
+               .catalog = catalog,
+               .sources = {.store = *store, .releases = releases, .clock = clock},
+               .spool = folder.path(),
+               .on_fault = folders_watch()},
+              settings.folders),
       measurements({.store = *store,
                     .clock = clock,
                     .on_part =
@@ -59,12 +75,22 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
                           publish(part);
                           offsets.note(part.machine);
                         },
-                    .hold_queue = {},  // there is no job queue yet
+                    .hold_queue =
+                        [this](const storage::MeasuredPart& part, const std::string& reason) {
+                          return hold_queue(part, reason);
+                        },
                     .hold_machine =
                         [this](const storage::MeasuredPart& part, const std::string& reason) {
                           return hold_machine(part, reason);
                         }}),
       setups(store->setups, catalog, audit),
+      webhook_sender(webhooks::make_http_sender(kWebhookTimeout)),
+      webhooks({.store = store->webhooks,
+                .sender = *webhook_sender,
+                .clock = clock,
+                .server = loaded.identity,
+                .on_fault = webhooks_watch()},
+               {}),
       mtconnect(make_mtconnect(settings, loaded)),
       offsets({.store = *store,
                .setups = setups,
@@ -83,6 +109,7 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
            .setups = setups,
            .machines = machines,
            .runs = runs,
+           .jobs = jobs,
            .paths = paths,
            .audit = audit,
            .chain = chain,
@@ -104,6 +131,8 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
            .measurements = &measurements,
            .retention = retention.get(),
            .offsets = &offsets,
+           .folders = &folders,
+           .webhooks = &webhooks,
            .has_tls = !settings.tls_key.empty()}),
       tidied(clock.steady_now()) {}
 
@@ -169,6 +198,28 @@ ServerParts::records_watch() {
   };
 }
 
+std::function<void(const std::string& name, const std::string& fault)>
+ServerParts::folders_watch() {
+  return [this](const std::string& name, const std::string& fault) {
+    using Level = library::Health::Level;
+    health.report(name, {.level = fault.empty() ? Level::Ok : Level::Degraded,
+                         .subject = "folders",
+                         .what = "a hot folder cannot be read, or its files cannot be taken",
+                         .detail = fmt::format("folder={}: {}", name, fault)});
+  };
+}
+
+std::function<void(const std::string& name, const std::string& fault)>
+ServerParts::webhooks_watch() {
+  return [this](const std::string& name, const std::string& fault) {
+    using Level = library::Health::Level;
+    health.report(name, {.level = fault.empty() ? Level::Ok : Level::Degraded,
+                         .subject = "webhooks",
+                         .what = "a webhook has not been delivered for long",
+                         .detail = fmt::format("webhook={}: {}", name, fault)});
+  };
+}
+
 std::unique_ptr<mtconnect::Agent> ServerParts::make_mtconnect(const Settings& settings,
                                                               const Loaded& loaded) {
   if (settings.mtconnect.empty()) return nullptr;
@@ -210,11 +261,18 @@ machines::MachineListener ServerParts::published() {
   return listener;
 }
 
+Result<void> ServerParts::hold_queue(const storage::MeasuredPart& part,
+                                     const std::string& reason) {
+  const std::string who = template_of(part);
+  return library::hold_jobs(
+      store->jobs,
+      {.machine = part.machine, .who = who, .reason = reason, .since = clock.now()}, who);
+}
+
 Result<void> ServerParts::hold_machine(const storage::MeasuredPart& part,
                                        const std::string& reason) {
   const bool is_of_run = !part.run.empty();
-  audit.write({.who = fmt::format("report template {} version {}", part.template_name,
-                                  part.template_version),
+  audit.write({.who = template_of(part),
                .action = is_of_run ? "run.hold" : "machine.hold",
                .subject = is_of_run ? part.run : part.machine,
                .detail = reason});
@@ -253,12 +311,26 @@ Result<void> ServerParts::look() {
   ports.open_due();
   if (mtconnect) mtconnect->observer().reconcile(machines.machines());
   accounts.store_uses();
+  (void)revoke_certificates();
   certificates.look(watched_certificates());
   if (dds_certificate_expires && clock.now() >= *dds_certificate_expires)
     machine_service.lose_gateways();
   sound = chain.look();
   health.report("", chain.finding());
   return sound;
+}
+
+Result<void> ServerParts::revoke_certificates() {
+  if (revoked_file.empty()) return {};
+  auto serials = identity::read_revoked(revoked_file);
+  using Level = library::Health::Level;
+  health.report("", {.level = serials ? Level::Ok : Level::Degraded,
+                     .subject = "certificates",
+                     .what = "the list of revoked certificates cannot be read",
+                     .detail = serials ? "" : serials.error().what});
+  if (!serials) return fail(Errc::Denied, "tls-client-revoked: {}", serials.error().what);
+  accounts.revoke_certificates(*std::move(serials));
+  return {};
 }
 
 Result<void> ServerParts::open_mtconnect(const api::HttpOptions& options) {

@@ -12,6 +12,7 @@
 #include "server/app/networks.hpp"
 #include "server/app/settings.hpp"
 #include "server/app/state_folder.hpp"
+#include "server/folders/folders.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/imports/imports.hpp"
 #include "server/library/attachments.hpp"
@@ -21,6 +22,7 @@
 #include "server/library/certificate_watch.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/health.hpp"
+#include "server/library/job_queue.hpp"
 #include "server/library/program_search.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
@@ -32,6 +34,7 @@
 #include "server/ports/line_machines.hpp"
 #include "server/ports/port_service.hpp"
 #include "server/web/page.hpp"
+#include "server/webhooks/webhooks.hpp"
 #include "storage/sqlite_store.hpp"
 
 namespace dripline::app {
@@ -57,11 +60,15 @@ struct ServerParts {
                                                      const Loaded& loaded);
   /// Of machines with gateways and of those at the ends of lines.
   std::function<void(const std::string& machine, const std::string& fault)> records_watch();
+  std::function<void(const std::string& name, const std::string& fault)> folders_watch();
+  std::function<void(const std::string& name, const std::string& fault)> webhooks_watch();
   std::unique_ptr<mtconnect::Agent> make_mtconnect(const Settings& settings, const Loaded& loaded);
   /// Of the machine's last run, if it ended with an alarm.
   std::vector<storage::Record> last_alarms(const std::string& machine) const;
   /// To the listeners of events and to the MTConnect agent.
   machines::MachineListener published();
+  /// The verdict of a report template on a part: nothing of the job queue starts.
+  Result<void> hold_queue(const storage::MeasuredPart& part, const std::string& reason);
   /// The verdict of a report template on a part: feed hold.
   Result<void> hold_machine(const storage::MeasuredPart& part, const std::string& reason);
   machines::MachineListener machine_listener();
@@ -70,6 +77,8 @@ struct ServerParts {
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
   /// again.
   Result<void> look();
+  /// What the file says now; of a file that cannot be read what it said last stays in force.
+  Result<void> revoke_certificates();
   /// The machines that are known and their tools, then the sockets.
   Result<void> open_mtconnect(const api::HttpOptions& options);
   std::vector<library::WatchedCertificate> watched_certificates() const;
@@ -78,6 +87,7 @@ struct ServerParts {
   const Clock& clock;
   std::optional<UtcTime> dds_certificate_expires;  ///< nullopt: without DDS Security
   std::optional<UtcTime> certificate_expires;      ///< nullopt: without TLS
+  std::string revoked_file;                        ///< of clients' certificates; empty: none
   StateFolder folder;
   std::unique_ptr<storage::SqliteStore> store;
   library::Health health;
@@ -93,11 +103,15 @@ struct ServerParts {
   library::Attachments attachments;
   library::ProgramSearch search;
   library::RunHistory runs;
+  library::JobQueue jobs;
   paths::ProgramPaths paths;
   api::EventHub events;
   imports::Imports imports;
+  folders::Folders folders;
   measurements::Measurements measurements;
   library::Setups setups;
+  std::unique_ptr<webhooks::Sender> webhook_sender;
+  webhooks::Webhooks webhooks;
   std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
   offsets::Offsets offsets;
   machines::MachineService machine_service;

@@ -83,6 +83,13 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<ProgramFrame>(), described("ProgramFrame"));
   EXPECT_EQ(read_by_the_client<client::Run>(), described("Run"));
   EXPECT_EQ(read_by_the_client<client::Setup>(), described("Setup"));
+  EXPECT_EQ(read_by_the_client<client::Job>(), described("Job"));
+  EXPECT_EQ(read_by_the_client<client::JobList>(), described("JobList"));
+  EXPECT_EQ(read_by_the_client<client::JobList::Hold>(), described("JobList/properties/hold"));
+  EXPECT_EQ(read_by_the_client<client::Folder>(), described("Folder"));
+  EXPECT_EQ(read_by_the_client<client::FolderFile>(), described("FolderFile"));
+  EXPECT_EQ(read_by_the_client<client::Webhook>(), described("Webhook"));
+  EXPECT_EQ(read_by_the_client<client::WebhookTest>(), described("WebhookTest"));
   EXPECT_EQ(read_by_the_client<Memory>(), described("Memory"));
   EXPECT_EQ(read_by_the_client<MemoryCell>(), described("Memory/properties/cells/items"));
   EXPECT_EQ(read_by_the_client<Report>(), described("Report"));

@@ -20,7 +20,7 @@ class Access : public ApiTest {
         pattern.replace(at, name.size(), value);
     };
     replace("{name}", is_own ? user : "absent");
-    for (const char* name : {"{id}", "{run}", "{group}", "{machine}", "{token}"})
+    for (const char* name : {"{id}", "{run}", "{group}", "{machine}", "{token}", "{job}"})
       replace(name, "absent");
     replace("{number}", "1");
     return pattern;

@@ -16,6 +16,16 @@ struct Call {
   std::string token = kSecret;
 };
 
+/// A webhook's receiver that takes everything.
+class FakeSender final : public webhooks::Sender {
+ public:
+  Result<void> send(const webhooks::Delivery& delivery, const std::stop_token&) override {
+    sent.push_back(delivery);
+    return {};
+  }
+  std::vector<webhooks::Delivery> sent;
+};
+
 /// The API on a real store and fake machines, without sockets.
 class ApiTest : public ServerTest {
  protected:
@@ -47,6 +57,22 @@ class ApiTest : public ServerTest {
                                 .setups = *setups_,
                                 .clock = clock_,
                                 .on_change = api::publish_offsets_to(events_)});
+    jobs_ = std::make_unique<library::JobQueue>(
+        library::JobQueue::Parts{.store = *store_, .releases = *releases_, .clock = clock_});
+    folders::FolderSettings folder;
+    folder.name = "cam";
+    folder.path = folder_.path() / "cam";
+    folders_ = std::make_unique<folders::Folders>(
+        folders::HotFolder::Parts{
+            .programs = *programs_,
+            .catalog = catalog_,
+            .sources = {.store = *store_, .releases = *releases_, .clock = clock_},
+            .spool = folder_.path()},
+        std::vector{folder});  // nobody looks at it
+    webhooks_ = std::make_unique<webhooks::Webhooks>(
+        webhooks::Webhooks::Parts{
+            .store = store_->webhooks, .sender = sender_, .clock = clock_, .server = "db"},
+        webhooks::Webhooks::Options{});
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .releases = *releases_,
                                                     .attachments = *attachments_,
@@ -54,6 +80,7 @@ class ApiTest : public ServerTest {
                                                     .setups = *setups_,
                                                     .machines = machines_,
                                                     .runs = *runs_,
+                                                    .jobs = *jobs_,
                                                     .paths = *paths_,
                                                     .audit = *audit_,
                                                     .chain = *chain_,
@@ -72,7 +99,9 @@ class ApiTest : public ServerTest {
                                                     .imports = imports_.get(),
                                                     .measurements = measurements_.get(),
                                                     .retention = retention_.get(),
-                                                    .offsets = offsets_.get()});
+                                                    .offsets = offsets_.get(),
+                                                    .folders = folders_.get(),
+                                                    .webhooks = webhooks_.get()});
   }
 
   /// Made when they are asked for, in a folder beside the store.
@@ -215,6 +244,10 @@ class ApiTest : public ServerTest {
   std::unique_ptr<measurements::Measurements> measurements_;
   std::unique_ptr<library::Retention> retention_;
   std::unique_ptr<offsets::Offsets> offsets_;
+  std::unique_ptr<library::JobQueue> jobs_;
+  std::unique_ptr<folders::Folders> folders_;
+  FakeSender sender_;
+  std::unique_ptr<webhooks::Webhooks> webhooks_;
   std::unique_ptr<api::Api> api_;
 };
 

@@ -60,6 +60,26 @@ TEST_F(MachineRelease, NothingLeavesForTheGatewayThatIsNotReleased) {
   EXPECT_EQ(starts(), 1u);
 }
 
+TEST_F(MachineRelease, ARunOfAJobNamesItAndAHeldQueueStartsNothing) {
+  begin();
+  release("O0100", "M30\n");
+  storage::Job job;
+  job.machine = "lathe-1";
+  job.program = "O0100";
+  const auto added = store_->jobs.add(job, "anna", {});
+  ASSERT_TRUE(added) << added.error().what;
+  const machines::StartRequest request{
+      .machine = "lathe-1", .program = "O0100", .revision = {}, .author = "anna", .job = added->id};
+  ASSERT_TRUE(store_->jobs.hold({"lathe-1", "anna", "wide", clock_.now()}, "anna"));
+  EXPECT_EQ(service_->start(request).error().code, Errc::Conflict);
+  EXPECT_EQ(starts(), 0u) << "checked where the run is stored, whoever asks";
+  ASSERT_TRUE(store_->jobs.release("lathe-1", "anna", clock_.now()));
+  const auto run = service_->start(request);
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(run->job, added->id);
+  EXPECT_EQ(starts(), 1u);
+}
+
 TEST_F(MachineRelease, ACalledProgramIsReleasedTooOrIsNotFound) {
   begin();
   release("O0100", "M98 P0200\nM30\n");

@@ -23,6 +23,10 @@ action = "directory"
 name = "again"
 trigger = "FROM"
 action = "restart"
+[[set.rule]]
+name = "next"
+trigger = "NEXT"
+action = "next_job"
 [[rule]]
 matches = "^PROBE "
 action = "report"
@@ -232,6 +236,31 @@ TEST_F(PortServiceTest, SendsWhatIsCalledFromTheControl) {
   ASSERT_TRUE(wait_state(runs->front().id, RunState::Completed));
   line().write("%\nO9999\n(FROM=N1)\nM30\n%\n");
   EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");
+}
+
+TEST_F(PortServiceTest, TheControlTakesTheNextJob) {
+  start_ports();
+  add_machine("mill");
+  add_port(mill(kCalls));
+  push("O1234", "N1 G0 X1\n");
+  line().write("%\nO9999\n(NEXT)\nM30\n%\n");
+  EXPECT_NE(line().read_until("M30\n%\n").find("NO JOB WAITS"), std::string::npos);
+  storage::Job job;
+  job.machine = "mill";
+  job.program = "O1234";
+  const auto added = store_->jobs.add(job, "anna", {});
+  ASSERT_TRUE(added) << added.error().what;
+  ASSERT_TRUE(store_->jobs.hold({"mill", "anna", "bore is wide", clock_.now()}, "anna"));
+  line().write("%\nO9999\n(NEXT)\nM30\n%\n");
+  EXPECT_NE(line().read_until("M30\n%\n").find("BORE IS WIDE"), std::string::npos);
+  ASSERT_TRUE(store_->jobs.release("mill", "anna", clock_.now()));
+  line().write("%\nO9999\n(NEXT)\nM30\n%\n");
+  EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");
+  const auto runs = store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {});
+  ASSERT_EQ(runs->size(), 1u);
+  EXPECT_EQ(runs->front().job, added->id);
+  ASSERT_TRUE(wait_state(runs->front().id, RunState::Completed));
+  EXPECT_EQ(store_->jobs.find(added->id)->state, storage::JobState::Done);
 }
 
 TEST_F(PortServiceTest, ReportsARefusalAsAProgramOfComments) {
