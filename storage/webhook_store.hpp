@@ -15,7 +15,7 @@ namespace dripline::storage {
 struct Event {
   std::uint64_t id = 0;  ///< grows in the order of the changes
   UtcTime time;
-  std::string kind;  ///< revision, run, alarm, import, job
+  std::string kind;  ///< revision, run, alarm, import, job, part
   std::string data;  ///< a JSON object
 };
 

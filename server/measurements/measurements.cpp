@@ -50,11 +50,6 @@ void Measurements::wake() {
   changed_.notify_all();
 }
 
-void Measurements::hold_queue_with(Hold hold) {
-  const std::lock_guard lock(due_mutex_);
-  parts_.hold_queue = std::move(hold);
-}
-
 Result<void> Measurements::wait(std::chrono::milliseconds limit) {
   const auto deadline = std::chrono::steady_clock::now() + limit;
   std::unique_lock lock(mutex_);
@@ -241,17 +236,13 @@ void Measurements::take_all_due() {
 void Measurements::carry_out(const DueAction& due) {
   const auto part = parts_.store.measurements.part(due.part);
   if (!part) return;
-  Hold hold;
-  {
-    const std::lock_guard lock(due_mutex_);
-    hold = due.action == report_template::Action::HoldMachine ? parts_.hold_machine
-                                                              : parts_.hold_queue;
-  }
+  const Hold& hold =
+      due.action == report_template::Action::HoldMachine ? parts_.hold_machine : parts_.hold_queue;
   const std::string reason =
       fmt::format("part {}{} is {}", part->id, part->serial.empty() ? "" : " " + part->serial,
                   measurement::to_string(part->verdict));
-  const auto held = hold ? hold(*part, reason)
-                         : Result<void>(fail(Errc::Unsupported, "this server has no job queue"));
+  const auto held =
+      hold ? hold(*part, reason) : Result<void>(fail(Errc::Unsupported, "this server holds none"));
   if (held) {
     process::log_info("{} machine={}: {}", report_template::to_string(due.action), part->machine,
                       reason);

@@ -32,8 +32,8 @@ class Measurements {
     /// A part has a verdict: outside its limits at once, otherwise when it is complete. Called
     /// after the commit; must return soon.
     std::function<void(const storage::MeasuredPart&)> on_part = {};
-    Hold hold_queue = {};    ///< empty: this server has no queues
-    Hold hold_machine = {};  ///< empty: it holds nothing
+    Hold hold_queue = {};                                       ///< empty: it holds none
+    Hold hold_machine = {};                                     ///< empty: it holds nothing
     std::chrono::milliseconds retry = std::chrono::seconds(2);  ///< after a store that refuses
   };
   explicit Measurements(Parts parts);
@@ -49,8 +49,6 @@ class Measurements {
   void note();
   /// Returns when everything stored before the call is derived. Errors: Timeout.
   Result<void> wait(std::chrono::milliseconds limit);
-  /// What has no queue when the object is made.
-  void hold_queue_with(Hold hold);
 
   // Templates. Errors: those of ReportTemplateStore; of the text, those of read_template.
   Result<storage::ReportTemplateVersion> push(const std::string& name, const std::string& text,

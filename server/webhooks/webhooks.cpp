@@ -22,7 +22,7 @@ bool wants(const storage::Webhook& webhook, const storage::Event& event) {
 }  // namespace
 
 const std::vector<std::string>& Webhooks::kinds() {
-  static const std::vector<std::string> kKinds{"revision", "run", "alarm", "import", "job"};
+  static const std::vector<std::string> kKinds{"revision", "run", "alarm", "import", "job", "part"};
   return kKinds;
 }
 

@@ -144,13 +144,15 @@ inline storage::Store with(const storage::Store& store, storage::MachineStore& m
           store.records,      store.ports,    store.setups,  store.audit,
           store.accounts,     store.releases, store.imports, store.report_templates,
           store.measurements, store.archives, store.offsets, store.attachments,
-          store.search,       store.folders,  store.jobs,     store.webhooks};
+          store.search,       store.folders,  store.jobs,    store.webhooks};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
-  return {store.programs,     store.uploads,  store.machines, store.runs,
-          records,            store.ports,    store.setups,   store.audit,
-          store.accounts,     store.releases, store.imports,  store.report_templates,
-          store.measurements, store.archives, store.offsets,  store.attachments,
-          store.search,       store.folders,  store.jobs,     store.webhooks};
+  return {store.programs,     store.uploads,  store.machines,
+          store.runs,         records,        store.ports,
+          store.setups,       store.audit,    store.accounts,
+          store.releases,     store.imports,  store.report_templates,
+          store.measurements, store.archives, store.offsets,
+          store.attachments,  store.search,   store.folders,
+          store.jobs,         store.webhooks};
 
 }  // namespace dripline::test_support

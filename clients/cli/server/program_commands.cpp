@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
-#include "clients/cli/server/program_check.hpp"
 #include "clients/cli/server/library_commands.hpp"
+#include "clients/cli/server/program_check.hpp"
 #include "clients/cli/server/program_diff.hpp"
 #include "clients/cli/server/program_transfer.hpp"
 #include "clients/cli/server/release_commands.hpp"

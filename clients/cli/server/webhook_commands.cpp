@@ -85,7 +85,7 @@ void add_webhook_commands(Command app, Context& context) {
   add.add_option("NAME", addition->name, "Its name").required();
   add.add_option("URL", addition->url, "http:// or https://, where events are posted").required();
   add.add_option("--events", addition->kinds,
-                 "Only these, with commas: revision, run, alarm, import, job")
+                 "Only these, with commas: revision, run, alarm, import, job, part")
       .delimiter(',');
   add_json_flag(add, context);
   add.footer(

@@ -68,21 +68,19 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
                .spool = folder.path(),
                .on_fault = folders_watch()},
               settings.folders),
-      measurements({.store = *store,
-                    .clock = clock,
-                    .on_part =
-                        [this, publish = api::publish_parts_to(events)](const auto& part) {
-                          publish(part);
-                          offsets.note(part.machine);
-                        },
-                    .hold_queue =
-                        [this](const storage::MeasuredPart& part, const std::string& reason) {
-                          return hold_queue(part, reason);
-                        },
-                    .hold_machine =
-                        [this](const storage::MeasuredPart& part, const std::string& reason) {
-                          return hold_machine(part, reason);
-                        }}),
+      measurements(
+          {.store = *store,
+           .clock = clock,
+           .on_part =
+               [this, publish = api::publish_parts_to(events)](const auto& part) {
+                 publish(part);
+                 offsets.note(part.machine);
+               },
+           .hold_queue = [this](const storage::MeasuredPart& part,
+                                const std::string& reason) { return hold_queue(part, reason); },
+           .hold_machine = [this](
+                               const storage::MeasuredPart& part,
+                               const std::string& reason) { return hold_machine(part, reason); }}),
       setups(store->setups, catalog, audit),
       webhook_sender(webhooks::make_http_sender(kWebhookTimeout)),
       webhooks({.store = store->webhooks,
@@ -261,12 +259,11 @@ machines::MachineListener ServerParts::published() {
   return listener;
 }
 
-Result<void> ServerParts::hold_queue(const storage::MeasuredPart& part,
-                                     const std::string& reason) {
+Result<void> ServerParts::hold_queue(const storage::MeasuredPart& part, const std::string& reason) {
   const std::string who = template_of(part);
   return library::hold_jobs(
-      store->jobs,
-      {.machine = part.machine, .who = who, .reason = reason, .since = clock.now()}, who);
+      store->jobs, {.machine = part.machine, .who = who, .reason = reason, .since = clock.now()},
+      who);
 }
 
 Result<void> ServerParts::hold_machine(const storage::MeasuredPart& part,

@@ -516,7 +516,7 @@ INSERT INTO webhook VALUES(1,'erp','https://erp.example/','s3cret','run,alarm','
 CREATE TABLE event (
   id      INTEGER PRIMARY KEY AUTOINCREMENT,  -- in the order of their transactions; never used twice
   time_us INTEGER NOT NULL,                   -- when it was stored
-  kind    TEXT NOT NULL,                      -- revision, run, alarm, import, job
+  kind    TEXT NOT NULL,                      -- revision, run, alarm, import, job, part
   data    TEXT NOT NULL                       -- JSON
 ) STRICT;
 INSERT INTO event VALUES(1,1700000000000000,'run','{"run":"r1"}');
@@ -713,6 +713,25 @@ BEGIN
   INSERT INTO event (time_us, kind, data) VALUES (
     CAST((julianday('now') - 2440587.5) * 86400000 AS INTEGER) * 1000, 'job',
     json_object('change', 'released', 'machine', (SELECT name FROM machine WHERE id = old.machine)));
+END;
+CREATE TRIGGER event_of_new_part AFTER INSERT ON measured_part
+WHEN (new.verdict >= 2 OR new.ended_us IS NOT NULL) AND EXISTS (SELECT 1 FROM webhook)
+BEGIN
+  INSERT INTO event (time_us, kind, data) VALUES (
+    CAST((julianday('now') - 2440587.5) * 86400000 AS INTEGER) * 1000, 'part',
+    json_object('part', new.id, 'machine', (SELECT name FROM machine WHERE id = new.machine), 'run', new.run,
+      'program', new.program, 'number', new.number, 'serial', new.serial,
+      'verdict', CASE new.verdict WHEN 0 THEN 'good' WHEN 1 THEN 'unknown' WHEN 2 THEN 'rework' ELSE 'scrap' END));
+END;
+CREATE TRIGGER event_of_verdict AFTER UPDATE OF verdict, ended_us ON measured_part
+WHEN ((new.verdict >= 2 AND new.verdict <> old.verdict)
+      OR (new.verdict < 2 AND new.ended_us IS NOT NULL AND old.ended_us IS NULL)) AND EXISTS (SELECT 1 FROM webhook)
+BEGIN
+  INSERT INTO event (time_us, kind, data) VALUES (
+    CAST((julianday('now') - 2440587.5) * 86400000 AS INTEGER) * 1000, 'part',
+    json_object('part', new.id, 'machine', (SELECT name FROM machine WHERE id = new.machine), 'run', new.run,
+      'program', new.program, 'number', new.number, 'serial', new.serial,
+      'verdict', CASE new.verdict WHEN 0 THEN 'good' WHEN 1 THEN 'unknown' WHEN 2 THEN 'rework' ELSE 'scrap' END));
 END;
 PRAGMA writable_schema=OFF;
 COMMIT;

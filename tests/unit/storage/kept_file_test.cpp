@@ -201,8 +201,8 @@ TEST_P(KeptFile, HasHotFoldersJobsAndWebhooksSinceVersion14) {
 
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
-                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql", "v12.sql",
-                                         "v13.sql", "v14.sql"),
+                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
+                                         "v12.sql", "v13.sql", "v14.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

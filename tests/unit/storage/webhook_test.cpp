@@ -85,6 +85,46 @@ TEST_F(WebhookEvents, OfAJobCountItsParts) {
   EXPECT_NE(done->data.find(R"("completed":1)"), std::string::npos);
 }
 
+TEST_F(WebhookEvents, OfAPartComeAtItsVerdictOrItsEnd) {
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
+  ASSERT_TRUE(store_->report_templates.push(
+      {.name = "bore", .version = 0, .text = "x", .author = "anna", .created = clock_.now()},
+      "anna"));
+  ASSERT_TRUE(store_->records.store(make_batch(1, 4)));
+  add("erp", {"part"});
+  DerivedBatch derived;
+  derived.machine = "m1";
+  derived.epoch = make_batch(1, 1).epoch;
+  MeasuredPart part;
+  part.id = 1;
+  part.machine = "m1";
+  part.run = "r1";
+  part.template_name = "bore";
+  part.template_version = 1;
+  part.serial = "S7";
+  part.begun = clock_.now();
+  const auto commit = [&](std::uint64_t through, measurement::Verdict verdict, bool is_complete) {
+    part.verdict = verdict;
+    if (is_complete) part.ended = clock_.now();
+    derived.after = derived.through;
+    derived.through = through;
+    derived.parts = {part};
+    const auto committed = store_->measurements.commit(derived);
+    ASSERT_TRUE(committed) << committed.error().what;
+  };
+  commit(1, measurement::Verdict::Good, false);
+  EXPECT_EQ(kinds(), "") << "it may become worse";
+  commit(2, measurement::Verdict::Rework, false);
+  EXPECT_EQ(kinds(), "part ");
+  commit(3, measurement::Verdict::Rework, true);
+  EXPECT_EQ(kinds(), "part ") << "said already";
+  part.id = 2;
+  part.ended.reset();
+  commit(4, measurement::Verdict::Good, true);
+  EXPECT_EQ(kinds(), "part part ");
+  EXPECT_NE(events().at(0).data.find(R"("serial":"S7","verdict":"rework")"), std::string::npos);
+}
+
 TEST_F(WebhookEvents, OfRevisionsAndImportsFollowTheirStates) {
   add("erp");
   Upload upload;
