@@ -32,7 +32,10 @@ int print_trail(Context& context, audit::TrailReader& reader, const Result<void>
   const auto over = read ? reader.finish() : read;
   const auto& verifier = reader.verifier();
   if (verifier && verifier->first_fault()) return print_fault(*verifier->first_fault());
-  if (!over) return complain(over.error());
+  if (!over) {
+    complain(over.error());
+    return kExitNo;  // cut off, or not of the kept checkpoint: changed too
+  }
   const auto& checkpoint = verifier->checkpoint();
   context.print(fmt::format(
       "{} entries, each as it was written. Signed up to entry {} with the key\n{}\n",

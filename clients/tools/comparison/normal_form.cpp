@@ -109,7 +109,8 @@ void append_number(std::string_view number, const LexicalRules& rules, std::stri
   while (whole.size() > 1 && whole.front() == '0') whole.remove_prefix(1);
   while (!decimals.empty() && decimals.back() == '0') decimals.remove_suffix(1);
   out += whole.empty() ? "0" : whole;
-  const bool keeps_point = rules.point_counts && point != std::string_view::npos;
+  const bool is_zero = (whole.empty() || whole == "0") && decimals.empty();  // in any unit
+  const bool keeps_point = rules.point_counts && point != std::string_view::npos && !is_zero;
   if (!decimals.empty() || keeps_point) out += '.';
   out += decimals;
 }

@@ -57,6 +57,7 @@ Response begin_attachment(Services& services, const Request& request) {
 Response commit_attachment(Services& services, const Request& request) {
   const auto body = decode_commit(request.body);
   if (!body) return error_response(body.error());
+  if (const auto own = own_upload(services, request); !own) return error_response(own.error());
   const auto attachment =
       services.attachments.commit(request.parameter("id"), body->sha256, request.who);
   if (!attachment) return error_response(attachment.error());

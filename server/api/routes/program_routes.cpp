@@ -25,6 +25,10 @@ Response begin_upload(Services& services, const Request& request) {
   return answer_upload(201, services.programs.begin(*body, request.who));
 }
 
+Response show_upload(Services& services, const Request& request) {
+  return answer_upload(200, own_upload(services, request));
+}
+
 Response append_upload(Services& services, const Request& request) {
   QueryReader query(request);
   const auto offset = query.number("offset", kMaxNumber);
@@ -35,6 +39,7 @@ Response append_upload(Services& services, const Request& request) {
     return error_response({Errc::LimitExceeded, fmt::format("piece of {} bytes: at most {}",
                                                             request.body.size(), Api::kMaxPiece)});
   }
+  if (const auto own = own_upload(services, request); !own) return error_response(own.error());
   return answer_upload(200, services.programs.append(request.parameter("id"), *offset,
                                                      std::as_bytes(std::span(request.body))));
 }
@@ -42,6 +47,7 @@ Response append_upload(Services& services, const Request& request) {
 Response commit_upload(Services& services, const Request& request) {
   const auto body = decode_commit(request.body);
   if (!body) return error_response(body.error());
+  if (const auto own = own_upload(services, request); !own) return error_response(own.error());
   const auto protection =
       body->force ? library::Protection::Override : library::Protection::Respect;
   const auto committed =
@@ -54,10 +60,18 @@ Response commit_upload(Services& services, const Request& request) {
 }
 
 Response abandon_upload(Services& services, const Request& request) {
+  if (const auto own = own_upload(services, request); !own) return error_response(own.error());
   return empty_response(services.programs.abandon(request.parameter("id")));
 }
 
 }  // namespace
+
+Result<storage::Upload> own_upload(Services& services, const Request& request) {
+  auto upload = services.programs.upload(request.parameter("id"));
+  if (upload && upload->author != request.who.name)
+    return fail(Errc::NotFound, "upload '{}' is not one of {}", upload->id, request.who.name);
+  return upload;
+}
 
 Result<std::uint64_t> revision_number(const Request& request) {
   const std::string& text = request.parameter("number");
@@ -68,9 +82,7 @@ Result<std::uint64_t> revision_number(const Request& request) {
 
 void add_upload_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/uploads", with(services, begin_upload));
-  router.add("GET", "/api/v1/uploads/{id}", [&](const Request& request) {
-    return answer_upload(200, services.programs.upload(request.parameter("id")));
-  });
+  router.add("GET", "/api/v1/uploads/{id}", with(services, show_upload));
   router.add("PUT", "/api/v1/uploads/{id}/content", with(services, append_upload));
   router.add("POST", "/api/v1/uploads/{id}/commit", with(services, commit_upload));
   router.add("DELETE", "/api/v1/uploads/{id}", with(services, abandon_upload));

@@ -186,6 +186,26 @@ TEST_F(Access, OfATokenEndsWithItsOwnersRights) {
   EXPECT_EQ(as(secret, "GET", "/api/v1/machines").status, 401);
 }
 
+/// Otherwise an author could approve what he sent himself, under another one's name.
+TEST_F(Access, ToAnUploadHasOnlyWhoBeganIt) {
+  add_user("bert", "programmer", {"all"});
+  add_user("carl", "approver", {"all"});
+  const std::string bert = token("bert", {{"name", "t"}}), carl = token("carl", {{"name", "t"}});
+  const auto begun = as(bert, "POST", "/api/v1/uploads", R"({"program":"O1"})");
+  ASSERT_EQ(begun.status, 201) << begun.body;
+  const std::string upload = "/api/v1/uploads/" + json(begun).value("id", "");
+  const std::string content = upload + "/content?offset=0";
+  for (const auto& [method, path] :
+       std::vector<std::pair<std::string, std::string>>{{"GET", upload},
+                                                        {"PUT", content},
+                                                        {"POST", upload + "/commit"},
+                                                        {"POST", upload + "/attach"},
+                                                        {"DELETE", upload}})
+    expect_error(as(carl, method, path, method == "PUT" ? "M30\n" : ""), 404, "not_found", "carl");
+  EXPECT_EQ(json(as(bert, "GET", upload)).value("received", 9), 0);
+  EXPECT_EQ(as(bert, "PUT", content, "G0 X1.\nM30\n").status, 200);
+}
+
 // -- cookies --------------------------------------------------------------------------------------
 
 TEST_F(Access, ByCookieNeedsTheHeaderOfOurPageForChanges) {

@@ -25,7 +25,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"numbers", "rs274ngc", "N10 g01 x1.0 Y+02.500 z.5 (cut)", "G1X1Y2.5Z0.5"},
         Case{"a_point_that_scales", "fanuc", "G01 X1 Y1.0 Z01.", "G1X1Y1.Z1."},
-        Case{"a_point_that_scales_on_a_lathe", "centurion", "X01.500 Z-00.0", "X1.5Z-0."},
+        Case{"a_point_that_scales_on_a_lathe", "centurion", "X01.500 Z-00.0", "X1.5Z-0"},
+        Case{"a_zero_has_no_scale", "fanuc", "G01 X0 Y0. Z00.00", "G1X0Y0Z0"},
         Case{"a_comment_alone", "fanuc", "(T1 = 10 MM)", ""},
         Case{"blanks_alone", "tnc155", "  \t\r", ""},
         Case{"a_comment_to_the_end", "rs274ngc", "G0 X1 ; to the start", "G0X1"},
