@@ -25,6 +25,7 @@
 #include "server/machines/machine_registry.hpp"
 #include "server/machines/machine_service.hpp"
 #include "server/mtconnect/agent.hpp"
+#include "server/ports/gateway_lines.hpp"
 #include "server/ports/line_machines.hpp"
 #include "server/ports/port_service.hpp"
 #include "server/web/page.hpp"
@@ -192,6 +193,16 @@ struct Server::Parts {
         ports({.store = *store, .releases = releases, .clock = clock}, programs,
               {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
               published()),
+        gateway_lines({.store = *store,
+                       .releases = releases,
+                       .programs = programs,
+                       .clock = clock,
+                       .ask =
+                           [this](dds::LineRequest request, std::chrono::milliseconds limit) {
+                             return machine_service.ask_line(std::move(request), limit);
+                           },
+                       .machines = machine_service}),
+        port_router(ports, gateway_lines),
         machines(store->runs, machine_service, ports.machines()),
         api({.programs = programs,
              .releases = releases,
@@ -212,7 +223,7 @@ struct Server::Parts {
                        .certificate_expires = certificate_expires,
                        .dds_certificate_expires = dds_certificate_expires},
              .dds_rejected = [this] { return machine_service.rejected().messages; },
-             .ports = &ports,
+             .ports = &port_router,
              .health = &health,
              .backups = backups.get(),
              .imports = &imports,
@@ -222,6 +233,9 @@ struct Server::Parts {
   machines::MachineService::Options machine_options() {
     machines::MachineService::Options options;
     options.on_fault = records_watch();
+    options.on_line = [this](const dds::Status& status) {
+      if (are_lines_handled) gateway_lines.on_status(status);
+    };
     return options;
   }
 
@@ -332,7 +346,10 @@ struct Server::Parts {
   library::Setups setups;
   std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
   machines::MachineService machine_service;
+  std::atomic<bool> are_lines_handled = false;  ///< by gateway_lines
   ports::PortService ports;
+  ports::GatewayLines gateway_lines;
+  ports::PortRouter port_router;
   ports::MachineRouter machines;
   api::Api api;
   web::Page page{web::embedded_assets()};
@@ -434,6 +451,7 @@ Server::~Server() {
   parts_->events.close();
   parts_->http.reset();
   parts_->mtconnect_http.reset();
+  parts_->gateway_lines.end();
   parts_->ports.end();
   parts_->machine_service.end();
 }
@@ -481,6 +499,10 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   parts.programs.on_held([&parts](const auto& revision) { parts.imports.note(revision); });
   parts.imports.begin();
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
+  parts.gateway_lines.on_traffic(
+      api::publish_traffic_to(parts.events),
+      [&parts](const std::string& port) { return parts.events.has_port_listeners(port); });
+  parts.are_lines_handled = true;
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint = dds::ServerEndpoint::open(network->options, parts.machine_service.handlers());
   if (!endpoint) return fail(endpoint.error());

@@ -31,15 +31,16 @@ clients/tools/tnc_probing: protocol/base gateway/interpreter clients/tools/tnc_p
 gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/machine/grbl: protocol/base protocol/wire protocol/serial gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
+gateway/line: protocol/base protocol/wire protocol/process protocol/serial gateway/interpreter gateway/line
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite
 server/library: protocol/base protocol/pki protocol/audit protocol/process storage gateway/interpreter server/library
 server/identity: protocol/base protocol/process storage server/library server/identity
 server/machines: protocol storage gateway/interpreter server/library server/machines
-server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
+server/ports: protocol storage gateway/interpreter gateway/line server/library server/machines server/ports
 server/paths: protocol/base storage gateway/interpreter clients/tools/comparison clients/tools/offline server/library server/machines server/paths
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
-server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/identity server/paths server/imports server/api
+server/api: protocol storage gateway/interpreter gateway/line server/library server/machines server/ports server/identity server/paths server/imports server/api
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect
 server/web: protocol/base server/api server/web
 server/app: protocol storage server

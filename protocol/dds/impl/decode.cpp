@@ -128,5 +128,7 @@ template Result<Command> decode(const SampleOf<Command>&);
 template Result<CommandResult> decode(const SampleOf<CommandResult>&);
 template Result<BlockRequest> decode(const SampleOf<BlockRequest>&);
 template Result<BlockData> decode(const SampleOf<BlockData>&);
+template Result<LineRequest> decode(const SampleOf<LineRequest>&);
+template Result<LineData> decode(const SampleOf<LineData>&);
 
 }  // namespace dripline::dds

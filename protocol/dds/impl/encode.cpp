@@ -138,5 +138,7 @@ template Result<void> encode(const Command&, SampleOf<Command>&);
 template Result<void> encode(const CommandResult&, SampleOf<CommandResult>&);
 template Result<void> encode(const BlockRequest&, SampleOf<BlockRequest>&);
 template Result<void> encode(const BlockData&, SampleOf<BlockData>&);
+template Result<void> encode(const LineRequest&, SampleOf<LineRequest>&);
+template Result<void> encode(const LineData&, SampleOf<LineData>&);
 
 }  // namespace dripline::dds
