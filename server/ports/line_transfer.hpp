@@ -6,6 +6,7 @@
 
 #include "server/machines/run_sources.hpp"
 #include "server/ports/line_types.hpp"
+#include "server/ports/port_control.hpp"
 
 /// Programs to a control's memory and out of it, without a run. The functions wait for the line's
 /// answer, at most kTransferAnswerLimit; not to be called on a strand or a line's thread.

@@ -219,7 +219,7 @@ dds::Status SerialGateway::status() const {
                     .calls = calls_,
                     .is_emergency_stopped = is_emergency_stopped_};
   if (port_) {
-    state.line = port_->view();
+    state.view = port_->view();
     state.progress = port_->progress();
   }
   return make_status(state);

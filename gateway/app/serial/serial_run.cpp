@@ -243,11 +243,11 @@ void SerialRun::abort(const std::string& reason) {
   port_->abort(current_->run.run, reason, [](const Result<void>&) {});
 }
 
-void SerialRun::on_sent(const line::SendEnd& end) {
-  if (!current_ || end.progress.id != current_->run.run) return;
-  const bool is_completed = end.outcome == line::SendOutcome::Completed;
-  this->end(to_outcome(end.outcome), is_completed ? std::string(kCompleted) : end.reason,
-            LineJournal::progress_of(end.progress));
+void SerialRun::on_sent(const line::SendEnd& sent) {
+  if (!current_ || sent.progress.id != current_->run.run) return;
+  const bool is_completed = sent.outcome == line::SendOutcome::Completed;
+  end(to_outcome(sent.outcome), is_completed ? std::string(kCompleted) : sent.reason,
+      LineJournal::progress_of(sent.progress));
 }
 
 void SerialRun::end(dds::RunOutcome outcome, const std::string& reason,

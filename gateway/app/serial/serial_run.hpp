@@ -55,7 +55,7 @@ class SerialRun {
   /// Ends it, on the line or before it came there.
   void abort(const std::string& reason);
   /// Of the line, as a task.
-  void on_sent(const line::SendEnd& end);
+  void on_sent(const line::SendEnd& sent);
   /// On the line's thread.
   void on_progress(const line::SendProgress& progress) { journal_.write(progress); }
 
@@ -85,7 +85,7 @@ class SerialRun {
   struct Current {
     report::ActiveRun run;
     std::shared_ptr<PulledText> text;
-    std::optional<SerialStart> start;
+    std::optional<SerialStart> start = {};
     bool is_on_line = false, is_ending = false;
   };
   bool must_wait_for_panel() const;

@@ -33,7 +33,7 @@ Execution execution_of(const SerialState& state) {
   if (state.is_emergency_stopped) return Execution::Stopped;
   if (!state.run.is_active() || state.run.is_ending()) return state.run.last_execution();
   if (!state.run.is_on_line()) return Execution::Waiting;
-  switch (line::activity_of(state.line, state.progress)) {
+  switch (line::activity_of(state.view, state.progress)) {
     case line::LineActivity::Held:
       return Execution::FeedHold;
     case line::LineActivity::Waiting:
@@ -42,7 +42,7 @@ Execution execution_of(const SerialState& state) {
       break;
   }
   const bool is_starved = state.run.buffered_bytes() == 0 && !state.run.has_all_text();
-  return is_starved || state.line.line.awaits_start ? Execution::Waiting : Execution::Active;
+  return is_starved || state.view.line.awaits_start ? Execution::Waiting : Execution::Active;
 }
 
 std::string message_of(const SerialState& state) {
@@ -52,14 +52,14 @@ std::string message_of(const SerialState& state) {
     return "the server does not command this gateway: " + state.server.refused();
   if (!state.run.is_active()) {
     if (!state.run.last_message().empty()) return state.run.last_message();
-    return line::message_of(state.line, state.progress);
+    return line::message_of(state.view, state.progress);
   }
   if (state.run.is_looking()) {
     return fmt::format("looking through the program for where it begins, byte {}{}",
                        state.run.looked_at(), state.server.is_connected() ? "" : ": no server");
   }
   std::string words = state.consent.is_awaited() ? std::string(kAwaitsCycleStart)
-                                                 : line::message_of(state.line, state.progress);
+                                                 : line::message_of(state.view, state.progress);
   if (!words.empty()) words += "; ";
   if (const std::string head = state.run.head(); !head.empty())
     words += fmt::format("sent first: {}; ", shown_head(head));
@@ -70,7 +70,7 @@ dds::WaitsFor waits_for(const SerialState& state, Execution execution) {
   if (!state.records.fault().empty()) return dds::WaitsFor::Disk;
   if (!state.run.is_active() || state.is_emergency_stopped) return dds::WaitsFor::Nothing;
   if (state.consent.is_awaited() || execution == Execution::FeedHold ||
-      state.line.line.awaits_start)
+      state.view.line.awaits_start)
     return dds::WaitsFor::CycleStart;
   const bool is_starved = state.run.buffered_bytes() == 0 && !state.run.has_all_text();
   return is_starved ? dds::WaitsFor::Text : dds::WaitsFor::Nothing;
@@ -86,7 +86,7 @@ std::string settings_text(std::string changes) {
 }
 
 dds::LineStatus line_status(const SerialState& state) {
-  const line::LineView& view = state.line;
+  const line::LineView& view = state.view;
   dds::LineStatus status;
   status.address = state.options.line->address;
   status.line_template = state.options.line->template_name;

@@ -21,8 +21,8 @@ struct SerialState {
   const ServerLink& server;
   const UploadStore& uploads;
   const LineCalls& calls;
-  line::LineView line;
-  std::optional<line::SendProgress> progress;
+  line::LineView view = {};
+  std::optional<line::SendProgress> progress = {};
   bool is_emergency_stopped = false;
 };
 
