@@ -118,7 +118,8 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
   RemoteRequestHandler::Parts calls{
       .store = store_,
       .releases = sources_.releases,
-      .line = std::make_shared<PortAtControl>(line_machines_, *this, name),
+      .line = std::make_shared<PortAtControl>(line_machines_,
+                                              static_cast<const LineDirectory&>(*this), name),
       .clock = clock_,
       .machine = name,
       .rules = entry.rules,

@@ -72,7 +72,7 @@ TEST(SerialGateway, IsNotFeltByTheControlWhenTheServerIsAwayForAsLongAsTheBuffer
   const std::string text = contour(80'000);  // 7 s of the line
   std::vector<std::string> printed;
   const std::string program = printing_program(printed);
-  const std::string id = shop.start("contour", text.substr(0, text.rfind("M")) + program);
+  const std::string id = shop.start("contour", ended_by(text, program));
   ASSERT_TRUE(eventually([&] {
     return shop.message().find("the rest of the program is buffered") != std::string::npos;
   })) << shop.message();

@@ -58,7 +58,7 @@ TEST(SerialGatewayKill, OfTheServerIsNotFelt) {
   std::vector<std::string> printed;
   const std::string program = printing_program(printed);
   const std::string text = contour(120'000);
-  const std::string all = text.substr(0, text.rfind("M")) + program;
+  const std::string all = ended_by(text, program);
   const std::string id = shop.start("contour", all);
   std::mt19937 random(11);
   for (int kill = 0; kill < 4; ++kill) {

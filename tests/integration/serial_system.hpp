@@ -108,4 +108,9 @@ inline std::string printing_program(std::vector<std::string>& lines) {
   return text + "PCLOS\nM30\n";
 }
 
+/// `text` without its end, then `program` without its number.
+inline std::string ended_by(const std::string& text, const std::string& program) {
+  return text.substr(0, text.rfind('M')) + program.substr(program.find('\n') + 1);
+}
+
 }  // namespace dripline::integration

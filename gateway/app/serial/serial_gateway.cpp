@@ -201,7 +201,7 @@ SteadyTime SerialGateway::turn(SteadyTime now) {
 Result<void> SerialGateway::interrupt_run(const std::string& reason) {
   if (port_) port_->close(reason);
   tasks_->run();
-  if (run_.is_active() && !run_.is_ending()) run_.abort(reason);
+  run_.interrupt(reason);
   if (!run_.is_active()) return {};
   return fail(Errc::Io, "{}", records_.fault());
 }

@@ -67,7 +67,7 @@ Result<void> SerialRun::recover() {
                   progress.sent, std::max(progress.offset, progress.sent), place_text(progress));
   process::log_warning("run interrupted: {} machine={} run={} program={}", reason,
                        parts_.options.machine, run->run, run->program);
-  current_ = Current{.run = *run, .text = nullptr};
+  current_.emplace(Current{.run = *run, .text = nullptr});
   end(dds::RunOutcome::Interrupted, reason, progress);
   if (!current_) return {};
   return fail(Errc::Io, "{}", parts_.records.fault());
@@ -116,12 +116,12 @@ Result<void> SerialRun::start(const dds::Command& command, SteadyTime now) {
   const double rate = wire::characters_per_second(parts_.settings);
   const auto bytes = static_cast<std::size_t>(
       rate * std::chrono::duration<double>(parts_.options.line->ahead).count());
-  current_ = Current{.run = run,
-                     .text = std::make_shared<PulledText>(
-                         feed::FeedRun{parts_.options.machine, parts_.session, run.run, run.size},
-                         PulledText::Buffer{bytes}, [this](const dds::BlockRequest& request) {
-                           return parts_.endpoint.write(request).has_value();
-                         })};
+  auto text = std::make_shared<PulledText>(
+      feed::FeedRun{parts_.options.machine, parts_.session, run.run, run.size},
+      PulledText::Buffer{bytes}, [this](const dds::BlockRequest& request) {
+        return parts_.endpoint.write(request).has_value();
+      });
+  current_.emplace(Current{.run = run, .text = std::move(text), .start = *std::move(place)});
   journal_.begin(run.run);
   last_run_ = run.run;
   last_message_.clear();
@@ -241,6 +241,10 @@ void SerialRun::abort(const std::string& reason) {
   if (!current_ || current_->is_ending) return;
   if (!current_->is_on_line) return end(dds::RunOutcome::Aborted, reason, {});
   port_->abort(current_->run.run, reason, [](const Result<void>&) {});
+}
+
+void SerialRun::interrupt(const std::string& reason) {
+  if (current_ && !current_->is_ending) end(dds::RunOutcome::Interrupted, reason, {});
 }
 
 void SerialRun::on_sent(const line::SendEnd& sent) {

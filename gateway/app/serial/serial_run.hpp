@@ -12,6 +12,7 @@
 #include "gateway/app/serial/serial_records.hpp"
 #include "gateway/app/serial/serial_start.hpp"
 #include "gateway/line/port_line.hpp"
+#include "protocol/dds/record_text.hpp"
 
 namespace dripline::gateway {
 
@@ -54,6 +55,8 @@ class SerialRun {
   Result<void> resume();
   /// Ends it, on the line or before it came there.
   void abort(const std::string& reason);
+  /// The line is closed: what has not come there ends as interrupted.
+  void interrupt(const std::string& reason);
   /// Of the line, as a task.
   void on_sent(const line::SendEnd& sent);
   /// On the line's thread.

@@ -87,7 +87,7 @@ class SampleReader {
   }
   template <class T, class Field, class Flag>
   void get(std::optional<T>& value, const Field& field, std::string_view name,
-           const PresentIf<Flag>& present) {
+           const PresentIf<Flag>& present, const auto&...) {
     if (!present.flag(sample_)) return;
     value.emplace();
     if constexpr (requires { get(*value, field, name); }) {

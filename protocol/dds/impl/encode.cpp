@@ -91,7 +91,7 @@ class SampleWriter {
   }
   template <class T, class Field, class Flag>
   void put(const std::optional<T>& value, Field& field, std::string_view name,
-           const PresentIf<Flag>& present) {
+           const PresentIf<Flag>& present, const auto&...) {
     present.flag(sample_) = value.has_value();
     if (!value) return;
     if constexpr (requires { put(*value, field, name); }) {
