@@ -10,6 +10,7 @@
 #include "protocol/base/result.hpp"
 #include "storage/actor.hpp"
 #include "storage/page.hpp"
+#include "storage/program_fields.hpp"
 #include "storage/revision_state.hpp"
 
 namespace dripline::storage {
@@ -27,6 +28,7 @@ struct Revision {
   std::optional<UtcTime> accepted;  ///< when a revision that was held was accepted
   RevisionState state = RevisionState::Draft;
   std::optional<UtcTime> released, withdrawn;  ///< when; absent: never
+  std::string cam_file;                        ///< where its bytes come from; empty: not stated
 
   /// Since when it may run; of a held revision only when it was stored.
   UtcTime in_force_since() const { return accepted.value_or(created); }
@@ -42,6 +44,15 @@ struct ProgramSummary {
   bool is_removed = false;
   std::uint64_t held = 0;                      ///< revisions that wait for acceptance
   std::optional<std::uint64_t> released = {};  ///< the latest revision that is released
+  ProgramFields fields = {};
+};
+
+/// Programs with these values, exactly. Control, author and state are those of the latest revision.
+struct ProgramFilter {
+  std::optional<std::string> part = {}, operation = {}, material = {}, machine_group = {};
+  std::optional<std::string> control = {}, author = {};
+  std::optional<RevisionState> state = {};
+  std::string after = {};  ///< only names past this one: for paging by the last name seen
 };
 
 /// A program that gets another name, or a copy of one.
@@ -57,7 +68,13 @@ class ProgramStore {
   virtual ~ProgramStore() = default;
 
   /// In order of their names.
-  virtual Result<std::vector<ProgramSummary>> list(Page page) = 0;
+  virtual Result<std::vector<ProgramSummary>> list(const ProgramFilter& filter, Page page) = 0;
+  Result<std::vector<ProgramSummary>> list(Page page) { return list({}, page); }
+  /// Errors: NotFound.
+  virtual Result<ProgramFields> fields(const std::string& program) = 0;
+  /// The audit entry (program.describe) is part of the transaction; what has the value already is
+  /// no change. Errors: NotFound, Conflict (no such machine group).
+  virtual Result<void> describe(const Description& description) = 0;
   /// The number of programs that `list` names.
   virtual Result<std::uint64_t> count() = 0;
   /// Newest first, held ones included. Errors: NotFound.

@@ -25,6 +25,11 @@ struct Record {
   std::optional<UtcTime> received = {};
 };
 
+/// The record after which the next piece begins.
+struct RecordPlace {
+  std::uint64_t epoch = 0, number = 0;
+};
+
 /// How much a machine printed outside any run, and when.
 struct MachineReport {
   std::string machine;
@@ -81,12 +86,20 @@ class RecordStore {
   /// In order of (epoch, number). `kind` empty: all.
   virtual Result<std::vector<Record>> of_run(const std::string& run, const std::string& kind,
                                              Page page) = 0;
+  /// The same from a place on, in time that does not depend on what is before it.
+  virtual Result<std::vector<Record>> of_run_after(const std::string& run, const std::string& kind,
+                                                   RecordPlace after, std::uint64_t limit) = 0;
+  /// All that one journal of a machine holds, from a number on.
+  virtual Result<std::vector<Record>> of_machine_after(const std::string& machine,
+                                                       RecordPlace after, std::uint64_t limit) = 0;
   /// What machines printed (kinds output and probe) while no run of the server was theirs, for
   /// instance from their controls' own memory. In order of their names, without those that printed
   /// nothing.
   virtual Result<std::vector<MachineReport>> machine_reports() = 0;
-  /// The lines of one of them, in order of (epoch, number); none of an unknown machine.
-  virtual Result<std::vector<Record>> machine_report(const std::string& machine, Page page) = 0;
+  /// The lines of one of them after a place, in order of (epoch, number); none of an unknown
+  /// machine.
+  virtual Result<std::vector<Record>> machine_report(const std::string& machine, RecordPlace after,
+                                                     std::uint64_t limit) = 0;
   /// What its control kept after its runs, newest first; with `run` after this one alone.
   virtual Result<std::vector<MemoryReport>> memory_reports(const std::string& machine,
                                                            const std::optional<std::string>& run,

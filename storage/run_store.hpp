@@ -59,12 +59,14 @@ struct Run {
   std::optional<std::uint64_t> setup;  ///< the machine's setup it was started with
   RunAllowance allowed_as = RunAllowance::Open;
   std::optional<std::uint64_t> approval = {};  ///< the Decision that released its revision
+  std::optional<std::uint64_t> job = {};       ///< of the machine's queue
 };
 
 struct RunFilter {
   std::optional<std::string> machine, program;
   std::optional<RunState> state;
-  bool with_outputs = false;  ///< only runs that have stored report lines
+  std::optional<std::uint64_t> setup = {};  ///< only runs that were started with this setup
+  bool with_outputs = false;                ///< only runs that have stored report lines
 };
 
 /// What a machine reports of an active run.
@@ -82,7 +84,8 @@ class RunStore {
 
   /// Errors: Busy (the machine has an unfinished run; named), NotFound (machine or revision),
   /// Conflict (the content is not the revision's, the revision is held, was withdrawn, or is not
-  /// released although the run is allowed as one that is; or the id was used before).
+  /// released although the run is allowed as one that is; what its approval pins was withdrawn; its
+  /// job is another one's, done, removed or held; or the id was used before).
   virtual Result<void> create(const Run& run) = 0;
   /// Errors: NotFound.
   virtual Result<Run> find(const std::string& id) = 0;

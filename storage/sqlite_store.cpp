@@ -6,11 +6,20 @@
 #include <thread>
 
 #include "storage/impl/account_repository.hpp"
+#include "storage/impl/archive_repository.hpp"
+#include "storage/impl/attachment_repository.hpp"
+#include "storage/impl/folder_repository.hpp"
 #include "storage/impl/import_repository.hpp"
+#include "storage/impl/job_repository.hpp"
+#include "storage/impl/measurement_repository.hpp"
+#include "storage/impl/offset_repository.hpp"
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/release_repository.hpp"
+#include "storage/impl/report_template_repository.hpp"
 #include "storage/impl/repositories.hpp"
+#include "storage/impl/search_repository.hpp"
 #include "storage/impl/upload_repository.hpp"
+#include "storage/impl/webhook_repository.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -61,7 +70,16 @@ struct SqliteStore::Repositories {
         audit(*connections),
         accounts(*connections),
         releases(*connections),
-        imports(*connections) {}
+        imports(*connections),
+        report_templates(*connections),
+        measurements(*connections),
+        archives(*connections),
+        offsets(*connections),
+        attachments(*connections, uploads, clock),
+        search(*connections),
+        folders(*connections),
+        jobs(*connections),
+        webhooks(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -75,6 +93,15 @@ struct SqliteStore::Repositories {
   AccountRepository accounts;
   ReleaseRepository releases;
   ImportRepository imports;
+  ReportTemplateRepository report_templates;
+  MeasurementRepository measurements;
+  ArchiveRepository archives;
+  OffsetRepository offsets;
+  AttachmentRepository attachments;
+  SearchRepository search;
+  FolderRepository folders;
+  JobRepository jobs;
+  WebhookRepository webhooks;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -86,10 +113,13 @@ Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions&
 }
 
 SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
-    : Store{repositories->programs, repositories->uploads, repositories->machines,
-            repositories->runs,     repositories->records, repositories->ports,
-            repositories->setups,   repositories->audit,   repositories->accounts,
-            repositories->releases, repositories->imports},
+    : Store{repositories->programs,     repositories->uploads,  repositories->machines,
+            repositories->runs,         repositories->records,  repositories->ports,
+            repositories->setups,       repositories->audit,    repositories->accounts,
+            repositories->releases,     repositories->imports,  repositories->report_templates,
+            repositories->measurements, repositories->archives, repositories->offsets,
+            repositories->attachments,  repositories->search,   repositories->folders,
+            repositories->jobs,         repositories->webhooks},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

@@ -166,10 +166,9 @@ const CLI::Option* positional_of(const CLI::App& verb, std::size_t number) {
 /// The options that say which server, from words that are not parsed.
 void read_location(std::span<const std::string> words, client::LocationOptions& location) {
   const std::map<std::string_view, std::optional<std::string>*> options{
-      {"--server", &location.server},
-      {"--token-file", &location.token_file},
-      {"--ca", &location.ca_file},
-      {"--state", &location.state_dir}};
+      {"--server", &location.server},    {"--token-file", &location.token_file},
+      {"--ca", &location.ca_file},       {"--state", &location.state_dir},
+      {"--cert", &location.certificate}, {"--key", &location.key}};
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
     const std::size_t end = words[i].find('=');
     const auto found = options.find(std::string_view(words[i]).substr(0, end));

@@ -76,6 +76,10 @@ auto fetch_all(std::uint64_t limit, Fetch fetch) -> decltype(fetch(client::Page{
 
 void add_program_commands(Command app, Context& context);
 void add_import_commands(Command app, Context& context);
+void add_offset_commands(Command app, Context& context);
+void add_folder_commands(Command app, Context& context);
+void add_webhook_commands(Command app, Context& context);
+void add_job_commands(Command app, Context& context);
 void add_machine_commands(Command app, Context& context);
 void add_run_commands(Command app, Context& context);
 void add_port_commands(Command app, Context& context);
@@ -87,6 +91,11 @@ void add_port_page_command(Command group, Context& context);
 void add_setup_commands(Command app, Context& context);
 void add_memory_commands(Command app, Context& context);
 void add_report_commands(Command app, Context& context);
+/// Verbs of `dnc report`.
+void add_measurement_commands(Command report, Context& context);
+void add_template_commands(Command report, Context& context);
+void add_report_chart_command(Command report, Context& context);
+void add_statistics_commands(Command report, Context& context);
 void add_server_commands(Command app, Context& context);
 void add_audit_commands(Command app, Context& context);
 void add_login_commands(Command app, Context& context);

@@ -52,6 +52,10 @@ void add_connection_options(CLI::App& app, Context& context) {
       ->type_name("FILE");
   app.add_option("--state", location.state_dir, "State folder of a server on this computer")
       ->type_name("DIR");
+  app.add_option("--cert", location.certificate,
+                 "PEM file of your certificate, shown instead of a token (https)")
+      ->type_name("FILE");
+  app.add_option("--key", location.key, "PEM file of the key of --cert")->type_name("FILE");
 }
 
 /// Options of a group or the application may follow the verb.
@@ -92,6 +96,10 @@ int run(int argc, char** argv) {
   const Command dnc(&app);
   add_program_commands(dnc, context);
   add_import_commands(dnc, context);
+  add_offset_commands(dnc, context);
+  add_folder_commands(dnc, context);
+  add_webhook_commands(dnc, context);
+  add_job_commands(dnc, context);
   add_machine_commands(dnc, context);
   add_run_commands(dnc, context);
   add_port_commands(dnc, context);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "clients/lib/intake_types.hpp"
+
 /// The server's answers (server/api/README.md) as plain values. Words and times stay the text that
 /// the server sent, so that an older client shows the words of a newer server; times are ISO 8601
 /// UTC, lengths millimeters. An absent text is empty; other absent values are nullopt. Each type's
@@ -85,6 +87,8 @@ struct Program {
   std::string accepted;
   std::string state, released, withdrawn;  ///< as of a Revision
   std::uint64_t held_revisions = 0;
+  std::string part, operation, material, machine_group;  ///< empty: not stated
+  std::string cam_file;                                  ///< of the revision
 };
 
 struct Revision {
@@ -97,19 +101,75 @@ struct Revision {
   std::string accepted;             ///< when it was approved
   std::string state;                ///< draft, in_review, approved, released, withdrawn
   std::string released, withdrawn;  ///< when; empty: never
+  std::string cam_file;             ///< where its bytes come from
   bool unchanged = false;  ///< answer to a commit: the latest revision already had this content
+};
+
+/// A file beside a program.
+struct Attachment {
+  std::string program;
+  std::optional<std::uint64_t> revision;  ///< absent: it belongs to the program
+  std::string name;
+  std::uint64_t size = 0;
+  std::string sha256, comment, author, created;
+};
+
+/// A revision that a search found.
+struct SearchHit {
+  Revision revision;
+  std::string part, operation, material, machine_group;
+  std::optional<std::uint64_t> line;  ///< with most of the words; absent: they are in its fields
+  std::string text;                   ///< of that line
+  bool partly_indexed = false;        ///< only the beginning of its text is found
+};
+struct SearchResult {
+  std::vector<SearchHit> hits;
+  std::optional<std::uint64_t> next;  ///< `before` of the next page
+  std::uint64_t to_be_indexed = 0;    ///< programs that are not found yet, or as they were
+};
+
+/// A revision that a release pins.
+struct Pin {
+  std::string program;
+  std::uint64_t revision = 0;
+  std::string sha256;
 };
 
 /// What was decided about a revision.
 struct Decision {
   std::uint64_t id = 0;
   std::string step, state, time, who, comment;
-  std::string text, signature;  ///< what is signed, and by whom: Ed25519
+  std::optional<std::vector<Pin>> closure;  ///< of a release: all that its program may call
+  std::string text, signature;              ///< what is signed, and by whom: Ed25519
 };
 struct RevisionStates {
   std::string state;
   std::vector<Decision> steps;
   std::string public_key;
+};
+
+/// A program with all that it calls.
+struct Closure {
+  struct Site {
+    std::string program;
+    std::uint64_t revision = 0, line = 0;
+  };
+  struct Call {
+    std::string name;  ///< as the control names it
+    std::string program;
+    std::uint64_t revision = 0;
+    std::string sha256, state;
+    std::optional<Site> site;  ///< absent: it was named in the request
+  };
+  struct Missing {
+    std::string name;
+    Site site;
+  };
+  std::string program;
+  std::uint64_t revision = 0;
+  std::vector<Call> calls;
+  std::vector<Missing> missing;
+  std::vector<Site> computed;  ///< calls whose program a run computes
 };
 
 /// What a machine sent, and what became of it.
@@ -198,6 +258,12 @@ struct MachineStatus {
   std::string remote_enable, waits_for;
 };
 
+/// What a control's own position display shows. Values of the API are millimeters and radii.
+struct Display {
+  std::string units = "mm";  ///< or inch
+  std::string x = "radius";  ///< or diameter
+};
+
 struct Machine {
   std::string name, control, description, gateway_version;
   bool connected = false;
@@ -206,6 +272,7 @@ struct Machine {
   /// What is wrong between server and gateway.
   std::vector<std::string> notices;
   std::string first_seen, last_seen;
+  std::optional<Display> display = {};  ///< absent: the control is not known
   std::optional<MachineStatus> status;
 };
 
@@ -225,6 +292,7 @@ struct Run {
   std::optional<std::uint64_t> setup;     ///< the machine's setup it was started with
   std::string allowed_as;                 ///< open, released, prove_out
   std::optional<std::uint64_t> approval;  ///< the Decision that released its revision
+  std::optional<std::uint64_t> job;       ///< of the machine's queue
 };
 
 /// The tools, offsets and parameters that a machine's control has before a program starts.

@@ -12,6 +12,8 @@ using impl::dumped;
 using impl::get;
 using impl::path_of;
 using impl::with_method;
+using impl::with_number;
+using impl::with_page;
 using impl::with_query;
 
 namespace {
@@ -26,11 +28,6 @@ Errc code_of(std::string_view name) {
     if (to_string(code) == name) return code;
   }
   return Io;
-}
-
-std::string with_page(std::string path, Page page) {
-  path = with_query(std::move(path), "limit", std::to_string(page.limit));
-  return with_query(std::move(path), "offset", std::to_string(page.offset));
 }
 
 /// The error that the server reports.
@@ -105,6 +102,13 @@ Reply<void> Client::perform(HttpRequest request, std::string_view body) {
   return {};
 }
 
+Reply<std::string> Client::fetch_text(HttpRequest request, std::string_view body) {
+  if (!body.empty()) request.body = body;
+  auto response = exchange(request);
+  if (!response) return failed(response.error());
+  return std::move(response->body);
+}
+
 template <class T>
 Reply<T> Client::fetch(HttpRequest request, std::string_view body) {
   if (!body.empty()) request.body = body;
@@ -143,15 +147,31 @@ Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* me
 
 template Reply<Revision> Client::fetch(HttpRequest, std::string_view);
 template Reply<RevisionStates> Client::fetch(HttpRequest, std::string_view);
+template Reply<Closure> Client::fetch(HttpRequest, std::string_view);
+template Reply<ProgramHistory> Client::fetch(HttpRequest, std::string_view);
+template Reply<Upload> Client::fetch(HttpRequest, std::string_view);
+template Reply<Attachment> Client::fetch(HttpRequest, std::string_view);
+template Reply<SearchResult> Client::fetch(HttpRequest, std::string_view);
+template Reply<std::vector<Program>> Client::fetch_list(const std::string&, const char*);
+template Reply<std::vector<Attachment>> Client::fetch_list(const std::string&, const char*);
 template Reply<Session> Client::fetch(HttpRequest, std::string_view);
 template Reply<User> Client::fetch(HttpRequest, std::string_view);
 template Reply<Token> Client::fetch(HttpRequest, std::string_view);
 template Reply<MachineGroup> Client::fetch(HttpRequest, std::string_view);
+template Reply<std::vector<Import>> Client::fetch_list(const std::string&, const char*);
 template Reply<std::vector<User>> Client::fetch_list(const std::string&, const char*);
 template Reply<std::vector<Token>> Client::fetch_list(const std::string&, const char*);
+template Reply<std::vector<Folder>> Client::fetch_list(const std::string&, const char*);
+template Reply<std::vector<FolderFile>> Client::fetch_list(const std::string&, const char*);
 template Reply<AuditState> Client::fetch(HttpRequest, std::string_view);
 template Reply<Backups> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<MachineGroup>> Client::fetch_list(const std::string&, const char*);
+template Reply<Run> Client::fetch(HttpRequest, std::string_view);
+template Reply<Webhook> Client::fetch(HttpRequest, std::string_view);
+template Reply<WebhookTest> Client::fetch(HttpRequest, std::string_view);
+template Reply<std::vector<Webhook>> Client::fetch_list(const std::string&, const char*);
+template Reply<Job> Client::fetch(HttpRequest, std::string_view);
+template Reply<JobList> Client::fetch(HttpRequest, std::string_view);
 template Reply<Port> Client::fetch(HttpRequest, std::string_view);
 template Reply<PortTest> Client::fetch(HttpRequest, std::string_view);
 template Reply<Transfer> Client::fetch(HttpRequest, std::string_view);
@@ -245,6 +265,7 @@ Reply<Upload> Client::open_upload(const UploadRequest& request) {
   Json json{{"program", request.program}};
   if (!request.control.empty()) json["control"] = request.control;
   if (!request.comment.empty()) json["comment"] = request.comment;
+  impl::add_fields(json, request.fields);
   return fetch<Upload>(with_method("POST", path_of("uploads")), dumped(json));
 }
 
@@ -285,14 +306,14 @@ Reply<std::vector<Setup>> Client::setups(std::string_view machine, Page page) {
 }
 
 Reply<Setup> Client::setup(std::string_view machine, std::optional<std::uint64_t> revision) {
-  const std::string number = revision ? std::to_string(*revision) : "";
-  return fetch<Setup>(get(with_query(path_of("machines", machine) + "/setup", "revision", number)));
+  const std::string path = path_of("machines", machine) + "/setup";
+  return fetch<Setup>(get(with_number(path, "revision", revision)));
 }
 
 Reply<Setup> Client::save_setup(const SetupRequest& request) {
   std::string path = path_of("machines", request.machine) + "/setup";
   path = with_query(std::move(path), "comment", request.comment);
-  path = with_query(std::move(path), "base", request.base ? std::to_string(*request.base) : "");
+  path = with_number(std::move(path), "base", request.base);
   HttpRequest http = with_method("PUT", with_query(std::move(path), "control", request.control));
   http.content_type = "application/toml";
   return fetch<Setup>(http, request.text);

@@ -19,12 +19,51 @@ struct Page {
   std::uint64_t offset = 0;
 };
 
+/// New values of fields; what is absent stays, an empty text takes the value away.
+struct FieldChange {
+  std::optional<std::string> part, operation, material, machine_group, cam_file;
+};
+
 struct UploadRequest {
   std::string program;
   /// Empty: the server detects the control; no comment.
   std::string control, comment;
   /// Also replaces a program that is protected.
   bool overrides_protection = false;
+  FieldChange fields = {};
+};
+
+struct AttachmentRequest {
+  std::string program;
+  std::optional<std::uint64_t> revision;  ///< absent: it belongs to the program
+  std::string name;
+  std::string comment;
+};
+
+struct AttachmentRange {
+  std::string program;
+  std::optional<std::uint64_t> revision;
+  std::string name;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;  ///< > 0
+};
+
+/// What listings and searches choose by; empty: all.
+struct ProgramChoice {
+  std::string part, operation, material, machine_group, control, author, state;
+
+  bool is_empty() const {
+    return part.empty() && operation.empty() && material.empty() && machine_group.empty() &&
+           control.empty() && author.empty() && state.empty();
+  }
+};
+
+struct SearchQuery {
+  std::string words;
+  ProgramChoice choice;
+  std::string machine;
+  bool with_replaced = false;
+  std::uint64_t before = 0, limit = 20;
 };
 
 struct CommitRequest {
@@ -82,9 +121,37 @@ struct ComparisonQuery {
   unsigned context = 3;
 };
 
+/// A revision, the latest one unless another is named.
+struct CheckQuery {
+  std::string program;
+  std::optional<std::uint64_t> revision = {};
+  std::string machine = {};  ///< whose setup applies; empty: the control's defaults
+};
+
 struct ReportQuery {
   std::string machine, program;
   Page page;
+};
+
+/// Texts that are empty match everything; times are ISO 8601.
+struct MeasurementQuery {
+  std::string machine, run, characteristic, since, until, verdict;
+  bool with_superseded = false;
+  bool newest_first = false;
+  std::uint64_t limit = 100;
+  std::string after = {};  ///< `next` of the answer before
+};
+
+/// Texts that are empty match everything.
+struct OffsetQuery {
+  std::string machine, target, state;
+  std::uint64_t limit = 100;
+};
+
+/// `scope`: program, machine, macro.
+struct TemplateAssignment {
+  std::string scope, subject, name;
+  std::optional<std::uint64_t> version = {};  ///< absent: the newest
 };
 
 struct CommandRequest {
@@ -160,6 +227,21 @@ class Client {
   Reply<void> export_audit(const std::function<bool(std::string_view)>& sink);
 
   Reply<std::vector<Program>> programs(Page page);
+  /// The next of those that are chosen, past the name `after`.
+  Reply<std::vector<Program>> programs(const ProgramChoice& choice, std::uint64_t limit,
+                                       const std::string& after);
+  Reply<SearchResult> search(const SearchQuery& query);
+  /// `revision`: for the CAM file; absent: the latest.
+  Reply<ProgramHistory> describe_program(std::string_view name,
+                                         std::optional<std::uint64_t> revision,
+                                         const FieldChange& change);
+  /// Those of the program and of `revision`; absent: of all its revisions.
+  Reply<std::vector<Attachment>> attachments(std::string_view program,
+                                             std::optional<std::uint64_t> revision);
+  Reply<Upload> open_attachment(const AttachmentRequest& request);
+  Reply<Attachment> commit_attachment(std::string_view upload, const std::string& sha256);
+  Reply<std::string> attachment_bytes(const AttachmentRange& range);
+  Reply<void> remove_attachment(const AttachmentRequest& attachment);
   Reply<ProgramHistory> program(std::string_view name);
   /// `overrides_protection`: also removes a program that is protected against erasing.
   Reply<void> remove_program(std::string_view name, bool overrides_protection = false);
@@ -172,7 +254,18 @@ class Client {
     std::string program;
     std::uint64_t revision = 0;
     std::string comment;
+    // Of a release:
+    bool has_closure = false;            ///< what it calls is pinned, and released with it
+    std::string machine = {};            ///< its newest setup binds codes to programs
+    std::vector<std::string> with = {};  ///< NAME or NAME@REVISION
   };
+  struct ClosureQuery {
+    std::string program;
+    std::optional<std::uint64_t> revision;  ///< absent: the latest
+    std::string machine;
+    std::vector<std::string> with;
+  };
+  Reply<Closure> closure(const ClosureQuery& query);
   /// `step`: submit, approve, release, withdraw.
   Reply<Revision> decide(std::string_view step, const DecisionRequest& request);
   /// The revision, a draft again; nullopt: it came from a machine and is hidden.
@@ -191,8 +284,37 @@ class Client {
   Reply<Revision> accept_import(const AcceptRequest& request);
   /// The comment is the reason.
   Reply<void> reject_import(const DecisionRequest& request);
+  struct JobRequest {
+    std::string machine, program;
+    std::optional<std::uint64_t> revision;
+    std::uint64_t quantity = 1, parts_per_run = 1;
+    std::string comment;
+    std::optional<std::uint64_t> place;  ///< 1: the first; absent: at the end
+  };
+  /// Open ones in their order; otherwise done and removed ones, newest first.
+  Reply<JobList> jobs(std::string_view machine, bool is_open, Page page);
+  Reply<Job> add_job(const JobRequest& request);
+  Reply<Job> move_job(std::string_view machine, std::uint64_t job, std::uint64_t place);
+  Reply<void> remove_job(std::string_view machine, std::uint64_t job);
+  /// The next one unless one is named.
+  Reply<Run> start_job(std::string_view machine, std::optional<std::uint64_t> job);
+  Reply<void> hold_jobs(std::string_view machine, const std::string& reason);
+  Reply<void> release_jobs(std::string_view machine);
+
+  Reply<std::vector<Webhook>> webhooks();
+  /// With its secret. `kinds` empty: all.
+  Reply<Webhook> add_webhook(const std::string& name, const std::string& url,
+                             const std::vector<std::string>& kinds);
+  Reply<void> remove_webhook(std::string_view name);
+  Reply<WebhookTest> test_webhook(std::string_view name);
+
+  Reply<std::vector<Folder>> folders();
+  /// Newest first.
+  Reply<std::vector<FolderFile>> folder_files(std::string_view folder, Page page);
   /// The server's JSON (clients/tools/comparison/README.md).
   Reply<std::string> compare(const ComparisonQuery& query);
+  /// The server's JSON (server/paths/README.md, "A check").
+  Reply<std::string> check(const CheckQuery& query);
   /// Returns fewer bytes than requested only at the end of the content.
   Reply<Content> content(const ContentRange& range);
 
@@ -273,11 +395,50 @@ class Client {
   Reply<void> export_machine_report(std::string_view machine, std::string_view format,
                                     const std::function<bool(std::string_view)>& sink);
 
+  // Report templates and what follows from them. Texts are the server's JSON (openapi.json).
+  Reply<std::string> report_templates();
+  Reply<std::string> report_template(std::string_view name, std::optional<std::uint64_t> version);
+  Reply<std::string> push_report_template(std::string_view name, std::string_view text);
+  Reply<void> remove_report_template(std::string_view name);
+  Reply<std::string> report_template_assignments();
+  Reply<void> assign_report_template(const TemplateAssignment& assignment);
+  Reply<void> unassign_report_template(const TemplateAssignment& assignment);
+  Reply<std::string> measurements(const MeasurementQuery& query);
+  /// All of them, oldest first. `format`: csv or jsonl. Passes the bytes to `sink` as they arrive;
+  /// false from it ends the call.
+  Reply<void> export_measurements(const MeasurementQuery& query, std::string_view format,
+                                  const std::function<bool(std::string_view)>& sink);
+  Reply<std::string> parts(const MeasurementQuery& query);
+  Reply<std::string> report_findings(const MeasurementQuery& query);
+  /// Derives a run again; without a name by the templates in force.
+  Reply<std::string> derive_measurements(std::string_view run, const std::string& name,
+                                         std::optional<std::uint64_t> version);
+  /// What retention moved out of the database.
+  Reply<std::string> archives(Page page);
+  /// Applies retention now.
+  Reply<std::string> make_archives();
+
+  // Offset proposals; answers are the server's JSON.
+  Reply<std::string> offsets(const OffsetQuery& query);
+  Reply<std::string> offset(std::uint64_t id);
+  /// `decision`: approve or reject.
+  Reply<std::string> decide_offset(std::string_view machine, std::uint64_t id,
+                                   std::string_view decision, const std::string& comment);
+  Reply<std::string> evaluate_offsets(std::string_view machine);
+  Reply<std::string> offset_rules(std::string_view machine);
+  Reply<std::string> save_offset_rules(std::string_view machine, std::string_view text);
+  /// `target` empty: all. `limit`: setups that are looked through, newest first.
+  Reply<std::string> offset_history(std::string_view machine, std::string_view target,
+                                    std::uint64_t limit);
+  Reply<std::string> offsets_of_run(std::string_view run);
+
  private:
   Reply<void> send_command(const std::string& path, const CommandRequest& request);
   Reply<HttpResponse> exchange(const HttpRequest& request);
-  /// Both send `body` unless it is empty.
+  /// All three send `body` unless it is empty.
   Reply<void> perform(HttpRequest request, std::string_view body = {});
+  /// The answer as it came.
+  Reply<std::string> fetch_text(HttpRequest request, std::string_view body = {});
   template <class T>
   Reply<T> fetch(HttpRequest request, std::string_view body = {});
   template <class T>

@@ -67,7 +67,7 @@ class BodyReceiver {
 class HttplibHttp final : public Http {
  public:
   HttplibHttp(const ServerAddress& address, const HttpOptions& options)
-      : address_(address), client_(address.url) {
+      : address_(address), client_(address.url, address.certificate, address.key) {
     client_.set_keep_alive(true);
     client_.set_tcp_nodelay(true);
     client_.set_url_encode(false);

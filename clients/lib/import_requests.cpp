@@ -11,6 +11,7 @@ using impl::dumped;
 using impl::get;
 using impl::path_of;
 using impl::with_method;
+using impl::with_page;
 using impl::with_query;
 
 namespace {
@@ -23,16 +24,13 @@ std::string import_path(std::string_view program, std::uint64_t revision,
 }  // namespace
 
 Reply<std::vector<Import>> Client::imports(bool is_pending, Page page) {
-  std::string path = with_query(path_of("imports"), "state", is_pending ? "pending" : "decided");
-  path = with_query(std::move(path), "limit", std::to_string(page.limit));
-  path = with_query(std::move(path), "offset", std::to_string(page.offset));
-  return fetch_list<Import>(path, "imports");
+  const std::string path =
+      with_query(path_of("imports"), "state", is_pending ? "pending" : "decided");
+  return fetch_list<Import>(with_page(path, page), "imports");
 }
 
 Reply<std::string> Client::import(std::string_view program, std::uint64_t revision) {
-  auto response = exchange(get(import_path(program, revision)));
-  if (!response) return failed(response.error());
-  return std::move(response->body);
+  return fetch_text(get(import_path(program, revision)));
 }
 
 Reply<Revision> Client::accept_import(const AcceptRequest& request) {

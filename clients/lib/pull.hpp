@@ -30,4 +30,14 @@ Reply<Revision> pull_program_to_file(Client& client, const PullOptions& options,
 Reply<Revision> pull_program(Client& client, const PullOptions& options,
                              const std::function<Result<void>(std::string_view)>& sink);
 
+struct AttachmentPull {
+  std::string path;
+  RetryPolicy retry;
+  std::function<bool(std::uint64_t done, std::uint64_t total)> on_progress;
+};
+
+/// Writes an attachment to a file in the same way.
+Reply<void> pull_attachment_to_file(Client& client, const Attachment& attachment,
+                                    const AttachmentPull& options);
+
 }  // namespace dripline::client

@@ -10,13 +10,29 @@ namespace {
 
 constexpr std::uint64_t kPiece = 4ull * 1024 * 1024;
 
-/// One push: the upload's id, its offset, the digest so far.
-class Push {
+bool can_help_to_retry(const Failure& failure) {
+  return failure.kind == Failure::Kind::Unreachable || failure.code == Errc::Busy ||
+         failure.code == Errc::Timeout;
+}
+
+struct SendOptions {
+  RetryPolicy retry;
+  std::function<bool(std::uint64_t done, std::uint64_t total)> on_progress;
+  std::function<Reply<Upload>()> open;
+};
+
+/// What was sent and is to be committed.
+struct Sent {
+  std::string upload, sha256;
+};
+
+/// The bytes of one upload: its id, its offset, the digest so far.
+class Sending {
  public:
-  Push(Client& client, ByteSource& source, const PushOptions& options)
+  Sending(Client& client, ByteSource& source, const SendOptions& options)
       : client_(client), source_(source), options_(options), back_off_(options_.retry) {}
 
-  Reply<Revision> run() {
+  Reply<Sent> run() {
     if (auto opened = open(); !opened) return failed(opened.error());
     if (auto sent = send_all(); !sent) {
       // A refused upload is useless; one that was cut off stays, so that it can be examined.
@@ -25,18 +41,13 @@ class Push {
       }
       return failed(sent.error());
     }
-    return commit();
+    return Sent{id_, digest_.digest().hex()};
   }
 
  private:
-  static bool can_help_to_retry(const Failure& failure) {
-    return failure.kind == Failure::Kind::Unreachable || failure.code == Errc::Busy ||
-           failure.code == Errc::Timeout;
-  }
-
   Reply<void> open() {
     while (true) {
-      auto upload = client_.open_upload(options_.upload);
+      auto upload = options_.open();
       if (upload) {
         id_ = upload->id;
         piece_size_ = upload->max_piece == 0 ? kPiece : std::min(upload->max_piece, kPiece);
@@ -113,37 +124,9 @@ class Push {
     return !is_ended_;
   }
 
-  /// A commit whose answer was lost may have succeeded: then the upload is gone and the latest
-  /// revision has our content.
-  Reply<Revision> commit() {
-    const std::string sha256 = digest_.digest().hex();
-    back_off_.reset();
-    bool is_repeated = false;
-    while (true) {
-      auto revision = client_.commit_upload(id_, {sha256, options_.upload.overrides_protection});
-      if (revision) return revision;
-      if (is_repeated && revision.error().code == Errc::NotFound) {
-        return find_committed(sha256, revision.error());
-      }
-      if (!can_help_to_retry(revision.error()) || !back_off_.wait()) return revision;
-      is_repeated = true;
-    }
-  }
-
-  Reply<Revision> find_committed(const std::string& sha256, const Failure& failure) {
-    auto history = client_.program(options_.upload.program);
-    if (!history) return failed(failure);
-    for (const auto& revision : history->revisions) {
-      if (revision.sha256 == sha256 && revision.revision == history->program.revision) {
-        return revision;
-      }
-    }
-    return failed(failure);
-  }
-
   Client& client_;
   ByteSource& source_;
-  const PushOptions& options_;
+  const SendOptions& options_;
   BackOff back_off_;
   std::string id_;
   std::uint64_t piece_size_ = kPiece;
@@ -154,10 +137,75 @@ class Push {
   bool is_ended_ = false;
 };
 
+Reply<Revision> find_committed(Client& client, const UploadRequest& upload,
+                               const std::string& sha256, const Failure& failure) {
+  auto history = client.program(upload.program);
+  if (!history) return failed(failure);
+  for (const auto& revision : history->revisions) {
+    if (revision.sha256 == sha256 && revision.revision == history->program.revision) {
+      return revision;
+    }
+  }
+  return failed(failure);
+}
+
+Reply<Attachment> find_attached(Client& client, const AttachmentRequest& request,
+                                const std::string& sha256, const Failure& failure) {
+  auto attachments = client.attachments(request.program, request.revision);
+  if (!attachments) return failed(failure);
+  for (const auto& attachment : *attachments) {
+    const bool is_it = attachment.name == request.name && attachment.revision == request.revision &&
+                       attachment.sha256 == sha256;
+    if (is_it) return attachment;
+  }
+  return failed(failure);
+}
+
+/// A commit whose answer was lost may have succeeded: then the upload is gone, and `find` has what
+/// became of it.
+template <class Commit, class Find>
+auto commit(const RetryPolicy& retry, Commit commit, Find find) -> std::invoke_result_t<Commit> {
+  BackOff back_off(retry);
+  bool is_repeated = false;
+  while (true) {
+    auto committed = commit();
+    if (committed) return committed;
+    if (is_repeated && committed.error().code == Errc::NotFound) return find(committed.error());
+    if (!can_help_to_retry(committed.error()) || !back_off.wait()) return committed;
+    is_repeated = true;
+  }
+}
+
 }  // namespace
 
 Reply<Revision> push_program(Client& client, ByteSource& source, const PushOptions& options) {
-  return Push(client, source, options).run();
+  const UploadRequest& upload = options.upload;
+  const SendOptions send{options.retry, options.on_progress,
+                         [&] { return client.open_upload(upload); }};
+  const auto sent = Sending(client, source, send).run();
+  if (!sent) return failed(sent.error());
+  return commit(
+      options.retry,
+      [&] {
+        return client.commit_upload(sent->upload, {sent->sha256, upload.overrides_protection});
+      },
+      [&](const Failure& failure) {
+        return find_committed(client, upload, sent->sha256, failure);
+      });
+}
+
+Reply<Attachment> push_attachment(Client& client, ByteSource& source,
+                                  const AttachOptions& options) {
+  const AttachmentRequest& request = options.attachment;
+  const SendOptions send{options.retry, options.on_progress,
+                         [&] { return client.open_attachment(request); }};
+  const auto sent = Sending(client, source, send).run();
+  if (!sent) return failed(sent.error());
+  return commit(
+      options.retry, [&] { return client.commit_attachment(sent->upload, sent->sha256); },
+      [&](const Failure& failure) {
+        return find_attached(client, request, sent->sha256, failure);
+      });
 }
 
 }  // namespace dripline::client

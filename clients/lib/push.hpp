@@ -22,4 +22,13 @@ struct PushOptions {
 /// cannot be read; Unreachable when the attempts are used up.
 Reply<Revision> push_program(Client& client, ByteSource& source, const PushOptions& options);
 
+struct AttachOptions {
+  AttachmentRequest attachment;
+  RetryPolicy retry;
+  std::function<bool(std::uint64_t done, std::uint64_t total)> on_progress;
+};
+
+/// Sends `source` as an attachment, in the same way.
+Reply<Attachment> push_attachment(Client& client, ByteSource& source, const AttachOptions& options);
+
 }  // namespace dripline::client

@@ -19,7 +19,12 @@ std::string revision_path(std::string_view program, std::uint64_t revision, std:
 }
 
 std::string decision_body(const Client::DecisionRequest& request) {
-  return request.comment.empty() ? "" : dumped({{"comment", request.comment}});
+  nlohmann::json body = nlohmann::json::object();
+  if (!request.comment.empty()) body["comment"] = request.comment;
+  if (request.has_closure) body["closure"] = true;
+  if (!request.machine.empty()) body["machine"] = request.machine;
+  if (!request.with.empty()) body["with"] = request.with;
+  return body.empty() ? "" : dumped(body);
 }
 
 }  // namespace
@@ -47,6 +52,17 @@ Reply<std::optional<Revision>> Client::reject_revision(const DecisionRequest& re
                   revision.error().what);
   }
   return std::optional(*std::move(revision));
+}
+
+Reply<Closure> Client::closure(const ClosureQuery& query) {
+  std::string path = path_of("programs", query.program) + "/closure";
+  if (query.revision)
+    path = impl::with_query(std::move(path), "revision", std::to_string(*query.revision));
+  path = impl::with_query(std::move(path), "machine", query.machine);
+  std::string with;
+  for (const auto& program : query.with) with += (with.empty() ? "" : ",") + program;
+  path = impl::with_query(std::move(path), "with", with);
+  return fetch<Closure>(get(std::move(path)));
 }
 
 Reply<RevisionStates> Client::revision_states(std::string_view name, std::uint64_t revision) {

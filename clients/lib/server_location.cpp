@@ -123,6 +123,20 @@ Result<std::string> find_token(const LocationOptions& options, const Environment
   return std::string();
 }
 
+Result<void> take_certificate(const LocationOptions& options, ServerAddress& address) {
+  if (!options.certificate && !options.key) return {};
+  if (!options.certificate || !options.key)
+    return fail(Errc::Syntax, "--cert and --key belong together: give both or none");
+  if (!address.url.starts_with("https://"))
+    return fail(Errc::Syntax, "--cert is for https; the server is {}", address.url);
+  for (const auto& file : {*options.certificate, *options.key}) {
+    if (auto text = read_small_file(file, "certificate or key"); !text) return fail(text.error());
+  }
+  address.certificate = *options.certificate;
+  address.key = *options.key;
+  return {};
+}
+
 }  // namespace
 
 Result<ServerAddress> locate_server(const LocationOptions& options, const Environment& environment,
@@ -147,11 +161,14 @@ Result<ServerAddress> locate_server(const LocationOptions& options, const Enviro
   }
   const bool state_is_named = options.state_dir || environment("DRIPLINE_STATE");
   const bool is_local = local && (!*url || **url == local->url || state_is_named);
-  ServerAddress address{*url ? **url : local->url, {}, options.ca_file};
-  auto token =
-      find_token(options, environment, address.url, is_local ? local->token_file : std::nullopt);
-  if (!token) return fail(token.error());
-  address.token = *std::move(token);
+  ServerAddress address{.url = *url ? **url : local->url, .token = {}, .ca_file = options.ca_file};
+  if (auto shown = take_certificate(options, address); !shown) return fail(shown.error());
+  if (address.certificate.empty() || options.token_file) {
+    auto token =
+        find_token(options, environment, address.url, is_local ? local->token_file : std::nullopt);
+    if (!token) return fail(token.error());
+    address.token = *std::move(token);
+  }
   if (!address.ca_file && is_local) address.ca_file = local->ca_file;
   return address;
 }

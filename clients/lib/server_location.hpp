@@ -13,14 +13,18 @@ struct ServerAddress {
   std::string url;    ///< http://HOST:PORT or https://HOST:PORT, no path, no slash at the end
   std::string token;  ///< empty: none; the server refuses the calls then
   std::optional<std::string> ca_file;  ///< https: PEM file of the authority to trust
+  /// https: PEM files with the client's own certificate and its key; shown instead of a token.
+  std::string certificate = {}, key = {};
 };
 
 /// What the user gave to find the server; everything is optional.
 struct LocationOptions {
-  std::optional<std::string> server;      ///< --server URL
-  std::optional<std::string> token_file;  ///< --token-file FILE
-  std::optional<std::string> ca_file;     ///< --ca FILE
-  std::optional<std::string> state_dir;   ///< --state DIR
+  std::optional<std::string> server;            ///< --server URL
+  std::optional<std::string> token_file;        ///< --token-file FILE
+  std::optional<std::string> ca_file;           ///< --ca FILE
+  std::optional<std::string> state_dir;         ///< --state DIR
+  std::optional<std::string> certificate = {};  ///< --cert FILE
+  std::optional<std::string> key = {};          ///< --key FILE
 };
 
 /// Finds the server. Address: --server, DRIPLINE_SERVER, then `url` of STATE/dncd.json, which a
@@ -28,8 +32,9 @@ struct LocationOptions {
 /// of dncd.json; that last one is used only for the server which dncd.json names, or when the state
 /// folder was named explicitly, so that the local token is never sent elsewhere. A login that was
 /// saved for the address (saved_logins.hpp) comes before the local token, unless --state is given.
-/// Errors: Syntax (an address or dncd.json that is not as described), NotFound (no server is named
-/// anywhere), Io (a file that cannot be read).
+/// Without --token-file a certificate (--cert, --key) is shown instead of a token. Errors: Syntax
+/// (an address or dncd.json that is not as described; --cert without --key, or not for https),
+/// NotFound (no server is named anywhere), Io (a file that cannot be read).
 Result<ServerAddress> locate_server(const LocationOptions& options, const Environment& environment,
                                     bool is_root);
 

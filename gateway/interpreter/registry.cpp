@@ -3,6 +3,10 @@
 #include <algorithm>
 
 #include "gateway/interpreter/core/dialects.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/program_calls.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/program_calls.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/program_calls.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/program_calls.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -38,6 +42,14 @@ Result<const Dialect*> find_dialect(std::string_view name) {
     if (dialect.name == name) return &dialect;
   }
   return fail(Errc::NotFound, "control \"{}\" is not known; known are: {}", name, known_names());
+}
+
+CallReader call_reader(std::string_view name) {
+  if (name == kFanucDialect.name) return &fanuc::program_calls;
+  if (name == kCenturionDialect.name) return &centurion::program_calls;
+  if (name == kRs274NgcDialect.name) return &rs274ngc::program_calls;
+  if (name == kTnc155Dialect.name) return &tnc155::program_calls;
+  return nullptr;
 }
 
 std::vector<const Dialect*> detect_dialect(std::string_view head, std::string_view file_name) {

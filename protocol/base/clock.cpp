@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <ctime>
+#include <optional>
 
 namespace dripline {
 
@@ -15,6 +16,75 @@ std::string to_iso8601(UtcTime time) {
   // Does not use the system clock's nanoseconds: times from outside can exceed their range.
   const auto whole = static_cast<std::time_t>(seconds.time_since_epoch().count());
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:06}Z", fmt::gmtime(whole), micros);
+}
+
+namespace {
+
+/// `count` digits at the beginning, which are taken off; nullopt: they are not there.
+std::optional<int> take_digits(std::string_view& text, std::size_t count) {
+  if (text.size() < count) return std::nullopt;
+  int value = 0;
+  for (const char c : text.substr(0, count)) {
+    if (c < '0' || c > '9') return std::nullopt;
+    value = value * 10 + (c - '0');
+  }
+  text.remove_prefix(count);
+  return value;
+}
+
+bool take(std::string_view& text, char c) {
+  if (!text.starts_with(c)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+std::optional<std::chrono::sys_days> take_date(std::string_view& text) {
+  const auto year = take_digits(text, 4);
+  if (!year || !take(text, '-')) return std::nullopt;
+  const auto month = take_digits(text, 2);
+  if (!month || !take(text, '-')) return std::nullopt;
+  const auto day = take_digits(text, 2);
+  if (!day) return std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year{*year},
+                                         std::chrono::month{static_cast<unsigned>(*month)},
+                                         std::chrono::day{static_cast<unsigned>(*day)}};
+  if (!date.ok()) return std::nullopt;
+  return std::chrono::sys_days{date};
+}
+
+std::optional<std::chrono::microseconds> take_time(std::string_view& text) {
+  const auto hour = take_digits(text, 2);
+  if (!hour || *hour > 23 || !take(text, ':')) return std::nullopt;
+  const auto minute = take_digits(text, 2);
+  if (!minute || *minute > 59 || !take(text, ':')) return std::nullopt;
+  const auto second = take_digits(text, 2);
+  if (!second || *second > 59) return std::nullopt;
+  std::chrono::microseconds time =
+      std::chrono::hours(*hour) + std::chrono::minutes(*minute) + std::chrono::seconds(*second);
+  if (!take(text, '.')) return time;
+  int scale = 1'000'000;
+  if (text.empty()) return std::nullopt;
+  while (scale > 1) {
+    const auto digit = take_digits(text, 1);
+    if (!digit) break;
+    scale /= 10;
+    time += std::chrono::microseconds(*digit * scale);
+  }
+  return time;
+}
+
+}  // namespace
+
+Result<UtcTime> parse_iso8601(std::string_view text) {
+  std::string_view rest = text;
+  const auto date = take_date(rest);
+  if (date && rest.empty()) return UtcTime{*date};
+  if (date && take(rest, 'T')) {
+    const auto time = take_time(rest);
+    if (time && rest == "Z") return UtcTime{*date} + *time;
+  }
+  return fail(Errc::Syntax, "time '{}' is not like 2026-11-21T07:40:06Z or 2026-11-21",
+              text.substr(0, 40));
 }
 
 }  // namespace dripline

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+
+#include "protocol/base/result.hpp"
 
 namespace dripline {
 
@@ -27,6 +30,9 @@ class SystemClock final : public Clock {
 
 /// 2026-11-21T07:40:06.123456Z
 std::string to_iso8601(UtcTime time);
+/// The same, with up to six digits after the point or none, or a date alone (its beginning).
+/// Errors: Syntax.
+Result<UtcTime> parse_iso8601(std::string_view text);
 
 /// Lets `burst` events pass in each interval and counts the rest, so that a log states the number
 /// of omitted entries instead of growing with what a stranger sends. Not thread-safe.

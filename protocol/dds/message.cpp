@@ -80,8 +80,8 @@ Words words_of(LinePhase) {
 }
 
 Words words_of(LineCallAction) {
-  static constexpr std::array<std::string_view, 5> kWords{"send", "directory", "restart", "program",
-                                                          "list"};
+  static constexpr std::array<std::string_view, 6> kWords{"send",    "directory", "restart",
+                                                          "program", "list",      "next_job"};
   return kWords;
 }
 

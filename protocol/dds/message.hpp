@@ -82,6 +82,7 @@ enum class LineCallAction : std::uint8_t {
   Restart,    ///< the last run again, by a rule
   Program,    ///< by the protocol: it waits for the answer, or for a run
   List,       ///< by the protocol: the list
+  NextJob,    ///< a run of the next job in the machine's queue, by a rule
 };
 enum class LineAction : std::uint8_t {
   Recording,  ///< entries of the recording from `number` on, as JSON lines

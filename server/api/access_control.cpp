@@ -21,6 +21,14 @@ bool is_from_our_page(const Request& request) {
          (site.empty() || site == "same-origin" || site == "none");
 }
 
+/// A browser adds a certificate to the requests of any site's page. Browsers say where a request
+/// comes from, programs do not.
+bool is_from_other_page(const Request& request) {
+  const bool is_browser =
+      !request.header("sec-fetch-site").empty() || !request.header("origin").empty();
+  return is_browser && !is_from_our_page(request);
+}
+
 Response unauthorized() {
   Response response = error_response(
       {Errc::Denied, "send a token that is valid here (Authorization: Bearer TOKEN), or sign in"});
@@ -60,9 +68,20 @@ std::optional<Response> AccessControl::judge(Request& head, const Router::Route*
   if (row != nullptr && row->permission == identity::Permission::Open) return judge_stranger(head);
   const auto presented = identity::read_presented(
       head.header("authorization"), head.header("cookie"), identity::cookie_name(parts_.has_tls));
-  auto caller = parts_.accounts.find(presented, head.address);
+  using From = identity::PresentedSecret::From;
+  // A secret that is sent is what is to be judged.
+  const bool is_by_certificate = presented.from == From::Nothing && head.certificate;
+  auto caller = is_by_certificate ? parts_.accounts.find(*head.certificate, head.address)
+                                  : parts_.accounts.find(presented, head.address);
+  if (!caller && is_by_certificate) {
+    parts_.accounts.refusals().note(
+        {.who = {"", "certificate " + head.certificate->serial, head.address},
+         .action = "access.refused",
+         .subject = "a certificate that is not valid",
+         .detail = row == nullptr ? "" : fmt::format("{} {}", row->method, row->pattern)});
+    return unauthorized();
+  }
   if (!caller) {
-    using From = identity::PresentedSecret::From;
     parts_.accounts.refusals().note(
         {.who = {"", "", head.address},
          .action = "access.refused",
@@ -85,6 +104,11 @@ std::optional<Response> AccessControl::judge_caller(const Request& head,
         head, row.pattern,
         "a request with a cookie that changes something comes from this server's page and "
         "has the header field X-Dripline");
+  }
+  if (!caller.certificate.empty() && is_changing(head) && is_from_other_page(head)) {
+    return refuse(head, row.pattern,
+                  "a browser's request with a certificate that changes something comes from this "
+                  "server's page and has the header field X-Dripline");
   }
   const auto lowest = identity::lowest_role(row.permission);
   if (lowest && caller.role < *lowest) {

@@ -17,8 +17,19 @@ Api::Api(Services services)
   add_audit_routes(router_, services_);
   add_program_routes(router_, services_);
   add_release_routes(router_, services_);
+  add_attachment_routes(router_, services_);
+  add_search_routes(router_, services_);
   add_comparison_routes(router_, services_);
+  add_check_routes(router_, services_);
   add_import_routes(router_, services_);
+  add_measurement_routes(router_, services_);
+  add_chart_routes(router_, services_);
+  add_offset_routes(router_, services_);
+  add_report_template_routes(router_, services_);
+  add_archive_routes(router_, services_);
+  add_folder_routes(router_, services_);
+  add_webhook_routes(router_, services_);
+  add_job_routes(router_, services_);
   add_upload_routes(router_, services_);
   add_machine_routes(router_, services_);
   add_run_routes(router_, services_);
@@ -28,6 +39,7 @@ Api::Api(Services services)
   add_port_routes(router_, services_);
   add_account_routes(router_, services_);
   add_backup_routes(router_, services_);
+  add_certificate_routes(router_, services_);
   add_metrics_routes(router_, services_, times_);
   router_.change_routes([this](Router::Route& route) { protect(route); });
 }

@@ -12,19 +12,27 @@
 #include "server/api/event_hub.hpp"
 #include "server/api/request_times.hpp"
 #include "server/api/router.hpp"
+#include "server/folders/folders.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/imports/imports.hpp"
+#include "server/library/attachments.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/backups.hpp"
 #include "server/library/health.hpp"
+#include "server/library/job_queue.hpp"
+#include "server/library/program_search.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
+#include "server/library/retention.hpp"
 #include "server/library/run_history.hpp"
 #include "server/library/setups.hpp"
 #include "server/machines/machine_control.hpp"
+#include "server/measurements/measurements.hpp"
+#include "server/offsets/offsets.hpp"
 #include "server/paths/program_paths.hpp"
 #include "server/ports/port_control.hpp"
+#include "server/webhooks/webhooks.hpp"
 
 namespace dripline::api {
 
@@ -41,9 +49,12 @@ struct ServerFacts {
 struct Services {
   library::Programs& programs;
   library::Releases& releases;
+  library::Attachments& attachments;
+  library::ProgramSearch& search;
   library::Setups& setups;
   machines::MachineControl& machines;
   library::RunHistory& runs;
+  library::JobQueue& jobs;
   paths::ProgramPaths& paths;
   library::AuditTrail& audit;
   library::AuditChain& chain;
@@ -52,11 +63,16 @@ struct Services {
   const Clock& clock;
   ServerFacts facts;
   std::function<std::uint64_t()> dds_rejected;
-  ports::PortControl* ports = nullptr;  ///< null: a server without serial ports
-  library::Health* health = nullptr;    ///< null: always ok
-  library::Backups* backups = nullptr;  ///< null: a server that makes none
-  imports::Imports* imports = nullptr;  ///< null: a server without an import queue
-  bool has_tls = false;                 ///< the sockets in front of it do
+  ports::PortControl* ports = nullptr;                 ///< null: a server without serial ports
+  library::Health* health = nullptr;                   ///< null: always ok
+  library::Backups* backups = nullptr;                 ///< null: a server that makes none
+  imports::Imports* imports = nullptr;                 ///< null: a server without an import queue
+  measurements::Measurements* measurements = nullptr;  ///< null: a server without measurements
+  library::Retention* retention = nullptr;             ///< null: everything stays in the database
+  offsets::Offsets* offsets = nullptr;                 ///< null: a server without offset proposals
+  folders::Folders* folders = nullptr;                 ///< null: a server without hot folders
+  webhooks::Webhooks* webhooks = nullptr;              ///< null: a server without webhooks
+  bool has_tls = false;                                ///< the sockets in front of it do
 };
 
 /// The REST API without its sockets: a request in, a response out. Any thread, several at once;
@@ -103,6 +119,12 @@ std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub)
 /// The listener that publishes what happens in the import queue as events.
 std::function<void(const storage::Import&)> publish_imports_to(EventHub& hub);
 
+/// The listener that publishes the verdicts on parts as events.
+std::function<void(const storage::MeasuredPart&)> publish_parts_to(EventHub& hub);
+
+/// The listener that publishes offset proposals and what becomes of them as events.
+std::function<void(const storage::OffsetProposal&)> publish_offsets_to(EventHub& hub);
+
 /// The OpenAPI description, as JSON text.
 std::string_view openapi_text();
 
@@ -112,8 +134,18 @@ void add_server_routes(Router& router, Services& services);
 void add_audit_routes(Router& router, Services& services);
 void add_program_routes(Router& router, Services& services);
 void add_release_routes(Router& router, Services& services);
+void add_attachment_routes(Router& router, Services& services);
+void add_search_routes(Router& router, Services& services);
 void add_comparison_routes(Router& router, Services& services);
+void add_check_routes(Router& router, Services& services);
 void add_import_routes(Router& router, Services& services);
+void add_measurement_routes(Router& router, Services& services);
+void add_chart_routes(Router& router, Services& services);
+void add_offset_routes(Router& router, Services& services);
+void add_report_template_routes(Router& router, Services& services);
+void add_folder_routes(Router& router, Services& services);
+void add_webhook_routes(Router& router, Services& services);
+void add_job_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);
 void add_run_routes(Router& router, Services& services);
@@ -123,6 +155,8 @@ void add_memory_routes(Router& router, Services& services);
 void add_port_routes(Router& router, Services& services);
 void add_account_routes(Router& router, Services& services);
 void add_backup_routes(Router& router, Services& services);
+void add_archive_routes(Router& router, Services& services);
+void add_certificate_routes(Router& router, Services& services);
 void add_metrics_routes(Router& router, Services& services, const RequestTimes& times);
 
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer

@@ -32,6 +32,22 @@ Result<void> check_key_mode(const std::string& file) {
   return fail(Errc::Denied, "TLS key {} can be read or changed by others: chmod 600 it", file);
 }
 
+/// A client without a certificate is served as before; one with a certificate of another authority
+/// is refused in the handshake. Errors: Io.
+Result<void> ask_for_certificates(SSL_CTX* context, const std::string& authority) {
+  constexpr std::string_view kSession = "dripline";  // of sessions that are resumed
+  STACK_OF(X509_NAME)* const names = SSL_load_client_CA_file(authority.c_str());
+  if (names == nullptr)
+    return fail(Errc::Io, "authority of clients {}: it cannot be read as PEM", authority);
+  SSL_CTX_set_client_CA_list(context, names);  // which owns them now
+  if (SSL_CTX_load_verify_file(context, authority.c_str()) != 1)
+    return fail(Errc::Io, "authority of clients {}: it cannot be used", authority);
+  SSL_CTX_set_session_id_context(context, reinterpret_cast<const unsigned char*>(kSession.data()),
+                                 kSession.size());
+  SSL_CTX_set_verify(context, SSL_VERIFY_PEER, nullptr);
+  return {};
+}
+
 /// TLS 1.2 and 1.3, only ciphers with forward secrecy. Errors: Denied (others may read the key), Io
 /// (a file cannot be read, the key is not the certificate's).
 Result<ssl::context> tls_context(const TlsFiles& files) {
@@ -51,6 +67,9 @@ Result<ssl::context> tls_context(const TlsFiles& files) {
   if (context.use_private_key_file(files.key, ssl::context::pem, error); error) {
     return fail(Errc::Io, "key {}: {}", files.key, error.message());
   }
+  if (files.client_authority.empty()) return context;
+  if (auto asked = ask_for_certificates(native, files.client_authority); !asked)
+    return fail(asked.error());
   return context;
 }
 

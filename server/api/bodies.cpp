@@ -69,21 +69,35 @@ Result<void> check_size(const storage::Port& port) {
   return {};
 }
 
-/// "NAME" or "NAME@REVISION".
+storage::FieldChange take_fields(JsonObject& object) {
+  const auto field = [&](const char* name) {
+    return object.optional_text(name, storage::kMaxField);
+  };
+  return {.part = field("part"),
+          .operation = field("operation"),
+          .material = field("material"),
+          .machine_group = field("machine_group"),
+          .cam_file = field("cam_file")};
+}
+
 Result<ports::ProgramChoice> parse_choice(const std::string& text) {
-  const auto at = text.find('@');
-  ports::ProgramChoice choice{.program = text.substr(0, at), .revision = {}};
-  if (auto good = check_program_name(choice.program); !good) return fail(good.error());
-  if (at == std::string::npos) return choice;
-  const auto number = parse_unsigned(text.substr(at + 1));
-  if (number) {
-    choice.revision = *number;
-    return choice;
-  }
-  return fail(Errc::Syntax, "'{}': expected a program, or PROGRAM@REVISION", text);
+  const auto named = parse_named_program(text);
+  if (!named) return fail(named.error());
+  return ports::ProgramChoice{.program = named->program, .revision = named->revision};
 }
 
 }  // namespace
+
+Result<library::ClosureRequest::Named> parse_named_program(const std::string& text) {
+  const auto at = text.find('@');
+  library::ClosureRequest::Named named{.program = text.substr(0, at), .revision = {}};
+  if (auto good = check_program_name(named.program); !good) return fail(good.error());
+  if (at == std::string::npos) return named;
+  const auto number = parse_unsigned(text.substr(at + 1));
+  if (!number) return fail(Errc::Syntax, "'{}': expected a program, or PROGRAM@REVISION", text);
+  named.revision = *number;
+  return named;
+}
 
 Result<library::UploadRequest> decode_upload(std::string_view body) {
   auto object = JsonObject::parse(body);
@@ -92,9 +106,38 @@ Result<library::UploadRequest> decode_upload(std::string_view body) {
   upload.program = object->required_text("program", kMaxName);
   upload.control = object->optional_text("control", kMaxName).value_or("");
   upload.comment = object->optional_text("comment", library::Programs::kMaxComment).value_or("");
+  upload.change = take_fields(*object);
   if (auto good = object->finish(); !good) return fail(good.error());
   if (auto good = check_program_name(upload.program); !good) return fail(good.error());
+  if (auto good = library::check_fields(upload.change); !good) return fail(good.error());
   return upload;
+}
+
+Result<storage::Description> decode_description(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  storage::Description description;
+  description.revision = object->optional_unsigned("revision");
+  description.change = take_fields(*object);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = library::check_fields(description.change); !good) return fail(good.error());
+  if (!description.change.is_empty()) return description;
+  return fail(Errc::Syntax,
+              "expected at least one of part, operation, material, machine_group and cam_file");
+}
+
+Result<library::Attachments::Request> decode_attachment(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  library::Attachments::Request attachment;
+  attachment.name.name = object->required_text("name", library::Attachments::kMaxName);
+  attachment.name.revision = object->optional_unsigned("revision");
+  attachment.comment =
+      object->optional_text("comment", library::Programs::kMaxComment).value_or("");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = library::check_attachment_name(attachment.name.name); !good)
+    return fail(good.error());
+  return attachment;
 }
 
 Result<CommitBody> decode_commit(std::string_view body) {
@@ -130,6 +173,26 @@ Result<std::string> decode_decision(std::string_view body) {
   auto comment = object->optional_text("comment", library::Releases::kMaxComment).value_or("");
   if (auto good = object->finish(); !good) return fail(good.error());
   return comment;
+}
+
+Result<ReleaseBody> decode_release(std::string_view body) {
+  if (body.empty()) return ReleaseBody{};
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  ReleaseBody release;
+  release.comment = object->optional_text("comment", library::Releases::kMaxComment).value_or("");
+  release.has_closure = object->optional_flag("closure").value_or(false);
+  release.machine = object->optional_text("machine", kMaxName).value_or("");
+  const auto named = object->optional_texts("with", kMaxName, storage::Decision::kMaxPins);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (!release.has_closure && (!named.empty() || !release.machine.empty()))
+    return fail(Errc::Syntax, "members 'with' and 'machine' are for a release with 'closure'");
+  for (const auto& text : named) {
+    auto program = parse_named_program(text);
+    if (!program) return fail(Errc::Syntax, "member 'with': {}", program.error().what);
+    release.named.push_back(*std::move(program));
+  }
+  return release;
 }
 
 Result<AcceptanceBody> decode_acceptance(std::string_view body) {
@@ -199,6 +262,51 @@ Result<machines::StartRequest> decode_start(std::string_view body) {
   start.from = *point;
   start.from.pass = pass;
   return start;
+}
+
+Result<JobBody> decode_job(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  JobBody read;
+  read.job.program = object->required_text("program", kMaxName);
+  read.job.revision = object->optional_unsigned("revision");
+  read.job.quantity = object->optional_unsigned("quantity").value_or(1);
+  read.job.parts_per_run = object->optional_unsigned("parts_per_run").value_or(1);
+  read.job.comment = object->optional_text("comment", library::JobQueue::kMaxText).value_or("");
+  read.place = object->optional_unsigned("place");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = check_program_name(read.job.program); !good) return fail(good.error());
+  return read;
+}
+
+Result<std::uint64_t> decode_job_move(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const auto place = object->optional_unsigned("place");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (!place) return fail(Errc::Syntax, "member 'place' is missing: 1 is the first");
+  return *place;
+}
+
+Result<std::optional<std::uint64_t>> decode_job_start(std::string_view body) {
+  auto object = JsonObject::parse(body.empty() ? "{}" : body);
+  if (!object) return fail(object.error());
+  const auto job = object->optional_unsigned("job");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return job;
+}
+
+Result<WebhookBody> decode_webhook(std::string_view body) {
+  constexpr std::size_t kMaxUrl = 1024;
+  constexpr std::size_t kMaxKinds = 16;
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  WebhookBody read;
+  read.name = object->required_text("name", kMaxName);
+  read.url = object->required_text("url", kMaxUrl);
+  read.kinds = object->optional_texts("kinds", kMaxName, kMaxKinds);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return read;
 }
 
 Result<std::string> decode_restart(std::string_view body) {

@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "protocol/base/digest.hpp"
+#include "server/library/attachments.hpp"
+#include "server/library/job_queue.hpp"
+#include "server/library/program_closure.hpp"
 #include "server/library/programs.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/ports/port_control.hpp"
@@ -16,6 +19,12 @@
 namespace dripline::api {
 
 Result<library::UploadRequest> decode_upload(std::string_view body);
+
+/// `{part?, operation?, material?, machine_group?, cam_file?, revision?}`; the program and who are
+/// left empty.
+Result<storage::Description> decode_description(std::string_view body);
+/// `{name, revision?, comment?}`; the program is left empty.
+Result<library::Attachments::Request> decode_attachment(std::string_view body);
 
 struct CommitBody {
   std::optional<Digest> sha256;
@@ -31,6 +40,16 @@ struct CopyBody {
 Result<CopyBody> decode_copy(std::string_view body);
 /// `{comment?}`, or nothing.
 Result<std::string> decode_decision(std::string_view body);
+struct ReleaseBody {
+  std::string comment;
+  bool has_closure = false;  ///< what the program calls is pinned, and released with it
+  std::string machine;       ///< its newest setup binds codes to programs
+  std::vector<library::ClosureRequest::Named> named;
+};
+/// `{comment?, closure?, machine?, with?}`, or nothing; the last two only with `closure`.
+Result<ReleaseBody> decode_release(std::string_view body);
+/// "NAME" or "NAME@REVISION".
+Result<library::ClosureRequest::Named> parse_named_program(const std::string& text);
 struct AcceptanceBody {
   std::string target;  ///< empty: as what it came
   std::string reason;
@@ -44,6 +63,24 @@ Result<std::string> decode_rename(std::string_view body);
 
 /// The author is left empty.
 Result<machines::StartRequest> decode_start(std::string_view body);
+struct JobBody {
+  storage::Job job;  ///< its machine is left empty
+  std::optional<std::uint64_t> place;
+};
+/// `{program, revision?, quantity?, parts_per_run?, comment?, place?}`.
+Result<JobBody> decode_job(std::string_view body);
+/// `{place}`.
+Result<std::uint64_t> decode_job_move(std::string_view body);
+/// `{job?}`, or nothing.
+Result<std::optional<std::uint64_t>> decode_job_start(std::string_view body);
+
+struct WebhookBody {
+  std::string name, url;
+  std::vector<std::string> kinds;
+};
+/// `{name, url, kinds?}`.
+Result<WebhookBody> decode_webhook(std::string_view body);
+
 /// Where a run is to continue: {"at"?}.
 Result<std::string> decode_restart(std::string_view body);
 

@@ -17,6 +17,9 @@ namespace dripline::api {
 /// File names of a PEM certificate chain and its private key.
 struct TlsFiles {
   std::string certificate, key;
+  /// Authorities of clients' certificates (PEM); a client may have one, and need not. Empty:
+  /// clients are not asked for one.
+  std::string client_authority = {};
 };
 
 /// Bounds of what hostile and hung clients can consume. A connection without a request in progress
@@ -50,8 +53,9 @@ struct HttpOptions {
 struct HttpHandlers {
   /// On a worker; may wait.
   std::function<Response(Request)> handle;
-  /// Receives the head alone, before a body is read, on the thread that serves the sockets: must
-  /// not wait. An answer is sent at once; otherwise it may set Request::who.
+  /// Receives the head (with the client's address and verified certificate) alone, before a body is
+  /// read, on the thread that serves the sockets: must not wait. An answer is sent at once;
+  /// otherwise it may set Request::who.
   std::function<std::optional<Response>(Request&)> judge = {};
   /// Whether `handle` may wait for a machine. Each such request gets a thread, so that a gateway
   /// that hangs delays no other request. On the socket thread.

@@ -105,13 +105,32 @@ std::optional<std::uint64_t> QueryReader::number(const std::string& name, std::u
   if (!given) return std::nullopt;
   const auto value = parse_unsigned(*given);
   if (value && *value <= highest) return *value;
-  if (error_) return std::nullopt;
   if (value) {
-    error_ = Error{Errc::LimitExceeded, fmt::format("{}={}: at most {}", name, *value, highest)};
+    note({Errc::LimitExceeded, fmt::format("{}={}: at most {}", name, *value, highest)});
   } else {
-    error_ = Error{Errc::Syntax, fmt::format("{}: {}", name, value.error().what)};
+    note({Errc::Syntax, fmt::format("{}: {}", name, value.error().what)});
   }
   return std::nullopt;
+}
+
+std::optional<UtcTime> QueryReader::time(const std::string& name) {
+  const auto given = text(name);
+  if (!given) return std::nullopt;
+  const auto value = parse_iso8601(*given);
+  if (value) return *value;
+  note({value.error().code, fmt::format("query parameter '{}': {}", name, value.error().what)});
+  return std::nullopt;
+}
+
+bool QueryReader::flag(const std::string& name) {
+  const std::string given = text(name).value_or("no");
+  if (given != "yes" && given != "no")
+    note({Errc::Syntax, fmt::format("query parameter '{}' is '{}': yes or no", name, given)});
+  return given == "yes";
+}
+
+void QueryReader::note(Error error) {
+  if (!error_) error_ = std::move(error);
 }
 
 Result<void> QueryReader::finish() {

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
 #include "server/identity/caller.hpp"
 
@@ -30,12 +33,17 @@ struct Request {
   std::string body;
   std::map<std::string, std::string> parameters;  ///< `{name}` of the route; set by the router
   std::string address;                            ///< of the client; set by the sockets
-  storage::Actor who;                             ///< the caller, for authors and the audit trail
-  std::optional<identity::Caller> caller;         ///< set by the API; absent: anybody
+  /// Of the client, verified; set by the sockets.
+  std::optional<identity::ClientCertificate> certificate;
+  storage::Actor who;                      ///< the caller, for authors and the audit trail
+  std::optional<identity::Caller> caller;  ///< set by the API; absent: anybody
 
   std::string header(const std::string& lower_case_name) const;
   const std::string& parameter(const std::string& name) const { return parameters.at(name); }
 };
+
+/// What a database can hold.
+inline constexpr std::uint64_t kMaxNumber = std::numeric_limits<std::int64_t>::max();
 
 /// Reads the query parameters that a handler knows; any other is an error of finish().
 class QueryReader {
@@ -44,10 +52,19 @@ class QueryReader {
   std::optional<std::string> text(const std::string& name);
   /// Without a sign, at most `highest`.
   std::optional<std::uint64_t> number(const std::string& name, std::uint64_t highest);
-  /// Errors: Syntax (not a number, unknown parameter), LimitExceeded; the first error.
+  /// As parse_iso8601 reads it.
+  std::optional<UtcTime> time(const std::string& name);
+  /// yes or no; without it no.
+  bool flag(const std::string& name);
+  /// What was not asked for, taken out.
+  std::map<std::string, std::string> rest() { return std::exchange(left_, {}); }
+  /// Errors: Syntax (no number, no time, neither yes nor no, unknown parameter), LimitExceeded; the
+  /// first error.
   Result<void> finish();
 
  private:
+  void note(Error error);
+
   std::map<std::string, std::string> left_;
   std::optional<Error> error_;
 };

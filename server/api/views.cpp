@@ -2,8 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gateway/interpreter/registry.hpp"
 #include "protocol/dds/members.hpp"
 #include "protocol/dds/message.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/machines/machine_registry.hpp"
 
 namespace dripline::api {
@@ -125,14 +127,6 @@ json status_json(const dds::Status& status) {
   return view;
 }
 
-json optional_text(const std::string& text) {
-  return text.empty() ? json(nullptr) : json(text);
-}
-
-json optional_time(const std::optional<UtcTime>& time) {
-  return time ? json(to_iso8601(*time)) : json(nullptr);
-}
-
 json sequence_number(std::int64_t sequence) {
   return sequence < 0 ? json(nullptr) : json(sequence);
 }
@@ -151,16 +145,24 @@ json revision_json(const storage::Revision& revision, const std::string& title) 
           {"revision", revision.number},
           {"size", revision.size},
           {"sha256", revision.content.hex()},
-          {"title", optional_text(title)},
-          {"control", optional_text(revision.control)},
-          {"comment", optional_text(revision.comment)},
-          {"author", optional_text(revision.author)},
+          {"title", text_or_null(title)},
+          {"control", text_or_null(revision.control)},
+          {"comment", text_or_null(revision.comment)},
+          {"author", text_or_null(revision.author)},
           {"created", to_iso8601(revision.created)},
           {"held", revision.is_held},
-          {"accepted", optional_time(revision.accepted)},
+          {"accepted", time_or_null(revision.accepted)},
           {"state", storage::to_string(revision.state)},
-          {"released", optional_time(revision.released)},
-          {"withdrawn", optional_time(revision.withdrawn)}};
+          {"released", time_or_null(revision.released)},
+          {"withdrawn", time_or_null(revision.withdrawn)},
+          {"cam_file", text_or_null(revision.cam_file)}};
+}
+
+json fields_json(const storage::ProgramFields& fields) {
+  return {{"part", text_or_null(fields.part)},
+          {"operation", text_or_null(fields.operation)},
+          {"material", text_or_null(fields.material)},
+          {"machine_group", text_or_null(fields.machine_group)}};
 }
 
 json program_json(const storage::ProgramSummary& program, const std::string& title) {
@@ -169,7 +171,20 @@ json program_json(const storage::ProgramSummary& program, const std::string& tit
   view["name"] = program.latest.program;
   view["revisions"] = program.revisions;
   view["held_revisions"] = program.held;
+  view.update(fields_json(program.fields));
   return view;
+}
+
+/// What the control's own position display shows: the units of the program while one is there, and
+/// on a lathe X as its programs have it, as a diameter.
+static json display_json(const machines::MachineView& view) {
+  const auto dialect = interpreter::find_dialect(view.machine.control);
+  if (!dialect) return nullptr;
+  const bool has_program = view.status && !view.status->run.empty() && view.status->modes;
+  const bool is_inch =
+      has_program ? view.status->modes->is_inch : (*dialect)->units == interpreter::Units::Inch;
+  const bool is_lathe = (*dialect)->machine == interpreter::MachineKind::Lathe;
+  return {{"units", is_inch ? "inch" : "mm"}, {"x", is_lathe ? "diameter" : "radius"}};
 }
 
 json machine_json(const machines::MachineView& view) {
@@ -178,14 +193,15 @@ json machine_json(const machines::MachineView& view) {
   };
   return {
       {"name", view.machine.name},
-      {"control", optional_text(view.machine.control)},
-      {"description", optional_text(view.machine.description)},
-      {"gateway_version", optional_text(view.machine.gateway_version)},
+      {"control", text_or_null(view.machine.control)},
+      {"description", text_or_null(view.machine.description)},
+      {"gateway_version", text_or_null(view.machine.gateway_version)},
       {"connected", view.is_connected},
       {"clock_ahead_seconds", view.clock_ahead ? json(seconds(*view.clock_ahead)) : json(nullptr)},
       {"notices", machines::notices_of(view)},
       {"first_seen", to_iso8601(view.machine.first_seen)},
       {"last_seen", to_iso8601(view.machine.last_seen)},
+      {"display", display_json(view)},
       {"status", view.status ? status_json(*view.status) : json(nullptr)}};
 }
 
@@ -196,23 +212,24 @@ json run_json(const storage::Run& run) {
           {"revision", run.revision},
           {"sha256", run.content.hex()},
           {"size", run.size},
-          {"control", optional_text(run.control)},
+          {"control", text_or_null(run.control)},
           {"state", storage::to_string(run.state)},
           {"sent", run.counters.sent},
           {"accepted", run.counters.accepted},
           {"executed", run.counters.executed},
           {"line", run.line},
           {"sequence", sequence_number(run.sequence)},
-          {"reason", optional_text(run.reason)},
+          {"reason", text_or_null(run.reason)},
           {"content_verified", run.content_verified ? json(*run.content_verified) : json(nullptr)},
-          {"author", optional_text(run.author)},
+          {"author", text_or_null(run.author)},
           {"created", to_iso8601(run.created)},
-          {"started", optional_time(run.started)},
-          {"ended", optional_time(run.ended)},
+          {"started", time_or_null(run.started)},
+          {"ended", time_or_null(run.ended)},
           {"outputs", run.outputs},
-          {"setup", run.setup ? json(*run.setup) : json(nullptr)},
+          {"setup", number_or_null(run.setup)},
           {"allowed_as", storage::to_string(run.allowed_as)},
-          {"approval", run.approval ? json(*run.approval) : json(nullptr)}};
+          {"approval", run.approval ? json(*run.approval) : json(nullptr)},
+          {"job", run.job ? json(*run.job) : json(nullptr)}};
 }
 
 json setup_json(const storage::SetupRevision& setup) {
@@ -220,8 +237,8 @@ json setup_json(const storage::SetupRevision& setup) {
           {"revision", setup.number},
           {"size", setup.size},
           {"sha256", setup.sha256.hex()},
-          {"comment", optional_text(setup.comment)},
-          {"author", optional_text(setup.author)},
+          {"comment", text_or_null(setup.comment)},
+          {"author", text_or_null(setup.author)},
           {"created", to_iso8601(setup.created)}};
 }
 
@@ -230,13 +247,13 @@ json record_json(const storage::Record& record) {
           {"epoch", record.epoch},
           {"number", record.number},
           {"time", to_iso8601(record.time)},
-          {"received", optional_time(record.received)},
-          {"run", optional_text(record.run)},
+          {"received", time_or_null(record.received)},
+          {"run", text_or_null(record.run)},
           {"kind", record.kind},
           {"block", record.block},
           {"line", record.line},
           {"sequence", sequence_number(record.sequence)},
-          {"device", optional_text(record.device)},
+          {"device", text_or_null(record.device)},
           {"text", record.text}};
 }
 
@@ -247,8 +264,8 @@ json report_json(const storage::Run& run) {
           {"revision", run.revision},
           {"state", storage::to_string(run.state)},
           {"lines", run.outputs},
-          {"started", optional_time(run.started)},
-          {"ended", optional_time(run.ended)}};
+          {"started", time_or_null(run.started)},
+          {"ended", time_or_null(run.ended)}};
 }
 
 json audit_json(const storage::AuditEntry& entry) {

@@ -11,6 +11,8 @@ namespace dripline::api {
 nlohmann::json upload_json(const storage::Upload& upload, std::uint64_t max_piece);
 /// `title`: the name in the program's first block (library::program_title).
 nlohmann::json revision_json(const storage::Revision& revision, const std::string& title);
+/// Of a program.
+nlohmann::json fields_json(const storage::ProgramFields& fields);
 nlohmann::json program_json(const storage::ProgramSummary& program, const std::string& title);
 nlohmann::json machine_json(const machines::MachineView& view);
 nlohmann::json run_json(const storage::Run& run);

@@ -9,6 +9,8 @@
 
 namespace dripline::app {
 
+struct ServerParts;
+
 /// The whole server, put together. The only place that knows all its parts.
 class Server {
  public:
@@ -28,10 +30,8 @@ class Server {
   std::string status() const;
 
  private:
-  struct Loaded;
-  struct Parts;
-  explicit Server(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
+  explicit Server(std::unique_ptr<ServerParts> parts);
+  std::unique_ptr<ServerParts> parts_;
 };
 
 }  // namespace dripline::app

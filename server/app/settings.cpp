@@ -135,6 +135,7 @@ using process::yes_no_value;
 using Row = process::SettingRow<Settings>;
 
 constexpr std::uint64_t kHoursOfYear = 8760;
+constexpr std::uint32_t kMostThousands = 4'000'000;
 constexpr std::uint64_t kLongestMs = 600'000;
 constexpr std::uint64_t kMaxConnections = 800;  ///< DDS waits with select(): below 1,000 files
 
@@ -148,6 +149,14 @@ constexpr std::array kRows{
         text_value<&Settings::tls_certificate>()},
     Row{"tls-key", "FILE", "", "", "Private key of the certificate (PEM)",
         text_value<&Settings::tls_key>()},
+    Row{"tls-client-ca", "FILE", "", "none",
+        "Authority of clients' certificates (PEM): who shows one is the user of its common name, "
+        "without a token",
+        text_value<&Settings::tls_client_ca>()},
+    Row{"tls-client-revoked", "FILE", "", "none",
+        "Serials of clients' certificates that are not accepted any more, one a line; read again "
+        "when it changes",
+        text_value<&Settings::tls_client_revoked>()},
     Row{"policy", "FILE", "", "what is pushed may run",
         "Which revisions machines run, and who submits, approves and releases them (TOML)",
         text_value<&Settings::policy>()},
@@ -195,6 +204,21 @@ constexpr std::array kRows{
         number_value<1, 3650, &Settings::backup_keep_days>()},
     Row{"backup-keep-weeks", "NUMBER", "", "", "Keep one backup of each of the last weeks",
         number_value<0, 520, &Settings::backup_keep_weeks>()},
+    Row{"archives", "DIR", "", "none: everything stays in the database",
+        "Folder of the archives that old records and measurements are moved into",
+        text_value<&Settings::archives>()},
+    Row{"archive-records-days", "NUMBER", "d", "",
+        "Move records (report lines, alarms ...) into archives after so many days; 0: never",
+        number_value<0, 36500, &Settings::archive_records_days>()},
+    Row{"archive-records-thousands", "NUMBER", "", "",
+        "Move the oldest records into archives when there are more thousands of them; 0: never",
+        number_value<0, kMostThousands, &Settings::archive_records_rows>()},
+    Row{"archive-measurements-days", "NUMBER", "d", "",
+        "Move measurements into archives so many days after their part; 0: never",
+        number_value<0, 36500, &Settings::archive_measurements_days>()},
+    Row{"archive-measurements-thousands", "NUMBER", "", "",
+        "Move the oldest measurements into archives when there are more thousands; 0: never",
+        number_value<0, kMostThousands, &Settings::archive_measurements_rows>()},
     Row{"log", "FILE", "", "standard error", "Log file", text_value<&Settings::log>()},
     Row{"log-level", "LEVEL", "", "",
         "Lowest level that is logged: debug, info, warn, error or off",
@@ -205,7 +229,8 @@ constexpr std::array kRows{
         number_value<0, 1000, &Settings::log_files>()},
 };
 
-constexpr const char* kPorts = "port";  ///< the tables [[port]] are read here, not by the rows
+constexpr const char* kPorts = "port";      ///< the tables [[port]] are read here, not by the rows
+constexpr const char* kFolders = "folder";  ///< likewise [[folder]], by server/folders
 
 Result<void> apply_ports(Settings& settings, std::string_view text, const std::string& folder) {
   const toml::table table = toml::parse(text);  // the rows were read from it before
@@ -239,7 +264,10 @@ CommandLine wrong_use(const Error& error) {
 
 Result<void> apply_toml(Settings& settings, std::string_view text, const std::string& folder) {
   const process::SettingsReader reader(std::span<const Row>(kRows), settings);
-  if (auto read = reader.read_toml(text, {kPorts}); !read) return read;
+  if (auto read = reader.read_toml(text, {kPorts, kFolders}); !read) return read;
+  auto folders = folders::read_folders(text);
+  if (!folders) return fail(folders.error());
+  settings.folders = *std::move(folders);
   return apply_ports(settings, text, folder);
 }
 

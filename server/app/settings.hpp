@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "protocol/base/result.hpp"
+#include "server/folders/folder_settings.hpp"
 #include "storage/port_store.hpp"
 
 namespace dripline::app {
@@ -16,7 +17,8 @@ struct Settings {
   std::string state;  ///< default: default_state_folder (protocol/base/private_folder.hpp)
   std::string http = "127.0.0.1:8430";
   std::string tls_certificate, tls_key;
-  std::string policy;  ///< file; empty: what is pushed may run
+  std::string tls_client_ca, tls_client_revoked;  ///< files; empty: none
+  std::string policy;                             ///< file; empty: what is pushed may run
   std::uint32_t http_connections = 512;
   std::uint32_t http_connections_per_address = 256;
   std::uint32_t http_event_streams = 256;
@@ -37,17 +39,23 @@ struct Settings {
   std::uint32_t backup_every_hours = 24;
   std::uint32_t backup_keep_days = 14;
   std::uint32_t backup_keep_weeks = 26;
+  std::string archives;  ///< folder of the archives; empty: nothing is taken out of the tables
+  std::uint32_t archive_records_days = 0;  ///< 0: by age none; likewise the next ones
+  std::uint32_t archive_records_rows = 0;  ///< thousands
+  std::uint32_t archive_measurements_days = 0;
+  std::uint32_t archive_measurements_rows = 0;  ///< thousands
   std::string restore;               ///< on the command line alone: a backup, or kNewestBackup
   bool begin_empty = false;          ///< on the command line alone, for one start
   bool recover_admin = false;        ///< likewise
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
+  std::vector<folders::FolderSettings> folders;
 };
 
 inline constexpr const char* kNewestBackup = "newest";
 
-/// Sets what a TOML file holds: the settings of dncd and its serial ports, whose files are looked
-/// for in `folder`. Errors: Syntax (also an unknown key, a wrong type), LimitExceeded, NotFound;
-/// they name key and line.
+/// Sets what a TOML file holds: the settings of dncd, its hot folders, and its serial ports, whose
+/// files are looked for in `folder`. Errors: Syntax (also an unknown key, a wrong type),
+/// LimitExceeded, NotFound; they name key and line.
 Result<void> apply_toml(Settings& settings, std::string_view toml, const std::string& folder = "");
 
 /// What the command line asks for: run, or print something and end.

@@ -93,8 +93,60 @@ std::optional<Caller> Accounts::find(const PresentedSecret& presented, const std
   return caller;
 }
 
+namespace {
+
+/// A certificate as a credential of its user: it limits nothing, and no store has it.
+Credential as_credential(const std::string& user, const std::string& serial) {
+  Credential shown;
+  shown.user = user;
+  shown.name = "certificate " + serial;
+  shown.role = Role::Administrator;  // the user's own is the lower one
+  return shown;
+}
+
+bool is_active(const Directory& directory, const std::string& user) {
+  const User* const found = directory.user(user);
+  return found != nullptr && found->state == UserState::Active;
+}
+
+}  // namespace
+
+std::optional<Caller> Accounts::find(const ClientCertificate& certificate,
+                                     const std::string& address) const {
+  const bool is_over = certificate.expires <= book_.clock().now();
+  if (is_over || certificate.serial.empty() || is_revoked(certificate.serial)) return std::nullopt;
+  return book_.read([&](const Directory& directory) -> std::optional<Caller> {
+    if (!is_active(directory, certificate.user)) return std::nullopt;
+    const Credential shown = as_credential(certificate.user, certificate.serial);
+    return Caller{.user = certificate.user,
+                  .role = directory.role_of(shown),
+                  .credential = shown.name,
+                  .kind = CredentialKind::Token,
+                  .groups = {},
+                  .expires = certificate.expires,
+                  .sha256 = {},
+                  .address = address,
+                  .certificate = certificate.serial};
+  });
+}
+
+void Accounts::revoke_certificates(std::set<std::string> serials) {
+  const std::lock_guard lock(revoked_mutex_);
+  revoked_ = std::move(serials);
+}
+
+bool Accounts::is_revoked(const std::string& serial) const {
+  const std::lock_guard lock(revoked_mutex_);
+  return revoked_.contains(serial);
+}
+
 bool Accounts::is_valid(const Caller& caller) const {
   const UtcTime now = book_.clock().now();
+  if (!caller.certificate.empty()) {
+    return caller.expires > now && !is_revoked(caller.certificate) &&
+           book_.read(
+               [&](const Directory& directory) { return is_active(directory, caller.user); });
+  }
   return book_.read(
       [&](const Directory& directory) { return directory.valid(caller.sha256, now) != nullptr; });
 }
@@ -102,6 +154,10 @@ bool Accounts::is_valid(const Caller& caller) const {
 bool Accounts::may_act_on(const Caller& caller, const std::string& machine) const {
   const UtcTime now = book_.clock().now();
   return book_.read([&](const Directory& directory) {
+    if (!caller.certificate.empty()) {
+      return is_active(directory, caller.user) &&
+             directory.may_act_on(as_credential(caller.user, caller.certificate), machine);
+    }
     const Credential* const found = directory.valid(caller.sha256, now);
     return found != nullptr && directory.may_act_on(*found, machine);
   });

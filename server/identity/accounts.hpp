@@ -38,6 +38,12 @@ class Accounts {
 
   /// nullopt: it is unknown, expired, revoked, or of a user that is locked or removed.
   std::optional<Caller> find(const PresentedSecret& presented, const std::string& address);
+  /// By a certificate instead of a secret: the user of its name, with all his rights. nullopt:
+  /// there is no such user, he is locked or removed, or it has expired or was revoked.
+  std::optional<Caller> find(const ClientCertificate& certificate,
+                             const std::string& address) const;
+  /// Serials of certificates that are worth nothing any more, in place of the last ones.
+  void revoke_certificates(std::set<std::string> serials);
   /// Whether the caller's credential is still valid, for answers that never end.
   bool is_valid(const Caller& caller) const;
   bool may_act_on(const Caller& caller, const std::string& machine) const;
@@ -67,6 +73,10 @@ class Accounts {
   Users users_{book_, passwords_};
   Tokens tokens_{book_};
   MachineGroups groups_{book_};
+  bool is_revoked(const std::string& serial) const;
+
+  mutable std::mutex revoked_mutex_;
+  std::set<std::string> revoked_;  ///< serials of certificates
   std::mutex uses_mutex_;
   std::set<Digest> used_;  ///< since they were stored last
   SteadyTime uses_stored_;

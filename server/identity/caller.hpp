@@ -12,6 +12,13 @@ namespace dripline::identity {
 using storage::CredentialKind;
 using storage::Role;
 
+/// What the other end of a TLS connection has proved to have, issued by the authority of clients.
+struct ClientCertificate {
+  std::string user;    ///< its common name
+  std::string serial;  ///< hexadecimal digits, capitals
+  UtcTime expires;
+};
+
 /// Whose request it is, by which credential, and from where.
 struct Caller {
   std::string user;
@@ -20,8 +27,10 @@ struct Caller {
   CredentialKind kind = CredentialKind::Token;
   std::optional<std::set<std::string>> groups;  ///< of the credential, when it has its own
   std::optional<UtcTime> expires;
-  Digest sha256;
+  Digest sha256;  ///< of the credential; of a certificate none
   std::string address;
+  std::string certificate =
+      {};  ///< serial of the certificate that shows the user; empty: a credential
 
   storage::Actor actor() const { return {user, credential, address}; }
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/base/names.hpp"
+#include "protocol/base/utf8.hpp"
 #include "protocol/process/log.hpp"
 #include "server/library/control_catalog.hpp"
 
@@ -13,7 +14,33 @@ namespace {
 constexpr std::size_t kMaxSessions = 256;
 constexpr std::uint64_t kCatchUpPiece = 1024 * 1024;
 
+Result<void> check_field(std::string_view name, const std::optional<std::string>& value) {
+  if (!value) return {};
+  if (value->size() > storage::kMaxField) {
+    return fail(Errc::LimitExceeded, "{} of {} bytes: at most {}", name, value->size(),
+                storage::kMaxField);
+  }
+  for (std::string_view rest = *value; !rest.empty();) {
+    const std::size_t length = utf8_length(rest);
+    if (length == 0) return fail(Errc::Syntax, "{} is not UTF-8", name);
+    if (static_cast<unsigned char>(rest[0]) < 0x20 || rest[0] == 0x7F)
+      return fail(Errc::Syntax, "{} '{}' has a control character", name, one_line(*value));
+    rest.remove_prefix(length);
+  }
+  return {};
+}
+
 }  // namespace
+
+Result<void> check_fields(const storage::FieldChange& change) {
+  for (const auto& [name, value] :
+       {std::pair("part", &change.part), std::pair("operation", &change.operation),
+        std::pair("material", &change.material), std::pair("machine group", &change.machine_group),
+        std::pair("CAM file", &change.cam_file)}) {
+    if (auto good = check_field(name, *value); !good) return good;
+  }
+  return {};
+}
 
 Programs::Programs(const storage::Store& store, const Clock& clock, const ControlCatalog& catalog,
                    AuditTrail& audit)
@@ -33,6 +60,7 @@ Result<storage::Upload> Programs::begin(const UploadRequest& request, const stor
   if (!request.control.empty()) {
     if (auto known = check_control(catalog_, request.control); !known) return fail(known.error());
   }
+  if (auto good = check_fields(request.change); !good) return fail(good.error());
   storage::Upload upload;
   upload.program = request.program;
   upload.control = request.control;
@@ -40,6 +68,8 @@ Result<storage::Upload> Programs::begin(const UploadRequest& request, const stor
   upload.author = who.name;
   upload.created = clock_.now();
   upload.is_held = request.is_held;
+  upload.change = request.change;
+  upload.folder_file = request.folder_file;
   return uploads_.begin(upload);
 }
 
@@ -52,6 +82,8 @@ Result<storage::Upload> Programs::append(const std::string& id, std::uint64_t of
     if (!known) return drop_session(id), fail(known.error());
     session->upload = *std::move(known);
   }
+  // An attachment may have any bytes.
+  if (session->upload->attachment) return drop_session(id), uploads_.append(id, offset, bytes);
   // Only a piece that begins where the upload ends is new; the store judges all others.
   const bool is_new = offset == session->upload->received;
   if (is_new) {
@@ -82,6 +114,8 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
   const std::lock_guard lock(session->mutex);
   auto upload = uploads_.find(id);
   if (!upload) return drop_session(id), fail(upload.error());
+  if (upload->attachment)
+    return fail(Errc::Conflict, "upload {} is of attachment '{}'", id, *upload->attachment);
   if (auto caught_up = catch_up(*session, *upload); !caught_up) return fail(caught_up.error());
   if (auto good = session->check.finish(); !good) return drop(*upload, good.error());
   if (upload->control.empty()) {
@@ -110,6 +144,11 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
     if (revision->is_held && on_held_) on_held_(*revision);
   }
   return Committed{.revision = *std::move(revision), .is_unchanged = is_unchanged};
+}
+
+Result<void> Programs::describe(const storage::Description& description) {
+  if (auto good = check_fields(description.change); !good) return good;
+  return store_.describe(description);
 }
 
 Result<void> Programs::abandon(const std::string& id) {

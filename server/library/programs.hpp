@@ -24,13 +24,18 @@ struct UploadRequest {
   std::string program;
   std::string control;  ///< empty: determined from the text
   std::string comment;
-  bool is_held = false;  ///< it came from a machine: the revision waits for acceptance
+  bool is_held = false;              ///< it came from a machine: the revision waits for acceptance
+  storage::FieldChange change = {};  ///< of the program and its new revision
+  std::optional<std::uint64_t> folder_file = {};  ///< it came from a hot folder
 };
 
 struct Committed {
   storage::Revision revision;
   bool is_unchanged = false;  ///< the latest revision had the same content already
 };
+
+/// Errors: Syntax (a control character, bytes that are no UTF-8), LimitExceeded; names the field.
+Result<void> check_fields(const storage::FieldChange& change);
 
 /// What to do about a program that is marked against change and erasure (the P of a
 /// TNC's BEGIN PGM block).
@@ -65,9 +70,15 @@ class Programs {
                            const storage::Actor& who, Protection protection = Protection::Respect);
   Result<void> abandon(const std::string& id);
 
-  Result<std::vector<storage::ProgramSummary>> list(storage::Page page) {
-    return store_.list(page);
+  Result<std::vector<storage::ProgramSummary>> list(const storage::ProgramFilter& filter,
+                                                    storage::Page page) {
+    return store_.list(filter, page);
   }
+  Result<storage::ProgramFields> fields(const std::string& program) {
+    return store_.fields(program);
+  }
+  /// Errors: those of ProgramStore::describe, Syntax and LimitExceeded (a value).
+  Result<void> describe(const storage::Description& description);
   Result<std::uint64_t> count() { return store_.count(); }
   Result<std::vector<storage::Revision>> revisions(const std::string& program) {
     return store_.revisions(program);

@@ -7,6 +7,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "protocol/base/signature.hpp"
+#include "server/library/program_closure.hpp"
 #include "server/library/release_policy.hpp"
 #include "storage/store.hpp"
 
@@ -22,8 +23,7 @@ std::string decision_text(const storage::Decision& decision, const std::string& 
 class Releases {
  public:
   struct Parts {
-    storage::ReleaseStore& decisions;
-    storage::ProgramStore& programs;
+    const storage::Store& store;
     const Clock& clock;
     SigningKey key;
     std::string database;  ///< its identity
@@ -38,11 +38,14 @@ class Releases {
     std::uint64_t revision = 0;
     storage::RevisionStep step = storage::RevisionStep::Submit;
     std::string comment;
-    storage::Actor who;
+    storage::Actor who = {};
     storage::Role role = storage::Role::Viewer;
+    /// Of a release: what the program calls is pinned, and released with it where it is not yet.
+    std::optional<Closure> closure = {};
   };
-  /// Errors: NotFound, Denied (the role, four eyes), Conflict (not from this state, held), Syntax
-  /// (no comment), LimitExceeded (its length).
+  /// Errors: NotFound, Denied (the role, four eyes), Conflict (not from this state, held; something
+  /// of the closure is missing or cannot be released), Syntax (no comment), LimitExceeded (its
+  /// length).
   Result<storage::Revision> decide(const Request& request);
   /// What is signed of it.
   std::string text_of(const storage::Decision& decision) const {
@@ -51,7 +54,13 @@ class Releases {
   /// Oldest first. Errors: NotFound.
   Result<std::vector<storage::Decision>> decisions(const std::string& program,
                                                    std::uint64_t revision) {
-    return parts_.decisions.decisions(program, revision);
+    return parts_.store.releases.decisions(program, revision);
+  }
+
+  /// A revision with what a run of it would call now. Errors: those of closure_of.
+  Result<Closure> closure(ClosureRequest request) {
+    request.prefers_released = policy_.runs_released_only;
+    return closure_of(parts_.store, request);
   }
 
   struct Wish {
@@ -62,11 +71,12 @@ class Releases {
   struct Admission {
     storage::Revision revision;
     storage::RunAllowance allowed_as = storage::RunAllowance::Open;
-    std::optional<std::uint64_t> approval = {};  ///< the decision that released it
+    /// The decision that released it, where a release is needed or pins what is called.
+    std::optional<std::uint64_t> approval = {};
   };
   /// Errors: NotFound, Conflict (nothing of it may run there: its state is named; it was released
-  /// under another name), Corrupt (a decision is not signed by this server, or they contradict the
-  /// state).
+  /// under another name; what its release pins was withdrawn), Corrupt (a decision is not signed by
+  /// this server, or they contradict the state).
   Result<Admission> admit(const Wish& wish);
   /// What a request from the machine's control gets of a program; absent: nothing of it.
   std::optional<storage::Revision> offered(const storage::ProgramSummary& program,
@@ -77,12 +87,22 @@ class Releases {
   /// Errors: Corrupt, Conflict (released under another name).
   Result<void> check_call(const storage::Revision& revision, const storage::Run& run);
 
+  /// What a run under a release that pins its calls gets for any of these names, the most literal
+  /// first; nothing when the release pins nothing. Errors: NotFound (it pins none of the names),
+  /// Corrupt (as of admit).
+  Result<std::optional<storage::Revision>> pinned_call(const storage::Run& run,
+                                                       const std::vector<std::string>& names);
+
   static constexpr std::size_t kMaxComment = 1024;
 
  private:
   bool proves_out(const Wish& wish) const;
   Result<storage::Revision> wanted(const Wish& wish);
   Result<storage::Decision> verify(const storage::Revision& revision, UtcTime moment);
+  Result<storage::DecisionFrom> decision(const Request& request, const storage::Revision& revision);
+  Result<storage::Revision> release_together(const Request& request, storage::DecisionFrom main);
+  Result<Admission> admit_released(storage::Revision revision);
+  Result<void> check_pins(const storage::Decision& release);
 
   Parts parts_;
   const ReleasePolicy policy_;

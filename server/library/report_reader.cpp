@@ -18,8 +18,12 @@ bool looks_like_formula(const std::string& text) {
          text.find_first_not_of("0123456789.", 1) != std::string::npos;
 }
 
-/// RFC 4180: quoted when it has to be, quotes doubled. What looks like a formula begins with an
-/// apostrophe.
+std::string json_text(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
 std::string csv_field(const std::string& line) {
   const std::string text = looks_like_formula(line) ? "'" + line : line;
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -30,12 +34,6 @@ std::string csv_field(const std::string& line) {
   }
   return quoted + '"';
 }
-
-std::string json_text(const nlohmann::json& value) {
-  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-}  // namespace
 
 Result<ReportFormat> parse_report_format(std::string_view text) {
   if (text == "text") return ReportFormat::Text;
@@ -55,9 +53,8 @@ ReportReader::ReportReader(storage::RecordStore& store, const std::string& machi
 }
 
 Result<std::vector<storage::Record>> ReportReader::records() const {
-  const storage::Page page{.limit = kLinesPerPiece, .offset = lines_};
-  if (run_.id.empty()) return store_.machine_report(run_.machine, page);
-  return store_.of_run(run_.id, "output", page);
+  if (run_.id.empty()) return store_.machine_report(run_.machine, place_, kLinesPerPiece);
+  return store_.of_run_after(run_.id, "output", place_, kLinesPerPiece);
 }
 
 Result<std::optional<std::string>> ReportReader::next() {
@@ -68,6 +65,7 @@ Result<std::optional<std::string>> ReportReader::next() {
   const auto records = this->records();
   if (!records) return fail(records.error());
   for (const auto& record : *records) append_line(record, text);
+  if (!records->empty()) place_ = {records->back().epoch, records->back().number};
   if (records->size() < kLinesPerPiece) {
     text += tail();
     stage_ = Stage::Done;

@@ -12,9 +12,13 @@ enum class ReportFormat { Text, Csv, Json };
 /// Errors: Unsupported, naming the known ones.
 Result<ReportFormat> parse_report_format(std::string_view text);
 
+/// RFC 4180: quoted when it has to be, quotes doubled. What looks like a formula begins with an
+/// apostrophe.
+std::string csv_field(const std::string& text);
+
 /// The output lines of one run, or what a machine printed outside any, rendered piece by piece so
-/// that a report of any length needs constant memory. One thread at a time; the store must outlive
-/// it.
+/// that a report of any length needs constant memory and time in proportion to its length. One
+/// thread at a time; the store must outlive it.
 class ReportReader {
  public:
   ReportReader(storage::RecordStore& store, storage::Run run, ReportFormat format);
@@ -32,6 +36,7 @@ class ReportReader {
   storage::Run run_;  ///< without an id: of the machine alone
   ReportFormat format_;
   std::uint64_t lines_ = 0;
+  storage::RecordPlace place_;  ///< of the last line
   enum class Stage { Head, Lines, Done } stage_ = Stage::Head;
 };
 

@@ -4,7 +4,20 @@
 
 namespace dripline::library {
 
-Result<SavedSetup> Setups::save(const SetupText& text, const storage::Actor& who) {
+namespace {
+
+storage::SetupRevision revision_of(const SetupText& text, const storage::Actor& who) {
+  storage::SetupRevision setup;
+  setup.machine = text.machine;
+  setup.text = text.text;
+  setup.comment = text.comment;
+  setup.author = who.name;
+  return setup;
+}
+
+}  // namespace
+
+Result<void> Setups::check(const SetupText& text) const {
   if (text.comment.size() > kMaxComment) {
     return fail(Errc::LimitExceeded, "a comment of {} bytes, at most {}", text.comment.size(),
                 kMaxComment);
@@ -16,13 +29,20 @@ Result<SavedSetup> Setups::save(const SetupText& text, const storage::Actor& who
   if (auto good = catalog_.check_setup(text.control, text.text); !good) {
     return fail(with_control_words(good.error(), text.control, Refusal::BadParameters));
   }
+  return {};
+}
+
+void Setups::announce(const storage::SetupRevision& saved, const SetupText& text) const {
+  if (!on_saved_) return;
+  auto announced = saved;
+  announced.text = text.text;
+  on_saved_(announced, text.control);
+}
+
+Result<SavedSetup> Setups::save(const SetupText& text, const storage::Actor& who) {
+  if (auto good = check(text); !good) return fail(good.error());
   const auto before = store_.find(text.machine, std::nullopt);
-  storage::SetupRevision setup;
-  setup.machine = text.machine;
-  setup.text = text.text;
-  setup.comment = text.comment;
-  setup.author = who.name;
-  auto saved = store_.save(setup, text.base);
+  auto saved = store_.save(revision_of(text, who), text.base);
   if (!saved) return fail(saved.error());
   const bool is_unchanged = before && before->number == saved->number;
   if (!is_unchanged) {
@@ -31,13 +51,17 @@ Result<SavedSetup> Setups::save(const SetupText& text, const storage::Actor& who
                   .subject = text.machine,
                   .detail = fmt::format("setup {}: {} bytes, sha256 {}", saved->number, saved->size,
                                         saved->sha256.hex())});
-    if (on_saved_) {
-      auto told = *saved;
-      told.text = text.text;
-      on_saved_(told, text.control);
-    }
+    announce(*saved, text);
   }
   return SavedSetup{*std::move(saved), is_unchanged};
+}
+
+Result<storage::SetupRevision> Setups::save_by(const SetupText& text, const storage::Actor& who,
+                                               const Keep& keep) {
+  if (auto good = check(text); !good) return fail(good.error());
+  auto saved = keep(revision_of(text, who));
+  if (saved) announce(*saved, text);
+  return saved;
 }
 
 }  // namespace dripline::library

@@ -33,6 +33,11 @@ class Setups {
   /// Errors: Syntax, Unsupported, LimitExceeded (what the control would not take, with key and
   /// line; the comment; the size), Conflict (`base` is not the newest any more).
   Result<SavedSetup> save(const SetupText& text, const storage::Actor& who);
+  /// The same, kept by `keep` (in a transaction with something else). `base` is for `keep` to
+  /// compare, and so is the audit entry. Errors: as save; those of `keep`.
+  using Keep = std::function<Result<storage::SetupRevision>(const storage::SetupRevision&)>;
+  Result<storage::SetupRevision> save_by(const SetupText& text, const storage::Actor& who,
+                                         const Keep& keep);
   /// Called after a new revision was kept, by who saved it. One listener, set before any save.
   void on_saved(
       std::function<void(const storage::SetupRevision&, const std::string& control)> told) {
@@ -52,6 +57,9 @@ class Setups {
   static constexpr std::size_t kMaxComment = 1024;
 
  private:
+  Result<void> check(const SetupText& text) const;
+  void announce(const storage::SetupRevision& saved, const SetupText& text) const;
+
   storage::SetupStore& store_;
   const ControlCatalog& catalog_;
   AuditTrail& audit_;

@@ -27,7 +27,11 @@ Result<storage::Revision> resolve_called_program(const RunSources& sources, cons
                                                  const std::string& name) {
   if (auto good = check_program_name(name); !good)
     return fail(Errc::NotFound, "{}", good.error().what);
-  for (const auto& candidate : interpreter::called_program_names(name)) {
+  const auto names = interpreter::called_program_names(name);
+  auto pinned = sources.releases.pinned_call(run, names);
+  if (!pinned) return fail(pinned.error());
+  if (*pinned) return std::move(**pinned);
+  for (const auto& candidate : names) {
     auto revisions = sources.store.programs.revisions(candidate);
     if (!revisions) {
       if (revisions.error().code == Errc::NotFound) continue;

@@ -12,7 +12,8 @@ namespace dripline::machines {
 /// drip-fed has no such limits. Errors: LimitExceeded, in the control's words.
 Result<void> check_control_memory(const RunSources& sources, const storage::Run& run);
 
-/// The revision a run uses for the name a program called: the newest one that existed, and that it
+/// The revision a run uses for the name a program called: the one that its release pins, and
+/// nothing else where it pins what is called; otherwise the newest one that existed, and that it
 /// was allowed to call, when the run was created, so that every request of a run, also after a
 /// restart of the server, gets the same text. Errors: NotFound, naming what was searched for,
 /// Corrupt (Releases::check_call).

@@ -209,6 +209,7 @@ Result<storage::Run> MachineService::make_run(const StartRequest& request,
   run.author = request.author;
   run.allowed_as = admitted->allowed_as;
   run.approval = admitted->approval;
+  run.job = request.job;
   return run;
 }
 

@@ -18,6 +18,10 @@ class StoredPrograms final : public interpreter::ProgramSource {
   interpreter::TextWindow fetch(interpreter::ProgramIndex program, std::uint64_t offset,
                                 std::size_t min_bytes) override;
   interpreter::ProgramLookup find(std::string_view name) override;
+  /// As it was called; empty for the run's own.
+  const std::string& name_of(interpreter::ProgramIndex program) const {
+    return texts_.at(program).name;
+  }
 
  private:
   struct Text {

@@ -19,7 +19,6 @@ using nlohmann::json;
 /// Of one piece: what comes first ends it, so that a client that leaves is noticed soon.
 constexpr std::size_t kPieceBytes = 256 * 1024;
 constexpr std::uint64_t kPieceBlocks = 65'536;
-constexpr std::uint64_t kStepBlocks = 2048;
 
 enum class Frame : char { Json = 'J', Points = 'P' };
 
@@ -64,13 +63,10 @@ class Reader final : public PathReader {
     std::string piece;
     if (!has_begun_) append_frame(piece, begin_json());
     has_begun_ = true;
-    for (std::uint64_t blocks = 0; !is_over_ && blocks < kPieceBlocks; blocks += kStepBlocks) {
-      step();
-      if (encoder_.size() >= kPieceBytes) break;
+    for (std::uint64_t blocks = 0; blocks < kPieceBlocks; blocks += kStepBlocks) {
+      append_step(piece);
+      if (is_over_ || piece.size() >= kPieceBytes) break;
     }
-    if (is_over_) encoder_.finish();
-    if (encoder_.size() > 0) append_frame(piece, Frame::Points, encoder_.take());
-    append_frame(piece, is_over_ ? end_json() : progress_json());
     return std::optional(std::move(piece));
   }
 
@@ -79,6 +75,15 @@ class Reader final : public PathReader {
     const auto is_over = run_->step(kStepBlocks);
     if (!is_over) fault_ = is_over.error().what;
     is_over_ = !is_over || *is_over;
+  }
+
+  /// The blocks of each step are stated, so that a reader finds the point of a block that a machine
+  /// executes, also in a loop.
+  void append_step(std::string& piece) {
+    step();
+    if (is_over_) encoder_.finish();
+    if (encoder_.size() > 0) append_frame(piece, Frame::Points, encoder_.take());
+    append_frame(piece, is_over_ ? end_json() : progress_json());
   }
 
   json begin_json() const {
@@ -119,11 +124,6 @@ json Reader::fault_json() const {
 
 json Reader::end_json() const {
   const auto& summary = summary_.summary();
-  auto extents = json::object();
-  for (const auto axis : interpreter::kAllAxes) {
-    const auto& extent = summary.extents[static_cast<std::size_t>(axis)];
-    if (extent) extents[std::string(1, letter(axis))] = {extent->least, extent->most};
-  }
   auto tools = json::array();
   for (const PathTool& tool : encoder_.tools())
     tools.push_back({{"number", tool.number}, {"line", tool.line}, {"point", tool.point}});
@@ -135,7 +135,7 @@ json Reader::end_json() const {
           {"feed_mm", summary.feed_length.mm()},
           {"inch", summary.units == interpreter::Units::Inch},
           {"x_is_diameter", summary.x_is_diameter},
-          {"extents", std::move(extents)},
+          {"extents", extents_json(summary)},
           {"tools", std::move(tools)},
           {"warnings", summary.warning_count},
           {"other_axes", encoder_.other_axes()},

@@ -43,8 +43,14 @@ struct ComparisonRequest {
   std::stop_token stop = {};  ///< ends it early, with Timeout
 };
 
-/// Interprets stored programs for their tool paths, and to compare them. Any thread; what it was
-/// made of must outlive the readers.
+struct CheckRequest {
+  storage::Revision revision;
+  std::string machine = {};  ///< whose setup applies; empty: the control's defaults
+  std::chrono::milliseconds limit{20'000};
+};
+
+/// Interprets stored programs for their tool paths, to compare them, and to check them. Any thread;
+/// what it was made of must outlive the readers.
 class ProgramPaths {
  public:
   explicit ProgramPaths(const machines::RunSources& sources) : sources_(sources) {}
@@ -58,6 +64,10 @@ class ProgramPaths {
   /// takes the place of one reader. Errors: Busy, Unsupported, Io, Corrupt, Timeout, and those of
   /// the setup.
   Result<std::string> compare(const ComparisonRequest& request);
+
+  /// What `dnc check` finds, as JSON (README.md): also of a part, when `limit` is over. Waits for
+  /// storage; it takes the place of one reader. Errors: Busy, Unsupported, and those of the setup.
+  Result<std::string> check(const CheckRequest& request);
 
   static constexpr int kMaxReaders = 4;
   static constexpr std::chrono::seconds kMaxComparison{20};

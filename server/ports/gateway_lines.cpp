@@ -249,6 +249,8 @@ void GatewayLines::handle_call(const std::shared_ptr<Line>& line, const dds::Lin
       return line->requests->carry_out(line::RuleAction::Directory, call.argument);
     case dds::LineCallAction::Restart:
       return line->requests->carry_out(line::RuleAction::Restart, call.argument);
+    case dds::LineCallAction::NextJob:
+      return line->requests->carry_out(line::RuleAction::NextJob, call.argument);
     case dds::LineCallAction::Program:
       return line->requests->answer(
           {.kind = wire::TransferRequest::Kind::SendProgram, .name = call.argument});

@@ -97,6 +97,7 @@ Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
   run.author = request.author;
   run.allowed_as = admitted->allowed_as;
   run.approval = admitted->approval;
+  run.job = request.job;
   if (auto fits = machines::check_control_memory(sources_, run); !fits) return fail(fits.error());
   if (auto sound = store_.programs.verify_content(run.content); !sound) return fail(sound.error());
   if (auto created = store_.runs.create(run); !created) return fail(created.error());

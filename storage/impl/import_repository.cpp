@@ -9,7 +9,7 @@
 namespace dripline::storage {
 namespace {
 
-/// Those of a revision (14 columns), then the queue's; a WHERE follows. Made when it is first used:
+/// Those of a revision, then the queue's; a WHERE follows. Made when it is first used:
 /// the revision's part is of another file.
 const std::string& import_select() {
   static const std::string kSelect =
@@ -25,21 +25,25 @@ const std::string& import_select() {
 Import read_import(const sqlite::Statement& row) {
   Import import;
   import.revision = read_revision(row);
-  import.machine = row.text(14);
+  import.machine = row.text(kAfterRevision);
   // The schema allows only these words; a row with another one is damaged, and is offered to
   // nobody.
-  import.state = parse_import_state(row.text(15)).value_or(ImportState::Rejected);
-  if (const auto time = row.optional_time(19)) {
-    ImportClass found{.base = {}, .edit = row.text(17), .fault = row.text(18), .time = *time};
-    if (const auto base = row.optional_integer(16)) found.base = static_cast<std::uint64_t>(*base);
+  import.state = parse_import_state(row.text(kAfterRevision + 1)).value_or(ImportState::Rejected);
+  if (const auto time = row.optional_time(kAfterRevision + 5)) {
+    ImportClass found{.base = {},
+                      .edit = row.text(kAfterRevision + 3),
+                      .fault = row.text(kAfterRevision + 4),
+                      .time = *time};
+    if (const auto base = row.optional_integer(kAfterRevision + 2))
+      found.base = static_cast<std::uint64_t>(*base);
     import.compared = std::move(found);
   }
-  import.decided = row.optional_time(20);
-  import.who = row.text(21);
-  import.reason = row.text(22);
-  import.is_at_once = row.integer(23) != 0;
-  import.target = row.text(24);
-  import.target_revision = row.number(25);
+  import.decided = row.optional_time(kAfterRevision + 6);
+  import.who = row.text(kAfterRevision + 7);
+  import.reason = row.text(kAfterRevision + 8);
+  import.is_at_once = row.integer(kAfterRevision + 9) != 0;
+  import.target = row.text(kAfterRevision + 10);
+  import.target_revision = row.number(kAfterRevision + 11);
   return import;
 }
 

@@ -6,6 +6,7 @@
 
 #include "protocol/base/names.hpp"
 #include "storage/impl/content.hpp"
+#include "storage/impl/field_rows.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/revision_rows.hpp"
 #include "storage/program_store.hpp"
@@ -76,6 +77,16 @@ Result<void> check_unused(sqlite::Database& database, const std::string& program
   return fail(Errc::Busy, "program {} is used by the unfinished {}", program, **run);
 }
 
+Result<ProgramFields> fields_of(sqlite::Database& database, const std::string& program) {
+  static const std::string kSql =
+      "SELECT " + kFieldColumns + "FROM program WHERE name = ?1 AND latest IS NOT NULL";
+  auto found = sqlite::first_row(
+      database, kSql, [](const sqlite::Statement& row) { return read_fields(row, 0); }, program);
+  if (!found) return fail(found.error());
+  if (*found) return std::move(**found);
+  return fail(Errc::NotFound, "program {} is not in the library", program);
+}
+
 /// Promises of both: storage/program_store.hpp.
 Result<Revision> copy_program(sqlite::Database& database, const ProgramMove& move,
                               std::optional<std::uint64_t> number, UtcTime now) {
@@ -95,6 +106,10 @@ Result<Revision> copy_program(sqlite::Database& database, const ProgramMove& mov
   upload.control = source->control;
   upload.comment = fmt::format("copy of {} revision {}", source->program, source->number);
   upload.author = move.who.name;
+  const auto fields = fields_of(database, move.from);
+  if (!fields) return fail(fields.error());
+  upload.change = {fields->part, fields->operation, fields->material, fields->machine_group,
+                   source->cam_file};
   auto copy = publish_revision(database, upload, (*content)->id, now);
   if (!copy) return copy;
   const std::string detail =
@@ -131,45 +146,106 @@ Result<void> rename_program(sqlite::Database& database, const ProgramMove& move,
 }
 
 }  // namespace
-Result<std::vector<ProgramSummary>> ProgramRepository::list(Page page) {
-  static const std::string kSql =
-      "SELECT " + kRevisionColumns +
-      ", visible.revisions, visible.held, visible.released "
-      "FROM (SELECT program, count(*) AS revisions, sum(standing = 'held') AS held, "
-      "      coalesce(max(iif(standing = 'accepted', number, NULL)), max(number)) AS latest, "
-      "      max(iif(state = 'released', number, NULL)) AS released "
-      "      FROM revision JOIN program ON program.id = revision.program WHERE " +
-      kRevisionVisible +
-      "      GROUP BY program) AS visible "
-      "JOIN revision ON revision.program = visible.program AND revision.number = visible.latest "
-      "JOIN program ON program.id = visible.program "
+namespace {
+
+/// A condition of a filter and the column it is on, the most selective first: of those that are
+/// given the first one is looked up by its index, the others are compared (the + keeps SQLite from
+/// choosing theirs).
+struct FilterColumn {
+  std::string_view column;
+  std::optional<std::string> value;
+};
+
+std::vector<FilterColumn> columns_of(const ProgramFilter& filter) {
+  std::optional<std::string> state;
+  if (filter.state) state = to_string(*filter.state);
+  return {{"part", filter.part},         {"operation", filter.operation},
+          {"author", filter.author},     {"machine_group", filter.machine_group},
+          {"material", filter.material}, {"state", state},
+          {"control", filter.control}};
+}
+
+/// The ids of the page's programs in the order of their names, out of an index alone where there is
+/// no filter: what is passed over costs little.
+std::string select_page(const std::vector<FilterColumn>& columns) {
+  std::string sql = "SELECT id FROM program WHERE latest IS NOT NULL AND name > ?3 ";
+  bool has_index = false;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    sql += fmt::format("AND ?{0} IS ?{0} ", i + 4);  // every parameter is there to be bound
+    if (!columns[i].value) continue;
+    const bool is_latest = columns[i].column == "author" || columns[i].column == "state" ||
+                           columns[i].column == "control";
+    sql += fmt::format("AND {}{}{} = ?{} ", std::exchange(has_index, true) ? "+" : "",
+                       is_latest ? "latest_" : "", columns[i].column, i + 4);
+  }
+  return sql + "ORDER BY name LIMIT ?1 OFFSET ?2";
+}
+
+}  // namespace
+
+Result<std::vector<ProgramSummary>> ProgramRepository::list(const ProgramFilter& filter,
+                                                            Page page) {
+  const auto columns = columns_of(filter);
+  const std::string sql =
+      "SELECT " + kRevisionColumns + ", program.revisions, program.held, program.released, " +
+      kFieldColumns + "FROM (" + select_page(columns) +
+      ") AS page CROSS JOIN program ON program.id = page.id "
+      "JOIN revision ON revision.program = program.id AND revision.number = program.latest "
       "LEFT JOIN content ON content.sha256 = revision.sha256 "
-      "LEFT JOIN content AS named ON named.id = revision.content "
-      "ORDER BY program.name LIMIT ?1 OFFSET ?2";
-  return connections_.read([&](sqlite::Database& database) {
-    return Result<std::vector<ProgramSummary>>(sqlite::all_rows(
-        database, kSql,
-        [](const sqlite::Statement& row) {
-          ProgramSummary program{read_revision(row), row.number(14), false, row.number(15)};
-          if (const auto released = row.optional_integer(16))
-            program.released = static_cast<std::uint64_t>(*released);
-          return program;
-        },
-        page.limit, page.offset));
+      "LEFT JOIN content AS named ON named.id = revision.content ORDER BY program.name";
+  const auto read = [](const sqlite::Statement& row) {
+    ProgramSummary program{.latest = read_revision(row),
+                           .revisions = row.number(kAfterRevision),
+                           .held = row.number(kAfterRevision + 1),
+                           .fields = read_fields(row, kAfterRevision + 3)};
+    if (const auto released = row.optional_integer(kAfterRevision + 2))
+      program.released = static_cast<std::uint64_t>(*released);
+    return program;
+  };
+  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<ProgramSummary>> {
+    return sqlite::all_rows(database, sql, read, page.limit, page.offset, filter.after,
+                            columns[0].value, columns[1].value, columns[2].value, columns[3].value,
+                            columns[4].value, columns[5].value, columns[6].value);
   });
 }
 
+namespace {
+
+/// The latest also where all are held.
+Result<Revision> any_revision(sqlite::Database& database, const std::string& program,
+                              std::optional<std::uint64_t> number) {
+  if (number) return find_revision(database, program, number);
+  const auto latest = sqlite::first_row(
+      database, "SELECT latest FROM program WHERE name = ?1 AND latest IS NOT NULL",
+      [](const sqlite::Statement& row) { return row.number(0); }, program);
+  if (!latest) return fail(latest.error());
+  if (!*latest) return fail(Errc::NotFound, "program {} is not in the library", program);
+  return find_revision(database, program, **latest);
+}
+
+}  // namespace
+
 Result<std::uint64_t> ProgramRepository::count() {
-  static const std::string kSql =
-      "SELECT count(DISTINCT program.id) "
-      "FROM revision JOIN program ON program.id = revision.program WHERE " +
-      kRevisionVisible;
   const auto found = connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(database, kSql,
+    return sqlite::first_row(database, "SELECT count(*) FROM program WHERE latest IS NOT NULL",
                              [](const sqlite::Statement& row) { return row.number(0); });
   });
   if (!found) return fail(found.error());
   return found->value_or(0);
+}
+
+Result<ProgramFields> ProgramRepository::fields(const std::string& program) {
+  return connections_.read(
+      [&](sqlite::Database& database) { return fields_of(database, program); });
+}
+
+Result<void> ProgramRepository::describe(const Description& description) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto revision = any_revision(database, description.program, description.revision);
+    if (!revision) return fail(revision.error());
+    return storage::describe(database, *revision, description.change, description.who,
+                             clock_.now());
+  });
 }
 
 Result<std::vector<Revision>> ProgramRepository::revisions(const std::string& program) {

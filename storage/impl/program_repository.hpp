@@ -13,7 +13,10 @@ class ProgramRepository final : public ProgramStore {
   ProgramRepository(Connections& connections, const Clock& clock, std::uint64_t cache_bytes)
       : connections_(connections), clock_(clock), cache_(cache_bytes) {}
 
-  Result<std::vector<ProgramSummary>> list(Page page) override;
+  using ProgramStore::list;
+  Result<std::vector<ProgramSummary>> list(const ProgramFilter& filter, Page page) override;
+  Result<ProgramFields> fields(const std::string& program) override;
+  Result<void> describe(const Description& description) override;
   Result<std::uint64_t> count() override;
   Result<std::vector<Revision>> revisions(const std::string& program) override;
   Result<Revision> revision(const std::string& program,

@@ -156,6 +156,48 @@ Result<std::vector<Record>> RecordRepository::of_run(const std::string& run,
   });
 }
 
+Result<std::vector<Record>> RecordRepository::of_run_after(const std::string& run,
+                                                           const std::string& kind,
+                                                           RecordPlace after, std::uint64_t limit) {
+  static const std::string kSelect =
+      "SELECT machine.name, record.epoch, number, time_us, run, kind, block, line, sequence, "
+      "device, text, received_us FROM record JOIN machine ON machine.id = record.machine "
+      "WHERE run = ?1 AND (record.epoch, number) > (?2, ?3) AND NOT EXISTS "
+      "(SELECT 1 FROM run AS owned WHERE owned.id = ?1 AND owned.machine <> record.machine) "
+      "AND (?4 = '' OR kind = ?4) ORDER BY record.epoch, number LIMIT ?5";
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::all_rows(database, kSelect, read_record, run, after.epoch, after.number, kind,
+                            limit);
+  });
+}
+
+Result<std::vector<Record>> RecordRepository::of_machine_after(const std::string& machine,
+                                                               RecordPlace after,
+                                                               std::uint64_t limit) {
+  static const std::string kSelect =
+      "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, "
+      "received_us FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
+      "AND epoch = ?2 AND number > ?3 ORDER BY number LIMIT ?4";
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::all_rows(database, kSelect, read_record, machine, after.epoch, after.number,
+                            limit);
+  });
+}
+
+Result<std::vector<Record>> RecordRepository::machine_report(const std::string& machine,
+                                                             RecordPlace after,
+                                                             std::uint64_t limit) {
+  static const std::string kSelect =
+      "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, "
+      "received_us FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
+      "AND run IS NULL AND kind IN ('output', 'probe') AND (epoch, number) > (?2, ?3) "
+      "ORDER BY epoch, number LIMIT ?4";
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::all_rows(database, kSelect, read_record, machine, after.epoch, after.number,
+                            limit);
+  });
+}
+
 /// The condition is the index's own, word for word: only so is it used.
 Result<std::vector<MachineReport>> RecordRepository::machine_reports() {
   static const std::string kSelect =
@@ -222,19 +264,6 @@ Result<std::vector<MemoryReport>> RecordRepository::memory_reports(
       reports.push_back({place.run, place.time, *std::move(texts)});
     }
     return reports;
-  });
-}
-
-Result<std::vector<Record>> RecordRepository::machine_report(const std::string& machine,
-                                                             Page page) {
-  static const std::string kSelect =
-      "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, "
-      "received_us "
-      "FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
-      "AND run IS NULL AND kind IN ('output', 'probe') "
-      "ORDER BY epoch, number LIMIT ?2 OFFSET ?3";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSelect, read_record, machine, page.limit, page.offset);
   });
 }
 

@@ -10,6 +10,8 @@ class ReleaseRepository final : public ReleaseStore {
   explicit ReleaseRepository(Connections& connections) : connections_(connections) {}
 
   Result<Revision> decide(const Decision& decision, RevisionState from) override;
+  Result<Revision> decide_all(const std::vector<DecisionFrom>& decisions) override;
+  Result<std::vector<Revision>> pinned(std::uint64_t decision) override;
   Result<std::vector<Decision>> decisions(const std::string& program,
                                           std::uint64_t revision) override;
   Result<std::set<std::string>> authors(const Digest& content) override;

@@ -50,8 +50,13 @@ class RecordRepository final : public RecordStore {
   Result<std::uint64_t> store(const RecordBatch& batch) override;
   Result<std::vector<Record>> of_run(const std::string& run, const std::string& kind,
                                      Page page) override;
+  Result<std::vector<Record>> of_run_after(const std::string& run, const std::string& kind,
+                                           RecordPlace after, std::uint64_t limit) override;
+  Result<std::vector<Record>> of_machine_after(const std::string& machine, RecordPlace after,
+                                               std::uint64_t limit) override;
+  Result<std::vector<Record>> machine_report(const std::string& machine, RecordPlace after,
+                                             std::uint64_t limit) override;
   Result<std::vector<MachineReport>> machine_reports() override;
-  Result<std::vector<Record>> machine_report(const std::string& machine, Page page) override;
   Result<std::vector<MemoryReport>> memory_reports(const std::string& machine,
                                                    const std::optional<std::string>& run,
                                                    Page page) override;

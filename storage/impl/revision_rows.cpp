@@ -1,6 +1,7 @@
 #include "storage/impl/revision_rows.hpp"
 
 #include "storage/impl/content.hpp"
+#include "storage/impl/field_rows.hpp"
 #include "storage/impl/repositories.hpp"
 
 namespace dripline::storage {
@@ -9,7 +10,7 @@ const std::string kRevisionColumns =
     "program.name, revision.number, revision.sha256, coalesce(content.size, 0), revision.control, "
     "revision.comment, revision.author, revision.created_us, revision.standing = 'held', "
     "revision.accepted_us, named.sha256, revision.state, revision.released_us, "
-    "revision.withdrawn_us ";
+    "revision.withdrawn_us, revision.cam_file ";
 const std::string kRevisionTables =
     "FROM revision JOIN program ON program.id = revision.program "
     "LEFT JOIN content ON content.sha256 = revision.sha256 "
@@ -33,7 +34,12 @@ Revision read_revision(const sqlite::Statement& row) {
   revision.state = parse_revision_state(row.text(11)).value_or(RevisionState::Withdrawn);
   revision.released = row.optional_time(12);
   revision.withdrawn = row.optional_time(13);
+  revision.cam_file = row.text(14);
   return revision;
+}
+
+BoundRevision read_bound(const sqlite::Statement& row) {
+  return {read_revision(row), read_digest(row, 10)};
 }
 
 Result<void> check_content(const Revision& revision, const Digest& named) {
@@ -49,14 +55,6 @@ namespace {
 std::string select_visible(std::string_view condition) {
   return fmt::format("SELECT {}{}WHERE program.name = ?1 AND {}{}", kRevisionColumns,
                      kRevisionTables, kRevisionVisible, condition);
-}
-
-struct BoundRevision {
-  Revision revision;
-  Digest named;  ///< the content that the row names
-};
-BoundRevision read_bound(const sqlite::Statement& row) {
-  return {read_revision(row), read_digest(row, 10)};
 }
 
 Result<std::optional<Revision>> checked(Result<std::optional<BoundRevision>> found) {
@@ -182,11 +180,26 @@ Result<Revision> find_revision(sqlite::Database& database, const std::string& pr
   return fail(Errc::NotFound, "program {} has no revision {} in the library", program, *number);
 }
 
+namespace {
+
+/// What was stated with the upload is in force, whether or not it made a new revision.
+Result<Revision> described(sqlite::Database& database, const Upload& upload, std::uint64_t number,
+                           UtcTime now) {
+  Revision revision;
+  revision.program = upload.program;
+  revision.number = number;
+  auto done = describe(database, revision, upload.change, upload.author, now);
+  if (!done) return fail(done.error());
+  return find_revision(database, upload.program, number);
+}
+
+}  // namespace
+
 Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
                                   std::int64_t content, UtcTime now) {
   auto same = find_same(database, upload, content);
   if (!same) return fail(same.error());
-  if (*same) return std::move(**same);
+  if (*same) return described(database, upload, (*same)->number, now);
   const auto program = program_row(database, upload.program);
   if (!program) return fail(program.error());
   const auto inserted = sqlite::run(
@@ -201,7 +214,7 @@ Result<Revision> publish_revision(sqlite::Database& database, const Upload& uplo
     const auto begun = begin_import(database, program->id, program->highest + 1, upload);
     if (!begun) return fail(begun.error());
   }
-  return find_revision(database, upload.program, program->highest + 1);
+  return described(database, upload, program->highest + 1, now);
 }
 
 Result<Revision> accept_revision(sqlite::Database& database, const Judgment& judgment) {

@@ -13,10 +13,16 @@ namespace dripline::storage {
 /// Columns of read_revision, the digest of the content that the row names, then FROM with program
 /// and content joined; a WHERE follows.
 extern const std::string kRevisionColumns;
+inline constexpr int kAfterRevision = 15;  ///< the first column past them
 extern const std::string kRevisionTables;
 /// A condition: not removed, not rejected.
 extern const std::string kRevisionVisible;
 Revision read_revision(const sqlite::Statement& row);
+struct BoundRevision {
+  Revision revision;
+  Digest named;  ///< the content that the row names
+};
+BoundRevision read_bound(const sqlite::Statement& row);
 /// `named`: the digest of the content that the revision's row names; the revision has the one that
 /// it was stored with.
 /// Errors: Corrupt.

@@ -1,6 +1,7 @@
 #include "storage/impl/repositories.hpp"
 
 #include "storage/impl/content.hpp"
+#include "storage/impl/job_repository.hpp"
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
@@ -13,7 +14,7 @@ const std::string kSelect =
     "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
     "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS revision.sha256, "
     "run.allowed_as, "
-    "run.approval FROM run "
+    "run.approval, run.job FROM run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
     "LEFT JOIN content ON content.sha256 = run.sha256 ";
@@ -51,6 +52,7 @@ Run read_run(const sqlite::Statement& row) {
   run.allowed_as = parse_run_allowance(row.text(23)).value_or(RunAllowance::Released);
   if (const auto approval = row.optional_integer(24))
     run.approval = static_cast<std::uint64_t>(*approval);
+  if (const auto job = row.optional_integer(25)) run.job = static_cast<std::uint64_t>(*job);
   return run;
 }
 
@@ -133,6 +135,24 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
   return (*found)->program;
 }
 
+/// Of a run under a release that pins what its program calls: none of that was withdrawn since.
+Result<void> check_pins(sqlite::Database& database, const Run& run) {
+  if (!run.approval) return {};
+  const auto withdrawn = sqlite::first_row(
+      database,
+      "SELECT revision_pin.name, revision_pin.revision FROM revision_pin JOIN revision "
+      "ON revision.program = revision_pin.program AND revision.number = revision_pin.revision "
+      "WHERE revision_pin.step = ?1 AND revision.state <> 'released' LIMIT 1",
+      [](const sqlite::Statement& row) {
+        return fmt::format("{} revision {}", row.text(0), row.number(1));
+      },
+      *run.approval);
+  if (!withdrawn) return fail(withdrawn.error());
+  if (!*withdrawn) return {};
+  return fail(Errc::Conflict, "program {} revision {} calls {}, which was withdrawn", run.program,
+              run.revision, **withdrawn);
+}
+
 Result<void> check_idle(sqlite::Database& database, std::int64_t machine, const std::string& name) {
   const auto unfinished = sqlite::first_row(
       database, "SELECT id FROM run WHERE machine = ?1 AND state IN ('ordered', 'active')",
@@ -147,15 +167,16 @@ Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPla
       database,
       "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
       "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
-      "ended_us, setup, sha256, allowed_as, approval) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
+      "ended_us, setup, sha256, allowed_as, approval, job) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, "
+      "?9, "
       "?10, ?11, ?12, ?13, "
       "?14, "
-      "?15, ?16, ?17, ?18, ?19, ?20, ?21, ?22)",
+      "?15, ?16, ?17, ?18, ?19, ?20, ?21, ?22, ?23)",
       run.id, place.machine, place.program, run.revision, run.control, to_string(run.state),
       run.counters.sent, run.counters.accepted, run.counters.executed, run.line, run.sequence,
       run.reason, run.executed_content, run.content_verified, run.author, run.created, run.started,
       run.ended, run.setup, std::span<const std::byte>(run.content.bytes),
-      to_string(run.allowed_as), run.approval);
+      to_string(run.allowed_as), run.approval, run.job);
 }
 
 }  // namespace
@@ -166,6 +187,8 @@ Result<void> RunRepository::create(const Run& run) {
     if (!machine) return fail(machine.error());
     const auto program = known_revision(database, run);
     if (!program) return fail(program.error());
+    if (auto allowed = check_pins(database, run); !allowed) return allowed;
+    if (auto good = check_job(database, run); !good) return good;
     if (!is_finished(run.state)) {
       if (auto idle = check_idle(database, *machine, run.machine); !idle) return idle;
     }
@@ -185,8 +208,9 @@ std::string select_filtered(const RunFilter& filter) {
   if (filter.machine) sql += "AND machine.name = ?1 ";
   if (filter.program) sql += "AND program.name = ?2 ";
   if (filter.state) sql += "AND run.state = ?3 ";
+  if (filter.setup) sql += "AND run.setup = ?4 ";
   if (filter.with_outputs) sql += "AND run.outputs > 0 ";
-  return sql + "AND ?1 IS ?1 AND ?2 IS ?2 AND ?3 IS ?3 ";
+  return sql + "AND ?1 IS ?1 AND ?2 IS ?2 AND ?3 IS ?3 AND ?4 IS ?4 ";
 }
 
 std::optional<std::string> state_of(const RunFilter& filter) {
@@ -202,18 +226,18 @@ Result<std::uint64_t> RunRepository::count(const RunFilter& filter) {
   const auto found = connections_.read([&](sqlite::Database& database) {
     return sqlite::first_row(
         database, sql, [](const sqlite::Statement& row) { return row.number(0); }, filter.machine,
-        filter.program, state);
+        filter.program, state, filter.setup);
   });
   if (!found) return fail(found.error());
   return found->value_or(0);
 }
 
 Result<std::vector<Run>> RunRepository::list(const RunFilter& filter, Page page) {
-  const std::string sql = select_filtered(filter) + "ORDER BY run.number DESC LIMIT ?4 OFFSET ?5";
+  const std::string sql = select_filtered(filter) + "ORDER BY run.number DESC LIMIT ?5 OFFSET ?6";
   const auto state = state_of(filter);
   return connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(database, sql, read_run, filter.machine, filter.program, state,
-                            page.limit, page.offset);
+                            filter.setup, page.limit, page.offset);
   });
 }
 

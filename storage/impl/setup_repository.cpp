@@ -1,6 +1,7 @@
 #include "protocol/base/names.hpp"
 #include "storage/impl/content.hpp"
 #include "storage/impl/repositories.hpp"
+#include "storage/impl/setup_rows.hpp"
 #include "storage/sqlite/query.hpp"
 
 namespace dripline::storage {
@@ -67,27 +68,28 @@ Result<void> insert(sqlite::Database& database, const SetupRevision& setup) {
 
 }  // namespace
 
-Result<SetupRevision> SetupRepository::save(const SetupRevision& given,
-                                            std::optional<std::uint64_t> base) {
+Result<SetupRevision> save_setup(sqlite::Database& database, const SetupRevision& given,
+                                 std::optional<std::uint64_t> base, UtcTime now) {
   if (auto checked = check_setup(given); !checked) return fail(checked.error());
   SetupRevision setup = given;
   setup.sha256 = sha256(setup.text);
   setup.size = setup.text.size();
-  setup.created = clock_.now();
-  const auto saved = connections_.write([&](sqlite::Database& database) -> Result<void> {
-    auto known = newest(database, setup.machine);
-    if (!known) return fail(known.error());
-    if (*known && (*known)->sha256 == setup.sha256) {
-      setup = std::move(**known);
-      return {};
-    }
-    const std::uint64_t before = *known ? (*known)->number : 0;
-    if (auto fresh = check_base(setup, base, before); !fresh) return fresh;
-    setup.number = before + 1;
-    return insert(database, setup);
-  });
-  if (!saved) return fail(saved.error());
+  setup.created = now;
+  auto known = newest(database, setup.machine);
+  if (!known) return fail(known.error());
+  if (*known && (*known)->sha256 == setup.sha256) return std::move(**known);
+  const std::uint64_t before = *known ? (*known)->number : 0;
+  if (auto fresh = check_base(setup, base, before); !fresh) return fail(fresh.error());
+  setup.number = before + 1;
+  if (auto kept = insert(database, setup); !kept) return fail(kept.error());
   return setup;
+}
+
+Result<SetupRevision> SetupRepository::save(const SetupRevision& setup,
+                                            std::optional<std::uint64_t> base) {
+  const UtcTime now = clock_.now();
+  return connections_.write(
+      [&](sqlite::Database& database) { return save_setup(database, setup, base, now); });
 }
 
 Result<std::vector<SetupRevision>> SetupRepository::list(const std::string& machine, Page page) {

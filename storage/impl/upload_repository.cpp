@@ -4,8 +4,11 @@
 
 #include "protocol/base/names.hpp"
 #include "protocol/base/random.hpp"
+#include "storage/impl/attachment_rows.hpp"
 #include "storage/impl/content.hpp"
 #include "storage/impl/content_seal.hpp"
+#include "storage/impl/field_rows.hpp"
+#include "storage/impl/folder_repository.hpp"
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
@@ -23,6 +26,13 @@ UploadRow read_upload_row(const sqlite::Statement& row) {
   UploadRow found;
   found.upload = {row.text(0), row.text(1),   row.text(2), row.text(3),
                   row.text(4), row.number(6), row.time(7), row.integer(8) != 0};
+  found.upload.change = {row.optional_text(9), row.optional_text(10), row.optional_text(11),
+                         row.optional_text(12), row.optional_text(13)};
+  found.upload.attachment = row.optional_text(14);
+  if (const auto revision = row.optional_integer(15))
+    found.upload.attachment_revision = static_cast<std::uint64_t>(*revision);
+  if (const auto file = row.optional_integer(16))
+    found.upload.folder_file = static_cast<std::uint64_t>(*file);
   found.content = {row.integer(5), row.number(6)};
   return found;
 }
@@ -31,7 +41,8 @@ UploadRow read_upload_row(const sqlite::Statement& row) {
 Result<UploadRow> find_row(sqlite::Database& database, const std::string& id) {
   auto row = sqlite::first_row(
       database,
-      "SELECT upload.id, program, control, comment, author, content, size, created_us, held "
+      "SELECT upload.id, program, control, comment, author, content, size, created_us, held, part, "
+      "operation, material, machine_group, cam_file, attachment, attachment_revision, folder_file "
       "FROM upload JOIN content ON content.id = upload.content WHERE upload.id = ?1",
       read_upload_row, id);
   if (!row) return fail(row.error());
@@ -96,14 +107,23 @@ Result<Upload> UploadRepository::begin(const Upload& upload) {
     if (find_row(database, begun.id)) {
       return fail(Errc::Conflict, "upload {} exists already", begun.id);
     }
+    if (auto known = check_group(database, begun.change); !known) return fail(known.error());
+    if (begun.attachment) {
+      const auto owner = find_owner(database, begun.program, begun.attachment_revision);
+      if (!owner) return fail(owner.error());
+    }
     const auto content = create_content(database);
     if (!content) return fail(content.error());
     const auto inserted = sqlite::run(
         database,
         "INSERT INTO upload (id, program, control, comment, author, content, created_us, "
-        "touched_us, held) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7, ?8)",
+        "touched_us, held, part, operation, material, machine_group, cam_file, attachment, "
+        "attachment_revision, folder_file) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7, ?8, ?9, ?10, "
+        "?11, ?12, ?13, ?14, ?15, ?16)",
         begun.id, begun.program, begun.control, begun.comment, begun.author, *content,
-        begun.created, begun.is_held ? 1 : 0);
+        begun.created, begun.is_held ? 1 : 0, begun.change.part, begun.change.operation,
+        begun.change.material, begun.change.machine_group, begun.change.cam_file, begun.attachment,
+        begun.attachment_revision, begun.folder_file);
     if (!inserted) return fail(inserted.error());
     return begun;
   });
@@ -137,6 +157,15 @@ Result<std::shared_ptr<UploadProgress>> UploadRepository::progress_of(const std:
   return table_.insert(id, std::move(*loaded));
 }
 
+/// Programs have no limit.
+Result<void> UploadRepository::check_attachment_size(const std::string& id) {
+  const auto upload = find(id);
+  if (!upload) return fail(upload.error());
+  if (!upload->attachment) return {};
+  return fail(Errc::LimitExceeded, "attachment '{}' of program {} has more than {} bytes",
+              *upload->attachment, upload->program, AttachmentStore::kMaxAttachmentBytes);
+}
+
 Result<Upload> UploadRepository::append(const std::string& id, std::uint64_t offset,
                                         std::span<const std::byte> bytes) {
   if (bytes.size() > kMaxPieceBytes) {
@@ -153,6 +182,9 @@ Result<Upload> UploadRepository::append(const std::string& id, std::uint64_t off
                 received);
   }
   if (offset < received) return check_resent(id, **progress, offset, bytes);
+  if (received + bytes.size() > AttachmentStore::kMaxAttachmentBytes) {
+    if (auto fits = check_attachment_size(id); !fits) return fail(fits.error());
+  }
   auto stored = store_piece(id, **progress, bytes);
   // Whatever failed, the next piece starts from what the database holds.
   if (!stored) table_.erase(id);
@@ -231,8 +263,14 @@ Result<Digest> UploadRepository::digest_of(const std::string& id, const UploadPr
   return hash.digest();
 }
 
-Result<Revision> UploadRepository::commit(const std::string& id,
-                                          const std::optional<Digest>& expected) {
+/// `publish` makes of the upload's content, which has its digest by then, what it becomes.
+template <class Publish>
+auto UploadRepository::finish(const std::string& id, const std::optional<Digest>& expected,
+                              Publish publish)
+    -> std::invoke_result_t<Publish, sqlite::Database&, const Upload&, std::int64_t,
+                            const Digest&> {
+  using Published =
+      std::invoke_result_t<Publish, sqlite::Database&, const Upload&, std::int64_t, const Digest&>;
   const auto progress = progress_of(id);
   if (!progress) return fail(progress.error());
   const std::lock_guard lock((*progress)->mutex);
@@ -243,7 +281,7 @@ Result<Revision> UploadRepository::commit(const std::string& id,
     return fail(Errc::Corrupt, "upload {}: SHA-256 of the {} bytes received is {}, expected {}", id,
                 (*progress)->received, digest->hex(), expected->hex());
   }
-  auto published = connections_.write([&](sqlite::Database& database) -> Result<Revision> {
+  auto published = connections_.write([&](sqlite::Database& database) -> Published {
     const auto row = find_row(database, id);
     if (!row) return fail(row.error());
     if (auto same = check_unchanged(*row, **progress); !same) return fail(same.error());
@@ -252,10 +290,39 @@ Result<Revision> UploadRepository::commit(const std::string& id,
     }
     const auto content = name_content(database, row->content, *digest);
     if (!content) return fail(content.error());
-    return publish_revision(database, row->upload, *content, clock_.now());
+    auto revision = publish(database, row->upload, *content, *digest);
+    if (!revision || !row->upload.folder_file) return revision;
+    auto stored = store_folder_file(database, *row->upload.folder_file, *revision);
+    if (!stored) return fail(stored.error());
+    return revision;
   });
   if (published) table_.erase(id);
   return published;
+}
+
+Result<Revision> UploadRepository::commit(const std::string& id,
+                                          const std::optional<Digest>& expected) {
+  return finish(id, expected,
+                [&](sqlite::Database& database, const Upload& upload, std::int64_t content,
+                    const Digest&) -> Result<Revision> {
+                  if (upload.attachment) {
+                    return fail(Errc::Conflict, "upload {} is of attachment '{}'", id,
+                                *upload.attachment);
+                  }
+                  return publish_revision(database, upload, content, clock_.now());
+                });
+}
+
+Result<Attachment> UploadRepository::commit_attachment(const std::string& id,
+                                                       const std::optional<Digest>& expected,
+                                                       const Actor& who) {
+  return finish(id, expected,
+                [&](sqlite::Database& database, const Upload& upload, std::int64_t content,
+                    const Digest& digest) -> Result<Attachment> {
+                  if (!upload.attachment)
+                    return fail(Errc::Conflict, "upload {} is of a program's text", id);
+                  return publish_attachment(database, {upload, content, digest, who, clock_.now()});
+                });
 }
 
 Result<void> UploadRepository::abandon(const std::string& id) {

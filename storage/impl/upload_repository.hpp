@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "protocol/base/digest.hpp"
+#include "storage/attachment_store.hpp"
 #include "storage/impl/connections.hpp"
 #include "storage/upload_store.hpp"
 
@@ -60,6 +61,9 @@ class UploadRepository final : public UploadStore {
                                       std::uint64_t length) override;
   Result<void> set_control(const std::string& id, const std::string& control) override;
   Result<Revision> commit(const std::string& id, const std::optional<Digest>& expected) override;
+  /// Promises: AttachmentStore::commit.
+  Result<Attachment> commit_attachment(const std::string& id, const std::optional<Digest>& expected,
+                                       const Actor& who);
   Result<void> abandon(const std::string& id) override;
   Result<std::uint64_t> drop_idle(std::chrono::seconds passed, std::chrono::seconds life) override;
 
@@ -69,6 +73,11 @@ class UploadRepository final : public UploadStore {
                              std::span<const std::byte> bytes);
   Result<Upload> check_resent(const std::string& id, const UploadProgress& progress,
                               std::uint64_t offset, std::span<const std::byte> bytes);
+  template <class Publish>
+  auto finish(const std::string& id, const std::optional<Digest>& expected, Publish publish)
+      -> std::invoke_result_t<Publish, sqlite::Database&, const Upload&, std::int64_t,
+                              const Digest&>;
+  Result<void> check_attachment_size(const std::string& id);
   Result<Digest> digest_of(const std::string& id, const UploadProgress& progress);
 
   Connections& connections_;

@@ -70,6 +70,10 @@ void Statement::bind_integer(int position, std::int64_t value) {
   expect_position([&] { statement_->bind(position, value); });
 }
 
+void Statement::bind_real(int position, double value) {
+  expect_position([&] { statement_->bind(position, value); });
+}
+
 void Statement::bind_text(int position, const std::string& value) {
   expect_position([&] { statement_->bind(position, value); });
 }
@@ -90,6 +94,10 @@ std::int64_t Statement::integer(int column) const {
 
 std::uint64_t Statement::number(int column) const {
   return static_cast<std::uint64_t>(integer(column));
+}
+
+double Statement::real(int column) const {
+  return expect_position([&] { return statement_->getColumn(column).getDouble(); });
 }
 
 std::string Statement::text(int column) const {
@@ -115,6 +123,11 @@ bool Statement::is_null(int column) const {
 std::optional<std::int64_t> Statement::optional_integer(int column) const {
   if (is_null(column)) return std::nullopt;
   return integer(column);
+}
+
+std::optional<double> Statement::optional_real(int column) const {
+  if (is_null(column)) return std::nullopt;
+  return real(column);
 }
 
 std::optional<std::string> Statement::optional_text(int column) const {

@@ -50,12 +50,14 @@ class Statement {
   // The current row. What the schema declares NOT NULL is read with these,
   std::int64_t integer(int column) const;
   std::uint64_t number(int column) const;
+  double real(int column) const;
   std::string text(int column) const;
   std::span<const std::byte> blob(int column) const;  ///< valid until the next step or reset
   UtcTime time(int column) const;
   // and what may be NULL with those.
   bool is_null(int column) const;
   std::optional<std::int64_t> optional_integer(int column) const;
+  std::optional<double> optional_real(int column) const;
   std::optional<std::string> optional_text(int column) const;
   std::optional<UtcTime> optional_time(int column) const;
 
@@ -70,6 +72,7 @@ class Statement {
   void bind_one(int position, std::unsigned_integral auto value) {
     bind_integer(position, static_cast<std::int64_t>(value));
   }
+  void bind_one(int position, double value) { bind_real(position, value); }
   void bind_one(int position, const std::string& value) { bind_text(position, value); }
   void bind_one(int position, std::string_view value) { bind_text(position, std::string(value)); }
   void bind_one(int position, const char* value) { bind_text(position, value); }
@@ -87,6 +90,7 @@ class Statement {
     }
   }
   void bind_integer(int position, std::int64_t value);
+  void bind_real(int position, double value);
   void bind_text(int position, const std::string& value);
   void bind_blob(int position, std::span<const std::byte> value);
   void bind_null(int position);

@@ -79,6 +79,44 @@ TEST_F(Release, TakesTwoPeopleAndOutlivesARestartOfTheServer) {
   refused(as("anna", "run start lathe-1 O1"), "is withdrawn");
 }
 
+TEST_F(Release, PinsWhatAProgramCallsSoThatANewerSubprogramDoesNotRun) {
+  system.start_gateway();
+  system.wait_connected();
+  const auto push = [&](const std::string& name, const std::string& text) {
+    const auto file = system.folder() / "text.nc";
+    std::ofstream(file) << text;
+    good(as("anna", "program push " + file.string() + " --name " + name + " --control centurion"));
+  };
+  const auto approve = [&](const std::string& revision) {
+    good(as("anna", "program submit " + revision));
+    good(as("bert", "program approve " + revision));
+  };
+  push("O1", "O1\nM98 P2\nDPRNT[END]\nM30\n");
+  refused(as("anna", "program closure O1"), "missing: O0002");
+  push("O0002", "O2\nPOPEN\nDPRNT[APPROVED]\nM99\n");
+  good(as("anna", "program closure O1"));
+  approve("O1 1");
+  refused(as("bert", "program release O1 1 --closure"), "O0002 revision 1 is draft");
+  approve("O0002 1");
+  good(as("bert", "program release O1 1 --closure"));
+  push("O0002", "O2\nPOPEN\nDPRNT[NEWER]\nM99\n");
+  approve("O0002 2");
+  good(as("bert", "program release O0002 2"));
+  const auto started = as("anna", "run start lathe-1 O1 --json");
+  ASSERT_EQ(started.status, 0) << started.output;
+  const std::string id = nlohmann::json::parse(started.output)["id"];
+  EXPECT_EQ(system.wait_ended(id)["state"], "completed");
+  const auto report = as("anna", "report show " + id);
+  EXPECT_NE(report.output.find("APPROVED"), std::string::npos) << report.output;
+  EXPECT_EQ(report.output.find("NEWER"), std::string::npos) << report.output;
+  const auto states = as("anna", "program states O1 1");
+  EXPECT_NE(states.output.find("O0002"), std::string::npos) << states.output;
+  const std::string paper = (system.folder() / "paper").string();
+  good(as("anna", "run attestation " + id + " -o " + paper));
+  good(as("anna", "run verify " + paper));
+  good(run_shell("grep -q 'calls O0002 1 ' " + paper));
+}
+
 TEST_F(Release, APolicyThatIsNotUnderstoodKeepsTheServerFromStarting) {
   system.server().signal(15);
   EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);

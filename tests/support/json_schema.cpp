@@ -22,9 +22,9 @@ bool has_type(const json& value, const std::string& type) {
 
 std::string unknown_keyword(const json& schema) {
   static const std::set<std::string> kKnown{
-      "type",      "nullable", "required", "properties", "additionalProperties",
-      "items",     "enum",     "format",   "minimum",    "maximum",
-      "maxLength", "default",  "pattern",  "description"};
+      "type",    "nullable", "allOf",      "required", "properties", "additionalProperties",
+      "items",   "enum",     "format",     "minimum",  "maximum",    "maxLength",
+      "default", "pattern",  "description"};
   for (const auto& [keyword, unused] : schema.items()) {
     if (!kKnown.contains(keyword)) return keyword;
   }
@@ -83,6 +83,8 @@ std::string schema_violation(const json& document, const json& schema, const jso
     return where + ": keyword '" + keyword + "' is not checked";
   }
   if (value.is_null() && schema.value("nullable", false)) return {};
+  if (schema.contains("allOf") && schema["allOf"].size() == 1)  // a reference that may be null
+    return schema_violation(document, schema["allOf"][0], value, where);
   const std::string type = schema.value("type", "");
   if (!has_type(value, type)) return where + ": " + value.dump() + " is no " + type;
   if (type == "object") return object_violation(document, schema, value, where);

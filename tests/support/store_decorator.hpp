@@ -10,8 +10,16 @@ class ProgramStoreDecorator : public storage::ProgramStore {
  public:
   explicit ProgramStoreDecorator(const storage::Store& inner) : inner_(inner.programs) {}
 
-  Result<std::vector<storage::ProgramSummary>> list(storage::Page page) override {
-    return inner_.list(page);
+  using storage::ProgramStore::list;
+  Result<std::vector<storage::ProgramSummary>> list(const storage::ProgramFilter& filter,
+                                                    storage::Page page) override {
+    return inner_.list(filter, page);
+  }
+  Result<storage::ProgramFields> fields(const std::string& program) override {
+    return inner_.fields(program);
+  }
+  Result<void> describe(const storage::Description& description) override {
+    return inner_.describe(description);
   }
   Result<std::uint64_t> count() override { return inner_.count(); }
   Result<std::vector<storage::Revision>> revisions(const std::string& program) override {
@@ -95,12 +103,23 @@ class RecordStoreDecorator : public storage::RecordStore {
                                               storage::Page page) override {
     return inner_.of_run(run, kind, page);
   }
-  Result<std::vector<storage::MachineReport>> machine_reports() override {
-    return inner_.machine_reports();
+  Result<std::vector<storage::Record>> of_run_after(const std::string& run, const std::string& kind,
+                                                    storage::RecordPlace after,
+                                                    std::uint64_t limit) override {
+    return inner_.of_run_after(run, kind, after, limit);
+  }
+  Result<std::vector<storage::Record>> of_machine_after(const std::string& machine,
+                                                        storage::RecordPlace after,
+                                                        std::uint64_t limit) override {
+    return inner_.of_machine_after(machine, after, limit);
   }
   Result<std::vector<storage::Record>> machine_report(const std::string& machine,
-                                                      storage::Page page) override {
-    return inner_.machine_report(machine, page);
+                                                      storage::RecordPlace after,
+                                                      std::uint64_t limit) override {
+    return inner_.machine_report(machine, after, limit);
+  }
+  Result<std::vector<storage::MachineReport>> machine_reports() override {
+    return inner_.machine_reports();
   }
   Result<std::vector<storage::MemoryReport>> memory_reports(const std::string& machine,
                                                             const std::optional<std::string>& run,
@@ -114,16 +133,26 @@ class RecordStoreDecorator : public storage::RecordStore {
 
 /// `store` with one of its parts replaced; the part must outlive it.
 inline storage::Store with(const storage::Store& store, storage::ProgramStore& programs) {
-  return {programs,     store.uploads, store.machines, store.runs,     store.records, store.ports,
-          store.setups, store.audit,   store.accounts, store.releases, store.imports};
+  return {programs,           store.uploads,  store.machines, store.runs,
+          store.records,      store.ports,    store.setups,   store.audit,
+          store.accounts,     store.releases, store.imports,  store.report_templates,
+          store.measurements, store.archives, store.offsets,  store.attachments,
+          store.search,       store.folders,  store.jobs,     store.webhooks};
 }
 inline storage::Store with(const storage::Store& store, storage::MachineStore& machines) {
-  return {store.programs, store.uploads, machines,       store.runs,     store.records, store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports};
+  return {store.programs,     store.uploads,  machines,      store.runs,
+          store.records,      store.ports,    store.setups,  store.audit,
+          store.accounts,     store.releases, store.imports, store.report_templates,
+          store.measurements, store.archives, store.offsets, store.attachments,
+          store.search,       store.folders,  store.jobs,    store.webhooks};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
-  return {store.programs, store.uploads, store.machines, store.runs,     records,      store.ports,
-          store.setups,   store.audit,   store.accounts, store.releases, store.imports};
-}
+  return {store.programs,     store.uploads,  store.machines,
+          store.runs,         records,        store.ports,
+          store.setups,       store.audit,    store.accounts,
+          store.releases,     store.imports,  store.report_templates,
+          store.measurements, store.archives, store.offsets,
+          store.attachments,  store.search,   store.folders,
+          store.jobs,         store.webhooks};
 
 }  // namespace dripline::test_support

@@ -5,6 +5,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/comparison_text.hpp"
+#include "clients/cli/server/json_answer.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -71,11 +72,6 @@ int list_imports(Context& context, client::Client& client, const ImportList& com
   return kExitOk;
 }
 
-std::string text_at(const ordered_json& object, const char* key) {
-  const auto found = object.find(key);
-  return found == object.end() || !found->is_string() ? "" : found->get<std::string>();
-}
-
 void print_import(const Context& context, const ordered_json& shown) {
   const std::string program = text_at(shown, "program");
   const auto revision = shown.at("revision").get<std::uint64_t>();
@@ -101,21 +97,8 @@ void print_import(const Context& context, const ordered_json& shown) {
 }
 
 int show_import(Context& context, client::Client& client, const ImportChoice& command) {
-  const auto answer = client.import(command.program, command.revision);
-  if (!answer) return complain(answer.error());
-  try {
-    const auto shown = ordered_json::parse(*answer);
-    if (context.wants_json) {
-      context.print(json_text(shown));
-    } else {
-      print_import(context, shown);
-    }
-    return kExitOk;
-  } catch (const ordered_json::exception& unexpected) {  // what the library reports with
-    complain(Error{Errc::Syntax, fmt::format("the answer of {} is not as expected: {}",
-                                             client.address().url, unexpected.what())});
-    return kExitUnreachable;
-  }
+  return print_answer(context, client, client.import(command.program, command.revision),
+                      [&](const ordered_json& shown) { print_import(context, shown); });
 }
 
 int accept_import(Context& context, client::Client& client, const ImportChoice& command) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/display_text.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/setup/change_log.hpp"
@@ -114,8 +115,9 @@ void add_row(Table& table, const client::Machine& machine) {
              machine.connected ? Cell("yes", Style::Good) : Cell("no", Style::Bad),
              execution_cell(machine), status.program,
              has_run ? fmt::format("{:.0f}", fraction_executed(status) * 100) : "",
-             has_run ? std::to_string(status.executed) : "", position_text(status),
-             time_text(machine.last_seen), machine.connected ? status.message : ""});
+             has_run ? std::to_string(status.executed) : "",
+             position_text(status, display_of(machine)), time_text(machine.last_seen),
+             machine.connected ? status.message : ""});
 }
 
 int list_machines(Context& context, client::Client& client) {

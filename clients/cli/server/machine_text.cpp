@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "clients/cli/server/display_text.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -48,9 +49,14 @@ std::string star_text(const std::string& execution) {
   return is_stopped(execution) ? "* flashing (interrupted)" : "off";
 }
 
-void add_motion(Details& details, const client::MachineStatus& status) {
-  if (!status.position.empty()) details.add("position", position_text(status) + " mm");
-  details.add("feed", fmt::format("{:.1f} mm/min", status.feed_mm_per_min));
+std::string with_unit(const std::map<std::string, double>& axes, const client::Display& display) {
+  return fmt::format("{} {}", axes_text(axes, display), unit_name(display));
+}
+
+void add_motion(Details& details, const client::MachineStatus& status,
+                const client::Display& display) {
+  if (!status.position.empty()) details.add("position", with_unit(status.position, display));
+  details.add("feed", length_text(status.feed_mm_per_min, display) + "/min");
   details.add("spindle", fmt::format("{:.0f} 1/min", status.spindle_rpm));
   details.add("overrides",
               fmt::format("feed {}, rapid {}, spindle {}", percent(status.feed_override),
@@ -70,12 +76,12 @@ std::string tool_text(const client::ActiveModes& modes) {
   return text;
 }
 
-std::string programmed_feed_text(const client::ActiveModes& modes) {
-  const std::string_view unit = modes.feed_unit == "per_revolution" ? "mm a turn"
-                                : modes.feed_unit == "inverse_time" ? "moves a minute"
-                                                                    : "mm/min";
-  return fmt::format("{:.3f} {}{}", modes.feed, unit,
-                     modes.feed_limited ? ", limited by an axis" : "");
+std::string programmed_feed_text(const client::ActiveModes& modes, const client::Display& display) {
+  const std::string feed = modes.feed_unit == "inverse_time"
+                               ? fmt::format("{:.3f} moves per minute", modes.feed)
+                               : length_text(modes.feed, display) +
+                                     (modes.feed_unit == "per_revolution" ? "/rev" : "/min");
+  return feed + (modes.feed_limited ? ", limited by an axis" : "");
 }
 
 std::string programmed_speed_text(const client::ActiveModes& modes) {
@@ -97,15 +103,16 @@ std::string spindle_state_text(const client::ActiveModes& modes) {
 }
 
 /// What a status window has besides place, position and speeds, in the control's order.
-void add_modes(Details& details, const client::ActiveModes& modes) {
+void add_modes(Details& details, const client::ActiveModes& modes, const client::Display& display) {
   details.add("compensation", modes.compensation);
   details.add("tool", tool_text(modes));
   details.add("tool lengths",
-              fmt::format("X {:.3f} Z {:.3f} mm", modes.tool_length_x, modes.tool_length_z));
-  details.add("tool radius", fmt::format("{:.3f} mm", modes.tool_radius));
+              with_unit({{"X", modes.tool_length_x}, {"Z", modes.tool_length_z}},
+                        client::Display{.units = display.units}));  // a radius on lathes too
+  details.add("tool radius", length_text(modes.tool_radius, display));
   details.add("work system", modes.work_system);
   details.add("interpolation", modes.motion);
-  details.add("programmed feed", programmed_feed_text(modes));
+  details.add("programmed feed", programmed_feed_text(modes, display));
   details.add("words",
               fmt::format("{}, {}", modes.incremental ? "incremental" : "absolute", modes.units));
   details.add("cycle", modes.cycle.empty() ? "none" : modes.cycle);
@@ -114,6 +121,12 @@ void add_modes(Details& details, const client::ActiveModes& modes) {
   details.add("spindle state", spindle_state_text(modes));
   details.add("spindle load", modes.spindle_load ? percent(*modes.spindle_load) : "not measured");
   details.add("coolant", coolant_text(modes));
+}
+
+/// Without its unit: the place on a line is scarce.
+std::string bare_feed(double mm, const client::Display& display) {
+  const std::string text = feed_text(mm, display);
+  return text.substr(0, text.find(' '));
 }
 
 std::string remote_enable_text(const std::string& remote_enable) {
@@ -155,8 +168,10 @@ bool has_ended(const client::Run& run) {
   return run.state != "ordered" && run.state != "active";
 }
 
-std::string position_text(const client::MachineStatus& status) {
-  return axes_text(status.position);
+std::string position_text(const client::MachineStatus& status, const client::Display& display) {
+  if (status.position.empty()) return {};
+  const bool is_usual = unit_name(display) == "mm";
+  return axes_text(status.position, display) + (is_usual ? "" : " in");
 }
 
 std::string place_text(const client::MachineStatus& status) {
@@ -182,8 +197,9 @@ std::string status_line(const client::Machine& machine) {
                         place_text(status));
   }
   line += after_gap(status.message);
-  if (!status.position.empty()) line += after_gap(position_text(status) + " mm");
-  return line + fmt::format("  F {:.0f} mm/min", status.feed_mm_per_min);
+  const client::Display display = display_of(machine);
+  if (!status.position.empty()) line += after_gap(with_unit(status.position, display));
+  return line + "  F " + feed_text(status.feed_mm_per_min, display);
 }
 
 Details machine_details(const client::Machine& machine) {
@@ -201,9 +217,10 @@ Details machine_details(const client::Machine& machine) {
   details.add("program star", star_text(status.execution));
   details.add("mode", status.mode);
   add_program(details, status);
-  add_motion(details, status);
-  if (status.coordinates) add_coordinates(details, status);
-  if (status.modes) add_modes(details, *status.modes);
+  const client::Display display = display_of(machine);
+  add_motion(details, status, display);
+  if (status.coordinates) add_coordinates(details, status, display);
+  if (status.modes) add_modes(details, *status.modes, display);
   if (status.emergency_stop) details.add("emergency stop", Cell("pressed", Style::Bad));
   details.add("remote enable", remote_enable_text(status.remote_enable));
   details.add("waits for", waits_for_text(status.waits_for));
@@ -223,7 +240,8 @@ std::string count_text(std::uint64_t count, std::string_view thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
-std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status) {
+std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status,
+                                   const client::Display& display) {
   if (status == nullptr) {
     return {fmt::format("{} on {}  {}  {} of {} sent  {} executed", run.program, run.machine,
                         run.state, bytes_text(run.sent), bytes_text(run.size),
@@ -234,17 +252,18 @@ std::vector<std::string> run_lines(const client::Run& run, const client::Machine
       fmt::format("{} on {} {} {:3.0f} %  {}  {}{}", run.program, run.machine,
                   render_bar(fraction, kBarCells), fraction * 100, status->execution,
                   place_text(*status), after_gap(status->message)),
-      fmt::format("sent {}  accepted {}  executed {}  {}  F {:.0f}",
+      fmt::format("sent {}  accepted {}  executed {}  {}  F {}",
                   bytes_text(std::max(run.sent, status->sent)),
                   std::max(run.accepted, status->accepted),
-                  std::max(run.executed, status->executed), position_text(*status),
-                  status->feed_mm_per_min)};
+                  std::max(run.executed, status->executed), position_text(*status, display),
+                  bare_feed(status->feed_mm_per_min, display))};
   if (auto hint = next_step(run, *status); !hint.empty()) lines.push_back(std::move(hint));
   return lines;
 }
 
-std::string run_line(const client::Run& run, const client::MachineStatus* status) {
-  return fmt::format("{}", fmt::join(run_lines(run, status), "  "));
+std::string run_line(const client::Run& run, const client::MachineStatus* status,
+                     const client::Display& display) {
+  return fmt::format("{}", fmt::join(run_lines(run, status, display), "  "));
 }
 
 std::string waiting_line(const client::Run& run, const client::MachineStatus& status) {
@@ -305,41 +324,32 @@ std::string scale_text(const std::map<std::string, double>& scale) {
   return text;
 }
 
-void add_frame(Details& details, const client::ProgramFrame& frame) {
-  details.add("datum", axes_text(frame.datum) + " mm");
-  details.add("datum shift", axes_text(frame.shift) + " mm");
+void add_frame(Details& details, const client::ProgramFrame& frame,
+               const client::Display& display) {
+  details.add("datum", with_unit(frame.datum, display));
+  details.add("datum shift", with_unit(frame.shift, display));
   details.add("rotation (ROT)", rotation_text(frame));
   details.add("scale (SCL)", scale_text(frame.scale));
   details.add("mirrored",
               frame.mirrored.empty() ? "none" : fmt::format("{}", fmt::join(frame.mirrored, " ")));
-  details.add("pole (CC)", frame.pole ? axes_text(*frame.pole) + " mm" : "none");
+  details.add("pole (CC)", frame.pole ? with_unit(*frame.pole, display) : "none");
 }
 
 }  // namespace
 
-std::string axes_text(const std::map<std::string, double>& axes) {
-  std::string text;
-  // JSON objects do not keep an order.
-  constexpr std::string_view kOrder = "XYZABCUVW";
-  for (const char axis : kOrder) {
-    const auto found = axes.find(std::string(1, axis));
-    if (found == axes.end()) continue;
-    text += fmt::format("{}{} {:.3f}", text.empty() ? "" : " ", axis, found->second);
-  }
-  return text;
-}
-
-void add_coordinates(Details& details, const client::MachineStatus& status) {
+void add_coordinates(Details& details, const client::MachineStatus& status,
+                     const client::Display& display) {
   const client::Coordinates& all = *status.coordinates;
   if (all.program) {
-    details.add("actual (ACTL)", axes_text(all.program->position) + " mm");
-    details.add("nominal (NOML)", axes_text(all.program->target) + " mm, where the move ends");
+    details.add("actual (ACTL)", with_unit(all.program->position, display));
+    details.add("nominal (NOML)",
+                with_unit(all.program->target, display) + ", where the move ends");
   }
-  details.add("reference (REF)", axes_text(status.position) + " mm");
-  details.add("distance to go (DIST)", axes_text(all.distance_to_go) + " mm");
+  details.add("reference (REF)", with_unit(status.position, display));
+  details.add("distance to go (DIST)", with_unit(all.distance_to_go, display));
   details.add("following error (LAG)",
-              all.following_error ? axes_text(*all.following_error) + " mm" : "not measured");
-  if (all.program) add_frame(details, *all.program);
+              all.following_error ? with_unit(*all.following_error, display) : "not measured");
+  if (all.program) add_frame(details, *all.program, display);
 }
 
 }  // namespace dripline::cli

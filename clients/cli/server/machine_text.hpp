@@ -17,8 +17,8 @@ Style style_of_execution(const std::string& execution);
 Style style_of_state(const std::string& state);
 bool has_ended(const client::Run& run);
 
-/// "X 12.500 Z -3.000"
-std::string position_text(const client::MachineStatus& status);
+/// "X 12.500 Z -3.000", "X dia 0.9843 Z -0.1181 in"
+std::string position_text(const client::MachineStatus& status, const client::Display& display = {});
 /// "line 1234 N1200", as far as known.
 std::string place_text(const client::MachineStatus& status);
 /// How much of the program's text the machine has executed, 0 to 1.
@@ -33,9 +33,11 @@ Details machine_details(const client::Machine& machine);
 
 /// The state of the run, as lines that fit a terminal of 80 columns; `status` is the machine's when
 /// it speaks of this run, or null. When the run waits for an operator, the last says what to type.
-std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status);
+std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status,
+                                   const client::Display& display = {});
 /// The same as one line.
-std::string run_line(const client::Run& run, const client::MachineStatus* status);
+std::string run_line(const client::Run& run, const client::MachineStatus* status,
+                     const client::Display& display = {});
 /// What it waits for and what an operator types next; empty while it waits for no operator.
 std::string waiting_line(const client::Run& run, const client::MachineStatus& status);
 /// A record of the run for people: "alarm  line 3  MCH0004 a feed per revolution ...".
@@ -43,11 +45,9 @@ std::string record_line(const client::Record& record);
 /// How the run ended, in one line.
 std::string outcome_line(const client::Run& run);
 
-/// "X 12.500 Z -3.000": in the order of the axis letters on a control's screen.
-std::string axes_text(const std::map<std::string, double>& axes);
-
 /// The five position displays of a control, and where datum, shift, rotation, scale, mirrored axes
 /// and the last circle center are.
-void add_coordinates(Details& details, const client::MachineStatus& status);
+void add_coordinates(Details& details, const client::MachineStatus& status,
+                     const client::Display& display = {});
 
 }  // namespace dripline::cli

@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/library_commands.hpp"
+#include "clients/cli/server/program_check.hpp"
 #include "clients/cli/server/program_diff.hpp"
 #include "clients/cli/server/program_transfer.hpp"
 #include "clients/cli/server/release_commands.hpp"
@@ -38,19 +40,48 @@ Cell standing_cell(const client::Program& program, const client::Revision& revis
   return "";
 }
 
-int list_programs(Context& context, client::Client& client) {
-  auto programs = fetch_all(0, [&](client::Page page) { return client.programs(page); });
+client::Reply<std::vector<client::Program>> chosen_programs(client::Client& client,
+                                                            const client::ProgramChoice& choice) {
+  constexpr std::uint64_t kPage = 200;
+  std::vector<client::Program> all;
+  for (;;) {
+    auto page = client.programs(choice, kPage, all.empty() ? "" : all.back().name);
+    if (!page) return page;
+    const bool is_last = page->size() < kPage;
+    for (auto& program : *page) all.push_back(std::move(program));
+    if (is_last) return all;
+  }
+}
+
+int list_programs(Context& context, client::Client& client, const client::ProgramChoice& choice) {
+  auto programs = chosen_programs(client, choice);
   if (const auto status = finished(context, programs, "programs")) return *status;
-  Table table({"NAME", right("REV"), right("HELD"), right("SIZE"), "TITLE", "CONTROL", "CREATED",
-               "AUTHOR", "COMMENT"});
+  const bool has_fields = std::ranges::any_of(*programs, [](const client::Program& program) {
+    return !program.part.empty() || !program.operation.empty();
+  });
+  std::vector<Column> columns{"NAME",    right("REV"), right("HELD"), right("SIZE"), "TITLE",
+                              "CONTROL", "CREATED",    "AUTHOR",      "COMMENT"};
+  if (has_fields) columns.insert(columns.begin() + 5, {"PART", "OP"});
+  Table table(columns);
   std::uint64_t held = 0;
   for (const auto& program : *programs) {
-    table.add({program.name, program.held ? Cell("-") : Cell(std::to_string(program.revision)),
-               held_cell(program.held_revisions), bytes_text(program.size), program.title,
-               program.control, time_text(program.created), program.author, program.comment});
+    std::vector<Cell> cells{program.name,
+                            program.held ? Cell("-") : Cell(std::to_string(program.revision)),
+                            held_cell(program.held_revisions),
+                            bytes_text(program.size),
+                            program.title,
+                            program.control,
+                            time_text(program.created),
+                            program.author,
+                            program.comment};
+    if (has_fields) cells.insert(cells.begin() + 5, {program.part, program.operation});
+    table.add(std::move(cells));
     held += program.held_revisions;
   }
-  if (table.empty()) context.print("The library is empty; dnc program push FILE fills it.\n");
+  if (table.empty()) {
+    context.print(choice.is_empty() ? "The library is empty; dnc program push FILE fills it.\n"
+                                    : "No program is like that.\n");
+  }
   if (!table.empty()) context.print(table);
   if (held > 0) {
     context.print(fmt::format(
@@ -73,6 +104,11 @@ int show_program(Context& context, client::Client& client, const std::string& na
                                      : Cell(fmt::format("revision {}, {}", program.revision,
                                                         bytes_text(program.size))));
   details.add("sha256", program.sha256);
+  if (!program.part.empty()) details.add("part", program.part);
+  if (!program.operation.empty()) details.add("operation", program.operation);
+  if (!program.material.empty()) details.add("material", program.material);
+  if (!program.machine_group.empty()) details.add("machine group", program.machine_group);
+  if (!program.cam_file.empty()) details.add("CAM file", program.cam_file);
   context.print(details);
   Table table(
       {right("REV"), "STATE", right("SIZE"), "SHA-256", "CONTROL", "CREATED", "AUTHOR", "COMMENT"});
@@ -149,6 +185,7 @@ void add_push(Command group, Context& context) {
   command.add_option("--comment", options->comment, "State what changed; kept with the revision");
   command.add_flag("--force", options->overrides_protection,
                    "Replace the program even if it is protected against editing (tnc155: P, G50)");
+  add_field_options(command, options->fields);
   add_json_flag(command, context);
   command.footer(
       "The content is sent in pieces with a SHA-256 that the server checks. When the connection "
@@ -222,12 +259,17 @@ void add_program_commands(Command app, Context& context) {
   group.require_subcommand(1);
   add_push(group, context);
   add_pull(group, context);
-  auto list = group.add_subcommand("list", "List all programs with their latest revision");
+  auto list = group.add_subcommand("list", "List programs with their latest revision");
+  auto choice = std::make_shared<client::ProgramChoice>();
+  add_choice_options(list, *choice);
   add_json_flag(list, context);
-  run_at_server(list, context, list_programs);
+  run_at_server(list, context, choice, list_programs);
   add_show(group, context);
   add_accept(group, context);
+  add_library_commands(group, context);
+  add_attachment_commands(group, context);
   add_release_commands(group, context);
+  add_program_check(group, context);
   add_program_diff(group, context);
   add_remove(group, context);
   add_copy(group, context);

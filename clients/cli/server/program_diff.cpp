@@ -1,11 +1,11 @@
 #include "clients/cli/server/program_diff.hpp"
 
-#include <charconv>
-
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/comparison_text.hpp"
+#include "clients/cli/server/json_answer.hpp"
+#include "clients/cli/text/named_revision.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
 namespace dripline::cli {
@@ -16,17 +16,6 @@ struct ProgramDiff {
   bool by_motion = false, normalized = false;
   client::ComparisonQuery query;
 };
-
-/// NAME or NAME@REVISION; an @ without a number after it is part of the name.
-std::pair<std::string, std::optional<std::uint64_t>> name_and_revision(const std::string& text) {
-  const std::size_t at = text.rfind('@');
-  if (at == std::string::npos) return {text, std::nullopt};
-  std::uint64_t number = 0;
-  const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data() + at + 1, end, number);
-  if (read.ec != std::errc{} || read.ptr != end) return {text, std::nullopt};
-  return {text.substr(0, at), number};
-}
 
 /// 1 is for programs that differ.
 int status_of(const client::Failure& failure) {
@@ -39,8 +28,7 @@ std::string name_of(const nlohmann::ordered_json& revision) {
                      revision.at("revision").get<std::uint64_t>());
 }
 
-int print_comparison(const Context& context, const std::string& answer) {
-  const auto result = nlohmann::ordered_json::parse(answer);
+int print_comparison(const Context& context, const nlohmann::ordered_json& result) {
   const ComparedNames names{name_of(result.at("first")), name_of(result.at("second"))};
   const int written =
       write_to("-", context.wants_json ? json_text(result)
@@ -50,20 +38,20 @@ int print_comparison(const Context& context, const std::string& answer) {
 
 int diff_programs(Context& context, client::Client& client, const ProgramDiff& command) {
   client::ComparisonQuery query = command.query;
-  std::tie(query.first, query.first_revision) = name_and_revision(command.first);
-  const std::string& second = command.second.empty() ? query.first : command.second;
-  std::tie(query.second, query.second_revision) = name_and_revision(second);
+  const NamedRevision first = named_revision(command.first);
+  const NamedRevision second =
+      named_revision(command.second.empty() ? first.program : command.second);
+  query.first = first.program;
+  query.first_revision = first.revision;
+  query.second = second.program;
+  query.second_revision = second.revision;
   query.by = command.by_motion ? "motion" : command.normalized ? "normalized" : "text";
   const auto answer = client.compare(query);
   if (!answer) return status_of(answer.error());
-  try {
-    return print_comparison(context, *answer);
-  } catch (const nlohmann::json::exception& unexpected) {  // what the library reports with
-    complain(
-        Error{Errc::Syntax, fmt::format("the answer of {} to the comparison is not as expected: {}",
-                                        client.address().url, unexpected.what())});
-    return kExitUnreachable;
-  }
+  return shown_json(
+      client, *answer,
+      [&](const nlohmann::ordered_json& result) { return print_comparison(context, result); },
+      " to the comparison");
 }
 
 }  // namespace

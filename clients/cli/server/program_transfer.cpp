@@ -50,7 +50,9 @@ int push(Context& context, const PushCommand& command) {
   SystemClock clock;
   LiveArea area = LiveArea::on_stderr();
   client::PushOptions options{
-      {name, command.control, command.comment, command.overrides_protection}, retry_policy(), {}};
+      {name, command.control, command.comment, command.overrides_protection, command.fields},
+      retry_policy(),
+      {}};
   const SteadyTime begun = clock.steady_now();
   const auto pushed = [&] {
     Progress progress(area, clock, name);

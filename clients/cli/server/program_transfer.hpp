@@ -11,6 +11,7 @@ namespace dripline::cli {
 struct PushCommand {
   std::string file, name, control, comment;  ///< empty: not given
   bool overrides_protection = false;
+  client::FieldChange fields = {};
 };
 struct PullCommand {
   std::string name, output;  ///< output empty: `name` in this folder; "-": standard output

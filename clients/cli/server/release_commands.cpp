@@ -47,13 +47,23 @@ int states(Context& context, client::Client& client, const DecisionCommand& comm
   context.print(fmt::format("{} revision {} is {}\n", printable(command.program), command.revision,
                             state_text(found->state)));
   if (found->steps.empty()) return kExitOk;
+  const std::vector<client::Pin>* print_pins = nullptr;
   Table table({right("STEP"), "WHAT", "TIME", "WHO", "COMMENT"});
   for (const auto& step : found->steps) {
     table.add({std::to_string(step.id), printable(step.step), time_text(step.time),
                printable(step.who), printable(step.comment)});
+    if (step.closure) print_pins = &*step.closure;
   }
   context.print("\n");
   context.print(table);
+  if (print_pins == nullptr) return kExitOk;
+  context.print(print_pins->empty() ? "\nReleased with its closure: it calls nothing.\n"
+                                    : "\nReleased with its closure; a run gets these and no "
+                                      "others:\n\n");
+  Table pins({"PROGRAM", right("REV"), "SHA-256"});
+  for (const auto& pin : *print_pins)
+    pins.add({printable(pin.program), std::to_string(pin.revision), short_id(pin.sha256)});
+  if (!pins.empty()) context.print(pins);
   return kExitOk;
 }
 
@@ -83,7 +93,9 @@ constexpr std::array kDecisionVerbs{
     DecisionVerb{
         "release", "Release an approved revision", release,
         "Under the policy release, machines run released revisions only; a run names the step "
-        "that released it.\n\nExample:\n  dnc program release O0200 3"},
+        "that released it. With --closure what the program calls is released with it and pinned: "
+        "a newer\nsubprogram does not change what was approved.\n\nExample:\n  dnc program "
+        "release O0200 3 --closure"},
     DecisionVerb{
         "withdraw", "Withdraw a revision; it never runs again", withdraw,
         "A run that has begun keeps it to its end.\n\nExample:\n  dnc program withdraw O0200 2 "
@@ -93,6 +105,20 @@ constexpr std::array kDecisionVerbs{
 void add_revision_options(Command command, const std::shared_ptr<DecisionCommand>& options) {
   command.add_option("NAME", options->program, "The program").required();
   command.add_option("REV", options->revision, "Its revision").required();
+}
+
+void add_closure_options(Command command, const std::shared_ptr<DecisionCommand>& options) {
+  auto closure = command.add_flag("--closure", options->has_closure,
+                                  "Release with it what it calls, and pin those revisions");
+  command
+      .add_option("--machine", options->machine,
+                  "Machine whose newest setup binds G, M and T codes to programs")
+      .needs(closure);
+  command
+      .add_option("--with", options->with,
+                  "A program that is called too, or another revision: NAME or NAME@REVISION")
+      .allow_extra_args(false)
+      .needs(closure);
 }
 
 }  // namespace
@@ -109,9 +135,11 @@ void add_release_commands(Command group, Context& context) {
     auto options = std::make_shared<DecisionCommand>();
     add_revision_options(command, options);
     command.add_option("--comment", options->comment, "State why; kept with the decision");
+    if (verb.action == release) add_closure_options(command, options);
     command.footer(verb.footer);
     run_at_server(command, context, options, verb.action);
   }
+  add_closure_command(group, context);
   auto command = group.add_subcommand("states", "Show what was decided about a revision");
   auto options = std::make_shared<DecisionCommand>();
   add_revision_options(command, options);

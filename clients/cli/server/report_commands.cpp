@@ -1,8 +1,11 @@
 #include <unistd.h>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/measurements/export_formats.hpp"
+#include "clients/cli/server/archive_commands.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
@@ -19,6 +22,7 @@ struct ListCommand {
 
 struct ExportCommand {
   std::string run, format, output;
+  MeasurementExport measurements;
 };
 
 /// The lines that machines printed outside any run; only those of `machine` when it is named.
@@ -126,7 +130,7 @@ int print_report(client::Client& client, const ReportOf& report, const std::stri
 }
 
 struct ShowCommand {
-  std::string run;
+  std::string run, archive;
   bool is_raw = false;
 };
 
@@ -156,7 +160,7 @@ int export_to_file(client::Client& client, const ReportOf& report, const ExportC
   return status;
 }
 
-int export_report(Context&, client::Client& client, const ExportCommand& command) {
+int export_lines(client::Client& client, const ExportCommand& command) {
   auto report = find_report(client, command.run);
   if (!report) return complain(report.error());
   if (!command.output.empty() && command.output != "-") {
@@ -165,23 +169,63 @@ int export_report(Context&, client::Client& client, const ExportCommand& command
   return print_report(client, *report, command.format, Controls::AsTheyAre);
 }
 
+int export_report(Context& context, const ExportCommand& command) {
+  const bool has_file = !command.measurements.choice.file.empty();
+  const bool is_lines = !std::ranges::count(measurement_formats(), command.format);
+  if (is_lines && (has_file || command.run.empty())) {
+    complain(
+        Error{Errc::Syntax, "--format " + command.format +
+                                " exports report lines: RUN or MACHINE is needed, and no --from"});
+    return kExitUsage;
+  }
+  if (is_lines) {
+    auto client = context.connect();
+    return client ? export_lines(*client, command) : context.status;
+  }
+  MeasurementExport request = command.measurements;
+  request.format = command.format;
+  request.output = command.output;
+  if (!command.run.empty()) {
+    auto client = context.connect();
+    if (!client) return context.status;
+    const auto report = find_report(*client, command.run);
+    if (!report) return complain(report.error());
+    if (report->run) request.choice.query.run = report->run->id;
+    if (!report->run) request.choice.query.machine = report->machine;
+  }
+  return export_measurements(context, request);
+}
+
 constexpr const char* kReportHelp =
     "Run: its id, the beginning of it, or latest; or a machine: what it printed outside any run";
 
 void add_export(Command group, Context& context) {
-  auto command = group.add_subcommand("export", "Export a run's report lines as text, CSV or JSON");
+  auto command = group.add_subcommand(
+      "export", "Export report lines, measurements, digitized points, or a report to print");
   auto options = std::make_shared<ExportCommand>();
   options->format = "text";
-  command.add_option("RUN|MACHINE", options->run, kReportHelp).required();
-  command.add_option("--format", options->format, "text, csv or json (default: text)")
-      .check(one_of({"text", "csv", "json"}));
+  std::vector<std::string> formats{"text", "csv", "json"};
+  formats.insert(formats.end(), measurement_formats().begin(), measurement_formats().end());
+  command.add_option("RUN|MACHINE", options->run, kReportHelp);
+  command.add_option("--format", options->format, "What to write, see below (default: text)")
+      .check(one_of(formats));
   command.add_option("-o,--output", options->output,
                      "File to write, - for standard output (default: -)");
+  auto& measurements = options->measurements;
+  command.add_option("--from", measurements.choice.file,
+                     "Measurements of this file (CSV, JSON Lines, .dfq), without a server");
+  add_measurement_choice(command, measurements.choice);
+  command.add_option("--title", measurements.title, "html, pdf: title [Measurement report]");
+  command.add_flag("--utf8", measurements.is_utf8, "dfq, dfd: UTF-8 in place of Windows-1252");
+  command.add_option("--cell", measurements.cell, "stl: cell, mm [distance of the points]");
+  command.add_option("--base", measurements.base, "stl: base below the lowest point, mm [5]");
   command.footer(
-      "text holds exactly the lines that the machine put out, in order; csv and json add time, "
-      "device, block\nand line.\n\nExample:\n  dnc report export latest --format csv -o "
-      "profile.csv");
-  run_at_server(command, context, options, export_report);
+      "Report lines: text holds exactly the lines that the machine put out, in order; csv and json "
+      "add time,\ndevice, block and line.\nMeasurements: measurements (CSV), jsonl, dfq, dfd, dfx "
+      "(Q-DAS), qif (QIF 3.0), html and pdf (a page a part).\nDigitized points: points (CSV), dxf, "
+      "stl (a solid).\n\nExamples:\n  dnc report export latest --format csv -o profile.csv\n  dnc "
+      "report export lathe-1 --since 2026-11-01 --format dfq -o november.dfq");
+  command.callback([&context, options] { context.status = export_report(context, *options); });
 }
 
 }  // namespace
@@ -207,9 +251,21 @@ void add_report_commands(Command app, Context& context) {
       "--raw", shown->is_raw,
       "Print control characters unchanged, also on a terminal (otherwise as \\x1b)");
   add_json_flag(show_command, context);
-  run_at_server(show_command, context, shown, show);
+  show_command.add_option("--archive", shown->archive,
+                          "Read it from this archive instead; needs no server");
+  show_command.callback([&context, shown] {
+    if (!shown->archive.empty()) {
+      context.status = show_archived_report(context, shown->archive, shown->run);
+    } else if (auto client = context.connect()) {
+      context.status = show(context, *client, *shown);
+    }
+  });
 
   add_export(group, context);
+  add_measurement_commands(group, context);
+  add_template_commands(group, context);
+  add_report_chart_command(group, context);
+  add_statistics_commands(group, context);
 }
 
 }  // namespace dripline::cli

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/display_text.hpp"
 #include "clients/cli/server/kept_memory.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/setup/change_log.hpp"
@@ -66,6 +67,7 @@ class RunFollower {
   void take_status(const client::Machine& machine) {
     if (machine.name != run_.machine) return;
     status_ = machine.status;
+    display_ = display_of(machine);
     show();
   }
 
@@ -100,8 +102,8 @@ class RunFollower {
     const auto* status = status_of_run();
     if (style_ == WatchStyle::Silent) return tell_what_it_waits_for(status);
     if (context_.wants_json) return show_json();
-    if (area_.is_live()) return area_.show(run_lines(run_, status));
-    const std::string line = run_line(run_, status);
+    if (area_.is_live()) return area_.show(run_lines(run_, status, display_));
+    const std::string line = run_line(run_, status, display_);
     const std::string key = run_.state + (status ? status->execution + status->message : "");
     if (!log_.is_worth_a_line(key, line, clock_.steady_now())) return;
     print(printable(line));
@@ -174,6 +176,7 @@ class RunFollower {
   LiveArea area_ = LiveArea::on_stderr();
   ChangeLog log_;
   std::optional<client::MachineStatus> status_;
+  client::Display display_;
   std::optional<client::Failure> failure_;
   SteadyTime last_heard_{}, last_asked_{};
   bool is_lost_ = false;

@@ -1,4 +1,5 @@
 #include "clients/cli/context.hpp"
+#include "clients/cli/server/archive_commands.hpp"
 #include "clients/cli/server/backup_commands.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
@@ -46,6 +47,7 @@ void add_server_commands(Command app, Context& context) {
   add_json_flag(status, context);
   run_at_server(status, context, show_status);
   add_backup_commands(group, context);
+  add_archive_commands(group, context);
 }
 
 }  // namespace dripline::cli

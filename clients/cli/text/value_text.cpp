@@ -1,8 +1,7 @@
 #include "clients/cli/text/value_text.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <chrono>
 #include <ctime>
 #include <iterator>
 #include <optional>
@@ -11,44 +10,26 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "protocol/base/clock.hpp"
+
 namespace dripline::cli {
 
 namespace {
 
-std::optional<int> number_at(std::string_view text, std::size_t offset, std::size_t size) {
-  int value = 0;
-  const char* first = text.data() + offset;
-  const auto result = std::from_chars(first, first + size, value);
-  if (result.ec != std::errc() || result.ptr != first + size) return std::nullopt;
-  return value;
+/// A time of day is part of it: a date alone stays as it is.
+std::optional<UtcTime> parse_time(std::string_view text) {
+  constexpr std::size_t kShortest = std::string_view("2026-11-21T07:40:06Z").size();
+  if (text.size() < kShortest) return std::nullopt;
+  const auto time = parse_iso8601(text);
+  return time ? std::optional(*time) : std::nullopt;
 }
 
-struct UtcSeconds {
-  std::time_t whole = 0;
-  double fraction = 0;
-};
-
-/// YYYY-MM-DDTHH:MM:SS[.ffffff]Z
-std::optional<UtcSeconds> parse_time(std::string_view text) {
-  if (text.size() < 20 || text[4] != '-' || text[10] != 'T' || text.back() != 'Z') return {};
-  const auto year = number_at(text, 0, 4), month = number_at(text, 5, 2),
-             day = number_at(text, 8, 2);
-  const auto hour = number_at(text, 11, 2), minute = number_at(text, 14, 2);
-  const auto second = number_at(text, 17, 2);
-  if (!year || !month || !day || !hour || !minute || !second) return {};
-  std::tm parts{};
-  parts.tm_year = *year - 1900;
-  parts.tm_mon = *month - 1;
-  parts.tm_mday = *day;
-  parts.tm_hour = *hour;
-  parts.tm_min = *minute;
-  parts.tm_sec = *second;
-  UtcSeconds time{::timegm(&parts), 0};
-  if (text[19] == '.') {
-    std::from_chars(text.data() + 19, text.data() + text.size() - 1, time.fraction,
-                    std::chars_format::fixed);
-  }
-  return time;
+std::tm local_parts(UtcTime time) {
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(time).time_since_epoch().count();
+  const auto whole = static_cast<std::time_t>(seconds);
+  std::tm local{};
+  ::localtime_r(&whole, &local);
+  return local;
 }
 
 }  // namespace
@@ -71,8 +52,7 @@ std::string duration_text(double seconds) {
 std::string time_text(std::string_view iso8601) {
   const auto time = parse_time(iso8601);
   if (!time) return std::string(iso8601);
-  std::tm local{};
-  ::localtime_r(&time->whole, &local);
+  const std::tm local = local_parts(*time);
   char text[32];
   const std::size_t size = std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &local);
   return std::string(text, size);
@@ -81,17 +61,16 @@ std::string time_text(std::string_view iso8601) {
 std::string clock_text(std::string_view iso8601) {
   const auto time = parse_time(iso8601);
   if (!time) return std::string(iso8601);
-  std::tm local{};
-  ::localtime_r(&time->whole, &local);
-  const int milliseconds = static_cast<int>(time->fraction * 1000 + 1e-6);
+  const std::tm local = local_parts(*time);
+  const auto past_second = *time - std::chrono::floor<std::chrono::seconds>(*time);
   return fmt::format("{:02}:{:02}:{:02}.{:03}", local.tm_hour, local.tm_min, local.tm_sec,
-                     milliseconds);
+                     past_second / std::chrono::milliseconds(1));
 }
 
 double seconds_between(std::string_view from, std::string_view to) {
   const auto first = parse_time(from), second = parse_time(to);
   if (!first || !second) return 0;
-  return static_cast<double>(second->whole - first->whole) + second->fraction - first->fraction;
+  return std::chrono::duration<double>(*second - *first).count();
 }
 
 std::string short_id(std::string_view id) {

@@ -92,6 +92,7 @@ void content_members(V& v, P& x) {
   v.later("state", x.state);
   v.later("released", x.released);
   v.later("withdrawn", x.withdrawn);
+  DRIPLINE_MEMBERS(cam_file);
 }
 
 template <class V>
@@ -99,6 +100,7 @@ void members(V& v, Is<Program> auto& x) {
   DRIPLINE_MEMBERS(name, revision, revisions);
   v.later("held_revisions", x.held_revisions);
   content_members(v, x);
+  DRIPLINE_MEMBERS(part, operation, material, machine_group);
 }
 
 template <class V>
@@ -106,6 +108,22 @@ void members(V& v, Is<Revision> auto& x) {
   DRIPLINE_MEMBERS(program, revision);
   content_members(v, x);
   v.flag("unchanged", x.unchanged);
+}
+
+template <class V>
+void members(V& v, Is<Attachment> auto& x) {
+  DRIPLINE_MEMBERS(program, revision, name, size, sha256, comment, author, created);
+}
+
+template <class V>
+void members(V& v, Is<SearchHit> auto& x) {
+  members(v, x.revision);
+  DRIPLINE_MEMBERS(part, operation, material, machine_group, line, text, partly_indexed);
+}
+
+template <class V>
+void members(V& v, Is<SearchResult> auto& x) {
+  DRIPLINE_MEMBERS(hits, next, to_be_indexed);
 }
 
 template <class V>
@@ -142,10 +160,17 @@ void members(V& v, Is<MachineStatus> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Display> auto& x) {
+  DRIPLINE_MEMBERS(units, x);
+}
+
+template <class V>
 void members(V& v, Is<Machine> auto& x) {
   DRIPLINE_MEMBERS(name, control, description, gateway_version, connected, clock_ahead_seconds);
   v.later("notices", x.notices);
-  DRIPLINE_MEMBERS(first_seen, last_seen, status);
+  DRIPLINE_MEMBERS(first_seen, last_seen);
+  v.later("display", x.display);
+  DRIPLINE_MEMBERS(status);
 }
 
 template <class V>
@@ -155,16 +180,84 @@ void members(V& v, Is<Run> auto& x) {
                    ended, outputs, setup);
   v.later("allowed_as", x.allowed_as);
   v.later("approval", x.approval);
+  v.later("job", x.job);
+}
+
+template <class V>
+void members(V& v, Is<Pin> auto& x) {
+  DRIPLINE_MEMBERS(program, revision, sha256);
 }
 
 template <class V>
 void members(V& v, Is<Decision> auto& x) {
-  DRIPLINE_MEMBERS(id, step, state, time, who, comment, text, signature);
+  DRIPLINE_MEMBERS(id, step, state, time, who, comment);
+  v.later("closure", x.closure);
+  DRIPLINE_MEMBERS(text, signature);
+}
+
+template <class V>
+void members(V& v, Is<Closure::Site> auto& x) {
+  DRIPLINE_MEMBERS(program, revision, line);
+}
+
+template <class V>
+void members(V& v, Is<Closure::Call> auto& x) {
+  DRIPLINE_MEMBERS(name, program, revision, sha256, state, site);
+}
+
+template <class V>
+void members(V& v, Is<Closure::Missing> auto& x) {
+  DRIPLINE_MEMBERS(name, site);
+}
+
+template <class V>
+void members(V& v, Is<Closure> auto& x) {
+  DRIPLINE_MEMBERS(program, revision, calls, missing, computed);
 }
 
 template <class V>
 void members(V& v, Is<RevisionStates> auto& x) {
   DRIPLINE_MEMBERS(state, steps, public_key);
+}
+
+template <class V>
+void members(V& v, Is<Job> auto& x) {
+  DRIPLINE_MEMBERS(id, machine, program, revision, quantity, parts_per_run, completed, runs, state,
+                   comment, author, created);
+}
+
+template <class V>
+void members(V& v, Is<JobList::Hold> auto& x) {
+  DRIPLINE_MEMBERS(who, reason, since);
+}
+
+template <class V>
+void members(V& v, Is<JobList> auto& x) {
+  DRIPLINE_MEMBERS(jobs, hold);
+}
+
+template <class V>
+void members(V& v, Is<Webhook> auto& x) {
+  DRIPLINE_MEMBERS(name, url, kinds, author, created, delivered, delivered_at, waiting, lost,
+                   failures, failing_since, fault);
+  v.later("secret", x.secret);
+}
+
+template <class V>
+void members(V& v, Is<WebhookTest> auto& x) {
+  DRIPLINE_MEMBERS(delivered, fault);
+}
+
+template <class V>
+void members(V& v, Is<Folder> auto& x) {
+  DRIPLINE_MEMBERS(name, path, machine, control, fault, looked, waiting, stored, failed,
+                   last_refused, last_reason);
+}
+
+template <class V>
+void members(V& v, Is<FolderFile> auto& x) {
+  DRIPLINE_MEMBERS(folder, name, size, sha256, state, program, revision, reason, target, taken,
+                   moved);
 }
 
 template <class V>

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clients/lib/client.hpp"
+
 namespace dripline::client::impl {
 
 HttpRequest get(std::string path) {
@@ -30,6 +32,15 @@ std::string with_query(std::string path, std::string_view key, std::string_view 
   path += key;
   path += '=';
   return path + url_encode(value);
+}
+
+std::string with_number(std::string path, std::string_view key,
+                        std::optional<std::uint64_t> number) {
+  return number ? with_query(std::move(path), key, std::to_string(*number)) : path;
+}
+
+std::string with_page(std::string path, const Page& page) {
+  return with_number(with_number(std::move(path), "limit", page.limit), "offset", page.offset);
 }
 
 std::string dumped(const nlohmann::json& body) {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "clients/lib/client.hpp"
 #include "clients/lib/http.hpp"
 
 /// Parts of the requests that the calls of Client send. Pure.
@@ -16,6 +19,12 @@ std::string path_of(std::string_view collection);
 std::string path_of(std::string_view collection, std::string_view item);
 /// Adds `key=value` to a path's query; nothing for an empty value.
 std::string with_query(std::string path, std::string_view key, std::string_view value);
+/// The same for a number; nothing without one.
+std::string with_number(std::string path, std::string_view key,
+                        std::optional<std::uint64_t> number);
+std::string with_page(std::string path, const Page& page);
+/// Those that are given.
+void add_fields(nlohmann::json& body, const FieldChange& change);
 /// A body; bytes that are not UTF-8 are replaced.
 std::string dumped(const nlohmann::json& body);
 

@@ -8,7 +8,7 @@ const document = JSON.parse(await readFile(from, 'utf8'));
 
 /// What only narrows values or explains them has no place in a type.
 const kIgnored = new Set(['description', 'format', 'pattern', 'minimum', 'maximum', 'minLength', 'maxLength', 'default', 'example']);
-const kKnown = new Set(['$ref', 'type', 'properties', 'required', 'additionalProperties', 'items', 'enum', 'nullable']);
+const kKnown = new Set(['$ref', 'type', 'properties', 'required', 'additionalProperties', 'items', 'enum', 'nullable', 'allOf']);
 
 function typeOf(schema, where) {
   for (const word of Object.keys(schema)) {
@@ -20,6 +20,7 @@ function typeOf(schema, where) {
 
 function bareTypeOf(schema, where) {
   if (schema.$ref) return schema.$ref.split('/').at(-1);
+  if (schema.allOf?.length === 1) return typeOf(schema.allOf[0], where);  // how OpenAPI 3.0 writes a reference that may be null
   if (schema.enum) return schema.enum.map((word) => JSON.stringify(word)).join(' | ');
   switch (schema.type) {
     case 'string': return 'string';

@@ -138,6 +138,7 @@ void SerialGateway::add_call(line::RuleAction action, const std::string& argumen
   port_->note(fmt::format("requested at the control: {} {}", to_string(action), argument));
   const auto asked = action == line::RuleAction::Send        ? LineCallAction::Send
                      : action == line::RuleAction::Directory ? LineCallAction::Directory
+                     : action == line::RuleAction::NextJob   ? LineCallAction::NextJob
                                                              : LineCallAction::Restart;
   calls_.add(asked, argument, parts_.clock.steady_now());
   publisher_.reset();

@@ -12,7 +12,8 @@ constexpr std::size_t kMaxWord = 128;
 constexpr std::int64_t kPatternMemory = 256 * 1024;
 
 constexpr std::array kActions{RuleAction::Send,    RuleAction::Directory, RuleAction::Restart,
-                              RuleAction::Program, RuleAction::Report,    RuleAction::Ignore};
+                              RuleAction::NextJob, RuleAction::Program,   RuleAction::Report,
+                              RuleAction::Ignore};
 
 unsigned line_of(const toml::node& node) {
   return node.source().begin.line;
@@ -39,7 +40,8 @@ Result<void> read_action(Rule& rule, const toml::node& node) {
     return {};
   }
   return fail(Errc::Syntax,
-              "line {}: action '{}' is not send, directory, restart, program, report or ignore",
+              "line {}: action '{}' is not send, directory, restart, next_job, program, report or "
+              "ignore",
               line_of(node), *text);
 }
 

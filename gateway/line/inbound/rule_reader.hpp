@@ -16,7 +16,7 @@ namespace dripline::line {
 ///     [[set.rule]]
 ///     name = "send"                # "rule 1" without
 ///     trigger = "PRG"              # a comment (PRG=...)
-///     action = "send"              # send directory restart program report ignore
+///     action = "send"              # or directory restart next_job program report ignore
 ///     argument = "O{}"             # {}: what the trigger or the pattern found
 ///     [[set.rule]]
 ///     matches = "^PROBE (.*)"      # a regular expression of at most 256 characters

@@ -74,7 +74,7 @@ std::string fill_in(const std::string& argument, const std::string& value) {
 }  // namespace
 
 std::string_view to_string(RuleAction action) {
-  constexpr std::string_view kWords[] = {"send",    "directory", "restart",
+  constexpr std::string_view kWords[] = {"send",    "directory", "restart", "next_job",
                                          "program", "report",    "ignore"};
   return kWords[static_cast<std::size_t>(action)];
 }

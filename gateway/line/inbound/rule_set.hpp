@@ -16,6 +16,7 @@ enum class RuleAction : std::uint8_t {
   Send,       ///< a program to the control
   Directory,  ///< the list of programs to the control
   Restart,    ///< the machine's last run, from a block on
+  NextJob,    ///< a run of the next job in the machine's queue
   Program,    ///< store the text as a new revision, held for acceptance
   Report,     ///< store the line as a record
   Ignore,

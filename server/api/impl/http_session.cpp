@@ -54,6 +54,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
 
   awaitable<void> serve(Seat& seat) {
     if (!co_await transport_->open(limits_.handshake)) co_return;
+    certificate_ = transport_->certificate();
     bool continues = true;
     for (bool is_first = true; continues && may_continue(); is_first = false) {
       seat.set(is_first ? State::Opening : State::Idle);
@@ -87,6 +88,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       co_return false;
     }
     request->address = address_;
+    request->certificate = certificate_;
     is_head_only_ = request->method == "HEAD";
     std::optional<Response> judged;
     if (shared_.handlers.judge) judged = shared_.handlers.judge(*request);
@@ -353,7 +355,8 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   const bool is_reserve_;
   RequestReader reader_;
   Signal woken_;
-  const std::string address_;  ///< of the client
+  const std::string address_;                               ///< of the client
+  std::optional<identity::ClientCertificate> certificate_;  ///< of the client, verified
   bool is_closed_ = false;
   bool is_abandoned_ = false;
   bool is_answered_ = false;

@@ -1,5 +1,7 @@
 #include "server/api/impl/transport.hpp"
 
+#include "server/api/impl/peer_certificate.hpp"
+
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -62,6 +64,11 @@ class StreamTransport final : public Transport {
   }
 
   asio::ip::tcp::socket& socket() override { return tcp().socket(); }
+
+  std::optional<identity::ClientCertificate> certificate() override {
+    if constexpr (kIsTls) return peer_certificate(stream_.native_handle());
+    return std::nullopt;
+  }
 
  private:
   static constexpr bool kIsTls = std::is_same_v<Stream, TlsStream>;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,8 @@
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
+
+#include "server/identity/caller.hpp"
 
 namespace dripline::api {
 
@@ -38,6 +41,8 @@ class Transport {
   /// Ends our direction of the connection.
   virtual boost::asio::awaitable<void> say_goodbye(Limit limit) = 0;
   virtual boost::asio::ip::tcp::socket& socket() = 0;
+  /// The other end's, which the handshake has verified; after `open`.
+  virtual std::optional<identity::ClientCertificate> certificate() = 0;
   void close();
   /// The other end's. An IPv4 client of a socket for both protocols has its IPv4 address.
   std::string peer_address();

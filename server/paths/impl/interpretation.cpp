@@ -1,5 +1,7 @@
 #include "server/paths/impl/interpretation.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace dripline::paths {
 
 Result<interpreter::Setup> interpretation_setup(const machines::RunSources& sources,
@@ -23,6 +25,15 @@ storage::Run interpreted_run(const machines::RunSources& sources, const storage:
   run.control = revision.control;
   run.created = sources.clock.now();
   return run;
+}
+
+nlohmann::json extents_json(const interpreter::Summary& summary) {
+  auto extents = nlohmann::json::object();
+  for (const auto axis : interpreter::kAllAxes) {
+    const auto& extent = summary.extents[static_cast<std::size_t>(axis)];
+    if (extent) extents[std::string(1, letter(axis))] = {extent->least, extent->most};
+  }
+  return extents;
 }
 
 }  // namespace dripline::paths

@@ -6,6 +6,9 @@
 #include <string>
 #include <utility>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "clients/tools/offline/check_summary.hpp"
 #include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "server/machines/run_sources.hpp"
@@ -45,5 +48,11 @@ Result<interpreter::Setup> interpretation_setup(const machines::RunSources& sour
 /// The run that the revision would be, for the programs it calls.
 storage::Run interpreted_run(const machines::RunSources& sources, const storage::Revision& revision,
                              const std::string& machine);
+
+/// Blocks that are interpreted between two looks at the time or at what was made.
+inline constexpr std::uint64_t kStepBlocks = 2048;
+
+/// By axis letter: the smallest and the largest coordinate, mm or degrees.
+nlohmann::json extents_json(const interpreter::Summary& summary);
 
 }  // namespace dripline::paths

@@ -15,6 +15,7 @@
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
 #include "server/library/control_catalog.hpp"
+#include "server/library/job_queue.hpp"
 #include "server/machines/start_point.hpp"
 #include "server/ports/line_runs.hpp"
 #include "server/ports/line_transfer.hpp"
@@ -108,6 +109,7 @@ void RemoteRequestHandler::carry_out(line::RuleAction action, const std::string&
   if (action == line::RuleAction::Send) send(argument, false);
   if (action == line::RuleAction::Directory) send_listing(false);
   if (action == line::RuleAction::Restart) restart(argument);
+  if (action == line::RuleAction::NextJob) start_next_job();
 }
 
 void RemoteRequestHandler::answer(const wire::TransferRequest& request) {
@@ -191,6 +193,19 @@ void RemoteRequestHandler::restart(const std::string& block) {
                                     : choice == "SET" ? machines::StartHead::Set
                                                       : machines::StartHead::Ask,
                             .before = note_start("run.restart")},
+                           on_started(false), "");
+}
+
+/// The operator is at the control: what is sent waits there for his cycle start.
+void RemoteRequestHandler::start_next_job() {
+  const auto job = library::take_job(parts_.store.jobs, parts_.machine, std::nullopt);
+  if (!job) return refuse(job.error().what, false, library::Refusal::NothingToSelect);
+  parts_.line->start_later({.machine = parts_.machine,
+                            .program = job->program,
+                            .revision = job->revision,
+                            .author = kAuthor,
+                            .job = job->id,
+                            .before = note_start("run.start")},
                            on_started(false), "");
 }
 

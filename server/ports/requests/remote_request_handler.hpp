@@ -11,8 +11,9 @@
 namespace dripline::ports {
 
 /// Does what an operator asks for from the control: sends a program, lists them, begins the last
-/// run again at a block. What cannot be done is reported to the control where it can show it: a
-/// refused request, or a program of comments when the rules name one. On the machine's strand.
+/// run again at a block, begins a run of the next job. What cannot be done is reported to the
+/// control where it can show it: a refused request, or a program of comments when the rules name
+/// one. On the machine's strand.
 ///
 /// The rules define what a text from the control does. A request of the protocol (DC1, NAK or C of
 /// XMODEM, a TNC's heading) sends nothing by itself: it is there for the run that is started next,
@@ -39,7 +40,7 @@ class RemoteRequestHandler {
   };
   explicit RemoteRequestHandler(Parts parts) : parts_(std::move(parts)) {}
 
-  /// Send, Directory or Restart.
+  /// Send, Directory, Restart or NextJob.
   void carry_out(line::RuleAction action, const std::string& argument);
   /// A request of the protocol itself.
   void answer(const wire::TransferRequest& request);
@@ -56,6 +57,7 @@ class RemoteRequestHandler {
   void leave(const wire::TransferRequest& request) const;
   void send(const std::string& name, bool is_request);
   void restart(const std::string& block);
+  void start_next_job();
   void send_listing(bool is_request);
   void send_next();
   Result<void> check_last_run() const;

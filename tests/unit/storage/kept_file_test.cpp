@@ -151,9 +151,58 @@ TEST_P(KeptFile, HasAnImportQueue) {
   EXPECT_EQ(waiting->front().compared->fault.empty(), version() >= 10);
 }
 
+/// What was reported before version 11 is passed over: no template was there for it.
+TEST_P(KeptFile, HasMeasurementsSinceVersion11) {
+  reopen();
+  const bool has_them = version() >= 11;
+  EXPECT_EQ(store_->measurements.list({.run = "r1"}, {}, 10)->size(), has_them ? 1u : 0u);
+  EXPECT_TRUE(store_->measurements.underived()->empty());
+  EXPECT_EQ(store_->measurements.next_part_id(), has_them ? 2u : 1u);
+  EXPECT_EQ(store_->report_templates.assignments()->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->archives.list({})->size(), has_them ? 1u : 0u);
+  if (!has_them) return;
+  const auto measured = store_->measurements.list({.run = "r1"}, {}, 10)->front();
+  EXPECT_EQ(measured.actual, 1.5);
+  EXPECT_EQ(measured.verdict, measurement::Verdict::Rework);
+  EXPECT_EQ(measured.serial, "S7");
+}
+
+TEST_P(KeptFile, HasCorrectionsSinceVersion12) {
+  reopen();
+  const bool has_them = version() >= 12;
+  EXPECT_EQ(store_->offsets.rules("m1").has_value(), has_them);
+  const auto corrections = store_->offsets.list({.machine = "m1"}, {});
+  ASSERT_EQ(corrections->size(), has_them ? 2u : 0u);
+  if (!has_them) return;
+  EXPECT_EQ(corrections->at(0).state, OffsetState::Pending);
+  EXPECT_EQ(corrections->at(1).setup, 2u);
+}
+
+TEST_P(KeptFile, HasFieldsAndAttachmentsSinceVersion13) {
+  reopen();
+  const bool has_them = version() >= 13;
+  EXPECT_EQ(store_->programs.fields("p.nc")->part, has_them ? "4711" : "");
+  EXPECT_EQ(store_->programs.revision("p.nc", 2)->cam_file, has_them ? "p.f3d" : "");
+  EXPECT_EQ(store_->attachments.list("p.nc", std::nullopt)->size(), has_them ? 1u : 0u);
+}
+
+TEST_P(KeptFile, HasHotFoldersJobsAndWebhooksSinceVersion14) {
+  reopen();
+  const bool has_them = version() >= 14;
+  EXPECT_EQ(store_->folders.unfinished("cam")->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->jobs.list("m1", true, {})->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->webhooks.list()->size(), has_them ? 1u : 0u);
+  if (!has_them) return;
+  EXPECT_EQ(store_->folders.unfinished("cam")->at(0).target, "done/p.nc");
+  EXPECT_EQ(store_->jobs.find(1)->completed, 1u);
+  EXPECT_EQ(store_->jobs.hold_of("m1").value()->reason, "bore is wide");
+  EXPECT_EQ(store_->webhooks.find("erp")->waiting, 1u);
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
-                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql"),
+                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
+                                         "v12.sql", "v13.sql", "v14.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

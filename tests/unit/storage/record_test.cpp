@@ -64,7 +64,7 @@ TEST_F(RecordTest, OutsideAnyRunAreTheMachinesReport) {
   later.records[0].time = batch.records[0].time - std::chrono::hours(1);  // the clock was put back
   ASSERT_EQ(store_->records.store(later), 1u);
   reopen();
-  const auto lines = store_->records.machine_report("m1", {});
+  const auto lines = store_->records.machine_report("m1", {}, 100);
   ASSERT_TRUE(lines) << lines.error().what;
   std::string places;
   for (const auto& line : *lines) {
@@ -73,8 +73,8 @@ TEST_F(RecordTest, OutsideAnyRunAreTheMachinesReport) {
     EXPECT_EQ(line.run, "");
   }
   EXPECT_EQ(places, "7.1 output 7.2 probe 7.4 output 8.1 output ");
-  EXPECT_EQ(store_->records.machine_report("m1", {.limit = 1, .offset = 1})->at(0).number, 2u);
-  EXPECT_TRUE(store_->records.machine_report("unknown", {})->empty());
+  EXPECT_EQ(store_->records.machine_report("m1", {lines->front().epoch, 1}, 1)->at(0).number, 2u);
+  EXPECT_TRUE(store_->records.machine_report("unknown", {}, 100)->empty());
   const auto reports = store_->records.machine_reports();
   ASSERT_EQ(reports->size(), 1u);
   EXPECT_EQ(reports->at(0).machine, "m1");

@@ -1,30 +1,35 @@
-// What looks after the server: its state, the serial ports, users, groups of machines, and who changed what.
+// What looks after the server: its state, backups, certificates, the serial ports, users, groups of machines, the release policy, and who changed what.
 import { addressOf } from '../app/route';
-import { Allowed, useRefusal } from '../parts/allowed';
+import { Only } from '../parts/allowed';
 import { Tabs } from '../parts/tabs';
 import { texts } from '../texts/texts';
 import { AuditTrail } from './audit';
+import { AuditState } from './audit_state';
+import { BackupList } from './backups';
+import { CertificateList } from './certificates';
 import { Groups } from './groups';
+import { Policy } from './policy';
 import { Ports } from './ports';
 import { ServerState } from './server_state';
 import { Users } from './users';
 
-const kTabs = ['server', 'ports', 'users', 'groups', 'audit'] as const;
+const kTabs = ['server', 'backups', 'certificates', 'ports', 'users', 'groups', 'policy', 'audit'] as const;
 
 export default function AdministrationView({ path }: { path: string[] }) {
   const [tab = 'server'] = path;
-  const isAdministrator = useRefusal('administer') === null;
-  const isApprover = useRefusal('approve') === null;
   const t = texts().administration;
   return (
     <>
       <h1>{t.title}</h1>
       <Tabs label={t.title} tabs={kTabs.map((key) => ({ address: addressOf('administration', [key]), name: t.tabs[key], isShown: key === tab }))} />
       {tab === 'server' && <ServerState />}
+      {tab === 'backups' && <Only to="administer"><BackupList /></Only>}
+      {tab === 'certificates' && <CertificateList />}
       {tab === 'ports' && <Ports />}
-      {tab === 'users' && (isAdministrator ? <Users chosen={path[1]} /> : <Allowed to="administer">{null}</Allowed>)}
+      {tab === 'users' && <Only to="administer"><Users chosen={path[1]} /></Only>}
       {tab === 'groups' && <Groups />}
-      {tab === 'audit' && (isApprover ? <AuditTrail /> : <Allowed to="approve">{null}</Allowed>)}
+      {tab === 'policy' && <Policy />}
+      {tab === 'audit' && <Only to="approve"><AuditState /><AuditTrail /></Only>}
     </>
   );
 }

@@ -3,6 +3,7 @@ import { useEffect, useState } from 'preact/hooks';
 import type { Audit, AuditEntry } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { CommandFault, useCommand } from '../parts/command';
+import { Heads } from '../parts/heads';
 import { dateTimeText, numberText, texts } from '../texts/texts';
 import { searchEntries } from './audit_search';
 
@@ -44,7 +45,7 @@ export function AuditTrail() {
       <CommandFault command={loading} />
       <div class="scroll" tabIndex={0} role="group" aria-labelledby="audit">
         <table>
-          <thead><tr>{[t.time, t.who, t.action, t.subject, t.detail, t.credential, t.from].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+          <Heads of={[t.time, t.who, t.action, t.subject, t.detail, t.credential, t.from]} />
           <tbody>{found.slice(0, kShown).map((entry, i) => <Row key={i} entry={entry} />)}</tbody>
         </table>
       </div>

@@ -1,18 +1,31 @@
 // The serial ports: how each line is, its test, its monitor, its recording, and its settings.
-import { useEffect, useState } from 'preact/hooks';
+import { useState } from 'preact/hooks';
 import type { Port, PortTest, Ports as PortList } from '../../generated/api';
 import { get, pathOf, send } from '../api/request';
 import { Allowed, refusalText, useRefusal } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { SureButton } from '../parts/sure_button';
-import { useLoaded } from '../parts/use_loaded';
+import { useRefreshed } from '../parts/use_refreshed';
 import { download } from '../programs/download';
-import { bytesText, texts } from '../texts/texts';
+import { bytesText, dateTimeText, texts } from '../texts/texts';
 import { LineMonitor } from './line_monitor';
 import { PortForm } from './port_form';
+import { PortTransfer, RulesTest } from './port_transfer';
 
 const kIntervalMs = 3000;
+
+type Part = 'monitor' | 'settings' | 'transfer' | 'rules';
+
+/// The control asked for a program while no run waited.
+function Request({ request }: { request: NonNullable<Port['request']> }) {
+  const t = texts().ports;
+  return (
+    <p class="notice warn">
+      {t.asked(request.program ?? t.anyProgram, dateTimeText(request.since))} {request.answer ?? t.asksStill}
+    </p>
+  );
+}
 
 function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
   const t = texts().administration;
@@ -20,12 +33,12 @@ function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
   const refusal = useRefusal('administer');
   const isOff = command.isBusy || refusal !== null;
   const [test, setTest] = useState<PortTest | null>(null);
-  const [shown, setShown] = useState<'monitor' | 'settings' | null>(null);
+  const [shown, setShown] = useState<Part | null>(null);
   const run = () => command.send(async () => setTest(await send<PortTest>('POST', pathOf('ports', port.name, 'test'))));
   const remove = async () => {
     if (await command.send(() => send('DELETE', pathOf('ports', port.name)))) onChanged();
   };
-  const toggle = (part: 'monitor' | 'settings') => setShown(shown === part ? null : part);
+  const toggle = (part: Part) => setShown(shown === part ? null : part);
   const line = port.line;
   return (
     <li class="panel">
@@ -35,10 +48,13 @@ function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
       </div>
       <p class="muted">{port.machine} · {port.address}{port.template && ` · ${port.template}`}</p>
       {port.fault && <p class="message">{port.fault}</p>}
+      {port.request && <Request request={port.request} />}
       <p>{t.passed(bytesText(port.sent), bytesText(port.received))}{line.waiting_for && ` · ${t.waitsFor(line.waiting_for)}`}</p>
       <p class="buttons">
         <button type="button" disabled={isOff} onClick={() => void run()}>{t.test}</button>
         <button type="button" aria-pressed={shown === 'monitor'} onClick={() => toggle('monitor')}>{t.monitor}</button>
+        <button type="button" aria-pressed={shown === 'transfer'} onClick={() => toggle('transfer')}>{texts().ports.transfer}</button>
+        {port.rules !== null && <button type="button" aria-pressed={shown === 'rules'} onClick={() => toggle('rules')}>{texts().ports.testRules}</button>}
         <button type="button" aria-pressed={shown === 'settings'} onClick={() => toggle('settings')}>{t.change}</button>
         <button type="button" onClick={() => void command.send(() => download(pathOf('ports', port.name, 'recording'), `${port.name}.jsonl`))}>{t.recording}</button>
         <SureButton class="danger" label={t.remove} question={t.removeSure(port.name)} disabled={isOff} onSure={() => void remove()} />
@@ -52,6 +68,8 @@ function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
       )}
       <CommandFault command={command} />
       {shown === 'monitor' && <LineMonitor port={port.name} />}
+      {(shown === 'transfer' || port.transfer?.state === 'sending') && <PortTransfer port={port} onChanged={onChanged} />}
+      {shown === 'rules' && <RulesTest port={port.name} />}
       {shown === 'settings' && <Allowed to="administer"><PortForm port={port} onStored={() => { setShown(null); onChanged(); }} /></Allowed>}
     </li>
   );
@@ -59,12 +77,8 @@ function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
 
 export function Ports() {
   const t = texts().administration;
-  const ports = useLoaded((signal) => get<PortList>(pathOf('ports'), {}, signal), []);
+  const ports = useRefreshed((signal) => get<PortList>(pathOf('ports'), {}, signal), () => kIntervalMs);
   const [count, setCount] = useState(0); // an empty form after each port
-  useEffect(() => {
-    const timer = setInterval(ports.reload, kIntervalMs);
-    return () => clearInterval(timer);
-  }, []);
   return (
     <section aria-labelledby="ports">
       <h2 id="ports">{t.ports}</h2>

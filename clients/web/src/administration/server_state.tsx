@@ -1,9 +1,9 @@
 // How the server is: its health with every reason, and what it keeps.
-import { useEffect } from 'preact/hooks';
 import type { Server } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { Loading } from '../parts/loading';
-import { useLoaded } from '../parts/use_loaded';
+import { Rows } from '../parts/rows';
+import { useRefreshed } from '../parts/use_refreshed';
 import { durationText } from '../live/progress';
 import { dateTimeText, numberText, texts } from '../texts/texts';
 
@@ -13,11 +13,7 @@ const kTones = { ok: 'running', degraded: 'waiting', failed: 'alarm' } as const;
 
 export function ServerState() {
   const t = texts().administration;
-  const server = useLoaded((signal) => get<Server>(pathOf('server'), {}, signal), []);
-  useEffect(() => {
-    const timer = setInterval(server.reload, kIntervalMs);
-    return () => clearInterval(timer);
-  }, []);
+  const server = useRefreshed((signal) => get<Server>(pathOf('server'), {}, signal), () => kIntervalMs);
   const { value } = server;
   if (!value) return <Loading of={server} />;
   const rows: Array<[string, string]> = [
@@ -31,7 +27,7 @@ export function ServerState() {
       {value.health.reasons.map((reason) => (
         <p key={reason.subject + reason.detail} class={`notice ${reason.status === 'failed' ? 'bad' : 'warn'}`}><b>{reason.message}</b> {reason.detail}</p>
       ))}
-      <dl class="rows">{rows.map(([name, text]) => <div key={name}><dt>{name}</dt><dd>{text}</dd></div>)}</dl>
+      <Rows of={rows} />
     </section>
   );
 }

@@ -7,6 +7,7 @@ import { get, pathOf, send } from '../api/request';
 import { addressOf } from '../app/route';
 import { CommandFault, useCommand } from '../parts/command';
 import { GroupChoice } from '../parts/group_choice';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { RoleSelect } from '../parts/role_select';
 import { SureButton } from '../parts/sure_button';
@@ -104,7 +105,7 @@ function UserTable({ users }: { users: User[] }) {
   return (
     <div class="scroll" tabIndex={0} role="group" aria-labelledby="users">
       <table class="data">
-        <thead><tr>{[t.name, t.role, t.groups, t.state, t.signedIn].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+        <Heads of={[t.name, t.role, t.groups, t.state, t.signedIn]} />
         <tbody>
           {users.map((user) => (
             <tr key={user.name}>

@@ -58,6 +58,7 @@ type LaterView = (props: { path: string[]; query: URLSearchParams }) => Componen
 const kLater: { [view: string]: () => Promise<{ default: LaterView }> } = {
   machine: () => import('../machine/machine'),
   programs: () => import('../programs/programs'),
+  imports: () => import('../imports/imports'),
   reports: () => import('../reports/reports'),
   path: () => import('../path/path'),
   compare: () => import('../compare/compare'),

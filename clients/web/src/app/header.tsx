@@ -8,7 +8,7 @@ import { keepPreferences, preferences, showTheme, type Theme } from './preferenc
 import { addressOf, type Route } from './route';
 
 /// The views of the bar, and those that belong to one of them.
-const kViews = ['floor', 'programs', 'reports', 'administration'] as const;
+const kViews = ['floor', 'programs', 'imports', 'reports', 'administration'] as const;
 const kParents: { [view: string]: string } = { machine: 'floor', path: 'programs', compare: 'programs' };
 
 function skip(event: Event): void {
@@ -64,6 +64,12 @@ function LinkState() {
   return <span class={`link ${link.state}`}>{link.state === 'live' ? t.live : link.state === 'connecting' ? '…' : t.old}</span>;
 }
 
+/// How many programs from machines wait for a decision.
+function PendingImports() {
+  const { imports } = useFeed('imports');
+  return imports.size === 0 ? null : <span class="count"><span aria-hidden="true">{imports.size}</span><span class="visually-hidden">{texts().app.waiting(imports.size)}</span></span>;
+}
+
 export function Header({ route, onLanguage }: { route: Route; onLanguage: () => void }) {
   const t = texts().app;
   const shown = kParents[route.view] ?? route.view;
@@ -73,7 +79,7 @@ export function Header({ route, onLanguage }: { route: Route; onLanguage: () => 
       <span class="name">{t.title}</span>
       <nav aria-label={t.menu}>
         {kViews.map((view) => (
-          <a key={view} href={addressOf(view)} aria-current={view === shown ? 'page' : undefined}>{t.views[view]}</a>
+          <a key={view} href={addressOf(view)} aria-current={view === shown ? 'page' : undefined}>{t.views[view]}{view === 'imports' && <PendingImports />}</a>
         ))}
       </nav>
       <LinkState />

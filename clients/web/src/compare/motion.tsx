@@ -1,7 +1,7 @@
 // Where the motion of two revisions differs: a list, and both texts around the chosen place.
 import { useState } from 'preact/hooks';
-import type { ComparedBlock, ComparedMotion, ComparedPlace, Revision } from '../../generated/api';
-import { BlockText } from '../path/block_text';
+import type { ComparedBlock, ComparedMotion, ComparedPlace } from '../../generated/api';
+import { BlockText, type ProgramRevision } from '../path/block_text';
 import { numberText, texts } from '../texts/texts';
 
 export function distanceText(mm: number): string {
@@ -33,18 +33,17 @@ function Place({ place, isChosen, onChoose }: { place: ComparedPlace; isChosen: 
   );
 }
 
-function Around({ revision, block }: { revision: Revision; block: ComparedBlock }) {
+function Around({ of, block }: { of: ProgramRevision; block: ComparedBlock }) {
   const t = texts().compare;
-  const of = { program: revision.program, revision: revision.revision, size: revision.size };
   return (
     <div>
-      <h3>{t.around(revision.revision)}</h3>
+      <h3>{t.around(of.revision)}</h3>
       {block.called ? <p class="muted">{t.calledLine(numberText(block.line))}</p> : <BlockText key={block.offset} of={of} line={block.line} offset={block.offset} />}
     </div>
   );
 }
 
-export function Conditions({ motion, from, to }: { motion: ComparedMotion; from: Revision; to: Revision }) {
+export function Conditions({ motion, from, to }: { motion: ComparedMotion; from: ProgramRevision; to: ProgramRevision }) {
   const t = texts().compare;
   if (motion.conditions.length === 0) return null;
   return (
@@ -62,7 +61,7 @@ export function Conditions({ motion, from, to }: { motion: ComparedMotion; from:
   );
 }
 
-export function Places({ motion, from, to }: { motion: ComparedMotion; from: Revision; to: Revision }) {
+export function Places({ motion, from, to }: { motion: ComparedMotion; from: ProgramRevision; to: ProgramRevision }) {
   const t = texts().compare;
   const [chosen, setChosen] = useState<number | null>(null);
   const place = chosen === null ? undefined : motion.places[chosen];
@@ -75,7 +74,7 @@ export function Places({ motion, from, to }: { motion: ComparedMotion; from: Rev
           {motion.places.map((row, i) => <Place key={i} place={row} isChosen={i === chosen} onChoose={() => setChosen(i)} />)}
         </ol>
         <div aria-live="polite">
-          {place ? <><Around revision={from} block={place.first} /><Around revision={to} block={place.second} /></> : <p class="muted">{t.choosePlace}</p>}
+          {place ? <><Around of={from} block={place.first} /><Around of={to} block={place.second} /></> : <p class="muted">{t.choosePlace}</p>}
         </div>
       </div>
       {!motion.complete && <p class="notice">{t.notComplete}</p>}

@@ -1,14 +1,16 @@
-// One machine of the floor. It listens to its own machine alone, so that a change draws one card.
+// One machine of the floor. It listens to its own machine alone, so that a change draws one card, and while it is not in sight only now and then.
 import { memo } from '../parts/memo';
 import { addressOf } from '../app/route';
 import { questionOf } from '../live/machine_state';
 import { durationText, percentDigits, progressOf } from '../live/progress';
-import { useFeed } from '../live/use_feed';
+import { useFeedNear } from '../live/use_feed';
 import { StatePill } from '../parts/state_pill';
 import { dateTimeText, numberText, texts } from '../texts/texts';
+import { useNear } from './use_near';
 
 export const MachineCard = memo(function MachineCard({ name }: { name: string }) {
-  const feed = useFeed(`machine:${name}`, 'link');
+  const { ref, isNear } = useNear<HTMLLIElement>();
+  const feed = useFeedNear(`machine:${name}`, isNear);
   const t = texts().floor;
   const machine = feed.machines.get(name);
   if (!machine) return null;
@@ -19,7 +21,7 @@ export const MachineCard = memo(function MachineCard({ name }: { name: string })
   const program = status?.program ?? run?.program; // the one that ended last
   const progress = machine.connected ? progressOf(status, run) : null;
   return (
-    <li class={`card ${state.tone}`} data-machine={name}>
+    <li ref={ref} class={`card ${state.tone}`} data-machine={name} data-time={status?.time}>
       <div class="head">
         <h2><a href={addressOf('machine', [name])} aria-label={t.open(name)}>{name}</a></h2>
         <StatePill state={state} />

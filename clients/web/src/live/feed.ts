@@ -1,6 +1,6 @@
-// What the page knows of the shop, kept current by one event stream: every machine and each one's latest run. Views read it and are
-// notified when their part has changed, at most four times a second, so that a thousand busy machines stay fluid.
-import type { Machine, Machines, Record as ReportRecord, Run, Runs } from '../../generated/api';
+// What the page knows of the shop, kept current by one event stream: every machine, each one's latest run, and what machines sent that
+// is not decided yet. Views read it and are notified when their part has changed, at most four times a second, so that a thousand busy machines stay fluid.
+import type { Import, Imports, Machine, Machines, Record as ReportRecord, Run, Runs } from '../../generated/api';
 import { ApiError, get, pathOf } from '../api/request';
 import type { StreamEvent } from './event_parser';
 import { readEvents } from './event_stream';
@@ -8,23 +8,28 @@ import { stateOf, type MachineState } from './machine_state';
 
 export type Link = { state: 'connecting' } | { state: 'live' } | { state: 'lost' | 'signedOut'; since: Date };
 
-/// What a view listens to: the list of machines and their states, the link, or one machine.
-export type Topic = 'machines' | 'link' | 'runs' | `machine:${string}`;
+/// What a view listens to: the list of machines and their states, the link, the import queue, or one machine.
+export type Topic = 'machines' | 'link' | 'runs' | 'imports' | `machine:${string}`;
 
 const kFlushMs = 250;
 const kDelaysMs = [250, 500, 1000, 2000, 4000];
 const kMaxRuns = 1000;
+const kMaxImports = 1000;
+
+export const importKey = (import_: { program: string; revision: number }) => `import ${import_.revision} ${import_.program}`;
 
 export class Feed {
   readonly machines = new Map<string, Machine>();
   /// By machine.
   readonly runs = new Map<string, Run>();
+  /// Pending ones, by importKey.
+  readonly imports = new Map<string, Import>();
   link: Link = { state: 'connecting' };
 
   private readonly listeners = new Map<Topic, Set<() => void>>();
   private readonly recordListeners = new Set<(record: ReportRecord) => void>();
   private readonly changed = new Set<Topic>();
-  /// Machines and ids of runs of which an event has come since the stream was opened: newer than any answer to a request.
+  /// Machines, ids of runs and keys of imports of which an event has come since the stream was opened: newer than any answer to a request.
   private readonly fresh = new Set<string>();
   private flushing = false;
   private ending: AbortController | null = null;
@@ -46,6 +51,7 @@ export class Feed {
     this.stop();
     this.machines.clear();
     this.runs.clear();
+    this.imports.clear();
     this.link = { state: 'connecting' };
   }
 
@@ -102,13 +108,17 @@ export class Feed {
   /// The whole state, once the stream is open: what changes meanwhile arrives as an event, which is newer.
   private async load(signal: AbortSignal): Promise<void> {
     try {
-      const [{ machines }, { runs }] = await Promise.all([
-        get<Machines>(pathOf('machines'), {}, signal), get<Runs>(pathOf('runs'), { limit: kMaxRuns }, signal)]);
+      const [{ machines }, { runs }, { imports }] = await Promise.all([
+        get<Machines>(pathOf('machines'), {}, signal), get<Runs>(pathOf('runs'), { limit: kMaxRuns }, signal),
+        get<Imports>(pathOf('imports'), { limit: kMaxImports }, signal)]);
       const present = new Set(machines.map((machine) => machine.name));
       for (const name of this.machines.keys()) if (!present.has(name)) this.machines.delete(name);
       for (const machine of machines) if (!this.fresh.has(machine.name)) this.takeMachine(machine);
       for (const run of runs.reverse()) if (!this.fresh.has(run.id)) this.takeRun(run);
+      for (const key of this.imports.keys()) if (!this.fresh.has(key)) this.imports.delete(key);
+      for (const import_ of imports) if (!this.fresh.has(importKey(import_))) this.takeImport(import_);
       this.note('machines');
+      this.note('imports');
       this.setLink({ state: 'live' });
     } catch {
       // The stream ends too, and both begin again.
@@ -125,6 +135,11 @@ export class Feed {
       const run = JSON.parse(event.data) as Run;
       this.fresh.add(run.id);
       this.takeRun(run);
+    }
+    if (event.name === 'import') {
+      const import_ = JSON.parse(event.data) as Import;
+      this.fresh.add(importKey(import_));
+      this.takeImport(import_);
     }
     if (event.name !== 'record') return;
     const record = JSON.parse(event.data) as ReportRecord;
@@ -145,6 +160,12 @@ export class Feed {
     this.note(`machine:${run.machine}`);
     this.note('runs');
     if (before?.state !== run.state) this.note('machines');
+  }
+
+  private takeImport(import_: Import): void {
+    if (import_.state === 'pending') this.imports.set(importKey(import_), import_);
+    else this.imports.delete(importKey(import_));
+    this.note('imports');
   }
 
   private setLink(link: Link): void {

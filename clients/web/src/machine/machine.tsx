@@ -5,6 +5,7 @@ import { durationText, percentDigits, progressOf } from '../live/progress';
 import { StatePill } from '../parts/state_pill';
 import { Tabs } from '../parts/tabs';
 import { dateTimeText, numberText, texts } from '../texts/texts';
+import { ExecutedPath } from './executed_path';
 import { ExecutingText } from './executing_text';
 import { MachineMemory } from './memory';
 import { Modes } from './modes';
@@ -24,12 +25,20 @@ function Now({ name }: { name: string }) {
   const { status } = machine;
   const run = feed.runs.get(name);
   const hasRun = status?.run != null;
+  const executing = feed.runOf(machine);
+  // The path of an unknown control cannot be interpreted, and the line of a serial machine reports no position.
+  const hasPath = hasRun && machine.display !== null && Object.keys(status.position).length > 0;
   return (
     <>
       <RunControls machine={machine} />
       <div class="columns">
-        <div>{status && <Position status={status} />}{hasRun ? null : <StartForm key={name} machine={machine} />}{run && <RunRecords run={run.id} />}</div>
-        <div>{status && <ExecutingText run={feed.runOf(machine)} status={status} />}{status && <Modes status={status} />}</div>
+        <div>
+          {status && <Position machine={machine} status={status} />}
+          {!hasRun && <StartForm key={name} machine={machine} />}
+          {hasPath && executing && <ExecutedPath key={executing.id} run={executing} status={status} />}
+          {run && <RunRecords run={run.id} />}
+        </div>
+        <div>{status && <ExecutingText run={executing} status={status} />}{status && <Modes machine={machine} status={status} />}</div>
         <div>{status && <Overrides machine={name} status={status} />}</div>
       </div>
     </>

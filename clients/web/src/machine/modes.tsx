@@ -1,11 +1,12 @@
 // Feed, spindle, tool and the modal state, as a control's status window has them.
-import type { Status } from '../../generated/api';
+import type { Display, Machine, Status } from '../../generated/api';
+import { Rows } from '../parts/rows';
 import { numberText, texts } from '../texts/texts';
 import { lengthText, unitOf } from './units';
 
-function rowsOf(status: NonNullable<Status>): Array<[string, string]> {
+function rowsOf(status: NonNullable<Status>, display: Display): Array<[string, string]> {
   const t = texts().machine;
-  const unit = unitOf(status.modes);
+  const unit = unitOf(display);
   const rows: Array<[string, string]> = [
     [t.mode, t.modes[status.mode]],
     [t.feed, `${lengthText(status.feed_mm_per_min, { ...unit, digits: unit.name === 'mm' ? 0 : 2 })} ${unit.name}/min`],
@@ -37,11 +38,11 @@ function rowsOf(status: NonNullable<Status>): Array<[string, string]> {
   return rows;
 }
 
-export function Modes({ status }: { status: NonNullable<Status> }) {
+export function Modes({ machine, status }: { machine: Machine; status: NonNullable<Status> }) {
   return (
     <section class="panel live" aria-labelledby="modes">
       <h2 id="modes">{texts().machine.state}</h2>
-      <dl class="rows">{rowsOf(status).map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+      <Rows of={rowsOf(status, machine.display)} />
     </section>
   );
 }

@@ -1,11 +1,11 @@
 // Where the axes are, as a control's position display has it.
-import type { Status } from '../../generated/api';
+import type { Machine, Status } from '../../generated/api';
 import { texts } from '../texts/texts';
-import { axisText, sortAxes, unitOf } from './units';
+import { axisText, isDiameter, sortAxes, unitOf } from './units';
 
-export function Position({ status }: { status: NonNullable<Status> }) {
+export function Position({ machine: { display }, status }: { machine: Machine; status: NonNullable<Status> }) {
   const t = texts().machine;
-  const unit = unitOf(status.modes);
+  const unit = unitOf(display);
   const { coordinates } = status;
   const axes = sortAxes(Object.keys(status.position));
   const columns: Array<[string, { [axis: string]: number } | null | undefined]> = [
@@ -20,8 +20,8 @@ export function Position({ status }: { status: NonNullable<Status> }) {
         <tbody>
           {axes.map((axis) => (
             <tr key={axis}>
-              <th scope="row">{axis}</th>
-              {shown.map(([name, values]) => <td key={name}>{axisText(axis, values?.[axis], unit)}</td>)}
+              <th scope="row">{axis}{isDiameter(axis, display) && <span class="diameter"> ⌀<span class="visually-hidden"> {t.diameter}</span></span>}</th>
+              {shown.map(([name, values]) => <td key={name}>{axisText(axis, values?.[axis], unit, isDiameter(axis, display))}</td>)}
             </tr>
           ))}
         </tbody>

@@ -2,10 +2,12 @@
 import { useState } from 'preact/hooks';
 import type { Machine, Programs } from '../../generated/api';
 import { get, pathOf } from '../api/request';
-import { Allowed } from '../parts/allowed';
+import { Allowed, useSessionState } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { SureButton } from '../parts/sure_button';
 import { useLoaded } from '../parts/use_loaded';
+import { usePolicy } from '../parts/use_policy';
+import { revisionToStart } from '../programs/release_steps';
 import { texts } from '../texts/texts';
 import { startRun } from './commands';
 
@@ -19,9 +21,13 @@ export function StartForm({ machine }: { machine: Machine }) {
   const { value } = useLoaded((signal) => get<Programs>(pathOf('programs'), { limit: kMaxListed }, signal), []);
   const fitting = (value?.programs ?? []).filter((p) => p.control === null || p.control === machine.control);
   const chosen = fitting.find((p) => p.name === program);
+  const session = useSessionState();
+  const policy = usePolicy().value;
+  const revision = chosen && 'session' in session ? revisionToStart(policy, chosen, machine.name, session.session) : null;
+  const latest = policy?.runs === 'release' ? t.latestReleased : t.latest;
   const start = async () => {
     // The revision that the question named, whatever has been uploaded since.
-    const request = { machine: machine.name, program, revision: chosen?.revision ?? null, from: from.trim() };
+    const request = { machine: machine.name, program, revision, from: from.trim() };
     if (await command.send(() => startRun(request))) setFrom('');
   };
   return (
@@ -38,7 +44,7 @@ export function StartForm({ machine }: { machine: Machine }) {
         <input name="from" autocomplete="off" maxLength={24} placeholder={t.fromHint} value={from} onInput={(e) => setFrom(e.currentTarget.value)} />
       </label>
       <SureButton class="big primary" label={t.start} disabled={program === '' || command.isBusy || !machine.connected}
-        question={t.startSure(program, chosen ? String(chosen.revision) : t.latest, machine.name, from.trim())} onSure={() => void start()} />
+        question={t.startSure(program, revision === null ? latest : String(revision), machine.name, from.trim())} onSure={() => void start()} />
       <CommandFault command={command} />
       </Allowed>
     </section>

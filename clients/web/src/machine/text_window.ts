@@ -41,7 +41,7 @@ export function numberLines(window: TextWindow, offset: number, line: number): N
   return lines.map((content, i) => ({ number: line - before + i, text: content.replace(/\r$/, '') }));
 }
 
-function countLineEnds(bytes: Uint8Array): number {
+export function countLineEnds(bytes: Uint8Array): number {
   let count = 0;
   for (const byte of bytes) if (byte === 0x0a) ++count;
   return count;

@@ -1,5 +1,5 @@
-// Numbers as the control shows them: in the unit of its program. The API's lengths are millimeters. Pure.
-import type { ActiveModes } from '../../generated/api';
+// Numbers as the control shows them: in its unit, X of some lathes as a diameter. The API's lengths are millimeters and radii. Pure.
+import type { Display } from '../../generated/api';
 import { numberText } from '../texts/texts';
 
 const kRotary = 'ABC';
@@ -14,14 +14,20 @@ export interface LengthUnit {
 export const kInch: LengthUnit = { name: 'inch', perMm: 1 / kMmPerInch, digits: 4 };
 export const kMillimeter: LengthUnit = { name: 'mm', perMm: 1, digits: 3 };
 
-export function unitOf(modes: ActiveModes): LengthUnit {
-  return modes?.units === 'inch' ? kInch : kMillimeter;
+/// Of a control that is not known: millimeters.
+export function unitOf(display: Display): LengthUnit {
+  return display?.units === 'inch' ? kInch : kMillimeter;
+}
+
+/// Whether this axis is shown as a diameter.
+export function isDiameter(axis: string, display: Display): boolean {
+  return axis === 'X' && display?.x === 'diameter';
 }
 
 /// Of an axis: rotary ones are in degrees, whatever the unit.
-export function axisText(axis: string, value: number | undefined, unit: LengthUnit): string {
+export function axisText(axis: string, value: number | undefined, unit: LengthUnit, isDoubled = false): string {
   if (value === undefined) return '–';
-  return kRotary.includes(axis) ? `${numberText(value, 3)}°` : lengthText(value, unit);
+  return kRotary.includes(axis) ? `${numberText(value, 3)}°` : lengthText(isDoubled ? 2 * value : value, unit);
 }
 
 export function lengthText(mm: number, unit: LengthUnit): string {

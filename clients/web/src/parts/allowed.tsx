@@ -24,6 +24,11 @@ export function refusalText(refusal: Refusal): string {
   return t.needsRole('session' in state ? t.roles[state.session.role] : '', t.roles[refusal.needs]);
 }
 
+/// Unlike Allowed, what a role may not do is not even loaded.
+export function Only({ to, children }: { to: Permission; children: ComponentChildren }) {
+  return useRefusal(to) === null ? <>{children}</> : <Allowed to={to}>{null}</Allowed>;
+}
+
 /// The same element either way, so that a change of rights loses nothing that was typed.
 export function Allowed({ to, machine, children }: { to: Permission; machine?: string; children: ComponentChildren }) {
   const refusal = useRefusal(to, machine);

@@ -1,5 +1,5 @@
 // Loads what a view shows besides the feed, again when one of `inputs` changes, when the server is back, or when asked to.
-import { useCallback, useEffect, useState } from 'preact/hooks';
+import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
 import { feed } from '../live/feed';
 import { faultText } from './command';
 
@@ -21,6 +21,15 @@ export function useLoaded<T>(load: (signal: AbortSignal) => Promise<T>, inputs: 
       (failure: unknown) => { if (!ending.signal.aborted) setState((before) => ({ ...before, fault: faultText(failure, false) })); });
     return () => ending.abort();
   }, [...inputs, count]);
-  useEffect(() => feed.on('link', () => { if (feed.link.state === 'live') reload(); }), []);
+  const hasFailed = useRef(false);
+  hasFailed.current = state.fault !== null;
+  useEffect(() => {
+    let before = feed.link.state;
+    return feed.on('link', () => {
+      // The first connection is no return of the server, and what was loaded while it was made is current.
+      if (feed.link.state === 'live' && (before !== 'connecting' || hasFailed.current)) reload();
+      before = feed.link.state;
+    });
+  }, []);
   return { ...state, reload };
 }

@@ -1,7 +1,7 @@
 // From where the path is seen: parallel projection, the third axis stays upright. Pure.
 import type { Bounds } from './polyline';
 
-type Vector = [number, number, number];
+export type Vector = [number, number, number];
 
 export type ViewName = 'top' | 'front' | 'right' | 'oblique';
 

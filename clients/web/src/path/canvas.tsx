@@ -1,7 +1,7 @@
 // The path on the screen, and what mouse, fingers and keys do to it.
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { texts } from '../texts/texts';
-import { fit, kFirstCamera, orbit, pan, pick, project, viewFrom, zoom, type Camera, type Screen, type ViewName } from './camera';
+import { fit, kFirstCamera, orbit, pan, pick, project, viewFrom, zoom, type Camera, type Screen, type Vector, type ViewName } from './camera';
 import { kMoves, type Polyline } from './polyline';
 import { cameraOfAxes, kAxes, Renderer, type Color, type Colors } from './renderer';
 
@@ -10,6 +10,8 @@ const kReach = 14; // px
 const kKeyStep = 40; // px
 const kKeyZoom = 1.25;
 const kQuietMs = 200;
+/// How near to the ground the color of a move is that is still to come.
+const kPale = 0.62;
 
 interface Props {
   polyline: Polyline;
@@ -20,6 +22,10 @@ interface Props {
   selection: Array<{ first: number; last: number }>;
   showsRapids: boolean;
   label: string;
+  /// The last point that a machine has come to, and where its tool is; absent: no machine executes it.
+  executed?: { point: number; tool: Vector };
+  /// A panel among others: no hints below.
+  isSmall?: boolean;
   onPick: (point: number) => void;
   onNext: (step: 1 | -1) => void;
 }
@@ -30,8 +36,10 @@ function colorOf(name: string): Color {
 }
 
 function colors(): Colors {
+  const moves = kMoves.map((move) => colorOf(`--path-${move}`));
+  const ground = colorOf('--raised');
   return {
-    moves: kMoves.map((move) => colorOf(`--path-${move}`)), selected: colorOf('--path-selected'),
+    moves, pending: moves.map((color) => color.map((part, i) => part + (ground[i]! - part) * kPale) as Color), selected: colorOf('--path-selected'),
     axes: [colorOf('--path-first-axis'), colorOf('--path-second-axis'), colorOf('--path-third-axis')],
   };
 }
@@ -41,6 +49,7 @@ export function PathCanvas(props: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const frame = useRef<HTMLDivElement>(null);
   const labels = useRef<Array<HTMLSpanElement | null>>([]);
+  const tool = useRef<HTMLSpanElement>(null);
   const renderer = useRef<Renderer | null>(null);
   const camera = useRef<Camera>(kFirstCamera);
   const latest = useRef(props);
@@ -64,15 +73,24 @@ export function PathCanvas(props: Props) {
       label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
     }
   };
+  const placeTool = () => {
+    const at = latest.current.executed?.tool;
+    if (!at || !tool.current) return;
+    const { x, y } = project(camera.current, screen(), at);
+    tool.current.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+  };
   const draw = (isQuick = false) => {
     asked.current.isQuick = isQuick;
     if (asked.current.isDrawing) return;
     asked.current.isDrawing = true;
     requestAnimationFrame(() => {
       asked.current.isDrawing = false;
-      const { polyline, selection, showsRapids } = latest.current;
-      renderer.current?.draw(polyline, screen(), { camera: camera.current, colors: colors(), showsRapids, selection, isQuick: asked.current.isQuick });
+      const { polyline, selection, showsRapids, executed } = latest.current;
+      renderer.current?.draw(polyline, screen(), {
+        camera: camera.current, colors: colors(), showsRapids, selection, executed: executed?.point ?? null, isQuick: asked.current.isQuick,
+      });
       placeLabels();
+      placeTool();
     });
   };
   /// All points follow when nothing has moved for a moment.
@@ -148,6 +166,8 @@ export function PathCanvas(props: Props) {
     drawQuickly();
   }, [props.version, props.isComplete, props.polyline, props.selection, props.showsRapids]);
 
+  useEffect(() => draw(), [props.executed?.point, ...(props.executed?.tool ?? [])]);
+
   const pointers = useRef(new Map<number, { x: number; y: number }>());
   const dragged = useRef(0);
   const place = (event: PointerEvent | WheelEvent) => {
@@ -217,12 +237,13 @@ export function PathCanvas(props: Props) {
         <button type="button" aria-label={t.farther} onClick={() => show(zoom(camera.current, screen(), kKeyZoom))}>−</button>
       </div>
       {!hasGraphics && <p class="notice warn">{t.noGraphics}</p>}
-      <div class="path-frame" ref={frame}>
+      <div class={`path-frame ${props.isSmall ? 'small' : ''}`} ref={frame}>
         <canvas ref={canvas} tabIndex={0} role="application" aria-label={props.label} aria-describedby="path-keys" onKeyDown={key} onPointerDown={down} onPointerMove={move}
           onPointerUp={up} onPointerCancel={up} onContextMenu={(event) => event.preventDefault()} />
         {[0, 1, 2].map((i) => <span key={i} class={`axis-label axis-${i}`} aria-hidden="true" ref={(label) => { labels.current[i] = label; }} />)}
+        {props.executed && <span class="tool-mark" aria-hidden="true" ref={tool} />}
       </div>
-      <p id="path-keys" class="hint">{t.keys}</p>
+      <p id="path-keys" class={props.isSmall ? 'visually-hidden' : 'hint'}>{t.keys}</p>
     </>
   );
 }

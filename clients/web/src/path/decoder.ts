@@ -45,6 +45,7 @@ export class PathDecoder {
     if (kind !== kJson) throw new Error(`a frame of kind ${kind}`);
     const note = JSON.parse(new TextDecoder().decode(content)) as PathNote;
     if (note.kind === 'begin') this.isLathe = note.lathe;
+    else this.polyline.mark(note.blocks);
     this.onNote(note);
   }
 

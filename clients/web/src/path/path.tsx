@@ -1,13 +1,14 @@
 // The tool path of a program, without running it: #/path/O0100/3?machine=mill-1&line=12. A press on the path chooses its block, a press on
 // a block its part of the path.
 import { useMemo, useState } from 'preact/hooks';
-import type { PathEnd, ProgramWithRevisions, Revision } from '../../generated/api';
+import type { ProgramWithRevisions, Revision } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { durationText } from '../live/progress';
-import { useFeed } from '../live/use_feed';
-import { axisText, kInch, kMillimeter, lengthText, sortAxes } from '../machine/units';
+import { Extents, lengthOf } from '../parts/extents';
 import { Loading } from '../parts/loading';
+import { Rows } from '../parts/rows';
+import { SetupChoice, useMachinesOf } from '../parts/setup_choice';
 import { useLoaded } from '../parts/use_loaded';
 import { numberText, texts } from '../texts/texts';
 import { BlockText } from './block_text';
@@ -16,30 +17,6 @@ import { kMoves } from './polyline';
 import { usePath, type LoadedPath } from './use_path';
 
 const kShownTools = 100;
-
-function lengthOf(mm: number, isInch: boolean): string {
-  const unit = isInch ? kInch : kMillimeter;
-  return `${lengthText(mm, unit)} ${unit.name}`;
-}
-
-function Extents({ end }: { end: PathEnd }) {
-  const t = texts().path;
-  const unit = end.inch ? kInch : kMillimeter;
-  const value = (axis: string, radius: number) => axisText(axis, axis === 'X' && end.x_is_diameter ? 2 * radius : radius, unit);
-  return (
-    <table>
-      <thead><tr>{[`${t.axis} (${unit.name})`, t.least, t.most].map((name, i) => <th scope="col" key={name} class={i > 0 ? 'number' : ''}>{name}</th>)}</tr></thead>
-      <tbody>
-        {sortAxes(Object.keys(end.extents)).map((axis) => (
-          <tr key={axis}>
-            <th scope="row">{axis}{axis === 'X' && end.x_is_diameter && ' ⌀'}</th>
-            {end.extents[axis]!.map((at, i) => <td key={i} class="number">{value(axis, at)}</td>)}
-          </tr>
-        ))}
-      </tbody>
-    </table>
-  );
-}
 
 function Facts({ path, onChoose }: { path: LoadedPath; onChoose: (line: number) => void }) {
   const t = texts().path;
@@ -54,8 +31,8 @@ function Facts({ path, onChoose }: { path: LoadedPath; onChoose: (line: number) 
       {end.fault && <p class="notice bad" role="alert">{end.fault.line > 0 && <b>{t.faultAt(numberText(end.fault.line))} </b>}{end.fault.id} {end.fault.text}</p>}
       {end.other_axes > 0 && <p class="notice warn">{t.otherAxes(numberText(end.other_axes))}</p>}
       {polyline.tolerance > 0 && <p class="notice">{t.simplified(lengthOf(polyline.tolerance, end.inch))}</p>}
-      <dl class="rows">{rows.map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
-      {Object.keys(end.extents).length > 0 ? <Extents end={end} /> : <p class="notice">{t.nothingMoves}</p>}
+      <Rows of={rows} />
+      {Object.keys(end.extents).length > 0 ? <Extents of={end} /> : <p class="notice">{t.nothingMoves}</p>}
       {end.tools.length > 0 && (
         <>
           <h3>{t.tools}</h3>
@@ -67,28 +44,17 @@ function Facts({ path, onChoose }: { path: LoadedPath; onChoose: (line: number) 
 }
 
 function MachineChoice({ revision, machine }: { revision: Revision; machine: string }) {
-  const t = texts().path;
-  const feed = useFeed('machines');
-  const fitting = [...feed.machines.values()].filter((row) => row.control === revision.control).map((row) => row.name).sort();
+  const machines = useMachinesOf(revision.control);
   const choose = (name: string) => { location.hash = addressOf('path', [revision.program, String(revision.revision)], { machine: name }); };
-  return (
-    <label class="inline">
-      {t.setupOf}
-      <select value={machine} onChange={(e) => choose(e.currentTarget.value)}>
-        <option value="">{t.noSetup}</option>
-        {fitting.map((name) => <option key={name} value={name}>{name}</option>)}
-      </select>
-    </label>
-  );
+  return <SetupChoice class="inline" machines={machines} value={machine} onChoose={choose} />;
 }
 
 function Path({ revision, machine, firstLine }: { revision: Revision; machine: string; firstLine: number | null }) {
   const t = texts().path;
-  const [version, setVersion] = useState(0);
   const [chosen, setChosen] = useState<number | null>(firstLine);
   const [showsRapids, setRapids] = useState(true);
   const of = { program: revision.program, revision: revision.revision, size: revision.size };
-  const path = usePath({ ...of, machine }, () => setVersion((before) => before + 1));
+  const path = usePath({ ...of, machine });
   const { polyline } = path;
   const isComplete = path.end !== null;
   // A line that moves nothing chooses the next one that does.
@@ -104,7 +70,7 @@ function Path({ revision, machine, firstLine }: { revision: Revision; machine: s
   return (
     <div class="path-columns" data-complete={isComplete}>
       <section class="panel" aria-label={t.title}>
-        <PathCanvas polyline={polyline} version={version} isComplete={isComplete} isLathe={path.begin?.lathe ?? false} selection={selection} showsRapids={showsRapids}
+        <PathCanvas polyline={polyline} version={path.version} isComplete={isComplete} isLathe={path.begin?.lathe ?? false} selection={selection} showsRapids={showsRapids}
           label={t.pathOf(revision.program, revision.revision)} onPick={(picked) => setChosen(polyline.lines[picked]!)} onNext={next} />
         <p class="legend">
           {kMoves.map((move) => <span key={move} class={`key ${move}`}>{t.moves[move]}</span>)}

@@ -13,6 +13,12 @@ const kWindow = 32;
 /// The first step of coarsening, as a part of the path's size: far below what a screen resolves.
 const kFirstTolerance = 1 / 20_000;
 
+/// After so many executed blocks the path has come to this point.
+export interface Mark {
+  blocks: number;
+  point: number;
+}
+
 export interface Bounds {
   least: [number, number, number];
   most: [number, number, number];
@@ -29,6 +35,8 @@ export class Polyline {
   tolerance = 0;
   /// Another number: points that were there have moved.
   generation = 0;
+  /// In their order; they follow the points when these are made fewer.
+  readonly marks: Mark[] = [];
   private readonly least: [number, number, number] = [Infinity, Infinity, Infinity];
   private readonly most: [number, number, number] = [-Infinity, -Infinity, -Infinity];
 
@@ -46,6 +54,10 @@ export class Polyline {
     this.lines[i] = line;
     this.offsets[i] = offset;
     if (i > 0) this.extend(x, y, z); // the start is where the machine is, not where the program moves
+  }
+
+  mark(blocks: number): void {
+    if (this.length > 0) this.marks.push({ blocks, point: this.length - 1 });
   }
 
   /// null: nothing moves.
@@ -101,6 +113,7 @@ export class Polyline {
   private drop(): void {
     for (let i = 1; 2 * i < this.length; ++i) this.move(2 * i, i);
     this.length = Math.ceil(this.length / 2);
+    for (const mark of this.marks) mark.point = Math.min(this.length - 1, Math.floor(mark.point / 2));
     ++this.generation;
   }
 
@@ -119,12 +132,15 @@ export class Polyline {
   private coarsen(): void {
     let kept = 1;
     let anchor = 0;
+    let mark = 0;
     for (let i = 1; i < this.length; ++i) {
+      while (mark < this.marks.length && this.marks[mark]!.point < i) this.marks[mark++]!.point = kept - 1;
       const isLast = i + 1 === this.length;
       if (!isLast && i - anchor < kWindow && this.moves[i] === this.moves[i + 1] && this.areNear(anchor, i + 1)) continue;
       this.move(i, kept++);
       anchor = i;
     }
+    while (mark < this.marks.length) this.marks[mark++]!.point = kept - 1;
     this.length = kept;
     ++this.generation;
   }

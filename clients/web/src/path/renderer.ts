@@ -7,6 +7,8 @@ export type Color = [number, number, number];
 export interface Colors {
   /// As kMoves.
   moves: Color[];
+  /// Of moves that are still to come, as kMoves.
+  pending: Color[];
   selected: Color;
   axes: [Color, Color, Color];
 }
@@ -16,6 +18,8 @@ export interface Scene {
   colors: Colors;
   showsRapids: boolean;
   selection: Array<{ first: number; last: number }>;
+  /// The last point that a machine has come to; null: no machine executes it.
+  executed: number | null;
   /// While it is moved.
   isQuick: boolean;
 }
@@ -135,9 +139,15 @@ export class Renderer {
   private drawPath(polyline: Polyline, scene: Scene): void {
     const wanted = scene.isQuick ? Math.ceil(polyline.length / kQuickPoints) : 1;
     const stride = Math.min(kMaxStride, Math.max(1, wanted));
+    const points = Math.floor(polyline.length / stride);
+    const past = scene.executed === null ? points : Math.min(points, Math.floor(scene.executed / stride) + 1);
     this.usePoints(stride);
+    if (past < points) {
+      this.setColors(scene.colors.pending);
+      this.gl.drawArrays(this.gl.LINE_STRIP, Math.max(0, past - 1), points - Math.max(0, past - 1));
+    }
     this.setColors(scene.colors.moves);
-    this.gl.drawArrays(this.gl.LINE_STRIP, 0, Math.floor(polyline.length / stride));
+    this.gl.drawArrays(this.gl.LINE_STRIP, 0, past);
   }
 
   /// Wider than a pixel, which no browser draws by itself: the same lines again, a pixel beside.

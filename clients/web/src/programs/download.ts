@@ -2,7 +2,14 @@
 import { fetchApi } from '../api/request';
 
 export async function download(path: string, name: string): Promise<void> {
-  const blob = await (await fetchApi('GET', path)).blob();
+  save(await (await fetchApi('GET', path)).blob(), name);
+}
+
+export function saveText(text: string, name: string): void {
+  save(new Blob([text]), name);
+}
+
+function save(blob: Blob, name: string): void {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(blob);
   link.download = name;

@@ -1,34 +1,32 @@
 // One program: its revisions, the text of the chosen one, approval, the start on a machine, comparison.
-import type { ProgramWithRevisions, Revision } from '../../generated/api';
-import { get, pathOf, send, withQuery } from '../api/request';
+import { useEffect, useMemo, useState } from 'preact/hooks';
+import type { ProgramCheck, ProgramWithRevisions, Revision } from '../../generated/api';
+import { get, pathOf, withQuery } from '../api/request';
 import { addressOf } from '../app/route';
-import { Allowed } from '../parts/allowed';
+import { Decide } from '../imports/decide';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
-import { SureButton } from '../parts/sure_button';
+import { RevisionPill } from '../parts/revision_pill';
 import { useLoaded } from '../parts/use_loaded';
+import { usePolicy } from '../parts/use_policy';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
+import { Check } from './check';
 import { Compare } from './compare';
 import { download } from './download';
+import { findingsByLine } from './findings';
 import { Manage } from './manage';
+import type { Place } from './pieces';
+import { ReleaseState } from './release';
 import { StartOn } from './start_on';
 import { TextView } from './text_view';
 
 /// A revision that a machine has sent runs nowhere before it is accepted.
-function Approval({ revision, onJudged }: { revision: Revision; onJudged: () => void }) {
+function Pending({ revision, onDecided }: { revision: Revision; onDecided: () => void }) {
   const t = texts().programs;
-  const command = useCommand();
-  const judge = async (verdict: 'accept' | 'reject') => {
-    if (await command.send(() => send('POST', pathOf('programs', revision.program, 'revisions', revision.revision, verdict)))) onJudged();
-  };
   return (
     <div class="notice warn">
-      <p>{t.isPending}</p>
-      <Allowed to="approve"><p class="buttons">
-        <SureButton class="primary" label={t.accept} question={t.acceptSure(revision.program, revision.revision)} disabled={command.isBusy} onSure={() => void judge('accept')} />
-        <SureButton class="danger" label={t.reject} question={t.rejectSure(revision.program, revision.revision)} disabled={command.isBusy} onSure={() => void judge('reject')} />
-      </p></Allowed>
-      <CommandFault command={command} />
+      <p>{t.isPending} <a href={addressOf('imports', [revision.program, String(revision.revision)])}>{t.whatItChanges}</a></p>
+      <Decide import_={revision} onDecided={onDecided} />
     </div>
   );
 }
@@ -42,7 +40,7 @@ function RevisionList({ revisions, shown }: { revisions: Revision[]; shown: Revi
         {revisions.map((r) => (
           <li key={r.revision}>
             <a class="target" href={addressOf('programs', [r.program, String(r.revision)])} aria-current={r === shown ? 'true' : undefined}>{t.revisionNumber(r.revision)}</a>
-            {r.held && <span class="pill waiting">{t.pending(1)}</span>}
+            <RevisionPill revision={r} />
             <p class="muted">{dateTimeText(r.created)} · {r.author ?? '–'} · {bytesText(r.size)}{r.comment && ` · ${r.comment}`}</p>
           </li>
         ))}
@@ -54,7 +52,12 @@ function RevisionList({ revisions, shown }: { revisions: Revision[]; shown: Revi
 export function ProgramPage({ name, number }: { name: string; number: number | null }) {
   const t = texts().programs;
   const program = useLoaded((signal) => get<ProgramWithRevisions>(pathOf('programs', name), {}, signal), [name]);
+  const policy = usePolicy();
   const command = useCommand();
+  const [check, setCheck] = useState<ProgramCheck | null>(null);
+  const [goTo, setGoTo] = useState<Place | null>(null);
+  const findings = useMemo(() => findingsByLine(check), [check]);
+  useEffect(() => setGoTo(null), [name, number]);
   const revisions = [...(program.value?.revisions ?? [])].sort((a, b) => b.revision - a.revision);
   const shown = revisions.find((r) => r.revision === number) ?? revisions.find((r) => !r.held) ?? revisions[0];
   const { value } = program;
@@ -66,14 +69,16 @@ export function ProgramPage({ name, number }: { name: string; number: number | n
         <h1>{name}</h1>
         <span class="muted">{[shown.title, shown.control, t.revisionNumber(shown.revision), bytesText(shown.size)].filter(Boolean).join(' · ')}</span>
       </div>
-      {shown.held && <Approval revision={shown} onJudged={program.reload} />}
+      {shown.held && <Pending key={shown.revision} revision={shown} onDecided={program.reload} />}
       <div class="program-columns">
         <div>
-          <TextView program={name} revision={shown.revision} size={shown.size} />
+          <TextView program={name} revision={shown.revision} size={shown.size} findings={findings} goTo={goTo} />
           <Compare key={shown.revision} revisions={revisions} to={shown} />
         </div>
         <div>
-          <section class="panel"><StartOn revision={shown} /></section>
+          {shown.control !== null && <Check key={shown.revision} revision={shown} onChecked={setCheck} onGoTo={setGoTo} />}
+          <section class="panel"><StartOn revision={shown} policy={policy.value} /></section>
+          {!shown.held && <ReleaseState policy={policy} revision={shown} revisions={revisions} onDecided={program.reload} />}
           <RevisionList revisions={revisions} shown={shown} />
           <section class="panel">
             <p class="buttons">

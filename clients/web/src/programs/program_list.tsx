@@ -3,7 +3,9 @@ import { useState } from 'preact/hooks';
 import { addressOf } from '../app/route';
 import { feed } from '../live/feed';
 import { Allowed, useRefusal } from '../parts/allowed';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
+import { RevisionPill } from '../parts/revision_pill';
 import { useLoaded } from '../parts/use_loaded';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
 import { DropArea } from './drop_area';
@@ -40,16 +42,15 @@ export function ProgramList() {
       <Loading of={programs} />
       <div class="scroll" tabIndex={0} role="region" aria-label={t.title}>
         <table class="data">
-          <thead>
-            <tr>{[t.name, t.programTitle, t.control, t.revision, t.size, t.storedAt, t.author].map((name) => <th scope="col" key={name}>{name}</th>)}</tr>
-          </thead>
+          <Heads of={[t.name, t.programTitle, t.control, t.revision, t.state, t.size, t.storedAt, t.author]} />
           <tbody>
             {found.slice(0, kShown).map((p) => (
               <tr key={p.name}>
                 <th scope="row"><a class="target" href={addressOf('programs', [p.name])}>{p.name}</a></th>
                 <td>{p.title}</td>
                 <td>{p.control}</td>
-                <td>{p.revision}{p.held_revisions > 0 && <span class="pill waiting">{t.pending(p.held_revisions)}</span>}</td>
+                <td>{p.revision}</td>
+                <td class="pills">{!p.held && <RevisionPill revision={p} />}{p.held_revisions > 0 && <span class="pill waiting">{t.pending(p.held_revisions)}</span>}</td>
                 <td>{bytesText(p.size)}</td>
                 <td>{dateTimeText(p.created)}</td>
                 <td>{p.author}</td>

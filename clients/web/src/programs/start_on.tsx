@@ -1,20 +1,30 @@
 // Starts this revision on one of the machines whose control it is for.
 import { useState } from 'preact/hooks';
-import type { Revision } from '../../generated/api';
+import type { ReleasePolicy, Revision } from '../../generated/api';
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
 import { startRun } from '../machine/commands';
-import { Allowed } from '../parts/allowed';
+import { Allowed, useSessionState } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { SureButton } from '../parts/sure_button';
 import { texts } from '../texts/texts';
+import { runRefusalOf, type RunRefusal } from './release_steps';
 
-export function StartOn({ revision }: { revision: Revision }) {
+function runRefusalText(refusal: RunRefusal, machine: string): string {
+  const t = texts().release;
+  if (refusal.why === 'proveOut') return t.proveOutNeeds(machine, texts().session.roles[refusal.needs]);
+  return refusal.why === 'withdrawn' ? t.isWithdrawn : t.isNotReleased(machine);
+}
+
+/// `policy` null: not known yet; the server decides anyway.
+export function StartOn({ revision, policy }: { revision: Revision; policy: ReleasePolicy | null }) {
   const t = texts().programs;
   const feed = useFeed('machines');
   const command = useCommand();
   const [machine, setMachine] = useState('');
   const fitting = [...feed.machines.values()].filter((m) => m.connected && (revision.control === null || m.control === revision.control));
+  const session = useSessionState();
+  const refusal = machine !== '' && policy && 'session' in session ? runRefusalOf(policy, revision.state, machine, session.session) : null;
   const start = async () => {
     const request = { machine, program: revision.program, revision: revision.revision, from: '' };
     if (await command.send(() => startRun(request))) location.hash = addressOf('machine', [machine]);
@@ -28,8 +38,9 @@ export function StartOn({ revision }: { revision: Revision }) {
           {fitting.map((m) => <option key={m.name} value={m.name}>{m.name} · {texts().states[feed.stateOf(m).word]}</option>)}
         </select>
       </label>
+      {refusal && <p class="notice refusal">{runRefusalText(refusal, machine)}</p>}
       <Allowed to="operate" {...(machine !== '' && { machine })}>
-        <SureButton class="primary" label={texts().machine.start} disabled={machine === '' || revision.held || command.isBusy}
+        <SureButton class="primary" label={texts().machine.start} disabled={machine === '' || revision.held || refusal !== null || command.isBusy}
           question={texts().machine.startSure(revision.program, String(revision.revision), machine, '')} onSure={() => void start()} />
       </Allowed>
       <CommandFault command={command} />

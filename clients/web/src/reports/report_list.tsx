@@ -4,7 +4,9 @@ import type { MachineReports, Runs } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { CommandFault, useCommand } from '../parts/command';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
+import { Pages } from '../parts/pages';
 import { RunPill } from '../parts/run_pill';
 import { useLoaded } from '../parts/use_loaded';
 import { download } from '../programs/download';
@@ -55,7 +57,7 @@ export function ReportList({ query }: { query: URLSearchParams }) {
       <Loading of={runs} />
       <div class="scroll" tabIndex={0} role="region" aria-label={t.title}>
         <table class="data">
-          <thead><tr>{[t.program, t.machine, t.state, t.begun, t.ended, t.blocks, t.linesHead].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+          <Heads of={[t.program, t.machine, t.state, t.begun, t.ended, t.blocks, t.linesHead]} />
           <tbody>
             {list.map((run) => (
               <tr key={run.id}>
@@ -71,10 +73,7 @@ export function ReportList({ query }: { query: URLSearchParams }) {
           </tbody>
         </table>
       </div>
-      <p class="buttons">
-        <button type="button" disabled={offset === 0} onClick={() => setOffset(Math.max(0, offset - kPage))}>{t.newer}</button>
-        <button type="button" disabled={list.length < kPage} onClick={() => setOffset(offset + kPage)}>{t.older}</button>
-      </p>
+      <Pages offset={offset} size={kPage} count={list.length} onOffset={setOffset} />
       <OutsideRuns />
     </>
   );

@@ -6,6 +6,7 @@ import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
 import { recordText } from '../live/record_text';
 import { CommandFault, useCommand } from '../parts/command';
+import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { RunPill } from '../parts/run_pill';
 import { useLoaded } from '../parts/use_loaded';
@@ -49,7 +50,7 @@ function RecordTable({ records }: { records: ReportRecord[] }) {
       </label>
       <div class="scroll" tabIndex={0} role="region" aria-label={t.tableOfRecords}>
         <table>
-          <thead><tr>{[t.time, t.kind, t.line, t.device, t.text].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+          <Heads of={[t.time, t.kind, t.line, t.device, t.text]} />
           <tbody>
             {shown.map((record) => (
               <tr key={`${record.epoch}/${record.number}`} class={record.kind}>
@@ -80,6 +81,7 @@ export function RunReport({ id, query }: { id: string; query: URLSearchParams })
   const records = useLoaded((signal) => loadRecords(id, signal), [id, run?.state]);
   const command = useCommand();
   if (!run) return <><h1>{t.run}</h1><Loading of={loaded} /></>;
+  const file = `${run.program}-${id.slice(0, 8)}`;
   return (
     <>
       <div class="machine-head">
@@ -92,9 +94,19 @@ export function RunReport({ id, query }: { id: string; query: URLSearchParams })
         {dateTimeText(run.started ?? run.created)} – {run.ended ? dateTimeText(run.ended) : '…'} · {texts().machine.blockCounts(numberText(run.executed), numberText(run.accepted))}
         {run.content_verified !== null && ` · ${run.content_verified ? t.verified : t.notVerified}`}
       </p>
+      <p class="muted">
+        {run.approval === null ? t.allowedAs[run.allowed_as]
+          : <a href={addressOf('programs', [run.program, String(run.revision)])}>{t.allowedBy(run.approval)}</a>}
+        {run.setup !== null && ` · ${t.withSetup(run.setup)}`}
+      </p>
       <div class="head">
         <span>{texts().machine.report(run.outputs)}</span>
-        <Exports onExport={(format) => void command.send(() => download(`${pathOf('reports', id)}?format=${format}`, `${run.program}-${id.slice(0, 8)}.${format === 'text' ? 'txt' : format}`))} />
+        {run.ended !== null && (
+          <button type="button" title={t.attestationHint} onClick={() => void command.send(() => download(pathOf('runs', id, 'attestation'), `${file}.attestation`))}>
+            {t.attestation}
+          </button>
+        )}
+        <Exports onExport={(format) => void command.send(() => download(`${pathOf('reports', id)}?format=${format}`, `${file}.${format === 'text' ? 'txt' : format}`))} />
       </div>
       <CommandFault command={command} />
       <Loading of={records} />

@@ -36,6 +36,14 @@ export function dateTimeText(time: Date | string): string {
   return new Date(time).toLocaleString(language, { dateStyle: 'medium', timeStyle: 'medium' });
 }
 
+/// "3 days ago", "in 2 weeks": rounded, for people.
+export function relativeText(time: Date | string, now = Date.now()): string {
+  const seconds = (new Date(time).getTime() - now) / 1000;
+  const units: Array<[Intl.RelativeTimeFormatUnit, number]> = [['day', 86_400], ['hour', 3600], ['minute', 60], ['second', 1]];
+  const [unit, size] = units.find(([, length]) => Math.abs(seconds) >= length) ?? units[units.length - 1]!;
+  return new Intl.RelativeTimeFormat(language, { numeric: 'always' }).format(Math.trunc(seconds / size), unit);
+}
+
 export function bytesText(bytes: number): string {
   const units = ['B', 'KiB', 'MiB', 'GiB', 'TiB'];
   let unit = 0;

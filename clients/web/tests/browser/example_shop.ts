@@ -1,4 +1,7 @@
 // A shop in which much is going on, for pictures: a run, a question of a control, an alarm, a stop, a machine that was switched off.
+import { writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { LineControl } from './line_control';
 import { Shop, longProgram, measuringProgram, until } from './shop';
 
 const kAsks = 'O0300 (DIAMETERS FROM THE OPERATOR)\nG20 G93 G98\nINPUT (LARGEST DIAMETER) P1\nG0 X[P1]\nM30\n';
@@ -49,6 +52,9 @@ value = 12.5
 
 export async function exampleShop(): Promise<Shop> {
   const shop = new Shop();
+  const policy = path.join(shop.folder, 'policy.toml');
+  writeFileSync(policy, '[approve]\nfour_eyes = true\n[withdraw]\ncomment = true\n[imports]\naccept_at_once = ["comment"]\n');
+  shop.serverArgs = ['--policy', policy, '--backups', path.join(shop.folder, 'backups')];
   await shop.startServer();
   await shop.startMachine('mill-1', { control: 'fanuc', description: 'Vertical, three axes' });
   await shop.startMachine('mill-2', { control: 'fanuc', description: 'Vertical, pallet changer' });
@@ -79,6 +85,11 @@ export async function exampleShop(): Promise<Shop> {
   await shop.addUser('otto', 'operator', ['cell-1']);
   await shop.addUser('vera', 'viewer');
   await shop.api('PUT', 'ports/line-5', { machine: 'mill-5', address: '/dev/ttyUSB0', template: 'tnc155' });
+  const control = await LineControl.listen();
+  await shop.api('PUT', 'ports/line-6', { machine: 'mill-6', address: control.address, template: 'fanuc' });
+  await control.punch(`%\n${bracket.join('\n').replace('F900.', 'F1100.').replace('Z-6.', 'Z-6.5')}%\n`);
+  await shop.push('O0900', 'O0900 (LOOK AT ME)\nG20 G90 F500.\nG1 X1. F5\nG1 X10.\nX2. ZZ5.\nM30\n', 'fanuc');
+  await shop.api('POST', 'programs/O0600/revisions/1/submit', { comment: 'second side' });
   await shop.stopMachine('mill-4');
   await until('lathe-1 asks', async () => {
     const machine = await shop.api<{ status: { waits_for: string } | null }>('GET', 'machines/lathe-1');

@@ -108,3 +108,37 @@ test('a command whose answer is lost is reported and never sent again', async ()
   await until('the machine runs on', async () => (await shop.api<{ status: { execution: string } }>('GET', 'machines/mill-1'))?.status.execution === 'ACTIVE');
   assert.equal(commands.length, 1);
 });
+
+test('the path of a running program shows how far it is, and where the tool is', async () => {
+  await shop.startMachine('mill-2', { control: 'fanuc' });
+  const { page, complaints } = await visit('#/machine/mill-2');
+  await shop.start('mill-2', 'O0100');
+  const panel = page.locator('section[data-executed]');
+  await page.locator('section[data-executed][data-complete=true]').waitFor();
+  const first = Number(await panel.getAttribute('data-executed'));
+  await page.waitForFunction((old) => Number(document.querySelector('section[data-executed]')?.getAttribute('data-executed')) > old + 3, first);
+  await page.locator('.tool-mark').waitFor();
+  // The executing line and the place on the path are of one status.
+  const [line, point] = await page.evaluate(() => [
+    Number(document.querySelector('.blocks [aria-current="step"] .number')?.textContent), Number(document.querySelector('section[data-executed]')?.getAttribute('data-executed'))]);
+  assert.ok(Math.abs(line! - 3 - point!) <= 1, `line ${line} is executed, ${point} points are past`); // the first move is in line 3
+  assert.deepEqual(await findBarriers(page), []);
+  await page.getByRole('region', { name: 'Tool path' }).getByRole('link', { name: 'Open' }).click();
+  await page.getByRole('heading', { name: 'Tool path of O0100' }).waitFor();
+  assertNoComplaints(complaints);
+});
+
+test('a lathe shows X as a diameter, in the unit of its program', async () => {
+  const { page, complaints } = await visit('#/machine/lathe-1');
+  await page.getByRole('heading', { name: 'Position (inch)' }).waitFor();
+  await page.getByRole('rowheader', { name: 'X ⌀ diameter' }).waitFor();
+  await shop.push('O0310', 'O0310\nG21 G93 G98\nG0 X30. Z-2.\nM0\nM30\n', 'centurion');
+  await shop.start('lathe-1', 'O0310');
+  await state(page, 'Program stop').waitFor();
+  await page.getByRole('heading', { name: 'Position (mm)' }).waitFor();
+  await page.locator('.position').getByRole('cell', { name: '30.000', exact: true }).first().waitFor();
+  const position = (await shop.api<{ status: { position: { X: number } } }>('GET', 'machines/lathe-1'))!.status.position;
+  assert.equal(position.X, 15, 'the API has the radius');
+  assert.deepEqual(await findBarriers(page), []);
+  assertNoComplaints(complaints);
+});

@@ -52,8 +52,9 @@ export async function visit(browser: Browser, shop: Shop, place = '', options: V
 }
 
 /// A shop and a browser for the tests of a file; what a test has opened is closed after it.
-export function shopForTests(prepare: (shop: Shop) => Promise<void>) {
+export function shopForTests(prepare: (shop: Shop) => Promise<void>, argsOf: (shop: Shop) => string[] = () => []) {
   const shop = new Shop();
+  shop.serverArgs = argsOf(shop);
   let browser: Browser | undefined;
   before(async () => {
     await shop.startServer();

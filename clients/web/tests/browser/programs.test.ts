@@ -86,6 +86,53 @@ test('revisions are compared, downloaded, and one is started on a machine', asyn
   assertNoComplaints(complaints);
 });
 
+test('what is wrong with a program is beside its lines, and a press on a finding goes there', async () => {
+  const filler = Array.from({ length: 30_000 }, (_, i) => `N${i + 1} G1 X${i % 100}. Y${i % 90}.`).join('\n');
+  await shop.push('O0900', `O0900\nG20 G90 F5.\nG1 X1. F5\n${filler}\nG1 X2. ZZ5.\nM30\n`, 'fanuc');
+  const { page, complaints } = await visit('#/programs/O0900');
+  const check = page.getByRole('region', { name: 'Check' });
+  await check.getByText('The program raises an alarm.').waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  await check.getByRole('button', { name: /Alarm line 30,004/ }).click();
+  const line = page.locator('.blocks li.alarm');
+  await line.getByText('G1 X2. ZZ5.').waitFor();
+  await line.getByText(/^Alarm \w+: /).waitFor();
+  assert.equal(await line.locator('.number').textContent(), '■30004');
+  await check.getByRole('button', { name: /Warning line 3/ }).click();
+  await page.locator('.blocks li.warning').getByText('X1. F5').waitFor();
+  await check.getByRole('row', { name: /^X / }).waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  assertNoComplaints(complaints);
+});
+
+test('a program is checked on the setup of the machine that is chosen', async () => {
+  await shop.push('O0901', 'O0901\nG21 G90 G54\nG1 X10. F500.\nM30\n', 'fanuc');
+  await shop.api('PUT', 'machines/mill-1/setup', '[[offset]]\nname = "G54"\nX = 500.0\n');
+  const { page } = await visit('#/programs/O0901');
+  const check = page.getByRole('region', { name: 'Check' });
+  await check.getByText('The program reaches its end.').waitFor();
+  assert.equal(await check.getByLabel('Setup of').inputValue(), 'mill-1', 'the only one of its control');
+  await check.getByRole('row', { name: 'X 500.000 510.000' }).or(check.getByRole('row', { name: 'X 510.000 510.000' })).waitFor();
+  await check.getByLabel('Setup of').selectOption('');
+  await check.getByRole('row', { name: /^X .*10\.000$/ }).waitFor();
+});
+
+test('an opened program is checked once, and another revision is read once', async () => {
+  await shop.push('O0902', 'O0902\nG21 G90 G54\nG1 X10. F500.\nM30\n', 'fanuc');
+  await shop.push('O0902', 'O0902\nG21 G90 G54\nG1 X10. F500.\nG1 Y10.\nM30\n', 'fanuc');
+  const { page } = await visit('#/programs/O0902');
+  const asked: string[] = [];
+  page.on('request', (request) => asked.push(request.url()));
+  await page.reload();
+  await page.getByText('The program reaches its end.').waitFor();
+  assert.equal(asked.filter((url) => url.includes('/check?')).length, 1);
+  await page.getByText('G1 Y10.').waitFor();
+  asked.length = 0;
+  await page.getByRole('link', { name: 'Revision 1', exact: true }).click();
+  await page.getByText('G1 Y10.').waitFor({ state: 'detached' });
+  assert.equal(asked.filter((url) => url.includes('/content?')).length, 1);
+});
+
 test('a program is copied and removed', async () => {
   const { page } = await visit('#/programs/O0800');
   await page.getByText('Copy, rename, remove').click();

@@ -23,7 +23,11 @@ export class Shop {
   private server: ChildProcess | null = null;
   private readonly gateways = new Map<string, ChildProcess>();
   private readonly sessions = new Map<string, { name: string; value: string }>();
-  private readonly network = ['--dds-domain', kDomain, '--dds-tag', `web-${process.pid}`];
+  readonly network = ['--dds-domain', kDomain, '--dds-tag', `web-${process.pid}`];
+
+  get serverPid(): number | undefined {
+    return this.server?.pid;
+  }
 
   get token(): string {
     return readFileSync(path.join(this.folder, 'server/token'), 'utf8').trim();
@@ -47,12 +51,15 @@ export class Shop {
     if (!(await this.api('POST', 'users', { name, role, groups, password: kPassword }))) throw new Error(`user ${name} is refused`);
   }
 
+  /// Of the server besides its place: of every start.
+  serverArgs: string[] = [];
+
   /// After a stop it listens where it did before.
   async startServer(): Promise<void> {
     const announced = path.join(this.folder, 'server/dncd.json');
     rmSync(announced, { force: true });
     const address = this.url ? new URL(this.url).host : '127.0.0.1:0';
-    this.server = this.spawn('dncd', ['--state', path.join(this.folder, 'server'), '--http', address]);
+    this.server = this.spawn('dncd', ['--state', path.join(this.folder, 'server'), '--http', address, ...this.serverArgs]);
     await until('the server listens', () => existsSync(announced) && this.readUrl(announced));
   }
 
@@ -94,22 +101,24 @@ export class Shop {
     await new Promise((done) => child.on('exit', done));
   }
 
-  /// null: the server refused, or did not answer.
-  async api<T>(method: string, what: string, body?: unknown): Promise<T | null> {
+  /// null: the server refused, or did not answer. `user` instead of the token of admin.
+  async api<T>(method: string, what: string, body?: unknown, user?: string): Promise<T | null> {
     try {
       const raw = typeof body === 'string' ? body : body === undefined ? null : JSON.stringify(body);
-      const answer = await fetch(`${this.url}/api/v1/${what}`, { method, headers: { Authorization: `Bearer ${this.token}` }, body: raw });
+      const { name, value } = user === undefined ? { name: '', value: '' } : await this.sessionOf(user);
+      const headers: Record<string, string> = user === undefined ? { Authorization: `Bearer ${this.token}` } : { Cookie: `${name}=${value}`, 'X-Dripline': '1' };
+      const answer = await fetch(`${this.url}/api/v1/${what}`, { method, headers, body: raw });
       return answer.ok ? ((answer.status === 204 ? {} : await answer.json()) as T) : null;
     } catch {
       return null;
     }
   }
 
-  async push(name: string, text: string, control: string, comment?: string): Promise<void> {
-    const upload = await this.api<{ id: string }>('POST', 'uploads', { program: name, control, ...(comment !== undefined && { comment }) });
+  async push(name: string, text: string, control: string, comment?: string, user?: string): Promise<void> {
+    const upload = await this.api<{ id: string }>('POST', 'uploads', { program: name, control, ...(comment !== undefined && { comment }) }, user);
     if (!upload) throw new Error(`program ${name} is refused`);
-    await this.api('PUT', `uploads/${upload.id}/content?offset=0`, text);
-    if (!(await this.api('POST', `uploads/${upload.id}/commit`, {}))) throw new Error(`program ${name} is not committed`);
+    await this.api('PUT', `uploads/${upload.id}/content?offset=0`, text, user);
+    if (!(await this.api('POST', `uploads/${upload.id}/commit`, {}, user))) throw new Error(`program ${name} is not committed`);
   }
 
   async start(machine: string, program: string): Promise<string> {

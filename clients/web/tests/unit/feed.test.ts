@@ -2,14 +2,14 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Feed } from '../../src/live/feed';
-import { machine, run } from './samples';
+import { importOf, machine, run } from './samples';
 
 /// Answers requests when the test says so; events go to the readers of the stream.
 class FakeServer {
   private events!: ReadableStreamDefaultController<Uint8Array>;
   private readonly waiting: Array<() => void> = [];
 
-  constructor(machines: unknown[], runs: unknown[]) {
+  constructor(machines: unknown[], runs: unknown[], imports: unknown[] = []) {
     const answer = (body: unknown) => new Response(JSON.stringify(body));
     globalThis.fetch = (async (path: string, init: RequestInit) => {
       if (path.endsWith('/events')) {
@@ -17,7 +17,7 @@ class FakeServer {
         return new Response(new ReadableStream({ start: (controller) => { this.events = controller; } }));
       }
       await new Promise<void>((done) => this.waiting.push(done));
-      return answer(path.includes('/machines') ? { machines } : { runs });
+      return answer(path.includes('/machines') ? { machines } : path.includes('/imports') ? { imports } : { runs });
     }) as typeof fetch;
   }
 
@@ -26,7 +26,7 @@ class FakeServer {
   }
 
   async isAsked(): Promise<void> {
-    while (this.waiting.length < 2) await new Promise((done) => setTimeout(done, 1));
+    while (this.waiting.length < 3) await new Promise((done) => setTimeout(done, 1));
   }
 
   answerAll(): void {
@@ -62,5 +62,23 @@ test('what no event has brought comes from the answers', { timeout: 10_000 }, as
   server.answerAll();
   await until(() => feed.link.state === 'live');
   assert.equal(feed.stateOf(feed.machines.get('lathe-1')!).word, 'alarm');
+  feed.end();
+});
+
+test('what waits is what was listed and has come since, without what was decided', { timeout: 10_000 }, async () => {
+  const server = new FakeServer([], [], [importOf({ revision: 1 }), importOf({ revision: 2 })]);
+  const feed = new Feed();
+  const waiting = () => [...feed.imports.values()].map(({ revision }) => revision).sort();
+  feed.begin();
+  await server.isAsked();
+  server.send('import', importOf({ revision: 2, state: 'rejected' }));
+  server.send('import', importOf({ revision: 3 }));
+  await until(() => feed.imports.size === 1);
+  server.answerAll();
+  await until(() => feed.link.state === 'live');
+  assert.deepEqual(waiting(), [1, 3]);
+  server.send('import', importOf({ revision: 3, state: 'accepted_as' }));
+  await until(() => feed.imports.size === 1);
+  assert.deepEqual(waiting(), [1]);
   feed.end();
 });

@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { probingOf, recordText } from '../../src/live/record_text';
 import { addRow, columnsOf, readTables, setCell } from '../../src/machine/setup/setup_tables';
 import { holds, numberLines, rangeAround, type TextWindow } from '../../src/machine/text_window';
-import { axisText, lengthText, sortAxes, unitOf } from '../../src/machine/units';
+import { axisText, isDiameter, lengthText, sortAxes, unitOf } from '../../src/machine/units';
 import { diffLines, foldDiff } from '../../src/parts/diff';
 import { record } from './samples';
 
@@ -91,9 +91,13 @@ test('what did not change is folded, and no difference is nothing', () => {
   assert.deepEqual(foldDiff(diffLines('a', 'a')), []);
 });
 
-test('lengths are in the unit of the program, angles in degrees', () => {
+test('lengths are in the unit that the control shows, X of its lathe as a diameter, angles in degrees', () => {
   const mm = unitOf(null);
-  const inch = { ...mm, name: 'inch' as const, perMm: 1 / 25.4, digits: 4 };
+  const lathe = { units: 'inch', x: 'diameter' } as const;
+  const inch = unitOf(lathe);
+  assert.equal(axisText('X', 12.7, inch, isDiameter('X', lathe)), '1.0000');
+  assert.equal(axisText('Z', 12.7, inch, isDiameter('Z', lathe)), '0.5000');
+  assert.ok(!isDiameter('X', null) && !isDiameter('X', { units: 'mm', x: 'radius' }));
   assert.equal(lengthText(25.4, inch), '1.0000');
   assert.equal(lengthText(-0.0001, mm), '0.000');
   assert.equal(axisText('B', 90, inch), '90.000°');

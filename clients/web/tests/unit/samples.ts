@@ -1,5 +1,5 @@
 // A machine, its status and a run with usual values, for tests that are about one of them.
-import type { Machine, Record as ReportRecord, Run, Status } from '../../generated/api';
+import type { Import, Machine, Record as ReportRecord, Run, Status } from '../../generated/api';
 
 export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<Status> {
   return {
@@ -13,7 +13,7 @@ export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<
 export function machine(changed: Partial<Machine> = {}, changedStatus: Partial<NonNullable<Status>> = {}): Machine {
   return {
     name: 'lathe-1', control: 'centurion', description: null, gateway_version: '0.1.0', connected: true, clock_ahead_seconds: 0, notices: [],
-    first_seen: '2026-11-23T10:00:00Z', last_seen: '2026-11-23T12:00:00Z', status: status(changedStatus), ...changed,
+    first_seen: '2026-11-23T10:00:00Z', last_seen: '2026-11-23T12:00:00Z', display: { units: 'inch', x: 'diameter' }, status: status(changedStatus), ...changed,
   };
 }
 
@@ -29,5 +29,13 @@ export function record(changed: Partial<ReportRecord> = {}): ReportRecord {
   return {
     machine: 'lathe-1', epoch: 1, number: 1, time: '2026-11-23T12:00:00Z', received: null, run: 'run-1', kind: 'output', block: 1, line: 1,
     sequence: null, device: null, text: '', ...changed,
+  };
+}
+
+export function importOf(changed: Partial<Import> = {}): Import {
+  return {
+    program: 'O0200', revision: 2, machine: 'lathe-2', control: 'centurion', size: 100, sha256: '0'.repeat(64), comment: null, received: '2026-11-23T12:00:00Z',
+    state: 'pending', class: 'feed_and_speed', base: 1, fault: null, compared: '2026-11-23T12:00:01Z', decided: null, who: null, reason: null, at_once: false,
+    accepted_as: null, ...changed,
   };
 }

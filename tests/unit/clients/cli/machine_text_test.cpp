@@ -47,6 +47,31 @@ TEST(RunLine, ShowsAllThreeCountersAndThePlace) {
             "sent 1.5 MB  accepted 120000  executed 100000  X 12.500 Z -3.000  F 200");
 }
 
+TEST(RunLine, IsInTheUnitsOfTheControlWithXAsItShowsIt) {
+  auto machine = status();
+  machine.position = {{"X", 12.7}, {"Z", -25.4}, {"C", 90}};
+  machine.feed_mm_per_min = 254;
+  client::Run active = run();
+  active.state = "active";
+  const std::string line = run_line(active, &machine, {.units = "inch", .x = "diameter"});
+  EXPECT_TRUE(line.ends_with("X dia 1.0000 Z -1.0000 C 90.000 in  F 10.00")) << line;
+  EXPECT_TRUE(run_line(active, &machine).ends_with("X 12.700 Z -25.400 C 90.000  F 254"));
+}
+
+TEST(MachineDetails, AreInTheUnitsOfTheControl) {
+  client::Machine machine;
+  machine.name = "lathe-1";
+  machine.connected = true;
+  machine.status = status();
+  machine.status->position = {{"X", 12.7}, {"Z", -25.4}};
+  machine.display = client::Display{.units = "inch", .x = "diameter"};
+  EXPECT_NE(machine_details(machine).render(false).find("X dia 1.0000 Z -1.0000 in"),
+            std::string::npos);
+  EXPECT_NE(status_line(machine).find("X dia 1.0000 Z -1.0000 in  F 7.87 in/min"),
+            std::string::npos)
+      << status_line(machine);
+}
+
 TEST(RunLines, FitAnOrdinaryTerminal) {
   auto machine = status();
   machine.position["Y"] = 0;
@@ -99,7 +124,7 @@ TEST(MachineDetails, ShowTheStatusWindow) {
   machine.status->modes = modes;
   const std::string text = machine_details(machine).render(false);
   for (const char* line :
-       {"3, offset 13 (next 4)", "X 12.250 Z 0.000 mm", "1.500 mm a turn, limited by an axis",
+       {"3, offset 13 (next 4)", "X 12.250 Z 0.000 mm", "1.500 mm/rev, limited by an axis",
         "absolute, inch", "multiple thread cycle", "120.0 m/min at the surface", "not measured",
         "G55", "thread", "left", "flood"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << " in\n" << text;

@@ -39,9 +39,11 @@ void FakeLibrary::add_program_routes(httplib::Server& server) {
 void FakeLibrary::list(const Request& request, Response& response) {
   const std::lock_guard lock(mutex);
   const auto limit = std::stoul(request.get_param_value("limit"));
-  auto offset = std::stoul(request.get_param_value("offset"));
+  auto offset = request.has_param("offset") ? std::stoul(request.get_param_value("offset")) : 0;
+  const std::string after = request.get_param_value("after");
   json all = json::array();
   for (const auto& [name, revisions] : programs) {
+    if (name <= after && !after.empty()) continue;
     if (offset > 0) {
       --offset;
       continue;

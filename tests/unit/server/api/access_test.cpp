@@ -20,7 +20,7 @@ class Access : public ApiTest {
         pattern.replace(at, name.size(), value);
     };
     replace("{name}", is_own ? user : "absent");
-    for (const char* name : {"{id}", "{run}", "{group}", "{machine}", "{token}"})
+    for (const char* name : {"{id}", "{run}", "{group}", "{machine}", "{token}", "{job}"})
       replace(name, "absent");
     replace("{number}", "1");
     return pattern;
@@ -145,6 +145,10 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
       {"POST", "/api/v1/ports/line-1/transfers", R"({"programs":["O0100"]})"},
       {"POST", "/api/v1/ports/line-1/receive", ""},
       {"DELETE", "/api/v1/ports/line-1/transfers", ""},
+      {"POST", "/api/v1/machines/lathe-1/offsets/1/approve", "{}"},
+      {"POST", "/api/v1/machines/lathe-1/offsets/1/reject", "{}"},
+      {"POST", "/api/v1/machines/lathe-1/offsets/evaluation", ""},
+      {"PUT", "/api/v1/machines/lathe-1/offset-rules", ""},
   };
   std::size_t guarded = 0;
   for (const auto& row : api::route_permissions())

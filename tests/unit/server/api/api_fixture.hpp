@@ -16,6 +16,16 @@ struct Call {
   std::string token = kSecret;
 };
 
+/// A webhook's receiver that takes everything.
+class FakeSender final : public webhooks::Sender {
+ public:
+  Result<void> send(const webhooks::Delivery& delivery, const std::stop_token&) override {
+    sent.push_back(delivery);
+    return {};
+  }
+  std::vector<webhooks::Delivery> sent;
+};
+
 /// The API on a real store and fake machines, without sockets.
 class ApiTest : public ServerTest {
  protected:
@@ -27,6 +37,7 @@ class ApiTest : public ServerTest {
                     {.store = store_->accounts, .audit = *audit_, .clock = clock_}, cheap)
                     .value();
     EXPECT_TRUE(accounts_->use_local_secret(kSecret, false));
+    start_search();
     make_api(&ports_);
   }
 
@@ -39,11 +50,37 @@ class ApiTest : public ServerTest {
                                 .policy = releases_->policy(),
                                 .clock = clock_,
                                 .on_change = api::publish_imports_to(events_)});
+    measurements_ = std::make_unique<measurements::Measurements>(measurements::Measurements::Parts{
+        .store = *store_, .clock = clock_, .on_part = api::publish_parts_to(events_)});
+    offsets_ = std::make_unique<offsets::Offsets>(
+        offsets::Offsets::Parts{.store = *store_,
+                                .setups = *setups_,
+                                .clock = clock_,
+                                .on_change = api::publish_offsets_to(events_)});
+    jobs_ = std::make_unique<library::JobQueue>(
+        library::JobQueue::Parts{.store = *store_, .releases = *releases_, .clock = clock_});
+    folders::FolderSettings folder;
+    folder.name = "cam";
+    folder.path = folder_.path() / "cam";
+    folders_ = std::make_unique<folders::Folders>(
+        folders::HotFolder::Parts{
+            .programs = *programs_,
+            .catalog = catalog_,
+            .sources = {.store = *store_, .releases = *releases_, .clock = clock_},
+            .spool = folder_.path()},
+        std::vector{folder});  // nobody looks at it
+    webhooks_ = std::make_unique<webhooks::Webhooks>(
+        webhooks::Webhooks::Parts{
+            .store = store_->webhooks, .sender = sender_, .clock = clock_, .server = "db"},
+        webhooks::Webhooks::Options{});
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .releases = *releases_,
+                                                    .attachments = *attachments_,
+                                                    .search = *search_,
                                                     .setups = *setups_,
                                                     .machines = machines_,
                                                     .runs = *runs_,
+                                                    .jobs = *jobs_,
                                                     .paths = *paths_,
                                                     .audit = *audit_,
                                                     .chain = *chain_,
@@ -59,7 +96,12 @@ class ApiTest : public ServerTest {
                                                     .ports = ports,
                                                     .health = &health_,
                                                     .backups = backups_.get(),
-                                                    .imports = imports_.get()});
+                                                    .imports = imports_.get(),
+                                                    .measurements = measurements_.get(),
+                                                    .retention = retention_.get(),
+                                                    .offsets = offsets_.get(),
+                                                    .folders = folders_.get(),
+                                                    .webhooks = webhooks_.get()});
   }
 
   /// Made when they are asked for, in a folder beside the store.
@@ -80,6 +122,20 @@ class ApiTest : public ServerTest {
                                 .health = health_,
                                 .clock = clock_},
         library::Backups::Options{.every = std::chrono::hours(0)});
+    make_api(&ports_);
+  }
+
+  /// Of what is older than a day, in a folder beside the store.
+  void set_up_archives() {
+    library::Retention::Options options;
+    options.records.age = options.measurements.age = std::chrono::hours(24);
+    retention_ =
+        std::make_unique<library::Retention>(library::Retention::Parts{.store = *store_,
+                                                                       .clock = clock_,
+                                                                       .folder = folder_.path(),
+                                                                       .database = "db",
+                                                                       .made_by = "dncd 1"},
+                                             options);
     make_api(&ports_);
   }
 
@@ -185,6 +241,13 @@ class ApiTest : public ServerTest {
   api::EventHub events_;
   std::unique_ptr<paths::ProgramPaths> paths_;
   std::unique_ptr<imports::Imports> imports_;
+  std::unique_ptr<measurements::Measurements> measurements_;
+  std::unique_ptr<library::Retention> retention_;
+  std::unique_ptr<offsets::Offsets> offsets_;
+  std::unique_ptr<library::JobQueue> jobs_;
+  std::unique_ptr<folders::Folders> folders_;
+  FakeSender sender_;
+  std::unique_ptr<webhooks::Webhooks> webhooks_;
   std::unique_ptr<api::Api> api_;
 };
 

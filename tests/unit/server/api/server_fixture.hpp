@@ -5,9 +5,11 @@
 #include <string>
 #include <string_view>
 
+#include "server/library/attachments.hpp"
 #include "server/library/audit_chain.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/control_catalog.hpp"
+#include "server/library/program_search.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
 #include "server/library/run_history.hpp"
@@ -51,6 +53,9 @@ class ServerTest : public testing::Test {
   ServerTest() { reopen(); }
 
   void reopen() {
+    const bool has_search = search_ != nullptr;
+    search_.reset();
+    attachments_.reset();
     setups_.reset();
     releases_.reset();
     runs_.reset();
@@ -70,15 +75,18 @@ class ServerTest : public testing::Test {
     programs_ = std::make_unique<library::Programs>(*store_, clock_, catalog_, *audit_);
     runs_ = std::make_unique<library::RunHistory>(*store_);
     setups_ = std::make_unique<library::Setups>(store_->setups, catalog_, *audit_);
+    attachments_ = std::make_unique<library::Attachments>(*store_);
+    if (has_search) start_search();
     use_policy("");
   }
+  /// Its thread writes to the store from now on.
+  void start_search() { search_ = std::make_unique<library::ProgramSearch>(*store_); }
   /// The policy's text, from now on.
   void use_policy(const std::string& toml) {
     auto policy = library::ReleasePolicy::parse(toml);
     ASSERT_TRUE(policy) << policy.error().what;
     releases_ = std::make_unique<library::Releases>(
-        library::Releases::Parts{.decisions = store_->releases,
-                                 .programs = store_->programs,
+        library::Releases::Parts{.store = *store_,
                                  .clock = clock_,
                                  .key = SigningKey::of(std::string(64, '7')).value(),
                                  .database = store_->identity().value()},
@@ -134,6 +142,8 @@ class ServerTest : public testing::Test {
   std::unique_ptr<library::RunHistory> runs_;
   std::unique_ptr<library::Setups> setups_;
   std::unique_ptr<library::Releases> releases_;
+  std::unique_ptr<library::Attachments> attachments_;
+  std::unique_ptr<library::ProgramSearch> search_;
 };
 
 }  // namespace dripline::server_test

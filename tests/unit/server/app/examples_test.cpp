@@ -40,6 +40,17 @@ TEST(Examples, ThePolicyIsTaken) {
   EXPECT_TRUE(policy->rule(storage::RevisionStep::Approve).needs_four_eyes);
 }
 
+TEST(Examples, HotFoldersAreTakenByTheServersSettings) {
+  app::Settings settings;
+  const auto taken = app::apply_toml(settings, read("deploy/examples/folders.toml"));
+  ASSERT_TRUE(taken) << taken.error().what;
+  ASSERT_EQ(settings.folders.size(), 1u);
+  EXPECT_EQ(settings.folders[0].rules.size(), 3u);
+  const auto broken = app::apply_toml(settings, "[[folder]]\nname='a'\npath='relative'\n");
+  ASSERT_FALSE(broken);
+  EXPECT_NE(broken.error().what.find("line 3"), std::string::npos) << broken.error().what;
+}
+
 TEST(Examples, BaudOfAPortOverridesItsLine) {
   app::Settings settings;
   const auto taken = app::apply_toml(

@@ -203,8 +203,7 @@ TEST_F(ReleasesTest, AnotherServersKeyReleasesNothingHere) {
   release("P", "M2\n");
   const auto text = releases_->text_of(releases_->decisions("P", 1)->front());
   EXPECT_NE(text.find("step submit\n"), std::string::npos);
-  Releases other({.decisions = store_->releases,
-                  .programs = store_->programs,
+  Releases other({.store = *store_,
                   .clock = clock_,
                   .key = SigningKey::of(std::string(64, '8')).value(),
                   .database = store_->identity().value()},

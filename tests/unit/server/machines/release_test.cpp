@@ -60,6 +60,26 @@ TEST_F(MachineRelease, NothingLeavesForTheGatewayThatIsNotReleased) {
   EXPECT_EQ(starts(), 1u);
 }
 
+TEST_F(MachineRelease, ARunOfAJobNamesItAndAHeldQueueStartsNothing) {
+  begin();
+  release("O0100", "M30\n");
+  storage::Job job;
+  job.machine = "lathe-1";
+  job.program = "O0100";
+  const auto added = store_->jobs.add(job, "anna", {});
+  ASSERT_TRUE(added) << added.error().what;
+  const machines::StartRequest request{
+      .machine = "lathe-1", .program = "O0100", .revision = {}, .author = "anna", .job = added->id};
+  ASSERT_TRUE(store_->jobs.hold({"lathe-1", "anna", "wide", clock_.now()}, "anna"));
+  EXPECT_EQ(service_->start(request).error().code, Errc::Conflict);
+  EXPECT_EQ(starts(), 0u) << "checked where the run is stored, whoever asks";
+  ASSERT_TRUE(store_->jobs.release("lathe-1", "anna", clock_.now()));
+  const auto run = service_->start(request);
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(run->job, added->id);
+  EXPECT_EQ(starts(), 1u);
+}
+
 TEST_F(MachineRelease, ACalledProgramIsReleasedTooOrIsNotFound) {
   begin();
   release("O0100", "M98 P0200\nM30\n");
@@ -78,6 +98,44 @@ TEST_F(MachineRelease, ACalledProgramIsReleasedTooOrIsNotFound) {
   EXPECT_EQ(missing.error().what,
             "program 'O0300' called by 'O0100' was not released for control centurion when the run "
             "began");
+}
+
+TEST_F(MachineRelease, ANewerSubprogramThanTheReleasePinsDoesNotRun) {
+  begin();
+  push("O0100", "M98 P0200\nM30\n");
+  push("O0200", "G04\nM99\n");
+  for (const std::string program : {"O0100", "O0200"}) {
+    decide(program, 1, storage::RevisionStep::Submit);
+    decide(program, 1, storage::RevisionStep::Approve);
+  }
+  const auto main = programs_->revision("O0100", 1).value();
+  auto closure = releases_->closure({.main = main, .machine = {}, .named = {}});
+  ASSERT_TRUE(closure) << closure.error().what;
+  const auto released = releases_->decide({.program = "O0100",
+                                           .revision = 1,
+                                           .step = storage::RevisionStep::Release,
+                                           .comment = {},
+                                           .who = {"anna", "token", ""},
+                                           .role = Role::Approver,
+                                           .closure = *std::move(closure)});
+  ASSERT_TRUE(released) << released.error().what;
+  const auto pinned = programs_->revision("O0200", 1).value();
+  EXPECT_EQ(pinned.state, storage::RevisionState::Released) << "with its caller";
+  release("O0200", "G01 X99\nM99\n");
+  release("O0300", "M99\n");
+  clock_.advance(std::chrono::seconds(1));
+  const auto run = try_start({.program = "O0100"});
+  ASSERT_TRUE(run) << run.error().what;
+  request(run->id, 0, 100, "O0200");
+  EXPECT_EQ(fed(1), "G04\nM99\n") << "revision 2 is released and newer";
+  EXPECT_EQ(first_block().content, pinned.content.hex());
+  const auto other = machines::resolve_called_program({*store_, *releases_, clock_}, *run, "O0300");
+  ASSERT_FALSE(other) << "what was not approved with it is not called";
+  EXPECT_EQ(other.error().code, Errc::NotFound);
+  end(run->id);
+  decide("O0200", 1, storage::RevisionStep::Withdraw);
+  EXPECT_EQ(try_start({.program = "O0100"}).error().what,
+            "program O0100 revision 1 calls O0200 revision 1, which was withdrawn");
 }
 
 TEST_F(MachineRelease, ARestartIsJudgedAnew) {

@@ -23,6 +23,10 @@ action = "directory"
 name = "again"
 trigger = "FROM"
 action = "restart"
+[[set.rule]]
+name = "next"
+trigger = "NEXT"
+action = "next_job"
 [[rule]]
 matches = "^PROBE "
 action = "report"
@@ -59,15 +63,15 @@ TEST_F(PortServiceTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
   start_ports();
   add_port(mill(kCalls));
   line().write("B 2\nPROBE Z-1.125\n");
-  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 2; }));
-  EXPECT_EQ(texts_of(*store_->records.machine_report("mill", {})),
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 2; }));
+  EXPECT_EQ(texts_of(*store_->records.machine_report("mill", {}, 100)),
             (std::vector<std::string>{"B 2", "PROBE Z-1.125"}));
   ports_.reset();  // the server stops, and starts again
   start_ports();
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
   line().write("B 3\n");
-  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 3; }));
-  EXPECT_EQ(store_->records.machine_report("mill", {})->back().text, "B 3");
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 3; }));
+  EXPECT_EQ(store_->records.machine_report("mill", {}, 100)->back().text, "B 3");
   EXPECT_EQ(store_->records.machine_reports()->at(0).lines, 3u);
 }
 
@@ -82,7 +86,7 @@ TEST_F(PortServiceTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
       "\x12"
       "B 2\n\x14\x12"
       "B 3\n\x14");
-  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 2; }));
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 2; }));
   EXPECT_EQ(ports_->port("com1")->fault, "") << "nothing is wrong with it";
 }
 
@@ -155,8 +159,8 @@ TEST_F(PortServiceTest, NumbersItsRecordsAfterAllBeforeThemWhateverTheClockShows
   add_port(mill());
   add_port(mill());  // changed: the same epoch
   line().write("B 2\n");
-  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 1; }));
-  EXPECT_EQ(store_->records.machine_report("mill", {})->at(0).epoch, machine.epoch + 1);
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 1; }));
+  EXPECT_EQ(store_->records.machine_report("mill", {}, 100)->at(0).epoch, machine.epoch + 1);
 }
 
 TEST_F(PortServiceTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
@@ -232,6 +236,31 @@ TEST_F(PortServiceTest, SendsWhatIsCalledFromTheControl) {
   ASSERT_TRUE(wait_state(runs->front().id, RunState::Completed));
   line().write("%\nO9999\n(FROM=N1)\nM30\n%\n");
   EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");
+}
+
+TEST_F(PortServiceTest, TheControlTakesTheNextJob) {
+  start_ports();
+  add_machine("mill");
+  add_port(mill(kCalls));
+  push("O1234", "N1 G0 X1\n");
+  line().write("%\nO9999\n(NEXT)\nM30\n%\n");
+  EXPECT_NE(line().read_until("M30\n%\n").find("NO JOB WAITS"), std::string::npos);
+  storage::Job job;
+  job.machine = "mill";
+  job.program = "O1234";
+  const auto added = store_->jobs.add(job, "anna", {});
+  ASSERT_TRUE(added) << added.error().what;
+  ASSERT_TRUE(store_->jobs.hold({"mill", "anna", "bore is wide", clock_.now()}, "anna"));
+  line().write("%\nO9999\n(NEXT)\nM30\n%\n");
+  EXPECT_NE(line().read_until("M30\n%\n").find("BORE IS WIDE"), std::string::npos);
+  ASSERT_TRUE(store_->jobs.release("mill", "anna", clock_.now()));
+  line().write("%\nO9999\n(NEXT)\nM30\n%\n");
+  EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");
+  const auto runs = store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {});
+  ASSERT_EQ(runs->size(), 1u);
+  EXPECT_EQ(runs->front().job, added->id);
+  ASSERT_TRUE(wait_state(runs->front().id, RunState::Completed));
+  EXPECT_EQ(store_->jobs.find(added->id)->state, storage::JobState::Done);
 }
 
 TEST_F(PortServiceTest, ReportsARefusalAsAProgramOfComments) {

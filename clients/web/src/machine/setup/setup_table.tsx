@@ -1,4 +1,5 @@
 // The tool table, the offsets and the variables of a setup's text, as cells that change the text where they are written.
+import { Heads } from '../../parts/heads';
 import { texts } from '../../texts/texts';
 import { addRow, columnsOf, readTables, setCell, type TableName } from './setup_tables';
 
@@ -12,7 +13,7 @@ export function SetupTable({ table, text, onChange }: { table: TableName; text: 
       {rows.length > 0 && (
         <div class="scroll">
           <table class="cells">
-            <thead><tr>{columns.map((key) => <th scope="col" key={key}>{key}</th>)}</tr></thead>
+            <Heads of={columns} />
             <tbody>
               {rows.map((row, i) => (
                 <tr key={i}>

@@ -1,0 +1,144 @@
+#include <memory>
+
+#include "clients/cli/context.hpp"
+#include "clients/cli/measurements/measurement_text.hpp"
+#include "clients/cli/server/archive_commands.hpp"
+#include "clients/cli/server/json_answer.hpp"
+#include "clients/cli/server/run_control.hpp"
+#include "clients/cli/text/standard_output.hpp"
+
+namespace dripline::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct MeasurementsCommand {
+  client::MeasurementQuery query;
+  std::string output, archive;
+  bool csv = false;
+};
+
+struct DeriveCommand {
+  std::string run, name;
+  std::optional<std::uint64_t> version;
+};
+
+/// `latest` and beginnings of ids become ids.
+std::optional<int> resolve_run(client::Client& client, std::string& run) {
+  if (run.empty()) return std::nullopt;
+  const auto found = find_run(client, run);
+  if (!found) return complain(found.error());
+  run = found->id;
+  return std::nullopt;
+}
+
+int measurements(Context& context, client::Client& client, const MeasurementsCommand& command) {
+  client::MeasurementQuery query = command.query;
+  if (const auto status = resolve_run(client, query.run)) return *status;
+  if (command.csv || !command.output.empty()) {
+    return save_content(command.output, [&](const ContentSink& sink) {
+      return client.export_measurements(query, command.csv ? "csv" : "jsonl", sink);
+    });
+  }
+  return print_listing(context, client, client.measurements(query),
+                       {"measurements", "Nothing was measured.\n", measurement_table});
+}
+
+int parts(Context& context, client::Client& client, const MeasurementsCommand& command) {
+  client::MeasurementQuery query = command.query;
+  if (const auto status = resolve_run(client, query.run)) return *status;
+  return print_listing(context, client, client.parts(query),
+                       {"parts", "No part was measured.\n", part_table});
+}
+
+int findings(Context& context, client::Client& client, const MeasurementsCommand& command) {
+  client::MeasurementQuery query = command.query;
+  if (const auto status = resolve_run(client, query.run)) return *status;
+  return print_listing(context, client, client.report_findings(query),
+                       {"findings", "Every line was understood.\n", finding_table});
+}
+
+int derive(Context& context, client::Client& client, const DeriveCommand& command) {
+  std::string run = command.run;
+  if (const auto status = resolve_run(client, run)) return *status;
+  const auto answer = client.derive_measurements(run, command.name, command.version);
+  return print_answer(context, client, answer, [&](const ordered_json& shown) {
+    context.print(part_table(shown.at("parts")));
+  });
+}
+
+void add_choice(Command command, const std::shared_ptr<MeasurementsCommand>& options) {
+  command.add_option("--run", options->query.run, "Only this run: id, beginning of it, or latest");
+  command.add_option("--machine", options->query.machine, "Only this machine");
+  command.add_option("--limit", options->query.limit, "At most this many, up to 1000 [100]")
+      .check(in_range(1, 1000));
+}
+
+}  // namespace
+
+void add_measurement_commands(Command report, Context& context) {
+  auto listed = report.add_subcommand("measurements", "List measured values, oldest first");
+  auto options = std::make_shared<MeasurementsCommand>();
+  add_choice(listed, options);
+  listed.add_option("--characteristic", options->query.characteristic, "Only this characteristic");
+  listed.add_option("--since", options->query.since,
+                    "Not before this time, UTC: 2026-11-21 or "
+                    "2026-11-21T07:40:06Z");
+  listed.add_option("--until", options->query.until, "Before this time");
+  listed.add_option("--verdict", options->query.verdict, "Only this verdict")
+      .check(one_of({"good", "unknown", "rework", "scrap"}));
+  listed.add_flag("--newest", options->query.newest_first, "Newest first");
+  listed.add_flag("--superseded", options->query.with_superseded,
+                  "Also what was derived again since");
+  listed.add_flag("--csv", options->csv, "Write all of them as CSV, whatever the limit is");
+  listed.add_option("-o,--output", options->output,
+                    "Write all of them to this file, as JSON Lines or with --csv as CSV");
+  add_json_flag(listed, context);
+  listed.footer(
+      "Example:\n  dnc report measurements --machine lathe-1 --characteristic D12 --since "
+      "2026-11-01 --csv -o d12.csv");
+  listed.add_option("--archive", options->archive,
+                    "Read this archive instead of the server; needs no server");
+  listed.callback([&context, options] {
+    if (!options->archive.empty()) {
+      context.status = show_archived_measurements(context, options->archive,
+                                                  {.run = options->query.run,
+                                                   .machine = options->query.machine,
+                                                   .characteristic = options->query.characteristic,
+                                                   .verdict = options->query.verdict});
+    } else if (auto client = context.connect()) {
+      context.status = measurements(context, *client, *options);
+    }
+  });
+
+  auto part_list = report.add_subcommand("parts", "List measured parts with their verdicts");
+  auto part_options = std::make_shared<MeasurementsCommand>();
+  add_choice(part_list, part_options);
+  part_list.add_option("--verdict", part_options->query.verdict, "Only this verdict")
+      .check(one_of({"good", "unknown", "rework", "scrap"}));
+  part_list.add_flag("--superseded", part_options->query.with_superseded,
+                     "Also what was derived again since");
+  add_json_flag(part_list, context);
+  run_at_server(part_list, context, part_options, parts);
+
+  auto found = report.add_subcommand(
+      "findings", "List lines that no template knows, and missing, doubled and reordered ones");
+  auto found_options = std::make_shared<MeasurementsCommand>();
+  add_choice(found, found_options);
+  add_json_flag(found, context);
+  run_at_server(found, context, found_options, findings);
+
+  auto again = report.add_subcommand("derive", "Derive a run's measurements again");
+  auto derived = std::make_shared<DeriveCommand>();
+  again.add_option("RUN", derived->run, "Run: its id, the beginning of it, or latest").required();
+  again.add_option("--template", derived->name,
+                   "By this template alone; otherwise by those that are assigned");
+  again.add_option("--version", derived->version, "This version of it");
+  add_json_flag(again, context);
+  again.footer(
+      "What was derived before is kept, with the version it was derived by, and no longer "
+      "listed.\n\nExample:\n  dnc report derive latest --template bore");
+  run_at_server(again, context, derived, derive);
+}
+
+}  // namespace dripline::cli

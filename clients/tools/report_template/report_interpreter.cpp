@@ -1,0 +1,358 @@
+#include "clients/tools/report_template/report_interpreter.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "clients/tools/report_template/impl/value_maker.hpp"
+
+namespace dripline::report_template {
+namespace {
+
+using measurement::Verdict;
+
+constexpr std::size_t kMaxGaps = 256;  ///< of counts, in a part; more are reported at once
+constexpr std::array<std::string_view, 6> kFindings{"unmatched", "bad_value", "missing",
+                                                    "doubled",   "reordered", "incomplete"};
+
+/// `line`'s own numbers have priority over those of earlier lines.
+void add_missing(LineNumbers& line, const LineNumbers& before) {
+  for (const auto& [name, member] : kLineNumbers) {
+    if (!(line.*member)) line.*member = before.*member;
+  }
+  line.decimals = std::max(line.decimals, before.decimals);
+}
+
+bool is_whole(double value) {
+  return value >= -1e9 && value <= 1e9 && value == static_cast<double>(std::int64_t(value));
+}
+
+std::string counts_text(std::int64_t from, std::int64_t to) {
+  return from == to ? fmt::format("line {} did not come", from)
+                    : fmt::format("lines {} to {} did not come", from, to);
+}
+
+}  // namespace
+
+std::string_view to_string(FindingKind kind) {
+  return kFindings.at(static_cast<std::size_t>(kind));
+}
+
+bool ReportInterpreter::is_for(const ReportLine& line) const {
+  const auto& device = template_->device;
+  return std::ranges::find(template_->sources, line.kind) != template_->sources.end() &&
+         (device.empty() || line.kind != "output" || device == line.device);
+}
+
+Taken ReportInterpreter::take(const ReportLine& line) {
+  Taken taken;
+  if (!is_for(line)) return taken;
+  const std::string made = line.kind == "probe" ? line_of_probe(line.text) : std::string();
+  const std::string_view text = line.kind == "probe" ? std::string_view(made) : line.text;
+  if (state_.partial && take_partial(text, taken)) return taken;
+  take_rule(text, taken);
+  return taken;
+}
+
+/// The next of the lines that follow each other. What is ignored may be between them; anything else
+/// ends the sequence.
+bool ReportInterpreter::take_partial(std::string_view line, Taken& taken) {
+  ReportState::Partial& partial = *state_.partial;
+  if (next_of_partial() == nullptr) {
+    state_.partial.reset();  // of another template
+    return false;
+  }
+  const LineRule& rule = template_->rules[partial.rule];
+  if (rule.steps[partial.step].match(line)) {
+    partial.texts.emplace_back(trimmed(line));
+    taken.is_understood = true;
+    taken.rule = partial.rule;
+    if (++partial.step < rule.steps.size()) return true;
+    const ReportState::Partial whole = std::move(partial);
+    state_.partial.reset();
+    std::vector<FieldText> fields;
+    for (std::size_t i = 0; i < whole.texts.size(); ++i) {
+      const auto found = rule.steps[i].match(whole.texts[i]);
+      if (found) fields.insert(fields.end(), found->begin(), found->end());
+    }
+    apply(whole.rule, fields, taken);
+    return true;
+  }
+  for (std::size_t i = 0; i < template_->rules.size(); ++i) {
+    const LineRule& other = template_->rules[i];
+    if (!other.is_ignored || !other.steps.front().match(line)) continue;
+    taken.is_understood = true;
+    taken.rule = i;
+    return true;
+  }
+  add_finding(FindingKind::Incomplete,
+              fmt::format("'{}' did not come after '{}'", rule.steps[partial.step].text(),
+                          partial.texts.back()),
+              taken.events);
+  state_.partial.reset();
+  return false;
+}
+
+/// The form of the line that has to come; nullptr: none.
+const LineForm* ReportInterpreter::next_of_partial() const {
+  if (!state_.partial || state_.partial->rule >= template_->rules.size()) return nullptr;
+  const auto& steps = template_->rules[state_.partial->rule].steps;
+  return state_.partial->step < steps.size() ? &steps[state_.partial->step] : nullptr;
+}
+
+void ReportInterpreter::take_rule(std::string_view line, Taken& taken) {
+  for (std::size_t i = 0; i < template_->rules.size(); ++i) {
+    const LineRule& rule = template_->rules[i];
+    const auto fields = rule.steps.front().match(line);
+    if (!fields) continue;
+    taken.is_understood = true;
+    taken.rule = i;
+    if (rule.is_ignored) return;
+    if (rule.steps.size() > 1) {
+      state_.partial =
+          ReportState::Partial{.rule = i, .step = 1, .texts = {std::string(trimmed(line))}};
+    } else {
+      apply(i, *fields, taken);
+    }
+    return;
+  }
+}
+
+ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<FieldText>& texts,
+                                                         std::vector<ReportEvent>& events) {
+  Fields made;
+  for (const auto& [field, text] : texts) {
+    const std::string_view shown = trimmed(text);
+    if (!is_number(field->kind)) {
+      if (shown.size() > kMaxName) {
+        add_finding(
+            FindingKind::BadValue,
+            fmt::format("{} of {} characters: at most {}", field->name, shown.size(), kMaxName),
+            events);
+        continue;
+      }
+      made.texts[field->name] = shown;
+      continue;
+    }
+    const auto number = read_number(text);
+    const bool is_count = field->kind == FieldKind::Count || field->kind == FieldKind::Expected;
+    if (!number || (is_count && !is_whole(number->value))) {
+      add_finding(FindingKind::BadValue,
+                  fmt::format("{} '{}': {}", field->name, shown.substr(0, 40),
+                              number ? "no whole number" : number.error().what),
+                  events);
+      continue;
+    }
+    if (is_count) {
+      (field->kind == FieldKind::Count ? made.count : made.expected) = std::int64_t(number->value);
+      continue;
+    }
+    LineNumbers& numbers = made.numbers[field->of];
+    const auto* row = std::ranges::find(kLineNumbers, field->name, &LineNumberRow::name);
+    numbers.*(row->member) = number->value;
+    numbers.decimals = std::max(numbers.decimals, number->decimals);
+  }
+  return made;
+}
+
+void ReportInterpreter::apply(std::size_t index, const std::vector<FieldText>& texts,
+                              Taken& taken) {
+  const LineRule& rule = template_->rules[index];
+  auto& events = taken.events;
+  for (const auto& [field, text] : texts) {
+    taken.fields.emplace_back(field->of.empty() ? field->name : field->name + "." + field->of,
+                              trimmed(text));
+  }
+  if (rule.starts_part) close_part(events);
+  const Fields fields = read_fields(texts, events);
+  if (keep_texts(rule, fields, events)) {
+    ++state_.ordinals[index];
+    state_.context["ordinal"] = fmt::to_string(state_.ordinals[index]);
+    take_values(rule, fields, events);
+  }
+  if (rule.ends_part) close_part(events);
+}
+
+/// Texts and counts. False: the line came before, and gives no values.
+bool ReportInterpreter::keep_texts(const LineRule& rule, const Fields& fields,
+                                   std::vector<ReportEvent>& events) {
+  const auto serial = fields.texts.find("serial");
+  if (serial != fields.texts.end() && !state_.part.serial.empty() &&
+      serial->second != state_.part.serial) {
+    close_part(events);
+  }
+  const bool restarts = fields.count == template_->first_count && state_.highest &&
+                        *state_.highest > template_->first_count &&
+                        std::ranges::none_of(template_->rules, &LineRule::starts_part);
+  if (restarts) close_part(events);
+  if (rule.starts_part || serial != fields.texts.end() || fields.texts.contains("part") ||
+      fields.count || fields.expected) {
+    open_part(events);
+  }
+  for (const auto& [name, text] : fields.texts) state_.context[name] = text;
+  if (fields.count) state_.context["count"] = fmt::to_string(*fields.count);
+  if (serial != fields.texts.end()) state_.part.serial = serial->second;
+  if (const auto part = fields.texts.find("part"); part != fields.texts.end())
+    state_.part.number = part->second;
+  if (fields.expected && *fields.expected >= 0)
+    state_.expected = static_cast<std::uint64_t>(*fields.expected);
+  return !fields.count || take_count(*fields.count, events);
+}
+
+void ReportInterpreter::open_part(std::vector<ReportEvent>& events) {
+  if (state_.is_open) return;
+  state_.is_open = true;
+  state_.expected = template_->expected;
+  events.emplace_back(PartBegun{});
+}
+
+bool ReportInterpreter::take_count(std::int64_t count, std::vector<ReportEvent>& events) {
+  const std::int64_t next = state_.highest ? *state_.highest + 1 : template_->first_count;
+  if (count < template_->first_count || count < next) return take_earlier(count, events);
+  if (count > next) {
+    if (state_.missing.size() >= kMaxGaps) {
+      state_.is_incomplete = true;
+      const auto [from, to] = state_.missing.front();
+      add_finding(FindingKind::Missing, counts_text(from, to), events);
+      state_.missing.erase(state_.missing.begin());
+    }
+    state_.missing.emplace_back(next, count - 1);
+  }
+  state_.highest = count;
+  return true;
+}
+
+bool ReportInterpreter::take_earlier(std::int64_t count, std::vector<ReportEvent>& events) {
+  const auto gap = std::ranges::find_if(state_.missing, [&](const auto& missing) {
+    return missing.first <= count && count <= missing.second;
+  });
+  if (gap == state_.missing.end()) {
+    add_finding(FindingKind::Doubled, fmt::format("line {} came again", count), events);
+    return false;
+  }
+  add_finding(FindingKind::Reordered,
+              fmt::format("line {} came after line {}", count, *state_.highest), events);
+  const auto [from, to] = *gap;
+  const auto at = state_.missing.erase(gap);
+  std::vector<std::pair<std::int64_t, std::int64_t>> rest;
+  if (from < count) rest.emplace_back(from, count - 1);
+  if (count < to) rest.emplace_back(count + 1, to);
+  state_.missing.insert(at, rest.begin(), rest.end());
+  return true;
+}
+
+void ReportInterpreter::take_values(const LineRule& rule, const Fields& fields,
+                                    std::vector<ReportEvent>& events) {
+  bool has_values = false;
+  const auto text_of = [&](const char* name) {
+    const auto found = state_.context.find(name);
+    return found == state_.context.end() ? std::string() : found->second;
+  };
+  const bool has_named = std::ranges::any_of(fields.numbers, [](const auto& one) {
+    return !one.first.empty() && (one.second.actual || one.second.deviation);
+  });
+  LineNumbers common;  // limits beside values that have names: they are for each of these
+  for (const auto& [of, given] : fields.numbers) {
+    LineNumbers numbers = given;
+    if (of.empty()) {
+      add_missing(numbers, state_.pending);
+      state_.pending = {};
+    } else {
+      add_missing(numbers, common);
+    }
+    if (!numbers.actual && !numbers.deviation) {
+      if (of.empty()) (has_named ? common : state_.pending) = numbers;
+      continue;
+    }
+    open_part(events);
+    has_values = true;
+    ValueParts parts{.raw = of.empty() ? text_of("characteristic") : of,
+                     .name = {},
+                     .numbers = numbers,
+                     .unit = text_of("unit"),
+                     .tool = text_of("tool")};
+    auto named = state_.context;
+    named["characteristic"] = parts.raw;
+    const auto name = fill_in(
+        rule.characteristic.empty() ? std::string("{characteristic}") : rule.characteristic, named);
+    if (name) parts.name = *name;
+    auto value = name ? make_value(*template_, rule, parts) : Result<Value>(fail(name.error()));
+    if (value) {
+      const auto& all = template_->characteristics;
+      for (const std::string& key : {parts.name, parts.raw}) {
+        const auto own = all.find(key);
+        if (own != all.end() && own->second.is_required) state_.seen.insert(key);
+      }
+      add_value(*std::move(value), events);
+    } else {
+      state_.is_incomplete = true;
+      add_finding(FindingKind::BadValue, value.error().what, events);
+    }
+  }
+  if (has_values) ++state_.lines;
+}
+
+void ReportInterpreter::add_value(Value value, std::vector<ReportEvent>& events) {
+  ++state_.part.values;
+  const auto& made = value.characteristic;
+  if (made.lower || made.upper) {
+    state_.worst = state_.is_judged ? worse(state_.worst, value.verdict) : value.verdict;
+    state_.is_judged = true;
+  }
+  update_verdict();
+  events.emplace_back(std::move(value));
+}
+
+void ReportInterpreter::add_finding(FindingKind kind, std::string text,
+                                    std::vector<ReportEvent>& events) {
+  ++state_.part.findings;
+  update_verdict();
+  events.emplace_back(Finding{kind, std::move(text)});
+}
+
+void ReportInterpreter::update_verdict() {
+  state_.part.verdict = state_.is_judged ? state_.worst : Verdict::Unknown;
+  if (state_.is_incomplete) state_.part.verdict = worse(state_.part.verdict, Verdict::Unknown);
+}
+
+/// At the end of a part: what did not come.
+void ReportInterpreter::find_missing(std::vector<ReportEvent>& events) {
+  const auto miss = [&](FindingKind kind, std::string text) {
+    state_.is_incomplete = true;
+    add_finding(kind, std::move(text), events);
+  };
+  if (const LineForm* form = next_of_partial()) {
+    miss(FindingKind::Incomplete,
+         fmt::format("'{}' did not come after '{}'", form->text(), state_.partial->texts.back()));
+  }
+  for (const auto& [from, to] : state_.missing) miss(FindingKind::Missing, counts_text(from, to));
+  if (state_.expected) {
+    const auto expected = static_cast<std::int64_t>(*state_.expected);
+    const auto last = template_->first_count + expected - 1;
+    if (state_.highest && *state_.highest < last) {
+      miss(FindingKind::Missing, counts_text(*state_.highest + 1, last));
+    } else if (!state_.highest && state_.lines != *state_.expected) {
+      miss(state_.lines < *state_.expected ? FindingKind::Missing : FindingKind::Doubled,
+           fmt::format("{} lines with values came, {} were expected", state_.lines, expected));
+    }
+  }
+  for (const auto& [name, definition] : template_->characteristics) {
+    if (definition.is_required && !state_.seen.contains(name))
+      miss(FindingKind::Incomplete, fmt::format("{} was not measured", name));
+  }
+}
+
+void ReportInterpreter::close_part(std::vector<ReportEvent>& events) {
+  if (!state_.is_open) return;
+  find_missing(events);
+  events.emplace_back(PartEnded{state_.part});
+  state_ = {};
+}
+
+std::vector<ReportEvent> ReportInterpreter::end() {
+  std::vector<ReportEvent> events;
+  close_part(events);
+  state_ = {};
+  return events;
+}
+
+}  // namespace dripline::report_template

@@ -1,0 +1,47 @@
+#include "gateway/interpreter/dialects/tnc155/reading/program_calls.hpp"
+
+#include <fmt/core.h>
+
+#include "gateway/interpreter/dialects/tnc155/options.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source,
+                                   ProgramIndex program) {
+  const auto options = read_options(setup);
+  if (!options) return fail(options.error());
+  BlockReader reader(source, {options->iso_continuation, options->version});
+  TextPlace start;
+  start.program = program;
+  reader.seek(start);
+  ReadingState state;
+  BlockParts parts;
+  CallCollector calls;
+  for (;;) {
+    const ReadState read = reader.next(state, parts);
+    if (read == ReadState::End) return calls.take();
+    if (read == ReadState::Failed) return fail(Errc::Io, "{}", reader.reason());
+    if (read == ReadState::NotYet)
+      return fail(Errc::Unsupported, "the text after line {} is not here", reader.place().line);
+    // The run alarms at what is no block; what the text calls after it is still known.
+    const std::uint64_t line = reader.place().line;
+    if (read == ReadState::Wrong) {
+      if (state.program.form == Form::Unknown || !reader.skip_wrong())
+        return fail(Errc::Syntax, "line {} is no block of this control", line);
+      continue;
+    }
+    for (const Block& block : parts) {
+      const bool is_call = block.kind == BlockKind::ProgramCall ||
+                           (block.kind == BlockKind::CycleDefinition && block.cycle == 12);
+      if (!is_call || block.target == Block::kNone) continue;
+      calls.add({.name = fmt::format("{}", block.target),
+                 .earlier = {},
+                 .line = reader.block_place().line});
+    }
+    if (parts.count != 0 && parts.blocks[parts.count - 1].kind == BlockKind::End)
+      return calls.take();
+  }
+}
+
+}  // namespace dripline::interpreter::tnc155

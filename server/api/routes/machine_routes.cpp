@@ -1,0 +1,147 @@
+#include <nlohmann/json.hpp>
+
+#include "protocol/base/names.hpp"
+#include "server/api/api.hpp"
+#include "server/api/bodies.hpp"
+#include "server/api/views.hpp"
+
+namespace dripline::api {
+
+namespace {
+
+using nlohmann::json;
+
+json number_json(const std::optional<double>& number) {
+  return number ? json(*number) : json(nullptr);
+}
+
+json memory_json(const library::KeptMemory& memory) {
+  auto cells = json::array();
+  for (const auto& [name, cell] : memory.cells) {
+    cells.push_back(
+        {{"name", name}, {"value", number_json(cell.value)}, {"setup", number_json(cell.base)}});
+  }
+  return {{"machine", memory.machine},
+          {"run", memory.run},
+          {"program", memory.program ? json(*memory.program) : json(nullptr)},
+          {"time", to_iso8601(memory.time)},
+          {"cells", std::move(cells)}};
+}
+
+/// Reads the stored records, so that the gateway need not be connected.
+Response list_memories(Services& services, const Request& request) {
+  QueryReader query(request);
+  const storage::Page page = read_page(query);
+  const auto run = query.text("run");
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const std::string machine = request.parameter("name");
+  if (const auto known = services.machines.machine(machine); !known)
+    return error_response(known.error());
+  return list_response("memories", services.runs.memories(machine, run, page), memory_json);
+}
+
+}  // namespace
+
+void add_memory_routes(Router& router, Services& services) {
+  router.add("GET", "/api/v1/machines/{name}/memory", with(services, list_memories));
+}
+
+namespace {
+
+Response list_setups(Services& services, const Request& request) {
+  QueryReader query(request);
+  const storage::Page page = read_page(query);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  return list_response("setups", services.setups.list(request.parameter("name"), page), setup_json);
+}
+
+Response show_setup(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto number = query.number("revision", kMaxNumber);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto setup = services.setups.find(request.parameter("name"), number);
+  if (!setup) return error_response(setup.error());
+  auto view = setup_json(*setup);
+  view["text"] = setup->text;
+  return json_response(200, view);
+}
+
+/// The control that reads the text: the machine's, unless the server does not know the machine.
+Result<std::string> control_of(Services& services, const std::string& machine,
+                               const std::optional<std::string>& given) {
+  const auto view = services.machines.machine(machine);
+  const std::string known = view ? view->machine.control : "";
+  if (known.empty() && given) return *given;
+  if (known.empty()) {
+    return fail(Errc::NotFound,
+                "machine {} has not been seen yet: say which control it has (control=...)",
+                machine);
+  }
+  if (given && *given != known) {
+    return fail(Errc::Conflict, "machine {} is a {}, not a {}", machine, known, *given);
+  }
+  return known;
+}
+
+Response save_setup(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto control = query.text("control");
+  library::SetupText text;
+  text.comment = query.text("comment").value_or("");
+  text.base = query.number("base", kMaxNumber);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  text.machine = request.parameter("name");
+  if (auto named = check_machine_name(text.machine); !named) return error_response(named.error());
+  const auto resolved = control_of(services, text.machine, control);
+  if (!resolved) return error_response(resolved.error());
+  text.control = *resolved;
+  text.text = request.body;
+  const auto saved = services.setups.save(text, request.who);
+  if (!saved) return error_response(saved.error());
+  auto view = setup_json(saved->setup);
+  view["unchanged"] = saved->is_unchanged;
+  return json_response(saved->is_unchanged ? 200 : 201, view);
+}
+
+}  // namespace
+
+void add_setup_routes(Router& router, Services& services) {
+  const std::string machine = "/api/v1/machines/{name}";
+  router.add("GET", machine + "/setups", with(services, list_setups));
+  router.add("GET", machine + "/setup", with(services, show_setup));
+  router.add("PUT", machine + "/setup", with(services, save_setup));
+}
+
+namespace {
+
+Response list_machines(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  auto list = nlohmann::json::array();
+  for (const auto& view : services.machines.machines()) list.push_back(machine_json(view));
+  return json_response(200, {{"machines", std::move(list)}});
+}
+
+Response show_machine(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  return value_response(200, services.machines.machine(request.parameter("name")), machine_json);
+}
+
+Response command_machine(Services& services, const Request& request) {
+  auto command = decode_machine_command(request.body);
+  if (!command) return error_response(command.error());
+  command->machine = request.parameter("name");
+  return carry_out(services, request, *command);
+}
+
+}  // namespace
+
+void add_machine_routes(Router& router, Services& services) {
+  router.add("GET", "/api/v1/machines", with(services, list_machines));
+  router.add("GET", "/api/v1/machines/{name}", with(services, show_machine));
+  router.add("POST", "/api/v1/machines/{name}/commands", with(services, command_machine),
+             Waits::ForMachine);
+}
+
+}  // namespace dripline::api

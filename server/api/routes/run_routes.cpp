@@ -1,0 +1,239 @@
+#include <nlohmann/json.hpp>
+
+#include "protocol/dds/endpoint.hpp"
+#include "server/api/api.hpp"
+#include "server/api/bodies.hpp"
+#include "server/api/views.hpp"
+#include "server/library/report_reader.hpp"
+
+namespace dripline::api {
+
+namespace {
+
+nlohmann::json machine_report_json(const storage::MachineReport& report) {
+  return {{"machine", report.machine},
+          {"lines", report.lines},
+          {"first", to_iso8601(report.first)},
+          {"last", to_iso8601(report.last)}};
+}
+
+Response list_reports(Services& services, const Request& request) {
+  QueryReader query(request);
+  const storage::Page page = read_page(query);
+  storage::RunFilter filter;
+  filter.machine = query.text("machine");
+  filter.program = query.text("program");
+  filter.with_outputs = true;
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  return list_response("reports", services.runs.runs(filter, page), report_json);
+}
+
+Response list_machine_reports(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  return list_response("reports", services.runs.machine_reports(), machine_report_json);
+}
+
+std::string content_type(library::ReportFormat format) {
+  switch (format) {
+    case library::ReportFormat::Text:
+      return "text/plain; charset=utf-8";
+    case library::ReportFormat::Csv:
+      return "text/csv; charset=utf-8";
+    case library::ReportFormat::Json:
+      return "application/json";
+  }
+  return "text/plain";
+}
+
+Response send(const std::shared_ptr<library::ReportReader>& reader, library::ReportFormat format) {
+  Response response;
+  response.content_type = content_type(format);
+  response.source = [reader] { return reader->next(); };
+  return response;
+}
+
+/// The lines that the machine printed outside any run.
+Response send_machine_report(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto format = library::parse_report_format(query.text("format").value_or("text"));
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  if (!format) return error_response(format.error());
+  const auto report = services.runs.machine_report(request.parameter("name"), *format);
+  if (!report) return error_response(report.error());
+  return send(*report, *format);
+}
+
+Response send_report(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto format = library::parse_report_format(query.text("format").value_or("text"));
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  if (!format) return error_response(format.error());
+  const auto report = services.runs.report(request.parameter("run"), *format);
+  if (!report) return error_response(report.error());
+  return send(*report, *format);
+}
+
+}  // namespace
+
+void add_report_routes(Router& router, Services& services) {
+  router.add("GET", "/api/v1/machine-reports", with(services, list_machine_reports));
+  router.add("GET", "/api/v1/machines/{name}/report", with(services, send_machine_report));
+  router.add("GET", "/api/v1/reports", with(services, list_reports));
+  router.add("GET", "/api/v1/reports/{run}", with(services, send_report));
+}
+
+namespace {
+
+Response start_run(Services& services, const Request& request) {
+  auto start = decode_start(request.body);
+  if (!start) return error_response(start.error());
+  start->author = request.who.name;
+  start->role = request.caller->role;
+  start->before = [&audit = services.audit, who = request.who](const storage::Run& run) {
+    return audit.write_before(
+        {.who = who,
+         .action = "run.start",
+         .subject = run.id,
+         .detail = fmt::format("{} revision {} on {}", run.program, run.revision, run.machine)});
+  };
+  const auto run = services.machines.start(*start);
+  if (!run) return error_response(run.error());
+  return json_response(201, run_json(*run));
+}
+
+Response restart_run(Services& services, const Request& request) {
+  const auto at = decode_restart(request.body);
+  if (!at) return error_response(at.error());
+  const auto original = services.runs.run(request.parameter("id"));
+  if (!original) return error_response(original.error());
+  machines::StartRequest start;
+  start.machine = original->machine;
+  start.program = original->program;
+  start.revision = original->revision;
+  start.author = request.who.name;
+  start.role = request.caller->role;
+  start.restart = {original->id, *at};
+  start.job = original->job;
+  const std::string what = fmt::format("run {} at {} on {}", original->id, *at, original->machine);
+  start.before = [&audit = services.audit, who = request.who, what](const storage::Run& run) {
+    return audit.write_before(
+        {.who = who, .action = "run.restart", .subject = run.id, .detail = what});
+  };
+  const auto run = services.machines.start(start);
+  if (!run) return error_response(run.error());
+  return json_response(201, run_json(*run));
+}
+
+Result<storage::RunFilter> read_filter(QueryReader& query) {
+  storage::RunFilter filter;
+  filter.machine = query.text("machine");
+  filter.program = query.text("program");
+  if (const auto state = query.text("state")) {
+    const auto parsed = storage::parse_run_state(*state);
+    if (!parsed) return fail(parsed.error());
+    filter.state = *parsed;
+  }
+  return filter;
+}
+
+Response list_runs(Services& services, const Request& request) {
+  QueryReader query(request);
+  const storage::Page page = read_page(query);
+  const auto filter = read_filter(query);
+  if (!filter) return error_response(filter.error());
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  return list_response("runs", services.runs.runs(*filter, page), run_json);
+}
+
+Response show_run(Services& services, const Request& request) {
+  const auto run = services.runs.run(request.parameter("id"));
+  if (!run) return error_response(run.error());
+  nlohmann::json view = run_json(*run);
+  view["parts"] = nullptr;
+  if (services.measurements != nullptr) {
+    const auto counts = services.measurements->stored().verdicts(run->id);
+    if (!counts) return error_response(counts.error());
+    for (std::size_t i = 0; i < counts->size(); ++i)
+      view["parts"][std::string(measurement::to_string(measurement::Verdict(i)))] = (*counts)[i];
+  }
+  return json_response(200, view);
+}
+
+Response attest_run(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto facts = services.runs.facts(request.parameter("id"), services.chain.header().database);
+  if (!facts) return error_response(facts.error());
+  Response response;
+  response.content_type = "text/plain; charset=utf-8";
+  response.body = services.chain.attest(*facts);
+  return response;
+}
+
+Response command_run(Services& services, const Request& request) {
+  auto command = decode_command(request.body);
+  if (!command) return error_response(command.error());
+  command->run = request.parameter("id");
+  return carry_out(services, request, *command);
+}
+
+Response list_records(Services& services, const Request& request) {
+  QueryReader query(request);
+  const storage::Page page = read_page(query);
+  const std::string kind = query.text("kind").value_or("");
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  return list_response("records", services.runs.records(request.parameter("id"), kind, page),
+                       record_json);
+}
+
+}  // namespace
+
+namespace {
+
+/// Whether the command makes the machine safer, whatever it does now.
+bool stops(Services& services, const machines::CommandRequest& command) {
+  if (dds::is_stop(command.action, command.argument, command.value)) return true;
+  if (!dds::is_override(command.action)) return false;
+  std::string machine = command.machine;
+  if (const auto run = services.runs.run(command.run)) machine = run->machine;
+  const auto view = services.machines.machine(machine);
+  return view && view->status && dds::lowers_override(command.action, command.value, *view->status);
+}
+
+}  // namespace
+
+/// The entry comes first. When it cannot be written only what stops a machine goes out.
+Response carry_out(Services& services, const Request& request,
+                   const machines::CommandRequest& command) {
+  const bool is_of_run = !command.run.empty();
+  library::AuditTrail::Change change{
+      .who = request.who,
+      .action = fmt::format("{}.{}", is_of_run ? "run" : "machine", dds::to_string(command.action)),
+      .subject = is_of_run ? command.run : command.machine,
+      .detail = fmt::format("{} {}", command.argument, command.value)};
+  if (stops(services, command)) {
+    services.audit.write(change);
+  } else if (auto written = services.audit.write_before(change); !written) {
+    return error_response(written.error());
+  }
+  const auto done = services.machines.command(command);
+  if (done) return json_response(200, {{"accepted", true}});
+  // The gateway may have carried out the command although its answer is missing.
+  const bool is_unknown = done.error().code == Errc::Timeout;
+  change.detail += is_unknown ? ": not answered" : ": refused, " + done.error().what;
+  services.audit.write(std::move(change));
+  return error_response(done.error());
+}
+
+void add_run_routes(Router& router, Services& services) {
+  router.add("POST", "/api/v1/runs", with(services, start_run), Waits::ForMachine);
+  router.add("GET", "/api/v1/runs", with(services, list_runs));
+  router.add("GET", "/api/v1/runs/{id}", with(services, show_run));
+  router.add("GET", "/api/v1/runs/{id}/attestation", with(services, attest_run));
+  router.add("POST", "/api/v1/runs/{id}/restart", with(services, restart_run), Waits::ForMachine);
+  router.add("POST", "/api/v1/runs/{id}/commands", with(services, command_run), Waits::ForMachine);
+  router.add("GET", "/api/v1/runs/{id}/records", with(services, list_records));
+}
+
+}  // namespace dripline::api

@@ -1,0 +1,398 @@
+#include "server/app/impl/server_parts.hpp"
+
+#include <unistd.h>
+#include <array>
+
+#include "protocol/process/log.hpp"
+#include "server/identity/revoked_certificates.hpp"
+
+namespace dripline::app {
+namespace {
+
+constexpr std::chrono::seconds kWebhookTimeout{5};
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return "dncd";
+  return name.data();
+}
+
+/// Who holds a machine or its queue.
+std::string template_of(const storage::MeasuredPart& part) {
+  return fmt::format("report template {} version {}", part.template_name, part.template_version);
+}
+
+api::HttpHandlers mtconnect_handlers(mtconnect::Agent& agent) {
+  return {
+      .handle = [&agent](const api::Request& request) { return agent.handle(request); },
+      .judge = [&agent](api::Request& head) { return agent.judge(head); },
+  };
+}
+
+}  // namespace
+
+ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
+                         std::optional<backup::BackupFolder> backup_folder,
+                         const Settings& settings, const Clock& system_clock, const Loaded& loaded,
+                         const DdsNetwork& setup)
+    : clock(system_clock),
+      dds_certificate_expires(setup.certificate_expires),
+      certificate_expires(https_certificate_expiry(settings)),
+      revoked_file(settings.tls_client_revoked),
+      folder(std::move(state_folder)),
+      store(std::move(opened)),
+      health(clock),
+      certificates(health, clock),
+      audit(store->audit, clock),
+      chain(
+          {.store = store->audit, .clock = clock, .key = loaded.key, .database = loaded.identity}),
+      backups(make_backups(std::move(backup_folder), settings)),
+      retention(make_retention(settings, loaded)),
+      accounts({.store = store->accounts, .audit = audit, .clock = clock}, {}, loaded.users),
+      programs(*store, clock, catalog, audit),
+      releases({.store = *store, .clock = clock, .key = loaded.key, .database = loaded.identity},
+               loaded.policy),
+      attachments(*store),
+      search(*store),
+      runs(*store),
+      jobs({.store = *store, .releases = releases, .clock = clock}),
+      paths({.store = *store, .releases = releases, .clock = clock}),
+      imports({.store = *store,
+               .paths = paths,
+               .policy = releases.policy(),
+               .clock = clock,
+               .on_change = api::publish_imports_to(events)}),
+      folders({.programs = programs,
+               .catalog = catalog,
+               .sources = {.store = *store, .releases = releases, .clock = clock},
+               .spool = folder.path(),
+               .on_fault = folders_watch()},
+              settings.folders),
+      measurements(
+          {.store = *store,
+           .clock = clock,
+           .on_part =
+               [this, publish = api::publish_parts_to(events)](const auto& part) {
+                 publish(part);
+                 offsets.note(part.machine);
+               },
+           .hold_queue = [this](const storage::MeasuredPart& part,
+                                const std::string& reason) { return hold_queue(part, reason); },
+           .hold_machine = [this](
+                               const storage::MeasuredPart& part,
+                               const std::string& reason) { return hold_machine(part, reason); }}),
+      setups(store->setups, catalog, audit),
+      webhook_sender(webhooks::make_http_sender(kWebhookTimeout)),
+      webhooks({.store = store->webhooks,
+                .sender = *webhook_sender,
+                .clock = clock,
+                .server = loaded.identity,
+                .on_fault = webhooks_watch()},
+               {}),
+      mtconnect(make_mtconnect(settings, loaded)),
+      offsets({.store = *store,
+               .setups = setups,
+               .clock = clock,
+               .on_change = api::publish_offsets_to(events)}),
+      machine_service({.store = *store, .releases = releases, .clock = clock}, machine_options(),
+                      machine_listener()),
+      ports({.store = *store, .releases = releases, .clock = clock}, programs,
+            {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
+            published()),
+      gateway_lines({.store = *store,
+                     .releases = releases,
+                     .programs = programs,
+                     .clock = clock,
+                     .ask =
+                         [this](dds::LineRequest request, std::chrono::milliseconds limit) {
+                           return machine_service.ask_line(std::move(request), limit);
+                         },
+                     .machines = machine_service}),
+      port_router(ports, gateway_lines),
+      machines(store->runs, machine_service, ports.machines()),
+      api({.programs = programs,
+           .releases = releases,
+           .attachments = attachments,
+           .search = search,
+           .setups = setups,
+           .machines = machines,
+           .runs = runs,
+           .jobs = jobs,
+           .paths = paths,
+           .audit = audit,
+           .chain = chain,
+           .accounts = accounts,
+           .events = events,
+           .clock = clock,
+           .facts = {.name = host_name(),
+                     .version = DRIPLINE_VERSION,
+                     .data_dir = folder.path().string(),
+                     .started = clock.now(),
+                     .dds_domain = settings.dds_domain,
+                     .certificate_expires = certificate_expires,
+                     .dds_certificate_expires = dds_certificate_expires},
+           .dds_rejected = [this] { return machine_service.rejected().messages; },
+           .ports = &port_router,
+           .health = &health,
+           .backups = backups.get(),
+           .imports = &imports,
+           .measurements = &measurements,
+           .retention = retention.get(),
+           .offsets = &offsets,
+           .folders = &folders,
+           .webhooks = &webhooks,
+           .has_tls = !settings.tls_key.empty()}),
+      tidied(clock.steady_now()) {}
+
+machines::MachineService::Options ServerParts::machine_options() {
+  machines::MachineService::Options options;
+  options.on_fault = records_watch();
+  options.on_line = [this](const dds::Status& status) {
+    if (are_lines_handled) gateway_lines.on_status(status);
+  };
+  return options;
+}
+
+std::unique_ptr<library::Backups> ServerParts::make_backups(std::optional<backup::BackupFolder> to,
+                                                            const Settings& settings) {
+  if (!to) return nullptr;
+  library::Backups::Options options;
+  options.every = std::chrono::hours(settings.backup_every_hours);
+  options.retention = {.every = std::chrono::days(settings.backup_keep_days),
+                       .weekly = std::chrono::weeks(settings.backup_keep_weeks)};
+  backup::Source source{.folder = folder.path(),
+                        .database = StateFolder::kDatabase,
+                        .files = StateFolder::files(),
+                        .made_by = fmt::format("dncd {}", DRIPLINE_VERSION),
+                        .copy = [this](const std::filesystem::path& copy, const auto& proceed) {
+                          return store->copy_to(copy, proceed);
+                        }};
+  return std::make_unique<library::Backups>(library::Backups::Parts{.folder = *std::move(to),
+                                                                    .source = std::move(source),
+                                                                    .audit = audit,
+                                                                    .health = health,
+                                                                    .clock = clock},
+                                            options);
+}
+
+std::unique_ptr<library::Retention> ServerParts::make_retention(const Settings& settings,
+                                                                const Loaded& loaded) {
+  if (settings.archives.empty()) return nullptr;
+  const auto rule = [](std::uint32_t days, std::uint32_t thousands) {
+    constexpr std::uint64_t kThousand = 1000;
+    library::RetentionRule made;
+    if (days > 0) made.age = std::chrono::days(days);
+    if (thousands > 0) made.rows = thousands * kThousand;
+    return made;
+  };
+  library::Retention::Options options;
+  options.records = rule(settings.archive_records_days, settings.archive_records_rows);
+  options.measurements =
+      rule(settings.archive_measurements_days, settings.archive_measurements_rows);
+  return std::make_unique<library::Retention>(
+      library::Retention::Parts{.store = *store,
+                                .clock = clock,
+                                .folder = settings.archives,
+                                .database = loaded.identity,
+                                .made_by = fmt::format("dncd {}", DRIPLINE_VERSION)},
+      options);
+}
+
+std::function<void(const std::string& machine, const std::string& fault)>
+ServerParts::records_watch() {
+  return [this](const std::string& machine, const std::string& fault) {
+    using Level = library::Health::Level;
+    health.report(machine, {.level = fault.empty() ? Level::Ok : Level::Degraded,
+                            .subject = "records",
+                            .what = "records of a machine cannot be stored",
+                            .detail = fmt::format("machine={}: {}", machine, fault)});
+  };
+}
+
+std::function<void(const std::string& name, const std::string& fault)>
+ServerParts::folders_watch() {
+  return [this](const std::string& name, const std::string& fault) {
+    using Level = library::Health::Level;
+    health.report(name, {.level = fault.empty() ? Level::Ok : Level::Degraded,
+                         .subject = "folders",
+                         .what = "a hot folder cannot be read, or its files cannot be taken",
+                         .detail = fmt::format("folder={}: {}", name, fault)});
+  };
+}
+
+std::function<void(const std::string& name, const std::string& fault)>
+ServerParts::webhooks_watch() {
+  return [this](const std::string& name, const std::string& fault) {
+    using Level = library::Health::Level;
+    health.report(name, {.level = fault.empty() ? Level::Ok : Level::Degraded,
+                         .subject = "webhooks",
+                         .what = "a webhook has not been delivered for long",
+                         .detail = fmt::format("webhook={}: {}", name, fault)});
+  };
+}
+
+std::unique_ptr<mtconnect::Agent> ServerParts::make_mtconnect(const Settings& settings,
+                                                              const Loaded& loaded) {
+  if (settings.mtconnect.empty()) return nullptr;
+  return std::make_unique<mtconnect::Agent>(
+      mtconnect::Agent::Options{
+          .sender = host_name(),
+          .plant = loaded.identity,
+          .instance = mtconnect::instance_of(clock.now()),
+          .last_alarms = [this](const std::string& machine) { return last_alarms(machine); }},
+      clock);
+}
+
+std::vector<storage::Record> ServerParts::last_alarms(const std::string& machine) const {
+  constexpr std::uint64_t kMaxAlarms = 32;
+  storage::RunFilter filter;
+  filter.machine = machine;
+  const auto last = store->runs.list(filter, {.limit = 1});
+  if (!last || last->empty() || last->front().state != storage::RunState::Alarmed) return {};
+  auto alarms = store->records.of_run(last->front().id, "alarm", {.limit = kMaxAlarms});
+  return alarms ? *std::move(alarms) : std::vector<storage::Record>();
+}
+
+machines::MachineListener ServerParts::published() {
+  machines::MachineListener listener = api::publish_to(events);
+  listener.on_record = [this, publish = listener.on_record](const auto& record) {
+    measurements.note();
+    publish(record);
+  };
+  if (!mtconnect) return listener;
+  auto& observer = mtconnect->observer();
+  listener.on_machine = [&observer, publish = listener.on_machine](const auto& view) {
+    observer.observe(view);
+    publish(view);
+  };
+  listener.on_record = [&observer, publish = listener.on_record](const auto& record) {
+    observer.observe(record);
+    publish(record);
+  };
+  return listener;
+}
+
+Result<void> ServerParts::hold_queue(const storage::MeasuredPart& part, const std::string& reason) {
+  const std::string who = template_of(part);
+  return library::hold_jobs(
+      store->jobs, {.machine = part.machine, .who = who, .reason = reason, .since = clock.now()},
+      who);
+}
+
+Result<void> ServerParts::hold_machine(const storage::MeasuredPart& part,
+                                       const std::string& reason) {
+  const bool is_of_run = !part.run.empty();
+  audit.write({.who = template_of(part),
+               .action = is_of_run ? "run.hold" : "machine.hold",
+               .subject = is_of_run ? part.run : part.machine,
+               .detail = reason});
+  machines::CommandRequest hold;
+  hold.action = dds::CommandAction::Hold;
+  (is_of_run ? hold.run : hold.machine) = is_of_run ? part.run : part.machine;
+  return machines.command(hold);
+}
+
+machines::MachineListener ServerParts::machine_listener() {
+  machines::MachineListener listener = published();
+  listener.on_machine = [this, publish = listener.on_machine](const machines::MachineView& view) {
+    using Level = library::Health::Level;
+    const auto notices = machines::notices_of(view);
+    health.report(view.machine.name, {.level = notices.empty() ? Level::Ok : Level::Degraded,
+                                      .subject = "gateway",
+                                      .what = "server and a gateway do not agree",
+                                      .detail = fmt::format("machine={}: {}", view.machine.name,
+                                                            fmt::join(notices, "; "))});
+    publish(view);
+  };
+  return listener;
+}
+
+void ServerParts::announce() {
+  const auto announced = folder.announce(announcement);
+  const bool was_announced = is_announced.exchange(announced.has_value());
+  if (announced || !was_announced) return;
+  process::log_error("dnc on this computer needs --server {}: {}", url, announced.error().what);
+}
+
+Result<void> ServerParts::look() {
+  auto sound = store->probe();
+  if (!sound) return sound;
+  if (!is_announced) announce();
+  ports.open_due();
+  if (mtconnect) mtconnect->observer().reconcile(machines.machines());
+  accounts.store_uses();
+  (void)revoke_certificates();
+  certificates.look(watched_certificates());
+  if (dds_certificate_expires && clock.now() >= *dds_certificate_expires)
+    machine_service.lose_gateways();
+  sound = chain.look();
+  health.report("", chain.finding());
+  return sound;
+}
+
+Result<void> ServerParts::revoke_certificates() {
+  if (revoked_file.empty()) return {};
+  auto serials = identity::read_revoked(revoked_file);
+  using Level = library::Health::Level;
+  health.report("", {.level = serials ? Level::Ok : Level::Degraded,
+                     .subject = "certificates",
+                     .what = "the list of revoked certificates cannot be read",
+                     .detail = serials ? "" : serials.error().what});
+  if (!serials) return fail(Errc::Denied, "tls-client-revoked: {}", serials.error().what);
+  accounts.revoke_certificates(*std::move(serials));
+  return {};
+}
+
+Result<void> ServerParts::open_mtconnect(const api::HttpOptions& options) {
+  const auto views = machines.machines();
+  mtconnect->observer().reconcile(views);
+  setups.on_saved([this](const storage::SetupRevision& setup, const std::string& control) {
+    mtconnect->use_setup(setup, control, false);
+  });
+  for (const auto& view : views) {
+    const auto setup = setups.find(view.machine.name, std::nullopt);
+    if (setup) mtconnect->use_setup(*setup, view.machine.control, true);
+  }
+  auto opened = api::HttpServer::start(options, mtconnect_handlers(*mtconnect));
+  if (!opened) return fail(opened.error().code, "mtconnect: {}", opened.error().what);
+  mtconnect_http = *std::move(opened);
+  api::HttpAddress bound = options.address;
+  bound.port = mtconnect_http->port();
+  mtconnect_url = "http://" + bound.text();
+  if (!bound.is_loopback)
+    process::log_warning("MTConnect at {}: anybody who reaches it may read", bound.text());
+  return {};
+}
+
+std::vector<library::WatchedCertificate> ServerParts::watched_certificates() const {
+  using Use = library::WatchedCertificate::Use;
+  std::vector<library::WatchedCertificate> all;
+  if (certificate_expires) all.push_back({.use = Use::Https, .expires = *certificate_expires});
+  if (dds_certificate_expires)
+    all.push_back({.use = Use::Dds, .expires = *dds_certificate_expires});
+  for (const auto& view : machines.machines()) {
+    if (view.certificate_expires)
+      all.push_back({.use = Use::Gateway,
+                     .machine = view.machine.name,
+                     .expires = *view.certificate_expires});
+  }
+  return all;
+}
+
+void ServerParts::check_on() {
+  process::log_info("the database is big: the search for damage continues beside the work");
+  check = std::jthread([this](const std::stop_token& stop) {
+    const auto done = store->check(std::chrono::hours(24), stop);
+    if (!done) {
+      process::log_error("the database is damaged, restore a backup: {}", done.error().what);
+      health.report("", {.level = library::Health::Level::Failed,
+                         .subject = "damage",
+                         .what = "the database is damaged",
+                         .detail = done.error().what});
+    } else if (*done) {
+      process::log_info("the database is sound");
+    }
+  });
+}
+
+}  // namespace dripline::app

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/api/api.hpp"
+#include "server/api/http_server.hpp"
+#include "server/app/networks.hpp"
+#include "server/app/settings.hpp"
+#include "server/app/state_folder.hpp"
+#include "server/folders/folders.hpp"
+#include "server/identity/accounts.hpp"
+#include "server/imports/imports.hpp"
+#include "server/library/attachments.hpp"
+#include "server/library/audit_chain.hpp"
+#include "server/library/audit_trail.hpp"
+#include "server/library/backups.hpp"
+#include "server/library/certificate_watch.hpp"
+#include "server/library/control_catalog.hpp"
+#include "server/library/health.hpp"
+#include "server/library/job_queue.hpp"
+#include "server/library/program_search.hpp"
+#include "server/library/programs.hpp"
+#include "server/library/releases.hpp"
+#include "server/library/retention.hpp"
+#include "server/machines/machine_service.hpp"
+#include "server/measurements/measurements.hpp"
+#include "server/mtconnect/agent.hpp"
+#include "server/offsets/offsets.hpp"
+#include "server/ports/gateway_lines.hpp"
+#include "server/ports/line_machines.hpp"
+#include "server/ports/port_service.hpp"
+#include "server/web/page.hpp"
+#include "server/webhooks/webhooks.hpp"
+#include "storage/sqlite_store.hpp"
+
+namespace dripline::app {
+
+/// What is read before anything is made.
+struct Loaded {
+  storage::AccountData users;
+  library::ReleasePolicy policy;
+  SigningKey key;
+  std::string identity;  ///< of the database
+};
+
+/// In the order of their making; each may use those above it.
+struct ServerParts {
+  ServerParts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
+              std::optional<backup::BackupFolder> backup_folder, const Settings& settings,
+              const Clock& system_clock, const Loaded& loaded, const DdsNetwork& setup);
+
+  machines::MachineService::Options machine_options();
+  std::unique_ptr<library::Backups> make_backups(std::optional<backup::BackupFolder> to,
+                                                 const Settings& settings);
+  std::unique_ptr<library::Retention> make_retention(const Settings& settings,
+                                                     const Loaded& loaded);
+  /// Of machines with gateways and of those at the ends of lines.
+  std::function<void(const std::string& machine, const std::string& fault)> records_watch();
+  std::function<void(const std::string& name, const std::string& fault)> folders_watch();
+  std::function<void(const std::string& name, const std::string& fault)> webhooks_watch();
+  std::unique_ptr<mtconnect::Agent> make_mtconnect(const Settings& settings, const Loaded& loaded);
+  /// Of the machine's last run, if it ended with an alarm.
+  std::vector<storage::Record> last_alarms(const std::string& machine) const;
+  /// To the listeners of events and to the MTConnect agent.
+  machines::MachineListener published();
+  /// The verdict of a report template on a part: nothing of the job queue starts.
+  Result<void> hold_queue(const storage::MeasuredPart& part, const std::string& reason);
+  /// The verdict of a report template on a part: feed hold.
+  Result<void> hold_machine(const storage::MeasuredPart& part, const std::string& reason);
+  machines::MachineListener machine_listener();
+  /// A full disk only keeps the server from storing: clients should still find it.
+  void announce();
+  /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
+  /// again.
+  Result<void> look();
+  /// What the file says now; of a file that cannot be read what it said last stays in force.
+  Result<void> revoke_certificates();
+  /// The machines that are known and their tools, then the sockets.
+  Result<void> open_mtconnect(const api::HttpOptions& options);
+  std::vector<library::WatchedCertificate> watched_certificates() const;
+  void check_on();
+
+  const Clock& clock;
+  std::optional<UtcTime> dds_certificate_expires;  ///< nullopt: without DDS Security
+  std::optional<UtcTime> certificate_expires;      ///< nullopt: without TLS
+  std::string revoked_file;                        ///< of clients' certificates; empty: none
+  StateFolder folder;
+  std::unique_ptr<storage::SqliteStore> store;
+  library::Health health;
+  library::CertificateWatch certificates;
+  library::DialectCatalog catalog;
+  library::AuditTrail audit;
+  library::AuditChain chain;
+  std::unique_ptr<library::Backups> backups;      ///< null: none are made
+  std::unique_ptr<library::Retention> retention;  ///< null: everything stays
+  identity::Accounts accounts;
+  library::Programs programs;
+  library::Releases releases;
+  library::Attachments attachments;
+  library::ProgramSearch search;
+  library::RunHistory runs;
+  library::JobQueue jobs;
+  paths::ProgramPaths paths;
+  api::EventHub events;
+  imports::Imports imports;
+  folders::Folders folders;
+  measurements::Measurements measurements;
+  library::Setups setups;
+  std::unique_ptr<webhooks::Sender> webhook_sender;
+  webhooks::Webhooks webhooks;
+  std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
+  offsets::Offsets offsets;
+  machines::MachineService machine_service;
+  std::atomic<bool> are_lines_handled = false;  ///< by gateway_lines
+  ports::PortService ports;
+  ports::GatewayLines gateway_lines;
+  ports::PortRouter port_router;
+  ports::MachineRouter machines;
+  api::Api api;
+  web::Page page{web::embedded_assets()};
+  std::unique_ptr<library::HealthWatch> watch;
+  std::unique_ptr<api::HttpServer> http;
+  std::unique_ptr<api::HttpServer> mtconnect_http;
+  std::string url, mtconnect_url;
+  StateFolder::Announcement announcement;
+  std::atomic<bool> is_announced = true;  ///< or not yet tried
+  SteadyTime tidied;
+  std::jthread check;  ///< of a database too big to be looked through before the start
+};
+
+}  // namespace dripline::app

@@ -1,0 +1,109 @@
+#include "server/offsets/offset_history.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace dripline::offsets {
+namespace {
+
+using storage::OffsetProposal;
+
+constexpr std::uint64_t kPartsOfRun = 500;  ///< that are counted
+
+bool begins_with(const std::string& target, const std::string& prefix) {
+  return target == prefix || (target.starts_with(prefix) && target[prefix.size()] == '.');
+}
+
+}  // namespace
+
+Result<void> OffsetHistory::add_runs(HistoryEntry& entry, std::uint64_t until) {
+  for (std::uint64_t setup = entry.setup.number; setup < until && entry.runs.size() < kMaxRuns;
+       ++setup) {
+    storage::RunFilter filter;
+    filter.machine = entry.setup.machine;
+    filter.setup = setup;
+    auto runs = store_.runs.list(filter, {.limit = kMaxRuns - entry.runs.size()});
+    if (!runs) return fail(runs.error());
+    entry.runs.insert(entry.runs.end(), runs->rbegin(), runs->rend());
+  }
+  for (const storage::Run& run : entry.runs) {
+    storage::PartFilter filter;
+    filter.run = run.id;
+    const auto parts = store_.measurements.parts(filter, {.limit = kPartsOfRun});
+    if (!parts) return fail(parts.error());
+    entry.parts += parts->size();
+    entry.good += static_cast<std::uint64_t>(
+        std::ranges::count(*parts, measurement::Verdict::Good,
+                           [](const storage::MeasuredPart& part) { return part.verdict; }));
+  }
+  return {};
+}
+
+Result<std::vector<HistoryEntry>> OffsetHistory::list(const std::string& machine,
+                                                      const std::string& target,
+                                                      storage::Page page) {
+  const auto known = store_.machines.find(machine);
+  if (!known) return fail(known.error());
+  const auto setups = store_.setups.list(machine, page);
+  if (!setups) return fail(setups.error());
+  std::map<std::uint64_t, OffsetProposal> proposals;
+  storage::OffsetFilter filter{
+      .machine = machine, .target = {}, .state = storage::OffsetState::Applied};
+  const auto applied = store_.offsets.list(filter, {.limit = page.limit + page.offset});
+  if (!applied) return fail(applied.error());
+  for (const auto& proposal : *applied) proposals.emplace(proposal.setup.value_or(0), proposal);
+
+  std::vector<HistoryEntry> entries;
+  std::map<std::string, double> values;           // as they are now
+  std::map<std::string, std::size_t> last_entry;  // of each value, the one that is in force
+  const auto close = [&](const std::string& name, std::uint64_t until) -> Result<void> {
+    const auto found = last_entry.find(name);
+    return found == last_entry.end() ? Result<void>{} : add_runs(entries[found->second], until);
+  };
+  for (auto at = setups->rbegin(); at != setups->rend(); ++at) {
+    const auto setup = store_.setups.find(machine, at->number);
+    if (!setup) return fail(setup.error());
+    const auto stated = values_in_setup(setup->text);
+    const auto unit = unit_in_force(setup->text, known->control);
+    if (!stated || !unit) continue;  // kept before its control read it so: nothing to compare
+    for (const NamedValue& named : *stated) {
+      if (!target.empty() && !begins_with(named.target, target)) continue;
+      const auto before = values.find(named.target);
+      if (before != values.end() && before->second == named.value) continue;
+      if (auto closed = close(named.target, at->number); !closed) return fail(closed.error());
+      values[named.target] = named.value;
+      last_entry[named.target] = entries.size();
+      HistoryEntry entry{.target = named.target, .unit = *unit, .value = named.value, .setup = *at};
+      const auto proposal = proposals.find(at->number);
+      if (proposal != proposals.end() && proposal->second.target == named.target)
+        entry.proposal = proposal->second;
+      entries.push_back(std::move(entry));
+    }
+  }
+  if (!setups->empty()) {
+    for (const auto& [name, index] : last_entry) {
+      if (auto closed = close(name, setups->front().number + 1); !closed)
+        return fail(closed.error());
+    }
+  }
+  std::ranges::reverse(entries);
+  return entries;
+}
+
+Result<InForce> OffsetHistory::in_force(const std::string& id) {
+  auto run = store_.runs.find(id);
+  if (!run) return fail(run.error());
+  InForce result{.run = *std::move(run), .unit = {}, .values = {}};
+  if (!result.run.setup) return result;
+  const auto setup = store_.setups.find(result.run.machine, result.run.setup);
+  if (!setup) return fail(setup.error());
+  auto values = values_in_setup(setup->text);
+  if (!values) return fail(values.error());
+  auto unit = unit_in_force(setup->text, result.run.control);
+  if (!unit) return fail(unit.error());
+  result.values = *std::move(values);
+  result.unit = *std::move(unit);
+  return result;
+}
+
+}  // namespace dripline::offsets

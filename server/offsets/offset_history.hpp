@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/offsets/setup_value.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::offsets {
+
+/// A value of a machine's setup and the time while it was in force.
+struct HistoryEntry {
+  std::string target, unit;
+  double value = 0;
+  storage::SetupRevision setup;  ///< that brought it, without its text
+  std::optional<storage::OffsetProposal> proposal = {};
+  std::vector<storage::Run> runs =
+      {};  ///< cut under it, oldest first; at most OffsetHistory::kMaxRuns
+  std::uint64_t parts = 0, good = 0;
+};
+
+/// What was in force while a run was cut: its setup, for all of its blocks. What the program itself
+/// changed is the control's memory (deploy/docs/control-memory.md).
+struct InForce {
+  storage::Run run;
+  std::string unit;
+  std::vector<NamedValue> values;
+};
+
+/// What values of a machine's setups were, from its setups, runs and proposals. Reads only; any
+/// thread.
+class OffsetHistory {
+ public:
+  explicit OffsetHistory(const storage::Store& store) : store_(store) {}
+
+  /// Values of tools and offsets whose name begins with `target` ("T3", "T3.wear.X", "G54"), newest
+  /// first; at most as many setups back as the page says. Errors: those of the store.
+  Result<std::vector<HistoryEntry>> list(const std::string& machine, const std::string& target,
+                                         storage::Page page);
+  /// Errors: NotFound.
+  Result<InForce> in_force(const std::string& run);
+
+  static constexpr std::uint64_t kMaxRuns = 1000;
+
+ private:
+  Result<void> add_runs(HistoryEntry& entry, std::uint64_t until);
+
+  const storage::Store& store_;
+};
+
+}  // namespace dripline::offsets

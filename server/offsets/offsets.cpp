@@ -1,0 +1,316 @@
+#include "server/offsets/offsets.hpp"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "protocol/process/log.hpp"
+
+namespace dripline::offsets {
+namespace {
+
+using measurement::Measurement;
+using storage::OffsetProposal;
+
+constexpr const char* kPolicy = "offset rules";  ///< no user has a blank in his name
+constexpr std::uint64_t kSetupsBack = 200;       ///< that are looked through for the value in force
+constexpr std::uint64_t kMeasurementsBack = 5'000;  ///< under other setups, or without a nominal
+constexpr std::uint64_t kPageSize = 500;
+constexpr double kMillimetersPerInch = 25.4;
+
+/// Lengths in the setup's unit; anything else as it is.
+double in_setup_unit(double value, const std::string& unit, const std::string& setup_unit) {
+  if (unit == "mm" && setup_unit == "in") return value / kMillimetersPerInch;
+  if (unit == "inch" && setup_unit == "mm") return value * kMillimetersPerInch;
+  return value;
+}
+
+std::string reasons_json(const std::vector<std::string>& reasons) {
+  return nlohmann::json(reasons).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Why the setup has this value, in its comment; the whole reasons are in the proposal.
+std::string comment_of(const OffsetProposal& proposal, const storage::OffsetDecision& decision) {
+  return fmt::format("offset proposal {}, rule {}: {} {} to {} {}{}{}", proposal.id, proposal.rule,
+                     proposal.target, proposal.old_value, proposal.new_value, proposal.unit,
+                     decision.comment.empty() ? "" : ": ", decision.comment);
+}
+
+/// The runs of measurements, each asked for once.
+class RunSetups {
+ public:
+  explicit RunSetups(storage::RunStore& runs) : runs_(runs) {}
+  /// 0: the run had no setup. Nothing: there is no such run.
+  std::optional<std::uint64_t> setup_of(const std::string& run) {
+    const auto [found, is_new] = known_.try_emplace(run);
+    if (is_new) {
+      if (const auto stored = runs_.find(run)) found->second = stored->setup.value_or(0);
+    }
+    return found->second;
+  }
+
+ private:
+  storage::RunStore& runs_;
+  std::map<std::string, std::optional<std::uint64_t>> known_;
+};
+
+}  // namespace
+
+/// A machine as it is now.
+struct Offsets::Current {
+  std::string machine, control, text, unit;
+  std::uint64_t setup = 0;  ///< 0: there is none
+};
+
+Offsets::~Offsets() {
+  end();
+}
+
+void Offsets::end() {
+  worker_.request_stop();
+  if (worker_.joinable()) worker_.join();
+}
+
+void Offsets::begin() {
+  if (const auto machines = parts_.store.machines.list()) {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& machine : *machines) noted_.insert(machine.name);
+  }
+  worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+}
+
+void Offsets::note(const std::string& machine) {
+  {
+    const std::scoped_lock lock(mutex_);
+    noted_.insert(machine);
+  }
+  changed_.notify_one();
+}
+
+void Offsets::publish(const OffsetProposal& proposal) {
+  if (parts_.on_change) parts_.on_change(proposal);
+}
+
+Result<Offsets::Current> Offsets::current_of(const std::string& machine) {
+  const auto known = parts_.store.machines.find(machine);
+  if (!known) return fail(known.error());
+  Current now{.machine = machine, .control = known->control, .text = {}, .unit = {}};
+  const auto setup = parts_.store.setups.find(machine, std::nullopt);
+  if (!setup && setup.error().code != Errc::NotFound) return fail(setup.error());
+  if (setup) {
+    now.text = setup->text;
+    now.setup = setup->number;
+  }
+  auto unit = unit_in_force(now.text, now.control);
+  if (!unit) return fail(unit.error());
+  now.unit = *std::move(unit);
+  return now;
+}
+
+/// Back from the newest setup as long as the value is the same.
+Result<std::uint64_t> Offsets::in_force_since(const Current& now, const OffsetRule& rule,
+                                              double value) {
+  const auto target = parse_setup_target(rule.target);
+  if (!target) return fail(target.error());
+  std::uint64_t since = now.setup;
+  for (std::uint64_t back = 0; since > 0 && back < kSetupsBack; ++back) {
+    if (since == 1) return value == 0 ? 0 : 1;  // runs before the first setup had the value 0
+    const auto before = parts_.store.setups.find(now.machine, since - 1);
+    if (!before) return fail(before.error());
+    const auto old = value_in_setup(before->text, *target);
+    if (!old || *old != value) return since;
+    --since;
+  }
+  return since;
+}
+
+/// Of the newest measurements, those of runs under the value in force; oldest first.
+Result<std::vector<Deviation>> Offsets::deviations(const Current& now, const OffsetRule& rule,
+                                                   std::uint64_t since) {
+  RunSetups runs(parts_.store.runs);
+  storage::MeasurementFilter filter;
+  filter.machine = now.machine;
+  filter.characteristic = rule.characteristic;
+  std::vector<Deviation> found;
+  std::optional<storage::MeasurementPlace> before;
+  for (std::uint64_t seen = 0; seen < kMeasurementsBack && found.size() < rule.window;) {
+    const auto rows = parts_.store.measurements.list_newest(filter, before, kPageSize);
+    if (!rows) return fail(rows.error());
+    for (const Measurement& m : *rows) {
+      const auto off = measurement::deviation(m);
+      const auto setup = m.run.empty() ? std::nullopt : runs.setup_of(m.run);
+      if (!off || !setup || *setup < since || found.size() == rule.window) continue;
+      found.push_back({m.id, in_setup_unit(*off, m.characteristic.unit, now.unit)});
+    }
+    seen += rows->size();
+    if (rows->size() < kPageSize) break;
+    before = storage::MeasurementPlace{rows->back().time, rows->back().id};
+  }
+  std::ranges::reverse(found);
+  return found;
+}
+
+Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule) {
+  const auto target = parse_setup_target(rule.target);
+  if (!target) return fail(target.error());
+  const auto value = value_in_setup(now.text, *target);
+  if (!value) return fail(value.error());
+  const auto since = in_force_since(now, rule, *value);
+  if (!since) return fail(since.error());
+  const auto measured = deviations(now, rule, *since);
+  if (!measured) return fail(measured.error());
+  return Evaluation{.rule = rule,
+                    .unit = now.unit,
+                    .value = *value,
+                    .since = *since,
+                    .outcome = propose(*measured, *value, rule),
+                    .proposal = {}};
+}
+
+Result<void> Offsets::keep(const Current& now, Evaluation& evaluation) {
+  const Outcome& outcome = evaluation.outcome;
+  if (!outcome.new_value)
+    return parts_.store.offsets.withdraw(now.machine, evaluation.rule.target, parts_.clock.now());
+  OffsetProposal proposal;
+  proposal.machine = now.machine;
+  proposal.rule = evaluation.rule.name;
+  proposal.target = evaluation.rule.target;
+  proposal.unit = now.unit;
+  proposal.old_value = evaluation.value;
+  proposal.new_value = *outcome.new_value;
+  proposal.base = now.setup;
+  proposal.used = outcome.used;
+  proposal.left_out = outcome.left_out;
+  proposal.mean = outcome.mean;
+  proposal.first = outcome.first;
+  proposal.last = outcome.last;
+  proposal.reasons = reasons_json(outcome.reasons);
+  proposal.created = parts_.clock.now();
+  auto kept = parts_.store.offsets.propose(proposal);
+  if (!kept) return fail(kept.error());
+  evaluation.proposal = std::move(kept->proposal);
+  if (kept->is_new) {
+    process::log_info("offset proposal {} machine={} {}: {} to {} {}", evaluation.proposal->id,
+                      now.machine, proposal.target, proposal.old_value, proposal.new_value,
+                      proposal.unit);
+    publish(*evaluation.proposal);
+  }
+  return {};
+}
+
+Result<storage::OffsetRules> Offsets::save_rules(const std::string& machine,
+                                                 const std::string& text,
+                                                 const storage::Actor& who) {
+  if (auto known = parts_.store.machines.find(machine); !known) return fail(known.error());
+  if (auto read = parse_offset_rules(text); !read) return fail(read.error());
+  auto saved = parts_.store.offsets.save_rules({.machine = machine,
+                                                .version = 0,
+                                                .text = text,
+                                                .author = who.name,
+                                                .created = parts_.clock.now()},
+                                               who);
+  if (saved) note(machine);
+  return saved;
+}
+
+Result<std::vector<Evaluation>> Offsets::look(const std::string& machine) {
+  const std::scoped_lock one_at_a_time(look_mutex_);
+  const auto stored = parts_.store.offsets.rules(machine);
+  if (!stored && stored.error().code == Errc::NotFound) return std::vector<Evaluation>();
+  if (!stored) return fail(stored.error());
+  const auto rules = parse_offset_rules(stored->text);
+  if (!rules) return fail(rules.error());
+  std::vector<Evaluation> evaluations;
+  for (const OffsetRule& rule : *rules) {
+    const auto now = current_of(machine);  // each time: the rule before may have changed it
+    if (!now) return fail(now.error());
+    auto evaluation = evaluate(*now, rule);
+    if (!evaluation) return fail(evaluation.error());
+    if (auto kept = keep(*now, *evaluation); !kept) return fail(kept.error());
+    if (evaluation->outcome.is_within_policy && evaluation->proposal) {
+      const auto applied =
+          approve({.id = evaluation->proposal->id,
+                   .who = kPolicy,
+                   .comment = fmt::format("within the policy, version {}", stored->version),
+                   .time = {},
+                   .is_automatic = true});
+      if (applied) {
+        evaluation->proposal = *applied;
+      } else {
+        evaluation->outcome.reasons.push_back("not applied: " + applied.error().what);
+      }
+    }
+    evaluations.push_back(*std::move(evaluation));
+  }
+  return evaluations;
+}
+
+Result<OffsetProposal> Offsets::approve(const storage::OffsetDecision& given) {
+  if (given.comment.size() > kMaxComment)
+    return fail(Errc::LimitExceeded, "a comment of {} bytes, at most {}", given.comment.size(),
+                kMaxComment);
+  storage::OffsetDecision decision = given;
+  decision.time = parts_.clock.now();
+  const auto proposal = parts_.store.offsets.find(decision.id);
+  if (!proposal) return fail(proposal.error());
+  if (auto pending = storage::check_pending(*proposal); !pending) return fail(pending.error());
+  const auto now = current_of(proposal->machine);
+  if (!now) return fail(now.error());
+  if (now->setup != proposal->base) {
+    return fail(Errc::Conflict,
+                "offset proposal {} was made from setup {} of {}, and {} is the newest by now",
+                proposal->id, proposal->base, proposal->machine, now->setup);
+  }
+  const auto target = parse_setup_target(proposal->target);
+  if (!target) return fail(target.error());
+  constexpr int kDecimals =
+      9;  // the value has its rule's digits already; zeros at the end are not written
+  auto text = with_value(now->text, *target, proposal->new_value, kDecimals);
+  if (!text) return fail(text.error());
+  auto saved = parts_.setups.save_by({.machine = now->machine,
+                                      .control = now->control,
+                                      .text = *std::move(text),
+                                      .comment = comment_of(*proposal, decision),
+                                      .base = proposal->base},
+                                     decision.who, [&](const storage::SetupRevision& setup) {
+                                       return parts_.store.offsets.apply(decision, setup);
+                                     });
+  if (!saved) return fail(saved.error());
+  process::log_info("offset proposal {} machine={} applied as setup {} by={}", proposal->id,
+                    proposal->machine, saved->number, decision.who.name);
+  auto decided = parts_.store.offsets.find(decision.id);
+  if (decided) publish(*decided);
+  return decided;
+}
+
+Result<OffsetProposal> Offsets::reject(storage::OffsetDecision decision) {
+  if (decision.comment.size() > kMaxComment)
+    return fail(Errc::LimitExceeded, "a comment of {} bytes, at most {}", decision.comment.size(),
+                kMaxComment);
+  if (decision.comment.find_first_not_of(" \t\r\n") == std::string::npos)
+    return fail(Errc::Syntax, "a rejection needs a reason");
+  decision.time = parts_.clock.now();
+  auto rejected = parts_.store.offsets.reject(decision);
+  if (rejected) publish(*rejected);
+  return rejected;
+}
+
+void Offsets::work(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::set<std::string> machines;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, stop, [this] { return !noted_.empty(); });
+      machines.swap(noted_);
+    }
+    for (const std::string& machine : machines) {
+      if (stop.stop_requested()) return;
+      const auto looked = look(machine);
+      if (looked || looked.error().code == Errc::NotFound) continue;
+      process::log_warning("offsets of machine={} were not looked at: {}", machine,
+                           looked.error().what);
+    }
+  }
+}
+
+}  // namespace dripline::offsets

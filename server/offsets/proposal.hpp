@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "server/offsets/offset_rule.hpp"
+
+namespace dripline::offsets {
+
+/// A measured deviation from the nominal, in the unit of the setup's file.
+struct Deviation {
+  std::uint64_t measurement = 0;  ///< its id
+  double value = 0;
+};
+
+/// What follows from deviations, with reasons in words either way.
+struct Outcome {
+  std::vector<std::string> reasons;
+  std::size_t used = 0, left_out = 0;
+  double mean = 0;
+  std::uint64_t first = 0, last = 0;  ///< measurements that were used
+  std::optional<double> new_value;    ///< absent: the value is left alone
+  bool is_within_policy = false;      ///< may be applied without a person
+};
+
+/// `deviations`: measured under `value`, the value in force, oldest first. Pure. Deviations that
+/// are not finite are left out.
+Outcome propose(std::span<const Deviation> deviations, double value, const OffsetRule& rule);
+
+}  // namespace dripline::offsets

@@ -1,0 +1,246 @@
+#include "storage/impl/job_repository.hpp"
+
+#include <algorithm>
+
+#include "storage/impl/audit_repository.hpp"
+#include "storage/impl/revision_rows.hpp"
+#include "storage/sqlite/query.hpp"
+
+namespace dripline::storage {
+namespace {
+
+/// Each job with what its runs say; a condition follows.
+const std::string kSelect =
+    "SELECT * FROM (SELECT job.id, machine.name AS machine, program.name, job.revision, "
+    "job.quantity, job.parts_per_run, job.comment, job.author, job.created_us, job.removed_us, "
+    "job.position, "
+    "job.parts_per_run * (SELECT count(*) FROM run WHERE run.job = job.id AND run.state = "
+    "'completed') AS completed, "
+    "(SELECT count(*) FROM run WHERE run.job = job.id AND run.state <> 'refused') AS runs, "
+    "EXISTS (SELECT 1 FROM run WHERE run.job = job.id AND run.state IN ('ordered', 'active')) AS "
+    "is_active "
+    "FROM job JOIN machine ON machine.id = job.machine JOIN program ON program.id = job.program) ";
+const std::string kOpen = "removed_us IS NULL AND (completed < quantity OR is_active) ";
+const std::string kInOrder = "ORDER BY position, id ";
+
+Job read_job(const sqlite::Statement& row) {
+  Job job;
+  job.id = row.number(0);
+  job.machine = row.text(1);
+  job.program = row.text(2);
+  if (const auto revision = row.optional_integer(3))
+    job.revision = static_cast<std::uint64_t>(*revision);
+  job.quantity = row.number(4);
+  job.parts_per_run = row.number(5);
+  job.comment = row.text(6);
+  job.author = row.text(7);
+  job.created = row.time(8);
+  job.completed = row.number(11);
+  job.runs = row.number(12);
+  if (row.optional_time(9)) {
+    job.state = JobState::Removed;
+  } else if (row.integer(13) != 0) {
+    job.state = JobState::Active;
+  } else if (job.completed >= job.quantity) {
+    job.state = JobState::Done;
+  }
+  return job;
+}
+
+Result<Job> find_job(sqlite::Database& database, std::uint64_t id) {
+  static const std::string kSql = kSelect + "WHERE id = ?1";
+  auto job = sqlite::first_row(database, kSql, read_job, id);
+  if (!job) return fail(job.error());
+  if (!*job) return fail(Errc::NotFound, "job {} is not known", id);
+  return std::move(**job);
+}
+
+Result<std::vector<Job>> open_jobs(sqlite::Database& database, const std::string& machine,
+                                   Page page) {
+  static const std::string kSql =
+      kSelect + "WHERE machine = ?1 AND " + kOpen + kInOrder + "LIMIT ?2 OFFSET ?3";
+  return sqlite::all_rows(database, kSql, read_job, machine, page.limit, page.offset);
+}
+
+Result<std::int64_t> machine_id(sqlite::Database& database, const std::string& name) {
+  const auto id = sqlite::first_row(
+      database, "SELECT id FROM machine WHERE name = ?1",
+      [](const sqlite::Statement& row) { return row.integer(0); }, name);
+  if (!id) return fail(id.error());
+  if (!*id) return fail(Errc::NotFound, "machine {} is not known", name);
+  return **id;
+}
+
+Result<void> check_open(const Job& job) {
+  if (job.state != JobState::Done && job.state != JobState::Removed) return {};
+  return fail(Errc::Conflict, "job {} is {}", job.id, to_string(job.state));
+}
+
+/// Numbers the open jobs anew, with `job` at `place`.
+Result<void> put_at(sqlite::Database& database, const Job& job, std::uint64_t place) {
+  auto jobs = open_jobs(database, job.machine, {.limit = JobStore::kMaxJobs + 1});
+  if (!jobs) return fail(jobs.error());
+  const auto own = std::ranges::find(*jobs, job.id, &Job::id);
+  if (own != jobs->end()) jobs->erase(own);
+  const auto at = std::min<std::size_t>(place == 0 ? 0 : place - 1, jobs->size());
+  jobs->insert(jobs->begin() + static_cast<std::ptrdiff_t>(at), job);
+  std::int64_t position = 0;
+  for (const Job& next : *jobs) {
+    auto set =
+        sqlite::run(database, "UPDATE job SET position = ?2 WHERE id = ?1", next.id, ++position);
+    if (!set) return set;
+  }
+  return {};
+}
+
+std::string words_of(const Job& job) {
+  return fmt::format("job {}: {}{}, {} parts", job.id, job.program,
+                     job.revision ? fmt::format(" revision {}", *job.revision) : "", job.quantity);
+}
+
+Result<std::optional<JobHold>> find_hold(sqlite::Database& database, const std::string& machine) {
+  return sqlite::first_row(
+      database,
+      "SELECT machine.name, who, reason, since_us FROM job_hold JOIN machine ON machine.id = "
+      "job_hold.machine WHERE machine.name = ?1",
+      [](const sqlite::Statement& row) {
+        return JobHold{row.text(0), row.text(1), row.text(2), row.time(3)};
+      },
+      machine);
+}
+
+}  // namespace
+
+Result<void> check_job(sqlite::Database& database, const Run& run) {
+  if (!run.job) return {};
+  const auto job = find_job(database, *run.job);
+  if (!job) return fail(job.error());
+  if (job->machine != run.machine || job->program != run.program ||
+      (job->revision && *job->revision != run.revision)) {
+    return fail(Errc::Conflict, "job {} is {} on {}, and not {} revision {} on {}", job->id,
+                job->program, job->machine, run.program, run.revision, run.machine);
+  }
+  if (auto open = check_open(*job); !open) return open;
+  if (job->completed >= job->quantity)
+    return fail(Errc::Conflict, "job {} has all its {} parts", job->id, job->quantity);
+  const auto held = find_hold(database, run.machine);
+  if (!held) return fail(held.error());
+  if (!*held) return {};
+  return fail(Errc::Conflict, "the jobs of machine {} are held by {}: {}", run.machine,
+              (*held)->who, (*held)->reason);
+}
+
+Result<std::vector<Job>> JobRepository::list(const std::string& machine, bool is_open, Page page) {
+  static const std::string kClosed =
+      kSelect + "WHERE machine = ?1 AND NOT (" + kOpen + ") ORDER BY id DESC LIMIT ?2 OFFSET ?3";
+  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<Job>> {
+    if (is_open) return open_jobs(database, machine, page);
+    return sqlite::all_rows(database, kClosed, read_job, machine, page.limit, page.offset);
+  });
+}
+
+Result<Job> JobRepository::find(std::uint64_t id) {
+  return connections_.read([&](sqlite::Database& database) { return find_job(database, id); });
+}
+
+Result<Job> JobRepository::add(const Job& job, const Actor& who,
+                               std::optional<std::uint64_t> place) {
+  return connections_.write([&](sqlite::Database& database) -> Result<Job> {
+    const auto machine = machine_id(database, job.machine);
+    if (!machine) return fail(machine.error());
+    const auto revision = find_revision(database, job.program, job.revision);
+    if (!revision) return fail(revision.error());
+    const auto open = open_jobs(database, job.machine, {.limit = kMaxJobs});
+    if (!open) return fail(open.error());
+    if (open->size() >= kMaxJobs) {
+      return fail(Errc::LimitExceeded, "machine {} has {} jobs, the limit", job.machine, kMaxJobs);
+    }
+    const auto inserted = sqlite::run(
+        database,
+        "INSERT INTO job (machine, position, program, revision, quantity, parts_per_run, comment, "
+        "author, created_us) SELECT ?1, coalesce((SELECT max(position) FROM job WHERE machine = "
+        "?1), 0) + 1, id, ?3, ?4, ?5, ?6, ?7, ?8 FROM program WHERE name = ?2",
+        *machine, job.program, job.revision, job.quantity, job.parts_per_run, job.comment,
+        job.author, job.created);
+    if (!inserted) return fail(inserted.error());
+    auto added = find_job(database, static_cast<std::uint64_t>(database.last_insert_id()));
+    if (!added) return added;
+    if (place) {
+      if (auto put = put_at(database, *added, *place); !put) return fail(put.error());
+    }
+    auto written =
+        add_audit(database, {job.created, who, "job.add", job.machine, words_of(*added)});
+    if (!written) return fail(written.error());
+    return added;
+  });
+}
+
+Result<Job> JobRepository::move(std::uint64_t id, std::uint64_t place, const Actor& who,
+                                UtcTime time) {
+  return connections_.write([&](sqlite::Database& database) -> Result<Job> {
+    auto job = find_job(database, id);
+    if (!job) return job;
+    if (auto open = check_open(*job); !open) return fail(open.error());
+    if (auto put = put_at(database, *job, place); !put) return fail(put.error());
+    auto written = add_audit(database, {time, who, "job.move", job->machine,
+                                        fmt::format("{} to place {}", words_of(*job), place)});
+    if (!written) return fail(written.error());
+    return job;
+  });
+}
+
+Result<void> JobRepository::remove(std::uint64_t id, const Actor& who, UtcTime time) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto job = find_job(database, id);
+    if (!job) return fail(job.error());
+    if (auto open = check_open(*job); !open) return open;
+    if (job->state == JobState::Active)
+      return fail(Errc::Busy, "job {} has a run that has not ended", id);
+    auto removed = sqlite::run(database, "UPDATE job SET removed_us = ?2 WHERE id = ?1", id, time);
+    if (!removed) return removed;
+    return add_audit(database, {time, who, "job.remove", job->machine, words_of(*job)});
+  });
+}
+
+Result<std::optional<Job>> JobRepository::next(const std::string& machine) {
+  static const std::string kSql =
+      kSelect + "WHERE machine = ?1 AND removed_us IS NULL AND completed < quantity " + kInOrder +
+      "LIMIT 1";
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::first_row(database, kSql, read_job, machine);
+  });
+}
+
+Result<void> JobRepository::hold(const JobHold& hold, const Actor& who) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto machine = machine_id(database, hold.machine);
+    if (!machine) return fail(machine.error());
+    auto held = sqlite::run(database,
+                            "INSERT INTO job_hold (machine, who, reason, since_us) VALUES (?1, ?2, "
+                            "?3, ?4) ON CONFLICT (machine) DO UPDATE SET who = excluded.who, "
+                            "reason = excluded.reason, since_us = excluded.since_us",
+                            *machine, hold.who, hold.reason, hold.since);
+    if (!held) return held;
+    return add_audit(database, {hold.since, who, "job.hold", hold.machine, hold.reason});
+  });
+}
+
+Result<void> JobRepository::release(const std::string& machine, const Actor& who, UtcTime time) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    auto released = sqlite::run(database,
+                                "DELETE FROM job_hold WHERE machine = (SELECT id FROM machine "
+                                "WHERE name = ?1)",
+                                machine);
+    if (!released) return released;
+    if (database.changes() == 0)
+      return fail(Errc::NotFound, "the jobs of machine {} are not held", machine);
+    return add_audit(database, {time, who, "job.release", machine, ""});
+  });
+}
+
+Result<std::optional<JobHold>> JobRepository::hold_of(const std::string& machine) {
+  return connections_.read(
+      [&](sqlite::Database& database) { return find_hold(database, machine); });
+}
+
+}  // namespace dripline::storage

@@ -1,0 +1,257 @@
+#include "server/offsets/offsets.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/server/offsets/offsets_fixture.hpp"
+
+namespace dripline::offsets {
+namespace {
+
+using storage::OffsetState;
+
+TEST_F(OffsetsTest, ProposesWithReasonsAndChangesNothing) {
+  use_rules();
+  for (const double actual : {40.019, 40.020, 40.021}) measure(actual);
+  const auto proposal = only_proposal();
+  EXPECT_EQ(proposal.target, "T3.wear.X");
+  EXPECT_DOUBLE_EQ(proposal.old_value, 0.1);
+  EXPECT_DOUBLE_EQ(proposal.new_value, 0.09);
+  EXPECT_EQ(proposal.unit, "mm");
+  EXPECT_EQ(proposal.base, 1U);
+  EXPECT_EQ(proposal.used, 3U);
+  EXPECT_EQ(proposal.state, OffsetState::Pending);
+  EXPECT_NE(proposal.reasons.find("mean deviation +0.02 of 3 measurements"), std::string::npos)
+      << proposal.reasons;
+  EXPECT_EQ(wear(), 0.1);
+  ASSERT_EQ(changes_.size(), 1U);
+  // Looking again at the same measurements is the same proposal.
+  EXPECT_EQ(only_proposal().id, proposal.id);
+  EXPECT_EQ(changes_.size(), 1U);
+  EXPECT_EQ(all().size(), 1U);
+}
+
+TEST_F(OffsetsTest, AnApprovedOneIsTheNextSetup) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto proposal = only_proposal();
+  const auto approved = offsets_->approve(
+      {.id = proposal.id, .who = "anna", .comment = "checked by hand", .time = {}});
+  ASSERT_TRUE(approved) << approved.error().what;
+  const auto saved = store_->setups.find("lathe-1", std::nullopt);
+  ASSERT_TRUE(saved) << saved.error().what;
+  EXPECT_EQ(saved->number, 2U);
+  EXPECT_EQ(store_->setups.find("lathe-1", 2)->text,
+            "units = \"mm\"\n\n[[tool]]\nnumber = 3\nwear = { X = 0.09 }  # by hand\n");
+  EXPECT_EQ(saved->author, "anna");
+  EXPECT_NE(saved->comment.find("checked by hand"), std::string::npos);
+  const auto applied = store_->offsets.find(proposal.id);
+  EXPECT_EQ(applied->state, OffsetState::Applied);
+  EXPECT_EQ(applied->setup, 2U);
+  EXPECT_EQ(applied->who, "anna");
+  const auto audit = store_->audit.list({})->front();
+  EXPECT_EQ(audit.action, "offset.apply");
+  EXPECT_EQ(audit.subject, "lathe-1 T3.wear.X");
+  EXPECT_EQ(audit.who.name, "anna");
+}
+
+TEST_F(OffsetsTest, IsAppliedOnce) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto proposal = only_proposal();
+  ASSERT_TRUE(offsets_->approve({.id = proposal.id, .who = "anna", .time = {}}));
+  const auto again = offsets_->approve({.id = proposal.id, .who = "bert", .time = {}});
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, Errc::Conflict);
+  EXPECT_FALSE(offsets_->reject({.id = proposal.id, .who = "bert", .comment = "late", .time = {}}));
+  EXPECT_DOUBLE_EQ(wear(), 0.09);
+  EXPECT_EQ(store_->setups.list("lathe-1", {})->size(), 2U);
+}
+
+TEST_F(OffsetsTest, WhatWasMeasuredBeforeTheCorrectionCountsNoMore) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  ASSERT_TRUE(offsets_->approve({.id = only_proposal().id, .who = "anna", .time = {}}));
+  auto looked = offsets_->look("lathe-1");
+  ASSERT_TRUE(looked);
+  EXPECT_FALSE(looked->front().proposal);
+  EXPECT_EQ(looked->front().since, 2U);
+  EXPECT_EQ(looked->front().outcome.reasons.front(),
+            "0 measurements under the value in force, 3 are needed");
+  for (const double actual : {40.001, 39.999, 40.0}) measure(actual);
+  looked = offsets_->look("lathe-1");
+  EXPECT_FALSE(looked->front().proposal) << "it is within the dead band";
+}
+
+TEST_F(OffsetsTest, AnotherSetupWithTheSameValueKeepsTheMeasurements) {
+  use_rules();
+  measure(40.02);
+  measure(40.02);
+  save_setup(std::string(kSetup) + "# tool 4 is new\n[[tool]]\nnumber = 4\n");
+  measure(40.02);
+  const auto proposal = only_proposal();
+  EXPECT_EQ(proposal.used, 3U);
+  EXPECT_EQ(proposal.base, 2U);
+}
+
+TEST_F(OffsetsTest, ASetupThatSomebodySavedSinceIsNotOverwritten) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto proposal = only_proposal();
+  save_setup("units = \"mm\"\n[[tool]]\nnumber = 3\nwear = { X = 0.2 }\n", "by hand");
+  const auto applied = offsets_->approve({.id = proposal.id, .who = "anna", .time = {}});
+  ASSERT_FALSE(applied);
+  EXPECT_EQ(applied.error().code, Errc::Conflict);
+  EXPECT_EQ(wear(), 0.2);
+  // Not even where the check before the transaction came too early.
+  storage::SetupRevision setup;
+  setup.machine = "lathe-1";
+  setup.text = "units = \"mm\"\n";
+  EXPECT_EQ(
+      store_->offsets
+          .apply({.id = proposal.id, .who = "anna", .comment = {}, .time = clock_.now()}, setup)
+          .error()
+          .code,
+      Errc::Conflict);
+  EXPECT_EQ(store_->offsets.find(proposal.id)->state, OffsetState::Pending);
+  // The value changed, so nothing follows from the old measurements.
+  ASSERT_TRUE(offsets_->look("lathe-1"));
+  EXPECT_EQ(store_->offsets.find(proposal.id)->state, OffsetState::Superseded);
+}
+
+TEST_F(OffsetsTest, NewMeasurementsSupersedeAPendingOne) {
+  use_rules();
+  for (const double actual : {40.018, 40.02, 40.022}) measure(actual);
+  const auto first = only_proposal();
+  measure(40.026);
+  measure(40.026);
+  const auto second = only_proposal();
+  EXPECT_NE(second.id, first.id);
+  EXPECT_EQ(store_->offsets.find(first.id)->state, OffsetState::Superseded);
+  EXPECT_EQ(all(OffsetState::Pending).size(), 1U);
+  EXPECT_EQ(offsets_->approve({.id = first.id, .who = "anna", .time = {}}).error().code,
+            Errc::Conflict);
+}
+
+TEST_F(OffsetsTest, ThePolicyAppliesSmallStepsByItself) {
+  use_rules("automatic = 0.005\n");
+  for (const double actual : {40.008, 40.008, 40.008}) measure(actual);
+  const auto looked = offsets_->look("lathe-1");
+  ASSERT_TRUE(looked) << looked.error().what;
+  ASSERT_TRUE(looked->front().proposal);
+  EXPECT_EQ(looked->front().proposal->state, OffsetState::Applied);
+  EXPECT_TRUE(looked->front().proposal->is_automatic);
+  EXPECT_DOUBLE_EQ(wear(), 0.096);
+  for (const double actual : {40.04, 40.04, 40.04}) measure(actual);
+  EXPECT_EQ(only_proposal().state, OffsetState::Pending) << "the step is too large";
+}
+
+TEST_F(OffsetsTest, RejectingNeedsAReasonAndIsKept) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto proposal = only_proposal();
+  EXPECT_EQ(
+      offsets_->reject({.id = proposal.id, .who = "anna", .comment = " ", .time = {}}).error().code,
+      Errc::Syntax);
+  const auto rejected = offsets_->reject(
+      {.id = proposal.id, .who = "anna", .comment = "chip on the probe", .time = {}});
+  ASSERT_TRUE(rejected);
+  EXPECT_EQ(rejected->state, OffsetState::Rejected);
+  EXPECT_EQ(rejected->comment, "chip on the probe");
+  EXPECT_EQ(store_->audit.list({})->front().action, "offset.reject");
+  EXPECT_EQ(wear(), 0.1);
+}
+
+TEST_F(OffsetsTest, AMachineWithoutASetupGetsOne) {
+  add_machine("lathe-2");
+  storage::OffsetProposal proposal;
+  proposal.machine = "lathe-2";
+  proposal.rule = "D";
+  proposal.target = "T1.wear.Z";
+  proposal.unit = "in";
+  proposal.new_value = -0.001;
+  proposal.created = clock_.now();
+  proposal.reasons = "[]";
+  const auto kept = store_->offsets.propose(proposal);
+  ASSERT_TRUE(kept) << kept.error().what;
+  ASSERT_TRUE(offsets_->approve({.id = kept->proposal.id, .who = "anna", .time = {}}));
+  EXPECT_EQ(store_->setups.find("lathe-2", std::nullopt)->text,
+            "[[tool]]\nnumber = 1\nwear = { Z = -0.001 }\n");
+}
+
+TEST_F(OffsetsTest, HistoryShowsEveryValueWithItsRunsAndParts) {
+  use_rules();
+  const std::string first = measure(40.02);
+  measure(40.02);
+  measure(40.02);
+  const auto proposal = only_proposal();
+  ASSERT_TRUE(offsets_->approve({.id = proposal.id, .who = "anna", .time = {}}));
+  const std::string after = measure(40.0);
+  const auto history = offsets_->history().list("lathe-1", "T3", {});
+  ASSERT_TRUE(history) << history.error().what;
+  ASSERT_EQ(history->size(), 2U);
+  const HistoryEntry& now = history->front();
+  EXPECT_DOUBLE_EQ(now.value, 0.09);
+  EXPECT_EQ(now.setup.author, "anna");
+  ASSERT_TRUE(now.proposal);
+  EXPECT_EQ(now.proposal->id, proposal.id);
+  ASSERT_EQ(now.runs.size(), 1U);
+  EXPECT_EQ(now.runs[0].id, after);
+  EXPECT_EQ(now.parts, 1U);
+  const HistoryEntry& before = history->back();
+  EXPECT_DOUBLE_EQ(before.value, 0.1);
+  EXPECT_EQ(before.setup.author, "meyer");
+  EXPECT_FALSE(before.proposal);
+  ASSERT_EQ(before.runs.size(), 3U);
+  EXPECT_EQ(before.runs[0].id, first);
+  EXPECT_EQ(before.good, 3U);
+  EXPECT_TRUE(offsets_->history().list("lathe-1", "T4", {})->empty());
+  EXPECT_FALSE(offsets_->history().list("lathe-9", "T3", {}));
+}
+
+TEST_F(OffsetsTest, ValuesInForceAreThoseOfTheRunsSetup) {
+  use_rules();
+  const std::string first = measure(40.02);
+  measure(40.02);
+  measure(40.02);
+  ASSERT_TRUE(offsets_->approve({.id = only_proposal().id, .who = "anna", .time = {}}));
+  const std::string after = measure(40.0);
+  const auto then = offsets_->history().in_force(first);
+  ASSERT_TRUE(then);
+  ASSERT_EQ(then->values.size(), 1U);
+  EXPECT_DOUBLE_EQ(then->values[0].value, 0.1);
+  EXPECT_DOUBLE_EQ(offsets_->history().in_force(after)->values[0].value, 0.09);
+  EXPECT_FALSE(offsets_->history().in_force("no-run"));
+}
+
+TEST_F(OffsetsTest, TheWorkerLooksWhenSomethingWasMeasured) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool is_proposed = false;
+  Offsets working(
+      {.store = *store_, .setups = *setups_, .clock = clock_, .on_change = [&](const auto&) {
+         const std::scoped_lock lock(mutex);
+         is_proposed = true;
+         changed.notify_all();
+       }});
+  working.begin();
+  std::unique_lock lock(mutex);
+  EXPECT_TRUE(changed.wait_for(lock, std::chrono::seconds(60), [&] { return is_proposed; }));
+}
+
+TEST_F(OffsetsTest, RulesAreCheckedAndKeptInVersions) {
+  EXPECT_EQ(offsets_->save_rules("lathe-9", kRules, "anna").error().code, Errc::NotFound);
+  EXPECT_FALSE(offsets_->save_rules("lathe-1", "rule = 1", "anna"));
+  use_rules();
+  EXPECT_EQ(store_->offsets.rules("lathe-1")->version, 1U);
+  use_rules();
+  EXPECT_EQ(store_->offsets.rules("lathe-1")->version, 1U) << "the same text";
+  use_rules("automatic = 0.001\n");
+  EXPECT_EQ(store_->offsets.rules("lathe-1")->version, 2U);
+  EXPECT_TRUE(offsets_->look("lathe-9").value().empty());
+}
+
+}  // namespace
+}  // namespace dripline::offsets
