@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "protocol/process/log.hpp"
 
@@ -77,23 +78,29 @@ Result<UploadStore> UploadStore::open(const std::filesystem::path& folder) {
 void UploadStore::load() {
   std::error_code error;
   std::filesystem::remove(open_path(), error);
+  std::set<std::string> ids;
   for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
-    if (entry.path().extension() != ".json") continue;
-    std::ifstream file(entry.path());
-    const std::string id = entry.path().stem().string();
+    const auto extension = entry.path().extension();
+    if (extension == ".json" || extension == ".nc") ids.insert(entry.path().stem().string());
+  }
+  for (const std::string& id : ids) {
+    std::ifstream file(note_path(id));
+    if (!file) {  // a kill came before its note
+      erase_files(id);
+      continue;
+    }
     auto upload = parse_note(id, file);
     std::error_code lost;
     const bool is_whole =
         upload && std::filesystem::file_size(text_path(id), lost) == upload->size && !lost;
     if (!is_whole) {
       process::log_error("program {} from the control is damaged on disk and dropped", id);
-      remove(id);
+      erase_files(id);
       continue;
     }
     bytes_ += upload->size;
     waiting_.push_back(*std::move(upload));
   }
-  std::ranges::sort(waiting_, {}, &Upload::id);
 }
 
 void UploadStore::begin(const std::string& id) {
@@ -186,12 +193,17 @@ Result<std::string> UploadStore::read(const std::string& id, std::uint64_t offse
 }
 
 /// The note goes first: without it there is no program.
-void UploadStore::remove(const std::string& id) {
+void UploadStore::erase_files(const std::string& id) const {
   std::error_code error;
   std::filesystem::remove(note_path(id), error);
   std::filesystem::remove(text_path(id), error);
+}
+
+/// Only what is there: an id from the network makes no path.
+void UploadStore::remove(const std::string& id) {
   const auto found = std::ranges::find(waiting_, id, &Upload::id);
   if (found == waiting_.end()) return;
+  erase_files(id);
   bytes_ -= found->size;
   waiting_.erase(found);
 }

@@ -59,6 +59,7 @@ class UploadStore {
   std::filesystem::path note_path(const std::string& id) const { return folder_ / (id + ".json"); }
   std::filesystem::path open_path() const { return folder_ / "begun"; }
   void load();
+  void erase_files(const std::string& id) const;
 
   std::filesystem::path folder_;
   std::deque<Upload> waiting_;

@@ -1,7 +1,6 @@
 #include "gateway/app/serial/upload_store.hpp"
 
 #include <gtest/gtest.h>
-
 #include <fstream>
 
 #include "tests/support/temporary_folder.hpp"
@@ -81,6 +80,22 @@ TEST_F(UploadStoreTest, DropsWhatIsDamagedOnDisk) {
   }
   std::filesystem::resize_file(folder_.path() / "uploads" / "1-1.nc", 3);
   EXPECT_TRUE(open().waiting().empty());
+}
+
+/// Ids come from the network.
+TEST_F(UploadStoreTest, TouchesNothingOutsideItsFolder) {
+  UploadStore store = open();
+  std::ofstream(folder_.path() / "other.nc") << "O1";
+  store.remove("../other");
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "other.nc"));
+  EXPECT_EQ(store.read("../other", 0, 2).error().code, Errc::NotFound);
+}
+
+TEST_F(UploadStoreTest, DropsATextWhoseNoteAKillHasPrevented) {
+  (void)open();
+  std::ofstream(folder_.path() / "uploads" / "1-1.nc") << "O15\nM30\n";
+  EXPECT_TRUE(open().waiting().empty());
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "uploads" / "1-1.nc"));
 }
 
 }  // namespace
