@@ -1,14 +1,11 @@
 #include "server/ports/gateway_lines.hpp"
 
-#include <algorithm>
 #include <sstream>
 #include <utility>
 
 #include "gateway/line/recording/recording_file.hpp"
-#include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
 #include "server/ports/port_settings.hpp"
-#include "server/ports/programs/program_stream.hpp"
 #include "server/ports/programs/uploaded_program.hpp"
 #include "server/ports/requests/remote_request_handler.hpp"
 
@@ -18,85 +15,11 @@ namespace {
 using dds::LineAction;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kAnswerLimit{5000};
 constexpr milliseconds kTestLimit{15'000};
 
 std::string text_of(const dds::LineData& data) {
   return {reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size()};
 }
-
-/// Over DDS to the gateway of a machine. What is answered belongs to the call that is handled; it
-/// is on one strand.
-class GatewayAtControl final : public RequestedLine,
-                               public std::enable_shared_from_this<GatewayAtControl> {
- public:
-  GatewayAtControl(std::string machine, AskLine ask, machines::MachineControl& machines,
-                   Strand strand)
-      : machine_(std::move(machine)),
-        ask_(std::move(ask)),
-        machines_(machines),
-        strand_(std::move(strand)) {}
-
-  void begin(std::uint64_t call) { call_ = call; }
-
-  void note(const std::string& words) override {
-    process::log_info("machine={}: {}", machine_, words);
-  }
-  void refuse(const std::string& why) override { tell(LineAction::Refuse, "", why); }
-  void accept_receive(const std::string&) override {}  // the gateway takes it by itself
-  void send(SendJob job) override {
-    std::string text;
-    if (job.text) {
-      text = *job.text;
-    } else if (auto read = read_all(job)) {
-      text = *std::move(read);
-    } else {
-      return refuse(read.error().what);
-    }
-    tell(LineAction::Answer, job.name, text);
-  }
-  void start_later(const machines::StartRequest& request, Started started,
-                   const std::string&) override {
-    // The gateway needs the call no more: the run takes its place.
-    tell(LineAction::Done, "", "");
-    strand_.post([self = shared_from_this(), request, started = std::move(started)] {
-      started(self->machines_.start(request));
-    });
-  }
-
- private:
-  static Result<std::string> read_all(const SendJob& job) {
-    if (job.size > dds::kMaxCommandSetup) {
-      return fail(Errc::LimitExceeded,
-                  "{} bytes: a gateway's control is offered programs of at most {}; start a run",
-                  job.size, dds::kMaxCommandSetup);
-    }
-    std::string text;
-    while (text.size() < job.size) {
-      const auto piece = job.source->read(text.size(), job.size - text.size());
-      if (!piece) return fail(piece.error());
-      text += *piece;
-    }
-    return text;
-  }
-  void tell(LineAction action, const std::string& name, const std::string& text) {
-    dds::LineRequest request;
-    request.machine = machine_;
-    request.action = action;
-    request.name = name;
-    request.number = std::exchange(call_, 0);
-    request.text = text;
-    const auto answer = ask_(std::move(request), kAnswerLimit);
-    if (!answer)
-      process::log_warning("control not answered machine={}: {}", machine_, answer.error().what);
-  }
-
-  const std::string machine_;
-  const AskLine ask_;
-  machines::MachineControl& machines_;
-  const Strand strand_;
-  std::uint64_t call_ = 0;
-};
 
 }  // namespace
 
@@ -404,74 +327,6 @@ void GatewayLines::monitor() {
     if (!read) line->monitored_session = 0;
   }
   pool_.post_after(kMonitorInterval, [this] { monitor(); });
-}
-
-bool PortRouter::is_gateways(const std::string& name) const {
-  return !own_.port(name) && gateways_.has(name);
-}
-
-namespace {
-
-tl::unexpected<Error> set_up_there(const std::string& name) {
-  return fail(Errc::Unsupported,
-              "line '{}' is its gateway's own: it is set up there (dncgw --motion line:...)", name);
-}
-
-}  // namespace
-
-std::vector<PortView> PortRouter::ports() const {
-  auto views = own_.ports();
-  for (auto& view : gateways_.ports()) {
-    const bool is_hidden = std::ranges::any_of(
-        views, [&](const PortView& own) { return own.port.name == view.port.name; });
-    if (!is_hidden) views.push_back(std::move(view));
-  }
-  std::ranges::sort(views, {}, [](const PortView& view) { return view.port.name; });
-  return views;
-}
-
-Result<PortView> PortRouter::port(const std::string& name) const {
-  if (auto own = own_.port(name)) return own;
-  return gateways_.port(name);
-}
-
-Result<PortView> PortRouter::save(const storage::Port& port) {
-  if (is_gateways(port.name)) return set_up_there(port.name);
-  return own_.save(port);
-}
-
-Result<void> PortRouter::remove(const std::string& name) {
-  if (is_gateways(name)) return set_up_there(name);
-  return own_.remove(name);
-}
-
-Result<PortTest> PortRouter::test(const std::string& name) {
-  return is_gateways(name) ? gateways_.test(name) : own_.test(name);
-}
-
-Result<PortTransfer> PortRouter::send(const std::string& name,
-                                      const std::vector<ProgramChoice>& programs) {
-  if (!is_gateways(name)) return own_.send(name, programs);
-  return fail(Errc::Unsupported,
-              "line '{}' is its gateway's own: programs go there as runs (dnc run start)", name);
-}
-
-Result<void> PortRouter::receive(const std::string& name) {
-  return is_gateways(name) ? gateways_.receive(name) : own_.receive(name);
-}
-
-Result<void> PortRouter::stop_transfer(const std::string& name, const std::string& reason) {
-  if (is_gateways(name)) return set_up_there(name);
-  return own_.stop_transfer(name, reason);
-}
-
-Result<RuleVerdict> PortRouter::test_rules(const std::string& name, const std::string& text) const {
-  if (is_gateways(name)) return set_up_there(name);
-  return own_.test_rules(name, text);
-}
-
-Result<std::vector<PortTraffic>> PortRouter::recording(const std::string& name) const {
-  return is_gateways(name) ? gateways_.recording(name) : own_.recording(name);
 }
 
 }  // namespace dripline::ports

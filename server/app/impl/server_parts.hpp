@@ -33,6 +33,7 @@
 #include "server/offsets/offsets.hpp"
 #include "server/ports/gateway_lines.hpp"
 #include "server/ports/line_machines.hpp"
+#include "server/ports/port_router.hpp"
 #include "server/ports/port_service.hpp"
 #include "server/web/page.hpp"
 #include "server/webhooks/webhooks.hpp"
