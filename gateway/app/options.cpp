@@ -141,8 +141,7 @@ constexpr std::array kRows{
         "Back end that moves the machine: simulated; linuxcnc:INI, the LinuxCNC that runs this INI "
         "file; grbl:ADDRESS, a board of the Grbl 1.1 class at a device, tcp://host:port or "
         "rfc2217://host:port, with ,BAUD where it is not 115200; line:ADDRESS, a control at the "
-        "end "
-        "of this computer's serial line, which the line options describe",
+        "end of this computer's serial line, which the line options describe",
         set_by(Written::Text, set_motion)},
     OptionRow{"speed", "FACTOR", "", "1x", "Speed of the simulated machine: 1x, 100x, max",
               set_by(Written::TextOrNumber, set_speed)},
@@ -182,7 +181,7 @@ constexpr std::array kRows{
     OptionRow{
         "line-ahead-s", "NUMBER", "s", "600",
         "With --motion line: keep program text for this long ahead of the line, so that a cut "
-        "of the network is not felt at the control",
+        "of the network is not felt at the control; at most 64 MiB",
         set_by(Written::Number, set_line_ahead)},
     OptionRow{"line-rules", "FILE", "", "none",
               "With --motion line: rules for what the control sends and requests (TOML)",

@@ -9,13 +9,20 @@ constexpr std::size_t kCacheMargin = 1024 * 1024;  ///< around the window
 
 feed::PullFeedOptions options_of(const PulledText::Buffer& buffer) {
   feed::PullFeedOptions options;
-  options.max_window = std::max(buffer.bytes, PulledText::kMinBuffer);
+  options.max_window = buffer.bytes;
   options.min_window = options.max_window;
   options.cache_bytes = options.max_window + kCacheMargin;
   return options;
 }
 
 }  // namespace
+
+PulledText::Buffer PulledText::buffer_for(double characters_per_second,
+                                          std::chrono::seconds ahead) {
+  const double wanted = characters_per_second * std::chrono::duration<double>(ahead).count();
+  const double bytes = std::clamp<double>(wanted, kMinBuffer, kMaxBuffer);
+  return {.bytes = static_cast<std::size_t>(bytes)};
+}
 
 PulledText::PulledText(feed::FeedRun run, const Buffer& buffer, feed::PullFeed::Ask ask)
     : size_(run.size), feed_(std::move(run), options_of(buffer), std::move(ask)) {}

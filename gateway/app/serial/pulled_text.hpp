@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,7 +17,9 @@ class PulledText final : public line::TextSource {
   struct Buffer {
     std::size_t bytes = 0;  ///< text to be kept ahead of the line
   };
-  static constexpr std::size_t kMinBuffer = 64 * 1024;
+  static constexpr std::size_t kMinBuffer = 64 * 1024, kMaxBuffer = 64 * 1024 * 1024;
+  /// For `ahead` of a line with so many characters a second, within these bounds.
+  static Buffer buffer_for(double characters_per_second, std::chrono::seconds ahead);
 
   PulledText(feed::FeedRun run, const Buffer& buffer, feed::PullFeed::Ask ask);
 

@@ -113,12 +113,11 @@ Result<void> SerialRun::start(const dds::Command& command, SteadyTime now) {
     parts_.records.discard();
     return fail(kept.error().code, "the start cannot be kept: {}", kept.error().what);
   }
-  const double rate = wire::characters_per_second(parts_.settings);
-  const auto bytes = static_cast<std::size_t>(
-      rate * std::chrono::duration<double>(parts_.options.line->ahead).count());
   auto text = std::make_shared<PulledText>(
       feed::FeedRun{parts_.options.machine, parts_.session, run.run, run.size},
-      PulledText::Buffer{bytes}, [this](const dds::BlockRequest& request) {
+      PulledText::buffer_for(wire::characters_per_second(parts_.settings),
+                             parts_.options.line->ahead),
+      [this](const dds::BlockRequest& request) {
         return parts_.endpoint.write(request).has_value();
       });
   current_.emplace(Current{.run = run, .text = std::move(text), .start = *std::move(place)});
