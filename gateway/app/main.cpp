@@ -15,6 +15,7 @@
 #include "protocol/process/log.hpp"
 #include "protocol/process/service_manager.hpp"
 #include "protocol/process/settings_reader.hpp"
+#include "protocol/process/stop_signals.hpp"
 
 namespace dripline::gateway {
 namespace {
