@@ -214,9 +214,14 @@ Result<void> change(wire::LineSettings& settings, std::string_view changes) {
     if (entry.empty()) continue;
     const std::size_t equals = entry.find('=');
     const bool is_short_form = equals == std::string_view::npos;
-    const auto done = is_short_form ? wire::set_value(settings, "line", entry)
-                                    : wire::set_value(settings, entry.substr(0, equals),
-                                                      entry.substr(equals + 1));
+    if (is_short_form) {
+      if (const auto done = wire::set_value(settings, "line", entry); !done) {
+        return fail(Errc::Syntax, "line-setting '{}' is neither key=value nor like 4800e71: {}",
+                    entry, done.error().what);
+      }
+      continue;
+    }
+    const auto done = wire::set_value(settings, entry.substr(0, equals), entry.substr(equals + 1));
     if (!done) return fail(done.error().code, "line-setting: {}", done.error().what);
   }
   return {};

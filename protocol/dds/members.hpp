@@ -155,6 +155,7 @@ void members(V&& v, Is<LineCall> auto& m) {
   v(DRIPLINE_MEMBER(number), Positive{});
   v(DRIPLINE_MEMBER(action));
   v(DRIPLINE_MEMBER(argument), FreeText{});
+  v(DRIPLINE_MEMBER(reply), FreeText{});
 }
 
 template <class V>

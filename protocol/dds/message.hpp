@@ -185,7 +185,7 @@ struct LineUpload {
 struct LineCall {
   std::uint64_t number = 0;
   LineCallAction action = LineCallAction::Send;
-  std::string argument;
+  std::string argument, reply;
   friend bool operator==(const LineCall&, const LineCall&) = default;
 };
 

@@ -35,6 +35,7 @@ struct GatewayLines::Line {
   std::shared_ptr<GatewayAtControl> at_control;
   std::unique_ptr<RemoteRequestHandler> requests;
   wire::Offer offer = wire::Offer::None;
+  std::string reply;
   std::uint64_t monitored = 0, monitored_session = 0;  ///< the next entry of the recording
 };
 
@@ -147,9 +148,12 @@ std::string GatewayLines::control_of(const std::string& machine) const {
 void GatewayLines::handle_call(const std::shared_ptr<Line>& line, const dds::LineCall& call) {
   const auto view = port(line->name);
   if (!view) return;
-  if (!line->requests || line->offer != view->settings.offer) {
+  const bool is_known =
+      line->requests && line->offer == view->settings.offer && line->reply == call.reply;
+  if (!is_known) {
     const auto flow = view->settings.flow;
     line->offer = view->settings.offer;
+    line->reply = call.reply;
     line->at_control =
         std::make_shared<GatewayAtControl>(line->name, parts_.ask, parts_.machines, line->strand);
     line->requests = std::make_unique<RemoteRequestHandler>(RemoteRequestHandler::Parts{
@@ -158,7 +162,7 @@ void GatewayLines::handle_call(const std::shared_ptr<Line>& line, const dds::Lin
         .line = line->at_control,
         .clock = parts_.clock,
         .machine = line->name,
-        .rules = std::make_shared<line::RuleSet>(),
+        .reply = call.reply,
         .offer = line->offer,
         .refuses = flow == wire::Flow::HeidenhainBcc,
         .tells_aborts = flow == wire::Flow::Heidenhain || flow == wire::Flow::HeidenhainBcc ||

@@ -122,7 +122,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
                                               static_cast<const LineDirectory&>(*this), name),
       .clock = clock_,
       .machine = name,
-      .rules = entry.rules,
+      .reply = entry.rules->reply(),
       .offer = entry.settings.offer,
       .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc,
       .tells_aborts = entry.settings.flow == wire::Flow::Heidenhain ||

@@ -63,9 +63,13 @@ class SerialSystem {
     return id;
   }
   nlohmann::json status() const {
-    return system->rest().get("/api/v1/machines/lathe-1").json().value("status", nlohmann::json());
+    const auto status = system->rest().get("/api/v1/machines/lathe-1").json()["status"];
+    return status.is_object() ? status : nlohmann::json::object();
   }
-  std::string message() const { return status().value("message", ""); }
+  std::string message() const {
+    const auto message = status()["message"];
+    return message.is_string() ? message.get<std::string>() : std::string();
+  }
   test_support::Finished panel(const std::vector<std::string>& words) {
     std::vector<std::string> command{program_path("dncgw"), "panel", "--state",
                                      system->folder() / "gateway" / "lathe-1"};

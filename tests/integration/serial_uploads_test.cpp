@@ -1,3 +1,5 @@
+#include <fstream>
+
 #include "tests/integration/serial_system.hpp"
 #include "tests/support/line/host_line.hpp"
 
@@ -12,15 +14,12 @@ using test_support::eventually;
 class ControlInHand : public testing::Test {
  protected:
   void start(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments{"--motion",       "line:" + cable_.host(),
-                                       "--line-template", "centurion",
-                                       "--line-setting",  "115200e72",
-                                       "--line-setting",  "idle_end_ms=300",
-                                       "--unattended",    "yes"};
+    std::vector<std::string> arguments{
+        "--motion",  "line:" + cable_.host(), "--line-template", "centurion",    "--line-setting",
+        "115200e72", "--line-setting",        "idle_end_ms=300", "--unattended", "yes"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    system_.emplace(System::Options{.speed = "1x",
-                                    .server_arguments = {},
-                                    .gateway_arguments = std::move(arguments)});
+    system_.emplace(System::Options{
+        .speed = "1x", .server_arguments = {}, .gateway_arguments = std::move(arguments)});
     system_->start_server();
     start_gateway();
     wire::LineSettings settings = (*wire::find_template("centurion"))->settings;
@@ -35,8 +34,10 @@ class ControlInHand : public testing::Test {
   }
   nlohmann::json port() const { return system_->rest().get("/api/v1/ports/lathe-1").json(); }
   nlohmann::json revisions(const std::string& program) const {
-    return system_->rest().get("/api/v1/programs/" + program + "/revisions").json().value(
-        "revisions", nlohmann::json::array());
+    return system_->rest()
+        .get("/api/v1/programs/" + program + "/revisions")
+        .json()
+        .value("revisions", nlohmann::json::array());
   }
   bool waits_for_approval(const std::string& program) {
     return eventually([&] {
@@ -65,7 +66,8 @@ TEST_F(ControlInHand, ALongProgramIsStoredOnceWhateverIsKilled) {
   while (text.size() < 100'000) text += "G1 X1. Z-1. F50.\n";
   text += "M30\n";
   control_->send(text);
-  ASSERT_TRUE(eventually([&] { return control_->is_idle() && control_->sent() >= text.size(); }, 30s));
+  ASSERT_TRUE(
+      eventually([&] { return control_->is_idle() && control_->sent() >= text.size(); }, 30s));
   ASSERT_TRUE(eventually([&] {
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(
@@ -114,16 +116,16 @@ argument = "O{}"
   start({"--line-rules", folder.path() / "rules.toml"});
   system_->push("O0077", "O0077\nG0 X1.\nM30\n");
   control_->send("O9999\n(PRG=0077)\nM30\n");
-  EXPECT_TRUE(eventually([&] { return control_->received().find("O0077") != std::string::npos; },
-                         20s))
+  EXPECT_TRUE(
+      eventually([&] { return control_->received().find("O0077") != std::string::npos; }, 20s))
       << control_->received();
   const auto runs = system_->rest().get("/api/v1/runs").json().at("runs");
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_EQ(runs[0].value("program", ""), "O0077");
   // What there is not gets an answer in the control's own terms.
   control_->send("O9999\n(PRG=5555)\nM30\n");
-  EXPECT_TRUE(eventually([&] { return control_->received().find("O9998") != std::string::npos; },
-                         20s))
+  EXPECT_TRUE(
+      eventually([&] { return control_->received().find("O9998") != std::string::npos; }, 20s))
       << control_->received();
 }
 
@@ -131,8 +133,8 @@ TEST_F(ControlInHand, PrintsWithoutARunAreTheMachinesReport) {
   start();
   control_->send("TEMPERATURE 21.5\n");
   EXPECT_TRUE(eventually([&] {
-    return system_->rest().get("/api/v1/machines/lathe-1/report").body.find(
-               "TEMPERATURE 21.5") != std::string::npos;
+    return system_->rest().get("/api/v1/machines/lathe-1/report").body.find("TEMPERATURE 21.5") !=
+           std::string::npos;
   })) << system_->rest().get("/api/v1/machines/lathe-1/report").body;
 }
 

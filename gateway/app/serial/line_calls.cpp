@@ -1,10 +1,12 @@
 #include "gateway/app/serial/line_calls.hpp"
 
+#include "gateway/app/run_texts.hpp"
+
 namespace dripline::gateway {
 
 void LineCalls::add(dds::LineCallAction action, const std::string& argument, SteadyTime now) {
   constexpr std::size_t kMaxArgument = 128;
-  call_ = dds::LineCall{++last_number_, action, argument.substr(0, kMaxArgument)};
+  call_ = dds::LineCall{++last_number_, action, valid_text(argument, kMaxArgument), reply_};
   until_ = now + kLife;
 }
 

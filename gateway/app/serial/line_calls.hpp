@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "protocol/base/clock.hpp"
 #include "protocol/dds/message.hpp"
@@ -14,6 +15,8 @@ namespace dripline::gateway {
 class LineCalls {
  public:
   static constexpr std::chrono::seconds kLife{60};
+  /// `reply`: the program that messages to the control come in; empty: none do.
+  explicit LineCalls(std::string reply) : reply_(std::move(reply)) {}
 
   void add(dds::LineCallAction action, const std::string& argument, SteadyTime now);
   /// The call with this number was answered, or is void.
@@ -24,6 +27,7 @@ class LineCalls {
   const std::optional<dds::LineCall>& call() const { return call_; }
 
  private:
+  const std::string reply_;
   std::optional<dds::LineCall> call_;
   SteadyTime until_{};
   std::uint64_t last_number_ = 0;

@@ -39,6 +39,7 @@ SerialGateway::SerialGateway(Parts parts)
             .commands = commands_,
             .consent = consent_,
             .clock = parts_.clock}),
+      calls_(parts_.rules->reply()),
       inbound_({.control = parts_.options.control,
                 .device = std::string(kRecordDevice),
                 .rules = parts_.rules,

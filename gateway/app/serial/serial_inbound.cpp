@@ -46,7 +46,7 @@ void SerialInbound::store_program(const std::string& name) {
   const auto stored = parts_.uploads.finish(name);
   if (!stored) {
     process::log_error("program from the control not kept: {}", stored.error().what);
-    return report("program not stored: " + stored.error().what);
+    return router_.report("program not stored: " + stored.error().what);
   }
   port_->note(fmt::format("a program of {} bytes waits for the server", stored->size));
 }

@@ -35,7 +35,7 @@ class SerialInbound final : private line::InboundSink {
     router_.take(incoming, std::move(kept));
   }
   /// To monitors of the line, and to the control where the rules define how.
-  void report(const std::string& words) { router_.report(words); }
+  void report(const std::string& words) { router_.tell(words); }
   /// A text that answers what the control requested.
   void send_answer(std::string name, std::string text);
   void answer(const std::string& words) override;

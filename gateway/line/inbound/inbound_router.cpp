@@ -112,6 +112,11 @@ void InboundRouter::report(const std::string& words) {
   call(RuleAction::Report, words);
 }
 
+void InboundRouter::tell(const std::string& words) {
+  report(words);
+  if (!is_in_transfer_) do_calls();
+}
+
 void InboundRouter::call(RuleAction action, const std::string& argument) {
   if (waiting_.size() < kMaxWaiting) waiting_.push_back({action, argument});
 }

@@ -56,6 +56,8 @@ class InboundRouter {
   void take(const Incoming& incoming, std::function<void()> kept);
   /// To monitors, and to the control at the end of the transfer that comes in.
   void report(const std::string& words);
+  /// The same from outside; now, if nothing comes in.
+  void tell(const std::string& words);
 
  private:
   struct Call {

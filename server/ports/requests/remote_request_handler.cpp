@@ -222,7 +222,7 @@ void RemoteRequestHandler::send_listing(bool is_request) {
     for (const auto& line : lines) text += line + "\n";
     return send_answer("", text);
   }
-  const std::string& name = parts_.rules->reply();
+  const std::string& name = parts_.reply;
   send_answer(name, line::comment_program(name.empty() ? "O9998" : name, lines));
 }
 
@@ -309,12 +309,12 @@ void RemoteRequestHandler::refuse(const std::string& why, bool is_request,
 }
 
 void RemoteRequestHandler::report(const std::vector<std::string>& words) const {
-  if (parts_.rules->reply().empty()) return;
+  if (parts_.reply.empty()) return;
   std::vector<std::string> lines;
   for (const auto& word : words) {
     for (auto& line : line::comment_lines(word)) lines.push_back(std::move(line));
   }
-  send_answer(parts_.rules->reply(), line::comment_program(parts_.rules->reply(), lines));
+  send_answer(parts_.reply, line::comment_program(parts_.reply, lines));
 }
 
 void RemoteRequestHandler::send_answer(std::string name, std::string text) const {

@@ -32,7 +32,7 @@ class RemoteRequestHandler {
     std::shared_ptr<RequestedLine> line;
     const Clock& clock;
     std::string machine;
-    std::shared_ptr<const line::RuleSet> rules;
+    std::string reply;  ///< the program that messages come in; empty: none do
     wire::Offer offer = wire::Offer::None;
     bool refuses = false;  ///< a request that is not answered at once is worth nothing: blockwise
     bool tells_aborts =
@@ -50,7 +50,7 @@ class RemoteRequestHandler {
   void on_transfer_completed() { is_sent_since_ = true; }
   /// A run is on the line, or was.
   void on_run() { is_sent_since_ = false; }
-  /// Short messages to the control, as a program; nothing when the rules name no program for it.
+  /// Short messages to the control, as a program; nothing when there is no program for it.
   void report(const std::vector<std::string>& words) const;
 
  private:
