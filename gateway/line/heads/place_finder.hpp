@@ -15,9 +15,9 @@ struct ProgramPlace {
 
 /// Where a run is to begin, as it was asked for: one of these, or none for the first byte.
 struct WantedPlace {
-  std::optional<std::uint64_t> byte;
-  std::optional<std::uint64_t> line;      ///< 1-based
-  std::optional<std::uint64_t> sequence;  ///< the first block with this N number
+  std::optional<std::uint64_t> byte = std::nullopt;
+  std::optional<std::uint64_t> line = std::nullopt;      ///< 1-based
+  std::optional<std::uint64_t> sequence = std::nullopt;  ///< the first block with this N number
   bool is_beginning() const { return !byte && !line && !sequence; }
 };
 /// "byte 4096", "line 7", "block N120".
