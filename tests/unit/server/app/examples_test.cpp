@@ -3,11 +3,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "gateway/line/inbound/rule_reader.hpp"
 #include "server/app/settings.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/release_policy.hpp"
 #include "server/ports/port_settings.hpp"
-#include "gateway/line/inbound/rule_reader.hpp"
 
 namespace dripline {
 namespace {
