@@ -151,7 +151,7 @@ TEST_F(ControlInHand, ARunFromTheMiddleIsLookedThroughAndGetsItsHead) {
     EXPECT_EQ(reply.status, 201) << reply.body;
     return system_->wait_ended(reply.json().value("id", "none"));
   };
-  const auto refused = start_at({});
+  const auto refused = start_at(nlohmann::json::object());
   EXPECT_EQ(refused.value("state", ""), "aborted") << refused.dump();
   EXPECT_NE(refused.value("reason", "").find("rely on"), std::string::npos) << refused.dump();
   EXPECT_EQ(control_->received(), "");
