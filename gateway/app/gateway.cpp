@@ -9,6 +9,10 @@ namespace dripline::gateway {
 Gateway::Gateway(Parts parts)
     : parts_(std::move(parts)),
       outbox_(parts_.outbox),
+      server_({.options = parts_.options,
+               .endpoint = parts_.endpoint,
+               .outbox = parts_.outbox,
+               .session = parts_.session}),
       run_{.machine = parts_.options.machine, .session = nullptr, .last_message = {}},
       recorder_({.machine = parts_.options.machine,
                  .outbox = parts_.outbox,
@@ -105,13 +109,9 @@ void Gateway::on(const dds::BlockData& data, SteadyTime now) {
 }
 
 void Gateway::on(const ServerSeen& server, SteadyTime) {
-  process::log_info("server {} machine={}", server.is_connected ? "connected" : "gone",
-                    parts_.options.machine);
-  is_connected_ = server.is_connected;
-  refused_by_server_.clear();
-  sender_.on_server(is_connected_);
-  if (!is_connected_) return;
-  announcement_is_due_ = true;
+  server_.on_server(server.is_connected);
+  sender_.on_server(server.is_connected);
+  if (!server.is_connected) return;
   publisher_.reset();
   if (run_.session) run_.session->feed().ask_again();
 }
@@ -122,7 +122,7 @@ void Gateway::on(const StopRequested& stop, SteadyTime) {
 }
 
 SteadyTime Gateway::turn(SteadyTime now) {
-  announce();
+  server_.announce();
   if (line_) line_->poll(now);
   loop_.step(now);
   commands_.send();
@@ -134,12 +134,12 @@ SteadyTime Gateway::turn(SteadyTime now) {
   if (sender_.take_epoch_change()) {
     process::log_warning("record numbers begin again, epoch {} machine={}", outbox_.epoch(),
                          parts_.options.machine);
-    announcement_is_due_ = true;
+    server_.want_announcement();
   }
   if (publisher_.is_due(now)) {
     if (run_.session) run_.session->size_feed(parts_.options.speed.factor);
     publisher_.offer(status(), now);
-    log_rejected(now);
+    server_.log_rejected(now);
   }
   return next_turn(now);
 }
@@ -149,7 +149,7 @@ SteadyTime Gateway::next_turn(SteadyTime now) const {
   if (loop_.is_moving()) return next_tick;
   if (loop_.is_looking_through()) return now;
   constexpr std::chrono::milliseconds kSoon{20};
-  const bool must_send = announcement_is_due_ || !commands_.is_sent();
+  const bool must_send = !server_.is_announced() || !commands_.is_sent();
   SteadyTime next = now + (run_.session || must_send ? report::StatusPublisher::kMinInterval
                                                      : report::StatusPublisher::kMaxInterval);
   if (must_send) next = std::min(next, now + kSoon);
@@ -165,34 +165,9 @@ SteadyTime Gateway::next_turn(SteadyTime now) const {
 
 dds::Status Gateway::status() const {
   return status_.build({.has_line = line_ != nullptr,
-                        .is_connected = is_connected_,
+                        .is_connected = server_.is_connected(),
                         .line_fault = line_ ? line_->fault() : "",
-                        .refused_by_server = refused_by_server_});
-}
-
-/// Dropped messages are logged once a minute at most: their sender must not fill the log.
-void Gateway::log_rejected(SteadyTime now) {
-  constexpr std::chrono::minutes kInterval{1};
-  const dds::Rejected dropped = parts_.endpoint.rejected();
-  if (dropped.messages == rejected_logged_ || now < next_rejected_log_) return;
-  process::log_warning("dropped {} DDS messages, the last: {} {}",
-                       dropped.messages - rejected_logged_, dropped.last_reason, run_.label());
-  rejected_logged_ = dropped.messages;
-  next_rejected_log_ = now + kInterval;
-}
-
-void Gateway::announce() {
-  if (!announcement_is_due_) return;
-  dds::Announce message;
-  message.machine = parts_.options.machine;
-  message.control = parts_.options.control;
-  message.version = DRIPLINE_VERSION;
-  message.epoch = outbox_.epoch();
-  message.session = parts_.session;
-  message.description = parts_.options.description;
-  if (const auto& certificate = parts_.options.certificate)
-    message.certificate_expires = certificate->not_after;
-  announcement_is_due_ = !parts_.endpoint.write(message).has_value();
+                        .refused_by_server = server_.refused()});
 }
 
 }  // namespace dripline::gateway

@@ -8,8 +8,10 @@
 #include "gateway/app/command_log.hpp"
 #include "gateway/app/inbox.hpp"
 #include "gateway/app/line_operator.hpp"
+#include "gateway/app/machine_gateway.hpp"
 #include "gateway/app/panel/panel_controller.hpp"
 #include "gateway/app/run_loop.hpp"
+#include "gateway/app/server_link.hpp"
 #include "gateway/app/status_builder.hpp"
 #include "gateway/report/record_sender.hpp"
 #include "gateway/report/status_publisher.hpp"
@@ -19,7 +21,7 @@ namespace dripline::gateway {
 /// One machine's gateway: takes commands, runs programs, reports. Everything happens in `turn`, on
 /// one thread; messages come in as values, time as an argument. Without a server it continues with
 /// the text it has, keeps its records, and delivers them when a server is back.
-class Gateway {
+class Gateway final : public MachineGateway {
  public:
   struct Parts {
     const GatewayOptions& options;
@@ -41,20 +43,22 @@ class Gateway {
 
   /// Before the first turn: see RunLoop::recover. Errors: also Unsupported (a speed that the
   /// machine does not have).
-  Result<void> recover();
+  Result<void> recover() override;
 
-  void receive(const Incoming& incoming, SteadyTime now);
+  void receive(const Incoming& incoming, SteadyTime now) override;
   /// Does what is due, for at most about RunLoop::kSlice; returns when to be called again, if
   /// nothing comes in before.
-  SteadyTime turn(SteadyTime now);
-  bool stop_requested() const { return stop_requested_; }
+  SteadyTime turn(SteadyTime now) override;
+  bool stop_requested() const override { return stop_requested_; }
 
   /// See RunLoop::interrupt.
-  Result<void> interrupt_run(const std::string& reason) { return loop_.interrupt(reason); }
+  Result<void> interrupt_run(const std::string& reason) override { return loop_.interrupt(reason); }
   /// Nothing is left to send.
-  bool is_delivered() const { return outbox_.unacknowledged() == 0 && commands_.is_sent(); }
+  bool is_delivered() const override {
+    return outbox_.unacknowledged() == 0 && commands_.is_sent();
+  }
   /// As the server gets it.
-  dds::Status status() const;
+  dds::Status status() const override;
 
   static constexpr std::chrono::milliseconds kTick{10};  ///< while the machine moves in real time
 
@@ -66,9 +70,9 @@ class Gateway {
   void on(const StopRequested& stop, SteadyTime now);
   void on(const LineChanged&, SteadyTime) {}  // every turn looks at the line
   void on(const PanelRequest& request, SteadyTime now);
+  void on(const dds::LineRequest&, SteadyTime) {}  // its machine is no control on a line
 
   // gateway_commands.cpp
-  void on_refusal(const dds::Command& command);
   bool stops(const dds::Command& command) const;
   Reply carry_out(const dds::Command& command, bool is_stop);
   std::optional<Reply> refusal_of_start(const dds::Command& command) const;
@@ -82,12 +86,11 @@ class Gateway {
   Reply discard_memory();
   Reply reference_axes(bool is_homing);
 
-  void announce();
-  void log_rejected(SteadyTime now);
   SteadyTime next_turn(SteadyTime now) const;
 
   Parts parts_;
   report::Outbox& outbox_;
+  ServerLink server_;
   CurrentRun run_;
   ExecutionRecorder recorder_;
   ControlMemory memory_;
@@ -102,10 +105,7 @@ class Gateway {
   report::RecordSender sender_;
   report::StatusPublisher publisher_;
 
-  bool announcement_is_due_ = true, is_connected_ = false, stop_requested_ = false;
-  SteadyTime next_rejected_log_{};
-  std::uint64_t rejected_logged_ = 0;
-  std::string refused_by_server_;  ///< why it does not command this gateway
+  bool stop_requested_ = false;
 };
 
 }  // namespace dripline::gateway

@@ -1,8 +1,8 @@
 #include <utility>
 
 #include "gateway/app/gateway.hpp"
+#include "gateway/app/start_checks.hpp"
 #include "gateway/feed/pull_feed.hpp"
-#include "protocol/base/names.hpp"
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/process/log.hpp"
 
@@ -12,8 +12,6 @@ namespace dripline::gateway {
 using dds::CommandAction;
 
 namespace {
-
-constexpr std::uint64_t kMaxProgramBytes = 1ULL << 40;
 
 /// What is done at the panel is carried out as a command from the network is.
 dds::Command command_of(const PanelCommand& panel) {
@@ -39,7 +37,7 @@ dds::Command command_of(const PanelCommand& panel) {
 }  // namespace
 
 void Gateway::on(const dds::Command& command, SteadyTime) {
-  if (command.action == CommandAction::Refuse) return on_refusal(command);
+  if (command.action == CommandAction::Refuse) return server_.on_refusal(command);
   const bool is_stop = stops(command);
   if (!is_stop && command.session != 0 && command.session != parts_.session) {
     process::log_warning("command {} is for another gateway of this name {}", command.id,
@@ -60,12 +58,6 @@ void Gateway::on(const dds::Command& command, SteadyTime) {
   const bool is_kept = command.action == CommandAction::Start && reply.is_accepted;
   if (!is_kept) keep_answer(command, reply);
   commands_.answer(command.id, reply);
-}
-
-void Gateway::on_refusal(const dds::Command& command) {
-  if (std::exchange(refused_by_server_, command.argument) == command.argument) return;
-  process::log_error("the server does not command this gateway: {} {}", command.argument,
-                     run_.label());
 }
 
 /// A stop is carried out whenever it arrives and for any session: one stop too many does no harm.
@@ -109,23 +101,15 @@ std::optional<Reply> Gateway::refusal_of_start(const dds::Command& command) cons
   if (run_.session)
     return refuse(fmt::format("busy with run {} of program {}", run_.session->run().run,
                               run_.session->run().program));
-  if (command.control != parts_.options.control)
-    return refuse(fmt::format("this machine's control is {}, the program is for '{}'",
-                              parts_.options.control, command.control));
-  if (const auto name = check_program_name(command.program); !name)
-    return refuse(name.error().what);
-  if (const auto digest = parse_digest(command.revision); !digest)
-    return refuse(fmt::format("revision: {}", digest.error().what));
-  if (command.size == 0 || command.size > kMaxProgramBytes)
-    return refuse(
-        fmt::format("a program of {} bytes, expected 1 to {}", command.size, kMaxProgramBytes));
-  return std::nullopt;
+  return refusal_of_program(command, parts_.options);
 }
 
 Reply Gateway::start(const dds::Command& command) {
   if (auto refusal = refusal_of_start(command)) return *refusal;
   auto from = parse_start_argument(command.argument);
   if (!from) return refuse(from.error().what);
+  if (from->head != line::HeadChoice::Ask)
+    return refuse("head is for controls on a serial line: this gateway looks through the program");
   auto feed = std::make_unique<feed::PullFeed>(
       feed::FeedRun{parts_.options.machine, parts_.session, command.run, command.size},
       feed::PullFeedOptions{}, [this](const dds::BlockRequest& request) {

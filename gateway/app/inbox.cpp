@@ -7,7 +7,8 @@ namespace dripline::gateway {
 void Inbox::post(Incoming incoming) {
   const bool is_block = std::holds_alternative<dds::BlockData>(incoming);
   const bool may_be_dropped = is_block || std::holds_alternative<dds::Command>(incoming) ||
-                              std::holds_alternative<dds::RecordAck>(incoming);
+                              std::holds_alternative<dds::RecordAck>(incoming) ||
+                              std::holds_alternative<dds::LineRequest>(incoming);
   {
     const std::lock_guard lock(mutex_);
     std::size_t& count = is_block ? blocks_ : others_;

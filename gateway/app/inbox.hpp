@@ -20,7 +20,7 @@ struct StopRequested {
 /// The line has items for `take`.
 struct LineChanged {};
 using Incoming = std::variant<dds::Command, dds::RecordAck, dds::BlockData, ServerSeen,
-                              StopRequested, LineChanged, PanelRequest>;
+                              StopRequested, LineChanged, PanelRequest, dds::LineRequest>;
 
 /// Messages from other threads to the gateway's own thread. Bounded: program text and commands
 /// beyond the bound are dropped; their sender repeats them when the answer is missing. Requests of

@@ -1,18 +1,15 @@
 #include <fmt/format.h>
-#include <pthread.h>
 #include <sys/stat.h>
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "gateway/app/gateway.hpp"
+#include "gateway/app/gateway_process.hpp"
 #include "gateway/app/motion_choice.hpp"
-#include "gateway/app/panel/panel_socket.hpp"
-#include "gateway/app/state_folder.hpp"
-#include "protocol/base/random.hpp"
+#include "gateway/app/serial/serial_gateway.hpp"
+#include "gateway/line/inbound/rule_reader.hpp"
 #include "protocol/dds/configuration.hpp"
 #include "protocol/process/daemon_log.hpp"
 #include "protocol/process/log.hpp"
@@ -24,46 +21,6 @@ namespace dripline::gateway {
 namespace {
 
 constexpr int kExitUsage = 2;
-constexpr std::chrono::seconds kFarewell{2};  ///< for the last records to be acknowledged
-
-/// The endpoint of a gateway with a line alone: its outbox keeps what a server would get.
-class NoServer final : public dds::GatewayEndpoint {
- public:
-  Result<void> write(const dds::Announce&) override { return {}; }
-  Result<void> write(const dds::Status&) override { return {}; }
-  Result<void> write(const dds::Record&) override { return {}; }
-  Result<void> write(const dds::CommandResult&) override { return {}; }
-  Result<void> write(const dds::BlockRequest&) override { return {}; }
-  bool is_connected() const override { return false; }
-  dds::Rejected rejected() const override { return {}; }
-};
-
-/// Turns SIGTERM and SIGINT into a message, SIGHUP into a reopened log file. All threads block
-/// them, so only this one gets them.
-class SignalWatch {
- public:
-  SignalWatch(Inbox& inbox, const sigset_t& signals)
-      : thread_([&inbox, signals] {
-          int signal = 0;
-          // Without a log file a hang-up ends the process, as it ends any program without a
-          // terminal; a service has none.
-          do {
-            if (::sigwait(&signals, &signal) != 0) return;
-          } while (signal == SIGHUP && (process::reopen_log() || process::has_service_manager()));
-          inbox.post(StopRequested{signal});
-        }) {}
-  ~SignalWatch() {
-    // Ends the wait; the message is not read.
-    // NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread): sigwait takes it
-    ::pthread_kill(thread_.native_handle(), SIGTERM);
-    thread_.join();
-  }
-  SignalWatch(const SignalWatch&) = delete;
-  SignalWatch& operator=(const SignalWatch&) = delete;
-
- private:
-  std::thread thread_;
-};
 
 Result<std::string> read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -97,104 +54,6 @@ std::string digest_of_setup(const GatewayOptions& options) {
   return text && !text->empty() ? sha256(*text).hex() : std::string();
 }
 
-std::uint64_t new_session() {
-  return random_number() | 1;  // never zero
-}
-
-/// The line that `systemctl status` shows of a gateway.
-std::string status_line(const Gateway& gateway) {
-  const dds::Status status = gateway.status();
-  std::string line = fmt::format("{} {}", status.machine, to_string(status.execution));
-  if (!status.program.empty()) line += fmt::format(", program {}", status.program);
-  if (!status.message.empty()) line += fmt::format(": {}", status.message);
-  return line;
-}
-
-/// Reports to the service manager now and then that the loop runs.
-class AliveNotice {
- public:
-  explicit AliveNotice(const Gateway& gateway) : gateway_(gateway) {
-    process::notify_ready(status_line(gateway));
-  }
-  /// When to be called again.
-  SteadyTime turn(SteadyTime now) {
-    if (!interval_) return SteadyTime::max();
-    if (now >= due_) {
-      process::notify_alive(status_line(gateway_));
-      due_ = now + *interval_;
-    }
-    return due_;
-  }
-
- private:
-  const Gateway& gateway_;
-  const std::optional<std::chrono::microseconds> interval_ = process::alive_interval();
-  SteadyTime due_{};
-};
-
-/// Warns of the gateway's own certificate for DDS. When it expires DDS ends the connection without
-/// a word, so the gateway is told.
-class CertificateNotice {
- public:
-  CertificateNotice(const GatewayOptions& options, Inbox& inbox, const Clock& clock)
-      : certificate_(options.certificate), inbox_(inbox), clock_(clock) {}
-  /// When to be called again.
-  SteadyTime turn(SteadyTime now) {
-    if (!certificate_ || now < due_) return due_;
-    const UtcTime end = certificate_->not_after;
-    const auto left = end - clock_.now();
-    const bool is_over = left <= std::chrono::seconds(0);
-    if (is_over) {
-      process::log_error(
-          "the DDS certificate has expired {}: no server until it is renewed (dnc pki)",
-          pki::expiry_text(end, clock_.now()));
-      inbox_.post(ServerSeen{false});
-    } else if (left < pki::kExpiryWarning) {
-      process::log_warning("the DDS certificate expires {}", pki::expiry_text(end, clock_.now()));
-    }
-    using std::chrono::microseconds;
-    const microseconds wait = is_over ? kInterval : std::min<microseconds>(left, kInterval);
-    return due_ = now + std::max<microseconds>(wait, std::chrono::milliseconds(10));
-  }
-
- private:
-  static constexpr std::chrono::hours kInterval{24};
-
-  const std::optional<pki::Certificate> certificate_;
-  Inbox& inbox_;
-  const Clock& clock_;
-  SteadyTime due_ = certificate_ ? SteadyTime{} : SteadyTime::max();
-};
-
-/// Runs until a stop is requested; then gives the records some time to be acknowledged.
-Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock,
-                   const GatewayOptions& options) {
-  std::optional<SteadyTime> farewell;
-  AliveNotice notice(gateway);
-  CertificateNotice certificate(options, inbox, clock);
-  SteadyTime next = clock.steady_now();
-  for (;;) {
-    for (const Incoming& incoming : inbox.take(next)) gateway.receive(incoming, clock.steady_now());
-    if (gateway.stop_requested() && !farewell) {
-      farewell = clock.steady_now() + kFarewell;
-      process::notify_stopping();
-      if (const auto done = gateway.interrupt_run("the gateway was stopped"); !done) return done;
-    }
-    next = gateway.turn(clock.steady_now());
-    next = std::min(next, notice.turn(clock.steady_now()));
-    next = std::min(next, certificate.turn(clock.steady_now()));
-    if (!farewell) continue;
-    if (gateway.is_delivered() || !options.has_server || clock.steady_now() >= *farewell) return {};
-    next = std::min(next, clock.steady_now() + std::chrono::milliseconds(20));
-  }
-}
-
-Result<std::unique_ptr<dds::GatewayEndpoint>> open_endpoint(const GatewayOptions& options,
-                                                            dds::GatewayHandlers handlers) {
-  if (!options.has_server) return std::unique_ptr<dds::GatewayEndpoint>(new NoServer);
-  return dds::GatewayEndpoint::open(options.network, options.machine, std::move(handlers));
-}
-
 /// Null: programs come from the server.
 Result<std::unique_ptr<feed::ControlLine>> open_line(const GatewayOptions& options,
                                                      const interpreter::Setup& setup,
@@ -212,23 +71,46 @@ Result<std::unique_ptr<feed::ControlLine>> open_line(const GatewayOptions& optio
                                    .wake = [&inbox] { inbox.post(LineChanged{}); }});
 }
 
-/// A folder with a journal had an outbox too, and in it the memory of the control.
-Result<report::Outbox> open_outbox(const StateFolder& folder) {
-  std::error_code error;
-  const bool is_lost = !std::filesystem::exists(folder.outbox(), error) &&
-                       std::filesystem::exists(folder.journal(), error);
-  auto outbox = report::Outbox::open(folder.outbox());
-  if (!outbox || !is_lost) return outbox;
-  process::log_error("{} is gone, and with it the records that were not delivered",
-                     folder.outbox().string());
-  outbox->memory().stage_fault("what the control has kept is lost with the file " +
-                               folder.outbox().filename().string());
-  if (const auto done = outbox->commit(); !done) return fail(done.error());
-  return outbox;
+Result<std::shared_ptr<const line::RuleSet>> read_rules(const std::filesystem::path& file) {
+  if (file.empty()) return std::make_shared<const line::RuleSet>();
+  const auto text = read_text(file);
+  if (!text) return fail(text.error());
+  auto rules = line::read_rules(*text);
+  if (!rules) return fail(rules.error().code, "{}: {}", file.string(), rules.error().what);
+  return std::make_shared<const line::RuleSet>(*std::move(rules));
+}
+
+/// The machine is a control at the end of this computer's line.
+Result<void> run_serial(const GatewayOptions& options) {
+  if (auto sound = wire::make_discipline(options.line->settings, wire::Role::Host); !sound)
+    return fail(sound.error().code, "motion line: {}", sound.error().what);
+  auto rules = read_rules(options.line->rules);
+  if (!rules) return fail(rules.error());
+  const auto process = GatewayProcess::open(options);
+  if (!process) return fail(process.error());
+  GatewayProcess& around = **process;
+  auto uploads = UploadStore::open(around.folder.uploads());
+  if (!uploads) return fail(uploads.error());
+  process::log_info("a control at the end of line {} template={} {} buffer={} s machine={}",
+                    options.line->address, options.line->template_name,
+                    wire::short_form(options.line->settings), options.line->ahead.count(),
+                    options.machine);
+  SerialGateway gateway({.options = options,
+                         .endpoint = *around.endpoint,
+                         .outbox = around.outbox,
+                         .journal = around.journal,
+                         .uploads = *uploads,
+                         .clock = around.clock,
+                         .rules = *std::move(rules),
+                         .recordings = around.folder.recordings(),
+                         .session = around.session,
+                         .wake = [&around] { around.inbox.post(LineChanged{}); }});
+  return around.run(gateway);
 }
 
 Result<void> run(const GatewayOptions& options) {
   if (auto files = process::require_open_files(process::kGatewayFiles); !files) return files;
+  if (options.drives_control()) return run_serial(options);
   const auto dialect = interpreter::find_dialect(options.control);
   if (!dialect) return fail(dialect.error());
   auto file = read_setup(options, **dialect);
@@ -237,55 +119,30 @@ Result<void> run(const GatewayOptions& options) {
   if (auto fits = check_line(options, *setup); !fits) return fits;
   auto motion = make_motion(options.motion, **dialect, {file->machine, setup->workpiece});
   if (!motion) return fail(motion.error());
-  auto folder = StateFolder::open(options.state);
-  if (!folder) return fail(folder.error());
-  auto outbox = open_outbox(*folder);
-  if (!outbox) return fail(outbox.error());
-  auto journal = report::RunJournal::open(folder->journal());
-  if (!journal) return fail(journal.error());
-  auto motion_journal = report::MotionJournal::open(folder->motion_journal());
+  const auto process = GatewayProcess::open(options);
+  if (!process) return fail(process.error());
+  GatewayProcess& around = **process;
+  auto motion_journal = report::MotionJournal::open(around.folder.motion_journal());
   if (!motion_journal) return fail(motion_journal.error());
   auto execution_probe = options.execution_probe ? ExecutionProbe::open(*options.execution_probe)
                                                  : Result<ExecutionProbe>(ExecutionProbe());
   if (!execution_probe) return fail(execution_probe.error());
-
-  const sigset_t signals = process::block_stop_signals();  // before DDS starts its threads
-  const SystemClock clock;
-  Inbox inbox;
-  auto endpoint = open_endpoint(
-      options, {.on_command = [&](dds::Command command) { inbox.post(std::move(command)); },
-                .on_ack = [&](dds::RecordAck ack) { inbox.post(std::move(ack)); },
-                .on_block = [&](dds::BlockData data) { inbox.post(std::move(data)); },
-                .on_server = [&](bool is_connected) { inbox.post(ServerSeen{is_connected}); }});
-  if (!endpoint) return fail(endpoint.error());
-  auto line = open_line(options, *setup, inbox);
+  auto line = open_line(options, *setup, around.inbox);
   if (!line) return fail(line.error());
-  const auto panel = PanelSocket::open(
-      options.state, [&](PanelRequest request) { inbox.post(std::move(request)); });
-  if (!panel) return fail(panel.error());
-  const SignalWatch watch(inbox, signals);
   Gateway gateway({.options = options,
                    .dialect = **dialect,
                    .setup = std::move(*setup),
                    .setup_digest = digest_of_setup(options),
-                   .endpoint = **endpoint,
-                   .outbox = *outbox,
-                   .journal = *journal,
+                   .endpoint = *around.endpoint,
+                   .outbox = around.outbox,
+                   .journal = around.journal,
                    .motion_journal = &*motion_journal,
                    .execution_probe = *execution_probe,
-                   .clock = clock,
+                   .clock = around.clock,
                    .make_motion = *std::move(motion),
-                   .session = new_session(),
+                   .session = around.session,
                    .line = line->get()});
-  if (const auto done = gateway.recover(); !done) return done;
-  process::log_info(
-      "gateway ready machine={} control={} state={} server={} domain={} records={} unattended={}",
-      options.machine, options.control, options.state.string(), options.network.server,
-      options.network.domain, outbox->unacknowledged(), options.is_unattended ? "yes" : "no");
-  const auto done = serve(gateway, inbox, clock, options);
-  process::log_info("gateway stopped machine={} records={}", options.machine,
-                    outbox->unacknowledged());
-  return done;
+  return around.run(gateway);
 }
 
 Result<void> configure(const process::SettingsReader& reader, const std::string& file,

@@ -8,6 +8,7 @@
 #include "gateway/machine/linuxcnc/helper_link.hpp"
 #include "gateway/machine/linuxcnc/linuxcnc_machine.hpp"
 #include "gateway/machine/simulated_machine.hpp"
+#include "protocol/serial/channel.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -79,6 +80,16 @@ Result<machine::MotionFactory> linuxcnc(const MotionTask& task) {
       };
 }
 
+Result<machine::MotionFactory> control_on_line(const MotionTask&) {
+  return fail(Errc::Unsupported, "motion line: the control at its end moves by itself");
+}
+
+Result<void> check_line_address(std::string_view address) {
+  const auto parsed = serial::parse_address(std::string(address));
+  if (parsed) return {};
+  return fail(parsed.error().code, "motion line: {}", parsed.error().what);
+}
+
 Result<void> needs_no_address(std::string_view address) {
   if (address.empty()) return {};
   return fail(Errc::Syntax, "motion simulated has no address, '{}' was given", address);
@@ -105,6 +116,7 @@ constexpr std::array kRows{
     MotionRow{"simulated", "simulated", needs_no_address, simulated},
     MotionRow{"linuxcnc", "linuxcnc:INI", check_linuxcnc_address, linuxcnc},
     MotionRow{"grbl", "grbl:ADDRESS", check_board_address, grbl},
+    MotionRow{"line", "line:ADDRESS", check_line_address, control_on_line},
 };
 
 Result<const MotionRow*> find_row(std::string_view text) {
@@ -128,6 +140,11 @@ std::string motion_names() {
 
 bool is_real_motion(std::string_view name) {
   return words_of(name).name != kRows.front().name;
+}
+
+std::string line_address_of(std::string_view name) {
+  const MotionWords words = words_of(name);
+  return words.name == kRows.back().name ? std::string(words.address) : std::string();
 }
 
 Result<void> check_motion(std::string_view name) {

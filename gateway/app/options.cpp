@@ -73,6 +73,18 @@ Result<void> set_line_buffer(Options& options, std::string_view text) {
   return {};
 }
 
+Result<void> set_line_rules(Options& options, std::string_view file) {
+  line_of(options).rules = file;
+  return {};
+}
+
+Result<void> set_line_ahead(Options& options, std::string_view text) {
+  const auto seconds = process::parse_number(text, 1, 86'400);
+  if (!seconds) return fail(seconds.error());
+  line_of(options).ahead = std::chrono::seconds(*seconds);
+  return {};
+}
+
 Result<void> set_cycle_start_wait(Options& options, std::string_view text) {
   const auto seconds = process::parse_number(text, 1, 86'400);
   if (!seconds) return fail(seconds.error());
@@ -128,7 +140,8 @@ constexpr std::array kRows{
         "motion", "NAME", "", "simulated",
         "Back end that moves the machine: simulated; linuxcnc:INI, the LinuxCNC that runs this INI "
         "file; grbl:ADDRESS, a board of the Grbl 1.1 class at a device, tcp://host:port or "
-        "rfc2217://host:port, with ,BAUD where it is not 115200",
+        "rfc2217://host:port, with ,BAUD where it is not 115200; line:ADDRESS, a control at the "
+        "end of this computer's serial line, which the line options describe",
         set_by(Written::Text, set_motion)},
     OptionRow{"speed", "FACTOR", "", "1x", "Speed of the simulated machine: 1x, 100x, max",
               set_by(Written::TextOrNumber, set_speed)},
@@ -153,9 +166,11 @@ constexpr std::array kRows{
     OptionRow{"line-template", "NAME", "", "the control's",
               "Settings of the line, as listed by dnc port templates",
               set_by(Written::Text, set_line<&LineOptions::template_name>)},
-    OptionRow{"line-setting", "KEY=VALUE", "", "none",
-              "Change one of the template's settings; repeat for more",
-              set_by(Written::List, set_line<&LineOptions::changes>)},
+    OptionRow{
+        "line-setting", "KEY=VALUE", "", "none",
+        "Change one of the template's settings; a word like 4800e71 is baud, parity, data and "
+        "stop bits; repeat for more",
+        set_by(Written::List, set_line<&LineOptions::changes>)},
     OptionRow{"line-buffer", "NUMBER", "bytes", "65536",
               "Memory of the control for a program being fed: when it is full the host is held",
               set_by(Written::Number, set_line_buffer)},
@@ -163,6 +178,14 @@ constexpr std::array kRows{
               "Request this program from the host; next: request the next one after each run "
               "(always so on a HEIDENHAIN line)",
               set_by(Written::Text, set_line<&LineOptions::request>)},
+    OptionRow{
+        "line-ahead-s", "NUMBER", "s", "600",
+        "With --motion line: keep program text for this long ahead of the line, so that a cut "
+        "of the network is not felt at the control; at most 64 MiB",
+        set_by(Written::Number, set_line_ahead)},
+    OptionRow{"line-rules", "FILE", "", "none",
+              "With --motion line: rules for what the control sends and requests (TOML)",
+              set_by(Written::Text, set_line_rules)},
     OptionRow{"unattended", "yes|no", "", "yes; no with --line or a real --motion",
               "Whether the network alone may start the machine; no: its operator gives the remote "
               "enable, or cycle start, at its panel (dncgw panel --help)",
@@ -190,8 +213,14 @@ Result<void> change(wire::LineSettings& settings, std::string_view changes) {
     changes.remove_prefix(std::min(end + 1, changes.size()));
     if (entry.empty()) continue;
     const std::size_t equals = entry.find('=');
-    if (equals == std::string_view::npos)
-      return fail(Errc::Syntax, "line-setting '{}' is not key=value", entry);
+    const bool is_short_form = equals == std::string_view::npos;
+    if (is_short_form) {
+      if (const auto done = wire::set_value(settings, "line", entry); !done) {
+        return fail(Errc::Syntax, "line-setting '{}' is neither key=value nor like 4800e71: {}",
+                    entry, done.error().what);
+      }
+      continue;
+    }
     const auto done = wire::set_value(settings, entry.substr(0, equals), entry.substr(equals + 1));
     if (!done) return fail(done.error().code, "line-setting: {}", done.error().what);
   }
@@ -200,6 +229,11 @@ Result<void> change(wire::LineSettings& settings, std::string_view changes) {
 
 Result<void> complete_line(Options& options) {
   LineOptions& line = *options.line;
+  if (options.drives_control()) {
+    if (!line.address.empty())
+      return fail(Errc::Conflict, "--line and --motion line: are the two ends of a line: one only");
+    line.address = line_address_of(options.motion);
+  }
   if (line.address.empty())
     return fail(Errc::Syntax, "--line ADDRESS is required with the other line options");
   const auto found = template_of(line, options.control);
@@ -213,7 +247,7 @@ Result<void> complete_line(Options& options) {
   }
   const bool must_ask = line.settings.flow == wire::Flow::Heidenhain ||
                         line.settings.flow == wire::Flow::HeidenhainBcc;
-  if (line.request.empty() && must_ask) line.request = "next";
+  if (line.request.empty() && must_ask && !options.drives_control()) line.request = "next";
   return {};
 }
 
@@ -229,6 +263,10 @@ Result<void> open_security(Options& options) {
 }
 
 }  // namespace
+
+bool GatewayOptions::drives_control() const {
+  return !line_address_of(motion).empty();
+}
 
 std::span<const OptionRow> option_rows() {
   return kRows;
@@ -260,6 +298,11 @@ Result<void> apply_config(std::string_view toml, GatewayOptions& options) {
 Result<void> complete(GatewayOptions& options) {
   if (options.machine.empty()) return fail(Errc::Syntax, "--machine NAME is required");
   if (options.control.empty()) return fail(Errc::Syntax, "--control NAME is required");
+  if (options.drives_control()) {
+    if (!options.has_server)
+      return fail(Errc::Syntax, "--motion line: needs a server: programs come from there");
+    line_of(options);
+  }
   if (options.line) {
     if (const auto done = complete_line(options); !done) return done;
   } else if (!options.has_server) {

@@ -27,14 +27,18 @@ Result<Speed> parse_speed(std::string_view text);
 /// Only simulated time passes faster or slower. Errors: Unsupported.
 Result<void> check_speed(const machine::MotionCapabilities& machine, const Speed& speed);
 
-/// The gateway in the place of a control at the end of a line.
+/// The gateway's line: at one end of it in the place of a control (`--line`), or at the other,
+/// beside a control (`--motion line:ADDRESS`).
 struct LineOptions {
   std::string address;
   std::string template_name;    ///< empty: the first for this control, or "plain"
   std::string changes;          ///< key=value, one a line
   wire::LineSettings settings;  ///< the result of the two above; made by `complete`
   std::size_t buffer_bytes = 64 * 1024;
-  std::string request;  ///< a program's name, or "next"; empty: the host begins
+  std::string request;          ///< a program's name, or "next"; empty: the host begins
+  std::filesystem::path rules;  ///< what the operator can request at the control; empty: nothing
+  /// Beside a control: program text kept ahead of the line.
+  std::chrono::seconds ahead{600};
 };
 
 struct GatewayOptions {
@@ -53,6 +57,8 @@ struct GatewayOptions {
   std::uint32_t log_files = 5;
   std::string description;
   std::optional<LineOptions> line;
+  /// The machine is a control at the end of `line`.
+  bool drives_control() const;
   bool has_server = true;  ///< without one, programs come from the line alone
   /// Whether the network alone may start the machine. `complete` makes the default: yes for a
   /// simulated machine, no for one with a line.

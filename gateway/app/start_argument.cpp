@@ -18,6 +18,10 @@ Result<void> read_choice(std::string_view word, StartArgument& start) {
     start.memory = StartMemory::Begin;
   } else if (word == "memory=now") {
     start.memory = StartMemory::Now;
+  } else if (word == "head=send") {
+    start.head = line::HeadChoice::Send;
+  } else if (word == "head=set") {
+    start.head = line::HeadChoice::Set;
   } else if (word.starts_with(kPass)) {
     std::uint32_t pass = 0;
     const char* end = word.data() + word.size();

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "gateway/app/restart/restart_argument.hpp"
+#include "gateway/line/heads/head_scan.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::gateway {
@@ -19,11 +20,14 @@ enum class StartMemory : std::uint8_t {
 };
 
 /// Where a run begins, as its start command states: "N120", "N120 pass=3 memory=begin",
+/// "N120 head=send",
 /// "restart=RUN at=executed"; empty: at the first block.
 struct StartArgument {
   std::string place;  ///< for the dialect to read
   std::optional<std::uint32_t> pass;
   StartMemory memory = StartMemory::Ask;
+  /// Over a line: what becomes of the words before the place that the rest relies on.
+  line::HeadChoice head = line::HeadChoice::Ask;
   std::optional<RestartArgument> restart = {};  ///< then there is nothing else
   friend bool operator==(const StartArgument&, const StartArgument&) = default;
 };

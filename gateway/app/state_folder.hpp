@@ -18,6 +18,8 @@ class StateFolder {
   std::filesystem::path outbox() const { return folder_ / "outbox.sqlite"; }
   std::filesystem::path journal() const { return folder_ / "run.journal"; }
   std::filesystem::path motion_journal() const { return folder_ / "motion.journal"; }
+  std::filesystem::path recordings() const { return folder_ / "recordings"; }
+  std::filesystem::path uploads() const { return folder_ / "uploads"; }
 
  private:
   StateFolder(std::filesystem::path folder, FileLock lock)

@@ -69,6 +69,8 @@ struct GatewayHandlers {
   /// same one is back. Another one takes over only when the present one is lost; until then its
   /// messages are rejected. false: no server is left.
   std::function<void(bool is_connected)> on_server;
+  /// Where the machine is a control at the end of a line; empty: it has no such topics.
+  std::function<void(LineRequest)> on_line_request = {};
 };
 
 /// A gateway's end, for one machine. Nothing is delivered before the gateway wrote its Announce;
@@ -88,6 +90,8 @@ class GatewayEndpoint {
   virtual Result<void> write(const Record& message) = 0;
   virtual Result<void> write(const CommandResult& message) = 0;
   virtual Result<void> write(const BlockRequest& message) = 0;
+  /// Errors: also Unsupported (without GatewayHandlers::on_line_request).
+  virtual Result<void> write(const LineData& message) = 0;
   virtual bool is_connected() const = 0;
   virtual Rejected rejected() const = 0;
 };
@@ -105,6 +109,7 @@ struct ServerHandlers {
   std::function<void(Record)> on_record;
   std::function<void(CommandResult)> on_command_result;
   std::function<void(BlockRequest)> on_request;
+  std::function<void(LineData)> on_line_data = {};
 };
 
 /// The server's end. Machines are attached as they announce themselves; each gets writers and
@@ -121,6 +126,9 @@ class ServerEndpoint {
   virtual Result<void> write(const RecordAck& message) = 0;
   virtual Result<void> write(const Command& message) = 0;
   virtual Result<void> write(const BlockData& message) = 0;
+  /// Errors: also Unsupported (the machine's gateway has announced no line). Can be lost until the
+  /// gateway is matched; the caller repeats it.
+  virtual Result<void> write(const LineRequest& message) = 0;
   virtual Rejected rejected() const = 0;
 };
 

@@ -39,6 +39,10 @@ class Gateway final : public GatewayEndpoint {
   Result<void> write(const Record& message) override { return write_own(*record_, message); }
   Result<void> write(const CommandResult& message) override { return write_own(*result_, message); }
   Result<void> write(const BlockRequest& message) override { return write_own(*request_, message); }
+  Result<void> write(const LineData& message) override {
+    if (!line_data_) return fail(Errc::Unsupported, "machine {} has no line of its own", machine_);
+    return write_own(*line_data_, message);
+  }
   bool is_connected() const override { return is_connected_; }
   Rejected rejected() const override { return rejections_.get(); }
 
@@ -94,6 +98,8 @@ class Gateway final : public GatewayEndpoint {
   std::unique_ptr<PeerReader<Command>> command_;
   std::unique_ptr<PeerReader<RecordAck>> ack_;
   std::unique_ptr<PeerReader<BlockData>> block_;
+  std::unique_ptr<Writer<LineData>> line_data_;  ///< null: no line of its own, as the next one
+  std::unique_ptr<PeerReader<LineRequest>> line_request_;
   std::jthread watcher_;
 };
 
@@ -147,6 +153,10 @@ Result<void> Gateway::start() {
   if (auto r = open_writer(publisher_, record_); !r) return r;
   if (auto r = open_writer(publisher_, result_); !r) return r;
   if (auto r = open_writer(publisher_, request_); !r) return r;
+  if (handlers_.on_line_request) {
+    if (auto r = open_reader(subscriber_, line_request_, handlers_.on_line_request); !r) return r;
+    if (auto r = open_writer(publisher_, line_data_); !r) return r;
+  }
   watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
   return {};
 }
@@ -170,6 +180,7 @@ void Gateway::watch(const std::stop_token& stop) {
     command_->resolve();
     ack_->resolve();
     block_->resolve();
+    if (line_request_) line_request_->resolve();
   }
 }
 
@@ -178,6 +189,7 @@ void Gateway::believe(const std::string& server) {
   command_->set_peer(server);
   ack_->set_peer(server);
   block_->set_peer(server);
+  if (line_request_) line_request_->set_peer(server);
 }
 
 /// A server is complete when all of its writers and readers for this machine are matched here: only

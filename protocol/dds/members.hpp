@@ -85,6 +85,7 @@ void members(V&& v, Is<Announce> auto& m) {
   v(DRIPLINE_MEMBER(session));
   v(DRIPLINE_MEMBER(description), FreeText{});
   v(DRIPLINE_MEMBER_AS(certificate_expires, certificate_expires_us), ExpiryTime{});
+  v(DRIPLINE_MEMBER(has_line));
 }
 
 template <class V>
@@ -141,6 +142,42 @@ void members(V&& v, Is<Coordinates> auto& m) {
 }
 
 template <class V>
+void members(V&& v, Is<LineUpload> auto& m) {
+  v(DRIPLINE_MEMBER(id), Identifier{});
+  v(DRIPLINE_MEMBER(name), FreeText{});
+  v(DRIPLINE_MEMBER(size));
+  v(DRIPLINE_MEMBER(content), Sha256{});
+  v(DRIPLINE_MEMBER(damage), FreeText{});
+}
+
+template <class V>
+void members(V&& v, Is<LineCall> auto& m) {
+  v(DRIPLINE_MEMBER(number), Positive{});
+  v(DRIPLINE_MEMBER(action));
+  v(DRIPLINE_MEMBER(argument), FreeText{});
+  v(DRIPLINE_MEMBER(reply), FreeText{});
+}
+
+template <class V>
+void members(V&& v, Is<LineStatus> auto& m) {
+  v(DRIPLINE_MEMBER(address));
+  v(DRIPLINE_MEMBER_AS(line_template, template_name));
+  v(DRIPLINE_MEMBER(settings), FreeText{});
+  v(DRIPLINE_MEMBER(is_open));
+  v(DRIPLINE_MEMBER(fault), FreeText{});
+  v(DRIPLINE_MEMBER(phase));
+  v(DRIPLINE_MEMBER(is_stopped));
+  v(DRIPLINE_MEMBER(is_stopping));
+  v(DRIPLINE_MEMBER(waits_without_limit));
+  v(DRIPLINE_MEMBER(waiting_for), FreeText{});
+  v(DRIPLINE_MEMBER(characters_sent));
+  v(DRIPLINE_MEMBER(characters_received));
+  v(DRIPLINE_MEMBER(buffered_bytes));
+  v(DRIPLINE_MEMBER(upload), PresentIf{DRIPLINE_FIELD(has_upload)});
+  v(DRIPLINE_MEMBER(call), PresentIf{DRIPLINE_FIELD(has_call)});
+}
+
+template <class V>
 void members(V&& v, Is<Status> auto& m) {
   v(DRIPLINE_MEMBER(machine), MachineName{}, Internal{});
   v(DRIPLINE_MEMBER_AS(time, time_us));
@@ -173,6 +210,7 @@ void members(V&& v, Is<Status> auto& m) {
   v(DRIPLINE_MEMBER_AS(steady, steady_us), Internal{});
   v(DRIPLINE_MEMBER(remote_enable));
   v(DRIPLINE_MEMBER(waits_for));
+  v(DRIPLINE_MEMBER(serial_line), PresentIf{DRIPLINE_FIELD(serial_line.is_present)}, Internal{});
 }
 
 template <class V>
@@ -248,6 +286,29 @@ void members(V&& v, Is<BlockData> auto& m) {
   v(DRIPLINE_MEMBER(bytes), CheckedBy{DRIPLINE_FIELD(crc)});
   v(DRIPLINE_MEMBER(reason), FreeText{});
   v(DRIPLINE_MEMBER(content), Sha256{});
+}
+
+template <class V>
+void members(V&& v, Is<LineRequest> auto& m) {
+  v(DRIPLINE_MEMBER(machine), MachineName{});
+  v(DRIPLINE_MEMBER(session));
+  v(DRIPLINE_MEMBER(id), Identifier{});
+  v(DRIPLINE_MEMBER(action));
+  v(DRIPLINE_MEMBER(name));
+  v(DRIPLINE_MEMBER(number));
+  v(DRIPLINE_MEMBER(text), SetupText{});
+}
+
+template <class V>
+void members(V&& v, Is<LineData> auto& m) {
+  v(DRIPLINE_MEMBER(machine), MachineName{});
+  v(DRIPLINE_MEMBER(session));
+  v(DRIPLINE_MEMBER(id), Identifier{});
+  v(DRIPLINE_MEMBER(status));
+  v(DRIPLINE_MEMBER(next));
+  v(DRIPLINE_MEMBER(ends));
+  v(DRIPLINE_MEMBER(bytes), CheckedBy{DRIPLINE_FIELD(crc)});
+  v(DRIPLINE_MEMBER(reason), FreeText{});
 }
 
 #undef DRIPLINE_FIELD

@@ -73,4 +73,27 @@ Words words_of(WaitsFor) {
   return kWords;
 }
 
+Words words_of(LinePhase) {
+  static constexpr std::array<std::string_view, 4> kWords{"idle", "sending", "receiving",
+                                                          "requesting"};
+  return kWords;
+}
+
+Words words_of(LineCallAction) {
+  static constexpr std::array<std::string_view, 6> kWords{"send",    "directory", "restart",
+                                                          "program", "list",      "next_job"};
+  return kWords;
+}
+
+Words words_of(LineAction) {
+  static constexpr std::array<std::string_view, 8> kWords{
+      "recording", "upload", "stored", "answer", "refuse", "done", "test", "receive"};
+  return kWords;
+}
+
+Words words_of(LineResult) {
+  static constexpr std::array<std::string_view, 3> kWords{"done", "refused", "not_yet"};
+  return kWords;
+}
+
 }  // namespace dripline::dds

@@ -73,6 +73,29 @@ enum class RemoteEnable : std::uint8_t { Unknown, Unattended, Given, NotGiven };
 enum class WaitsFor : std::uint8_t { Unknown, Nothing, CycleStart, Text, Answer, Disk };
 enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange, Corrupt, Failed };
 
+/// As wire::Phase.
+enum class LinePhase : std::uint8_t { Idle, Sending, Receiving, Requesting };
+/// What an operator requests at a control: by a rule, or by the protocol itself.
+enum class LineCallAction : std::uint8_t {
+  Send,       ///< a program, by a rule
+  Directory,  ///< the list of programs, by a rule
+  Restart,    ///< the last run again, by a rule
+  Program,    ///< by the protocol: it waits for the answer, or for a run
+  List,       ///< by the protocol: the list
+  NextJob,    ///< a run of the next job in the machine's queue, by a rule
+};
+enum class LineAction : std::uint8_t {
+  Recording,  ///< entries of the recording from `number` on, as JSON lines
+  Upload,     ///< bytes of the upload `name` from `number` on
+  Stored,     ///< the upload `name` is on disk; `text` is for the operator at the control
+  Answer,     ///< send `text` as program `name` to the control: an answer to the call `number`
+  Refuse,     ///< refuse the call `number`; `text` is the reason
+  Done,       ///< the call `number` was carried out
+  Test,       ///< examine the line; the answer has the findings, one a line
+  Receive,    ///< have the control send a program
+};
+enum class LineResult : std::uint8_t { Done, Refused, NotYet };
+
 /// The words of an enumeration, in the order of its enumerators; a value from the network is in
 /// range when it has a word.
 std::span<const std::string_view> words_of(Execution);
@@ -86,6 +109,10 @@ std::span<const std::string_view> words_of(FeedUnit);
 std::span<const std::string_view> words_of(SpindleState);
 std::span<const std::string_view> words_of(RemoteEnable);
 std::span<const std::string_view> words_of(WaitsFor);
+std::span<const std::string_view> words_of(LinePhase);
+std::span<const std::string_view> words_of(LineCallAction);
+std::span<const std::string_view> words_of(LineAction);
+std::span<const std::string_view> words_of(LineResult);
 
 template <class T>
 concept Enumeration = requires(T value) {
@@ -102,6 +129,7 @@ struct Announce {
   std::uint64_t epoch = 0, session = 0;
   std::string description;
   std::optional<UtcTime> certificate_expires = {};  ///< the gateway's, for DDS Security
+  bool has_line = false;  ///< its machine is a control at the end of a line
   friend bool operator==(const Announce&, const Announce&) = default;
 };
 
@@ -146,6 +174,34 @@ struct Coordinates {
   friend bool operator==(const Coordinates&, const Coordinates&) = default;
 };
 
+/// A program that a control has sent, on the gateway's disk.
+struct LineUpload {
+  std::string id, name;
+  std::uint64_t size = 0;
+  std::string content, damage;
+  friend bool operator==(const LineUpload&, const LineUpload&) = default;
+};
+
+struct LineCall {
+  std::uint64_t number = 0;
+  LineCallAction action = LineCallAction::Send;
+  std::string argument, reply;
+  friend bool operator==(const LineCall&, const LineCall&) = default;
+};
+
+struct LineStatus {
+  std::string address, line_template, settings;
+  bool is_open = false;
+  std::string fault;
+  LinePhase phase = LinePhase::Idle;
+  bool is_stopped = false, is_stopping = false, waits_without_limit = false;
+  std::string waiting_for;
+  std::uint64_t characters_sent = 0, characters_received = 0, buffered_bytes = 0;
+  std::optional<LineUpload> upload;
+  std::optional<LineCall> call;
+  friend bool operator==(const LineStatus&, const LineStatus&) = default;
+};
+
 struct Status {
   std::string machine;
   UtcTime time;
@@ -170,6 +226,7 @@ struct Status {
   std::chrono::microseconds steady{0};  ///< 0: from an older gateway
   RemoteEnable remote_enable = RemoteEnable::Unknown;
   WaitsFor waits_for = WaitsFor::Unknown;
+  std::optional<LineStatus> serial_line;  ///< of a gateway beside a control
   friend bool operator==(const Status&, const Status&) = default;
 };
 
@@ -235,6 +292,29 @@ struct BlockData {
   std::string reason;
   std::string content;  ///< of a called program: its SHA-256, hexadecimal; empty: not stated
   friend bool operator==(const BlockData&, const BlockData&) = default;
+};
+
+struct LineRequest {
+  std::string machine;
+  std::uint64_t session = 0;
+  std::string id;
+  LineAction action = LineAction::Recording;
+  std::string name = {};
+  std::uint64_t number = 0;
+  std::string text = {};  ///< at most kMaxCommandSetup
+  friend bool operator==(const LineRequest&, const LineRequest&) = default;
+};
+
+struct LineData {
+  std::string machine;
+  std::uint64_t session = 0;
+  std::string id;
+  LineResult status = LineResult::Done;
+  std::uint64_t next = 0;
+  bool ends = true;
+  std::vector<std::byte> bytes = {};  ///< a message with a wrong CRC was dropped
+  std::string reason = {};
+  friend bool operator==(const LineData&, const LineData&) = default;
 };
 
 }  // namespace dripline::dds

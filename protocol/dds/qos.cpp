@@ -113,4 +113,16 @@ Qos topic_qos<BlockData>() {
   return keep_last(kBlockWindow);
 }
 
+// One at a time for each machine, repeated until it is answered.
+template <>
+Qos topic_qos<LineRequest>() {
+  return keep_last(8);
+}
+
+// The pull is the flow control: one piece is asked for at a time.
+template <>
+Qos topic_qos<LineData>() {
+  return keep_last(8);
+}
+
 }  // namespace dripline::dds

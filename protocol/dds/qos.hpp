@@ -33,5 +33,9 @@ template <>
 Qos topic_qos<BlockRequest>();
 template <>
 Qos topic_qos<BlockData>();
+template <>
+Qos topic_qos<LineRequest>();
+template <>
+Qos topic_qos<LineData>();
 
 }  // namespace dripline::dds

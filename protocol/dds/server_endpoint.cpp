@@ -22,6 +22,7 @@ class Server final : public ServerEndpoint {
   Result<void> write(const RecordAck& message) override { return write_to_cell(message); }
   Result<void> write(const Command& message) override { return write_to_cell(message); }
   Result<void> write(const BlockData& message) override { return write_to_cell(message); }
+  Result<void> write(const LineRequest& message) override { return write_to_cell(message); }
   Rejected rejected() const override { return shared_.rejections.get(); }
 
  private:

@@ -39,6 +39,7 @@ Server::~Server() {
   parts_->events.close();
   parts_->http.reset();
   parts_->mtconnect_http.reset();
+  parts_->gateway_lines.end();
   parts_->ports.end();
   parts_->machine_service.end();
 }
@@ -98,6 +99,10 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (parts.retention) parts.retention->begin();
   parts.offsets.begin();
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
+  parts.gateway_lines.on_traffic(
+      api::publish_traffic_to(parts.events),
+      [&parts](const std::string& port) { return parts.events.has_port_listeners(port); });
+  parts.are_lines_handled = true;
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint = dds::ServerEndpoint::open(network->options, parts.machine_service.handlers());
   if (!endpoint) return fail(endpoint.error());

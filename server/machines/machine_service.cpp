@@ -33,6 +33,10 @@ MachineService::Parts::Parts(MachineService& service, dds::ServerEndpoint& endpo
                .on_fault = service.options_.on_fault}),
       commands(endpoint, service.clock_, service.command_options(),
                [&service](const dds::Command& command) { service.on_late_start(command); }),
+      lines(endpoint,
+            [&service](const std::string& machine) {
+              return service.registry_.gateway(machine).session;
+            }),
       reconciler({.runs = service.store_.runs,
                   .clock = service.clock_,
                   .commands = commands,
@@ -86,7 +90,11 @@ dds::ServerHandlers MachineService::handlers() {
     if (Parts* parts = this->parts(); parts != nullptr && !status.run.empty()) {
       parts->commands.on_run_seen(status.machine, status.run);
     }
+    if (status.serial_line && options_.on_line) options_.on_line(status);
     registry_.on_status(std::move(status));
+  };
+  handlers.on_line_data = [this](dds::LineData data) {
+    if (Parts* parts = this->parts()) parts->lines.on_data(std::move(data));
   };
   handlers.on_record = [this](dds::Record record) {
     if (Parts* parts = this->parts()) parts->records.take(std::move(record));
@@ -119,7 +127,9 @@ void MachineService::lose_gateways() {
 }
 
 void MachineService::stop_waiting() {
-  if (owned_parts_) owned_parts_->commands.stop();
+  if (!owned_parts_) return;
+  owned_parts_->commands.stop();
+  owned_parts_->lines.stop();
 }
 
 void MachineService::end() {
@@ -148,6 +158,13 @@ void MachineService::log_rejected() {
                        dropped.last_reason);
   rejected_logged_ = dropped.messages;
   next_rejected_log_ = now + kInterval;
+}
+
+Result<dds::LineData> MachineService::ask_line(dds::LineRequest request,
+                                               std::chrono::milliseconds limit) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  return parts->lines.ask(std::move(request), limit);
 }
 
 std::vector<MachineView> MachineService::machines() const {

@@ -10,6 +10,7 @@
 #include "protocol/dds/endpoint.hpp"
 #include "server/machines/block_feed.hpp"
 #include "server/machines/command_dispatcher.hpp"
+#include "server/machines/line_queries.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/machines/machine_registry.hpp"
 #include "server/machines/record_ingest.hpp"
@@ -32,6 +33,8 @@ class MachineService final : public MachineControl {
     CommandDispatcher::Options commands;
     /// At every try: why a machine's records cannot be stored; empty: they can again. Any thread.
     std::function<void(const std::string& machine, const std::string& fault)> on_fault = {};
+    /// The status of a gateway beside a control, on a DDS thread: must return at once.
+    std::function<void(const dds::Status&)> on_line = {};
   };
   MachineService(const RunSources& sources, Options options, MachineListener listener);
   ~MachineService() override;
@@ -54,6 +57,9 @@ class MachineService final : public MachineControl {
   Result<storage::Run> start(const StartRequest& request) override;
   Result<void> command(const CommandRequest& request) override;
   dds::Rejected rejected() const;
+  /// Promises: LineQueries::ask.
+  Result<dds::LineData> ask_line(dds::LineRequest request,
+                                 std::chrono::milliseconds limit = LineQueries::kLimit);
 
  private:
   /// Everything that needs the endpoint; made by begin().
@@ -62,6 +68,7 @@ class MachineService final : public MachineControl {
     BlockFeed blocks;
     RecordIngest records;
     CommandDispatcher commands;
+    LineQueries lines;
     RunReconciler reconciler;
   };
   Parts* parts() const;

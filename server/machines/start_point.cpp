@@ -51,6 +51,8 @@ std::string start_argument(const StartRequest& request) {
   if (request.from.pass) text += fmt::format(" pass={}", *request.from.pass);
   if (request.memory == StartMemory::Begin) text += " memory=begin";
   if (request.memory == StartMemory::Now) text += " memory=now";
+  if (request.head == StartHead::Send) text += " head=send";
+  if (request.head == StartHead::Set) text += " head=set";
   return text;
 }
 

@@ -3,10 +3,11 @@
 #include <future>
 #include <map>
 
+#include "gateway/line/inbound/program_head.hpp"
+#include "gateway/line/line_words.hpp"
 #include "protocol/process/log.hpp"
 #include "server/ports/line_transfer.hpp"
 #include "server/ports/port_settings.hpp"
-#include "server/ports/programs/program_head.hpp"
 
 namespace dripline::ports {
 
@@ -21,29 +22,18 @@ Result<T> wait_for(std::future<Result<T>> answer, const std::string& what) {
               what, LineMachines::kAnswerLimit.count());
 }
 
-dds::Execution execution_of(const PortView& port, const std::optional<SendProgress>& progress) {
-  if (!progress) return dds::Execution::Ready;
-  if (progress->is_held) return dds::Execution::FeedHold;
-  if (!port.is_open || port.waiting_since || port.line.is_stopped) {
-    return dds::Execution::Waiting;
+dds::Execution execution_of(line::LineActivity activity) {
+  switch (activity) {
+    case line::LineActivity::Held:
+      return dds::Execution::FeedHold;
+    case line::LineActivity::Waiting:
+      return dds::Execution::Waiting;
+    case line::LineActivity::Active:
+      return dds::Execution::Active;
+    case line::LineActivity::Ready:
+      break;
   }
-  return dds::Execution::Active;
-}
-
-std::string message_of(const PortView& port, const std::optional<SendProgress>& progress) {
-  if (!port.is_open) return fmt::format("port {} is not open: {}", port.port.name, port.fault);
-  if (progress && progress->is_waiting_for_line) return "waits for its line";
-  if (progress && progress->is_held) return "held by the operator";
-  if (progress && port.line.awaits_start) {
-    return fmt::format("waits for the operator to start it at the control ({})",
-                       port.line.waiting_for);
-  }
-  if (progress && port.line.is_stopped) return "the control holds the line";
-  if (progress && port.transfer && progress->id == port.transfer->id) return what_it_does(port);
-  if (port.request) return request_words(*port.request);
-  if (port.line.is_stopped && !port.line.waiting_for.empty()) return "the control holds the line";
-  if (!port.line.waiting_for.empty()) return fmt::format("waits for {}", port.line.waiting_for);
-  return port.fault;
+  return dds::Execution::Ready;
 }
 
 }  // namespace
@@ -57,17 +47,17 @@ LineMachines::LineMachines(const machines::RunSources& sources, const LineDirect
       runs_(sources) {}
 
 machines::MachineView LineMachines::view_of(const PortLine& line) const {
-  const PortView port = line.view();
+  const LineView port = line.view();
   const auto progress = line.progress();
   machines::MachineView view;
-  view.machine.name = port.port.machine;
-  if (auto stored = store_.machines.find(port.port.machine)) view.machine = *std::move(stored);
+  view.machine.name = port.names.machine;
+  if (auto stored = store_.machines.find(port.names.machine)) view.machine = *std::move(stored);
   view.is_connected = port.is_open;
   dds::Status status;
-  status.machine = port.port.machine;
+  status.machine = port.names.machine;
   status.time = clock_.now();
-  status.execution = execution_of(port, progress);
-  status.message = message_of(port, progress);
+  status.execution = execution_of(line::activity_of(port, progress));
+  status.message = line::message_of(port, progress);
   if (progress) {
     if (progress->kind == JobKind::Run) status.run = progress->id;
     status.sent = progress->sent.bytes;
@@ -103,7 +93,7 @@ void LineMachines::start_later(const machines::StartRequest& request, Started st
                                const std::string& wire_name) {
   const auto line = directory_.line_of(request.machine);
   if (!line) return started(fail(Errc::NotFound, "machine '{}' has no port", request.machine));
-  line->strand().post([this, line, request, started = std::move(started), wire_name] {
+  line->post([this, line, request, started = std::move(started), wire_name] {
     begin(line, request, started, wire_name);
   });
 }
@@ -111,16 +101,16 @@ void LineMachines::start_later(const machines::StartRequest& request, Started st
 void LineMachines::begin(const std::shared_ptr<PortLine>& line,
                          const machines::StartRequest& request, const Started& started,
                          const std::string& wire_name) {
-  const PortView port = line->view();
+  const LineView port = line->view();
   if (!port.is_open) {
     return started(fail(Errc::Timeout, "machine '{}' is not connected: port {} is not open: {}",
-                        request.machine, port.port.name,
+                        request.machine, port.names.name,
                         port.fault.empty() ? "not yet" : port.fault));
   }
   line->drop_answer();
   if (line->is_busy()) {
     return started(
-        fail(Errc::Busy, "port {} is busy: it is {}", port.port.name, what_it_does(port)));
+        fail(Errc::Busy, "port {} is busy: it is {}", port.names.name, what_it_does(port)));
   }
   if (auto fits = check_protocol(store_.setups, request.machine, port.settings.flow); !fits) {
     return started(fail(fits.error()));
@@ -136,7 +126,7 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line,
   if (!wire_name.empty()) {
     job->name = wire_name;
   } else if (has_numbered_programs(port.settings.flow)) {
-    job->name = program_number(run->program);
+    job->name = line::program_number(run->program);
   }
   line->begin(*std::move(job), [this, run = *run, started](const Result<void>& begun) {
     started(conclude(run, begun));
@@ -198,8 +188,8 @@ void LineMachines::on_change(const std::string& machine) {
 void LineMachines::save_progress(const PortLine& line) {
   const auto progress = line.progress();
   if (!progress || progress->kind != JobKind::Run) return;
-  runs_.progressed(line.port().machine, *progress);
-  on_change(line.port().machine);
+  runs_.progressed(line.names().machine, *progress);
+  on_change(line.names().machine);
 }
 
 void LineMachines::announce(const std::string& run) const {
@@ -234,7 +224,9 @@ Result<machines::MachineView> MachineRouter::machine(const std::string& name) co
 
 Result<storage::Run> MachineRouter::start(const machines::StartRequest& request) {
   if (!lines_.machine(request.machine)) {
-    if (request.head == machines::StartHead::Ask) return gateways_.start(request);
+    const auto gateway = gateways_.machine(request.machine);
+    const bool has_line = gateway && gateway->status && gateway->status->serial_line;
+    if (request.head == machines::StartHead::Ask || has_line) return gateways_.start(request);
     return fail(Errc::Unsupported,
                 "machine '{}' has a gateway, which looks through the program up to the beginning: "
                 "head is for serial lines",

@@ -9,7 +9,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "server/machines/record_ingest.hpp"
-#include "server/ports/port_line.hpp"
+#include "server/ports/line_types.hpp"
 #include "server/ports/strand.hpp"
 #include "storage/record_store.hpp"
 

@@ -6,7 +6,7 @@
 #include "server/machines/machine_control.hpp"
 #include "server/machines/run_sources.hpp"
 #include "server/ports/line_records.hpp"
-#include "server/ports/line_session.hpp"
+#include "server/ports/line_types.hpp"
 
 namespace dripline::ports {
 

@@ -3,12 +3,13 @@
 #include <fmt/ranges.h>
 #include <future>
 
+#include "gateway/line/inbound/program_head.hpp"
+#include "gateway/line/line_words.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/ports/line_runs.hpp"
 #include "server/ports/port_settings.hpp"
-#include "server/ports/programs/program_head.hpp"
 #include "server/ports/programs/program_stream.hpp"
 
 namespace dripline::ports {
@@ -25,34 +26,34 @@ using Ask = std::function<void(PortLine::Answer)>;
 Result<void> ask_on_strand(const std::shared_ptr<PortLine>& line, const Ask& ask) {
   const auto promise = std::make_shared<std::promise<Result<void>>>();
   auto answer = promise->get_future();
-  line->strand().post([ask, promise] {
+  line->post([ask, promise] {
     ask([promise](const Result<void>& result) { promise->set_value(result); });
   });
   if (answer.wait_for(kTransferAnswerLimit) == std::future_status::ready) return answer.get();
   return fail(Errc::Timeout, "port {}: the line did not answer within {} s; the outcome is unknown",
-              line->port().name, kTransferAnswerLimit.count());
+              line->names().name, kTransferAnswerLimit.count());
 }
 
 Result<void> check_ready(PortLine& line) {
-  const PortView port = line.view();
+  const LineView port = line.view();
   if (!port.is_open) {
-    return fail(Errc::Timeout, "port {} is not open: {}", port.port.name,
+    return fail(Errc::Timeout, "port {} is not open: {}", port.names.name,
                 port.fault.empty() ? "not yet" : port.fault);
   }
   line.drop_answer();
   if (!line.is_busy()) return {};
-  return fail(Errc::Busy, "port {} is busy: it is {}", port.port.name, what_it_does(port));
+  return fail(Errc::Busy, "port {} is busy: it is {}", port.names.name, what_it_does(port));
 }
 
 /// What of the library is meant. Errors: as PortControl::send.
-Result<std::vector<storage::Revision>> chosen(library::Releases& releases, const PortView& port,
+Result<std::vector<storage::Revision>> chosen(library::Releases& releases, const LineView& port,
                                               const storage::Machine& machine,
                                               const std::vector<ProgramChoice>& programs) {
   std::vector<storage::Revision> revisions;
   for (const auto& choice : programs) {
     // Who starts it at the control, and when, is not known: nothing is proved out so.
     auto admitted = releases.admit(
-        {.machine = port.port.machine, .program = choice.program, .revision = choice.revision});
+        {.machine = port.names.machine, .program = choice.program, .revision = choice.revision});
     if (!admitted) {
       return fail(with_control_words(
           admitted.error(), machine.control,
@@ -69,7 +70,7 @@ Result<std::vector<storage::Revision>> chosen(library::Releases& releases, const
   return revisions;
 }
 
-Result<void> check_count(const PortView& port, const storage::Machine& machine, std::size_t count) {
+Result<void> check_count(const LineView& port, const storage::Machine& machine, std::size_t count) {
   if (count == 0) {
     return fail(with_control_words({Errc::Syntax, "no program is named"}, machine.control,
                                    Refusal::NothingToSelect));
@@ -82,18 +83,18 @@ Result<void> check_count(const PortView& port, const storage::Machine& machine, 
   return fail(Errc::Unsupported,
               "{} programs: the protocol of port {} names the one program of a transfer; send them "
               "one by one",
-              count, port.port.name);
+              count, port.names.name);
 }
 
 /// The limit of the control's memory, where the port sets it. Errors: LimitExceeded.
-Result<void> check_memory(const PortView& port, const storage::Machine& machine,
+Result<void> check_memory(const LineView& port, const storage::Machine& machine,
                           std::uint64_t size) {
   const std::uint64_t memory = port.settings.program_memory;
   if (memory == 0 || size <= memory) return {};
   Error error{Errc::LimitExceeded,
               fmt::format("{} bytes are more than the {} of the control's memory (program_memory "
                           "of port {})",
-                          size, memory, port.port.name)};
+                          size, memory, port.names.name)};
   return fail(with_control_words(std::move(error), machine.control, Refusal::MemoryFull));
 }
 
@@ -104,7 +105,7 @@ Error stream_error(const Error& error, const storage::Machine& machine) {
                             is_number ? Refusal::BadNumber : Refusal::NotLoaded);
 }
 
-Result<SendJob> job_of(storage::ProgramStore& store, const PortView& port,
+Result<SendJob> job_of(storage::ProgramStore& store, const LineView& port,
                        const storage::Machine& machine,
                        const std::vector<storage::Revision>& revisions) {
   const auto& first = revisions.front();
@@ -116,13 +117,13 @@ Result<SendJob> job_of(storage::ProgramStore& store, const PortView& port,
   SendJob job;
   job.kind = JobKind::Transfer;
   job.id = fmt::format("transfer-{}", random_hex(4));
-  job.name =
-      has_numbered_programs(port.settings.flow) ? program_number(first.program) : first.program;
+  job.name = has_numbered_programs(port.settings.flow) ? line::program_number(first.program)
+                                                       : first.program;
   for (const auto& revision : revisions) {
     job.programs.push_back(fmt::format("{} revision {}", revision.program, revision.number));
   }
   job.size = stream->size();
-  job.stream = std::make_shared<ProgramStream>(*std::move(stream));
+  job.source = source_of(*std::move(stream), store);
   return job;
 }
 
@@ -132,29 +133,15 @@ bool has_numbered_programs(wire::Flow flow) {
   return flow == wire::Flow::Heidenhain || flow == wire::Flow::HeidenhainBcc;
 }
 
-std::string request_words(const PortRequest& request) {
-  return fmt::format("the control asked for {}; {}",
-                     request.program.empty() ? "a program" : "program " + request.program,
-                     request.answer.empty() ? "no run waits" : "refused: " + request.answer);
-}
-
-std::string what_it_does(const PortView& port) {
-  if (!port.run.empty()) return "sending run " + port.run;
-  if (port.transfer && port.transfer->state == TransferState::Sending) {
-    return fmt::format("sending {}", fmt::join(port.transfer->programs, ", "));
-  }
-  return "receiving";
-}
-
 Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
                                    const machines::RunSources& sources,
                                    const std::vector<ProgramChoice>& programs) {
   const storage::Store& store = sources.store;
-  const PortView port = line->view();
+  const LineView port = line->view();
   storage::Machine machine;
-  if (auto known = store.machines.find(port.port.machine)) machine = *std::move(known);
+  if (auto known = store.machines.find(port.names.machine)) machine = *std::move(known);
   if (auto good = check_count(port, machine, programs.size()); !good) return fail(good.error());
-  if (auto fits = check_protocol(store.setups, port.port.machine, port.settings.flow); !fits) {
+  if (auto fits = check_protocol(store.setups, port.names.machine, port.settings.flow); !fits) {
     return fail(fits.error());
   }
   const auto revisions = chosen(sources.releases, port, machine, programs);
@@ -166,18 +153,18 @@ Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
     line->begin(job, answer);
   });
   if (!begun) return fail(begun.error());
-  process::log_info("programs sent without a run port={} id={} {}", port.port.name, job->id,
+  process::log_info("programs sent without a run port={} id={} {}", port.names.name, job->id,
                     fmt::join(job->programs, ", "));
   return PortTransfer{.id = job->id, .programs = job->programs, .size = job->size};
 }
 
 Result<void> receive_program(const std::shared_ptr<PortLine>& line) {
-  const PortView port = line->view();
+  const LineView port = line->view();
   if (port.settings.flow != wire::Flow::Xmodem) {
     return fail(Errc::Unsupported,
                 "port {} takes what its control sends at any time; only over XMODEM the receiver "
                 "begins",
-                port.port.name);
+                port.names.name);
   }
   return ask_on_strand(line, [line](const PortLine::Answer& answer) {
     if (auto ready = check_ready(*line); !ready) return answer(ready);
@@ -187,10 +174,10 @@ Result<void> receive_program(const std::shared_ptr<PortLine>& line) {
 
 Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::string& reason) {
   return ask_on_strand(line, [line, reason](const PortLine::Answer& answer) {
-    const PortView port = line->view();
+    const LineView port = line->view();
     if (!port.run.empty()) {
       return answer(fail(Errc::Conflict, "port {} sends run {}; dnc run abort ends it",
-                         port.port.name, port.run));
+                         port.names.name, port.run));
     }
     const bool is_sending = port.transfer && port.transfer->state == TransferState::Sending;
     if (is_sending) return line->abort(port.transfer->id, reason, answer);

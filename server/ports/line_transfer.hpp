@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "server/machines/run_sources.hpp"
-#include "server/ports/port_line.hpp"
+#include "server/ports/line_types.hpp"
+#include "server/ports/port_control.hpp"
 
 /// Programs to a control's memory and out of it, without a run. The functions wait for the line's
 /// answer, at most kTransferAnswerLimit; not to be called on a strand or a line's thread.
@@ -22,9 +23,5 @@ Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::str
 
 /// Whose transfers carry a program's number and nothing else of its name.
 bool has_numbered_programs(wire::Flow flow);
-/// What a control asked for in vain, for people.
-std::string request_words(const PortRequest& request);
-/// Of a busy port: "receiving", "sending run ..." or which programs it sends.
-std::string what_it_does(const PortView& port);
 
 }  // namespace dripline::ports

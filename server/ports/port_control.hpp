@@ -6,25 +6,23 @@
 #include <string>
 #include <vector>
 
-#include "protocol/base/clock.hpp"
+#include "gateway/line/inbound/rule_set.hpp"
+#include "gateway/line/line_examination.hpp"
+#include "gateway/line/port_view.hpp"
 #include "protocol/base/result.hpp"
-#include "protocol/serial/line_driver.hpp"
-#include "protocol/wire/discipline.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::ports {
 
-enum class TransferState : std::uint8_t { Sending, Completed, Aborted, Interrupted };
-std::string_view to_string(TransferState state);
-
-/// Programs sent as they are, without a run: the last such transfer of a port.
-struct PortTransfer {
-  std::string id = {};
-  std::vector<std::string> programs = {};  ///< names, in their order
-  std::uint64_t size = 0, sent = 0;        ///< bytes
-  TransferState state = TransferState::Sending;
-  std::string reason = {};  ///< why it was not completed, for people
-};
+using line::parse_traffic_kind;
+using line::PortRequest;
+using line::PortTest;
+using line::PortTraffic;
+using line::PortTransfer;
+using line::RuleVerdict;
+using line::to_string;
+using line::TrafficKind;
+using line::TransferState;
 
 /// A program that is to be sent; without a number the latest revision.
 struct ProgramChoice {
@@ -33,54 +31,10 @@ struct ProgramChoice {
 };
 inline constexpr std::size_t kMaxTransferPrograms = 256;
 
-/// What the control asked for last, while no run waited for it.
-struct PortRequest {
-  UtcTime since;
-  std::string program;  ///< as the protocol named it; empty: whichever is ready
-  std::string answer;   ///< why it was refused; empty: it still waits, a run would begin at once
-};
-
 /// A port as it is configured; kept in the store (storage::Port). `settings` are pairs of
 /// wire::setting_rows() keys and values over those of `line_template`.
-struct PortView {
+struct PortView : line::LineView {
   storage::Port port;
-  wire::LineSettings settings;  ///< effective: template, then the port's own
-  bool is_open = false;         ///< the channel is there
-  std::string fault;            ///< why not, or the last fault; for people
-  wire::LineState line;
-  std::string run;  ///< being sent, may be empty
-  std::optional<PortTransfer> transfer;
-  std::uint64_t sent = 0;  ///< characters since the line was opened
-  std::uint64_t received = 0;
-  std::optional<UtcTime> waiting_since;  ///< of a wait that the protocol does not limit
-  std::optional<PortRequest> request;    ///< until it is taken back, or something is sent
-};
-
-using TrafficKind = serial::LineTraffic::What;
-std::string_view to_string(TrafficKind kind);
-/// Errors: Syntax.
-Result<TrafficKind> parse_traffic_kind(std::string_view text);
-
-/// One thing on a line: what monitors show and the flight recorder keeps.
-struct PortTraffic {
-  std::string port;
-  UtcTime time;
-  TrafficKind what = TrafficKind::Note;
-  std::string bytes;  ///< Sent and Received: as they were
-  std::string text;   ///< the others: in words
-};
-
-/// Which rule of a port's rules file a received text meets, and what would be done.
-struct RuleVerdict {
-  std::string rule;              ///< its name; empty: none, the default
-  std::string action;            ///< send, directory, restart, program, report, ignore
-  std::string argument;          ///< program, file name, block ...
-  std::vector<std::string> why;  ///< one line per rule that was tried, in order
-};
-
-struct PortTest {
-  bool is_passed = false;
-  std::vector<std::string> findings;  ///< one a line, for people
 };
 
 /// The serial ports as the API sees them. Any thread.

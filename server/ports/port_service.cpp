@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <future>
 
+#include "gateway/line/inbound/rule_reader.hpp"
+#include "gateway/line/line_words.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/process/log.hpp"
 #include "protocol/serial/channel.hpp"
 #include "server/ports/line_transfer.hpp"
 #include "server/ports/port_settings.hpp"
-#include "server/ports/requests/rule_reader.hpp"
 
 namespace dripline::ports {
 namespace {
@@ -121,10 +122,10 @@ Result<PortService::Entry> PortService::prepare(const storage::Port& port) const
   if (auto fits = wire::make_discipline(entry.settings, wire::Role::Host); !fits) {
     return fail(fits.error().code, "port '{}': {}", port.name, fits.error().what);
   }
-  auto rules = read_rules(port.rules);
+  auto rules = line::read_rules(port.rules);
   if (!rules)
     return fail(rules.error().code, "port '{}': rules: {}", port.name, rules.error().what);
-  entry.rules = std::make_shared<const RuleSet>(*std::move(rules));
+  entry.rules = std::make_shared<const line::RuleSet>(*std::move(rules));
   return entry;
 }
 
@@ -149,8 +150,8 @@ Result<void> PortService::check_free(const storage::Port& port) const {
 Result<void> PortService::check_idle(const std::string& name) const {
   const auto entry = find(name);
   if (!entry || !entry->line || !entry->line->is_busy()) return {};
-  const PortView view = entry->line->view();
-  return fail(Errc::Busy, "port '{}' of machine '{}' is {}", name, view.port.machine,
+  const LineView view = entry->line->view();
+  return fail(Errc::Busy, "port '{}' of machine '{}' is {}", name, view.names.machine,
               what_it_does(view));
 }
 
@@ -185,9 +186,12 @@ void PortService::open_due() {
 }
 
 PortView PortService::view_of(const Entry& entry) {
-  if (entry.line) return entry.line->view();
   PortView view;
   view.port = entry.port;
+  if (entry.line) {
+    static_cast<LineView&>(view) = entry.line->view();
+    return view;
+  }
   view.settings = entry.settings;
   view.fault = entry.fault;
   return view;

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "gateway/line/inbound/rule_set.hpp"
 #include "server/library/programs.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/machines/worker_pool.hpp"
 #include "server/ports/line_machines.hpp"
 #include "server/ports/line_records.hpp"
 #include "server/ports/port_control.hpp"
-#include "server/ports/requests/rule_set.hpp"
 
 namespace dripline::ports {
 
@@ -65,7 +65,7 @@ class PortService final : public PortControl, private LineDirectory {
   struct Entry {
     storage::Port port;
     wire::LineSettings settings;
-    std::shared_ptr<const RuleSet> rules = std::make_shared<RuleSet>();
+    std::shared_ptr<const line::RuleSet> rules = std::make_shared<line::RuleSet>();
     std::shared_ptr<PortLine> line;  ///< null: disabled, or `fault`
     std::string fault;
     bool is_open_due = false;  ///< the store refused what has to be written first
@@ -93,7 +93,7 @@ class PortService final : public PortControl, private LineDirectory {
   PortListener listener_for(const Entry& entry, const Machine& machine);
   std::shared_ptr<PortLine> make_line(const Entry& entry, const Strand& strand,
                                       PortListener listener);
-  void tick(const std::weak_ptr<PortLine>& line, unsigned count);
+  void tick(const std::weak_ptr<PortLine>& line, const Strand& strand, unsigned count);
   void tell_traffic(const PortTraffic& traffic) const;
   void note_transfer(const std::string& machine, const SendEnd& end);
   void on_stored(const storage::RecordBatch& batch);

@@ -18,6 +18,39 @@ LineOpener default_opener() {
       [](serial::LineDriver::Parts parts) { return serial::LineDriver::start(std::move(parts)); };
 }
 
+/// The port that the machine has at the time.
+class PortAtControl final : public RequestedLine {
+ public:
+  PortAtControl(LineMachines& machines, const LineDirectory& directory, std::string machine)
+      : machines_(machines), directory_(directory), machine_(std::move(machine)) {}
+  void note(const std::string& words) override {
+    if (const auto line = directory_.line_of(machine_)) line->note(words);
+  }
+  void refuse(const std::string& why) override {
+    if (const auto line = directory_.line_of(machine_)) line->refuse(why);
+  }
+  void accept_receive(const std::string& name) override {
+    if (const auto line = directory_.line_of(machine_)) line->accept_receive(name);
+  }
+  void send(SendJob job) override {
+    const auto line = directory_.line_of(machine_);
+    if (!line) return;
+    line->begin(std::move(job), [machine = machine_](const Result<void>& begun) {
+      if (!begun)
+        process::log_warning("answer not sent machine={}: {}", machine, begun.error().what);
+    });
+  }
+  void start_later(const machines::StartRequest& request, Started started,
+                   const std::string& wire_name) override {
+    machines_.start_later(request, std::move(started), wire_name);
+  }
+
+ private:
+  LineMachines& machines_;
+  const LineDirectory& directory_;
+  const std::string machine_;
+};
+
 }  // namespace
 
 /// Records are in order of their epochs, also when the clock was put back between two starts of the
@@ -75,7 +108,9 @@ void PortService::open(Entry& entry) {
   const Machine machine = machine_of(entry.port.machine, *epoch);
   entry.line = make_line(entry, machine.strand, listener_for(entry, machine));
   entry.line->open();
-  machine.strand.post([this, line = std::weak_ptr<PortLine>(entry.line)] { tick(line, 0); });
+  machine.strand.post([this, line = std::weak_ptr<PortLine>(entry.line), strand = machine.strand] {
+    tick(line, strand, 0);
+  });
 }
 
 PortListener PortService::listener_for(const Entry& entry, const Machine& machine) {
@@ -83,11 +118,11 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
   RemoteRequestHandler::Parts calls{
       .store = store_,
       .releases = sources_.releases,
-      .machines = line_machines_,
-      .directory = *this,
+      .line = std::make_shared<PortAtControl>(line_machines_,
+                                              static_cast<const LineDirectory&>(*this), name),
       .clock = clock_,
       .machine = name,
-      .rules = entry.rules,
+      .reply = entry.rules->reply(),
       .offer = entry.settings.offer,
       .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc,
       .tells_aborts = entry.settings.flow == wire::Flow::Heidenhain ||
@@ -96,6 +131,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
   const auto inbound = std::make_shared<InboundHandler>(InboundHandler::Parts{
       .machines = store_.machines,
       .programs = programs_,
+      .directory = *this,
       .records = machine.records,
       .machine = name,
       .port = entry.port.name,
@@ -126,11 +162,10 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
                                                  PortListener listener) {
   const auto broken = broken_run(store_.runs, entry.port.machine, true);
   return PortLine::make(
-      {.port = entry.port,
+      {.names = {entry.port.name, entry.port.machine, entry.port.address},
        .settings = entry.settings,
-       .programs = store_.programs,
        .clock = clock_,
-       .strand = strand,
+       .post = [strand](line::Task task) { strand.post(std::move(task)); },
        .open = options_.open ? options_.open : default_opener(),
        .recording = {.port = entry.port.name, .folder = options_.recordings},
        .on_traffic = [this](const PortTraffic& traffic) { tell_traffic(traffic); },
@@ -138,12 +173,12 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
        .is_program_broken = broken && broken->has_value()});
 }
 
-void PortService::tick(const std::weak_ptr<PortLine>& weak, unsigned count) {
+void PortService::tick(const std::weak_ptr<PortLine>& weak, const Strand& strand, unsigned count) {
   const auto line = weak.lock();
   if (!line) return;
   line->tick();
   if (count % kTicksPerSave == 0) line_machines_.save_progress(*line);
-  line->strand().post_after(kTick, [this, weak, count] { tick(weak, count + 1); });
+  strand.post_after(kTick, [this, weak, strand, count] { tick(weak, strand, count + 1); });
 }
 
 void PortService::tell_traffic(const PortTraffic& traffic) const {

@@ -34,17 +34,18 @@ clients/tools/tnc_probing: protocol/base gateway/interpreter clients/tools/tnc_p
 gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/machine/grbl: protocol/base protocol/wire protocol/serial gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
+gateway/line: protocol/base protocol/wire protocol/process protocol/serial gateway/interpreter gateway/line
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite
 server/library: protocol/base protocol/archive protocol/measurement protocol/pki protocol/audit protocol/process storage gateway/interpreter server/library
 server/identity: protocol/base protocol/process storage server/library server/identity
 server/machines: protocol storage gateway/interpreter server/library server/machines
-server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
+server/ports: protocol storage gateway/interpreter gateway/line server/library server/machines server/ports
 server/paths: protocol/base storage gateway/interpreter clients/tools/comparison clients/tools/offline server/library server/machines server/paths
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
 server/measurements: protocol/base protocol/measurement protocol/process storage clients/tools/report_template server/measurements
 server/offsets: protocol/base protocol/measurement protocol/process storage gateway/interpreter clients/tools/statistics server/library server/offsets
-server/api: protocol storage gateway/interpreter clients/tools/charts server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/offsets server/folders server/webhooks server/api
+server/api: protocol storage gateway/interpreter gateway/line clients/tools/charts server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/offsets server/folders server/webhooks server/api
 server/folders: protocol/base protocol/process storage server/library server/machines server/paths server/folders
 server/webhooks: protocol/base protocol/process storage server/webhooks
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect

@@ -19,9 +19,11 @@ struct WrittenMessages {
   std::vector<dds::RecordAck> acks;
   std::vector<dds::Command> commands;
   std::vector<dds::BlockData> blocks;
+  std::vector<dds::LineRequest> line_requests;
   std::atomic<int> refusals{0};  ///< so many writes of blocks fail with Timeout
   std::function<void(const dds::Command&)>
       on_command;  ///< plays the gateway, on the writer's thread
+  std::function<void(const dds::LineRequest&)> on_line_request = {};  ///< likewise
 
   /// Waits until `holds` is true, at most some seconds. The lock is held while it is asked.
   bool wait(const std::function<bool()>& holds) {
@@ -49,6 +51,11 @@ class FakeServerEndpoint final : public dds::ServerEndpoint {
       return fail(Errc::Timeout, "the queue is full");
     }
     return keep(written_->blocks, message);
+  }
+  Result<void> write(const dds::LineRequest& message) override {
+    auto kept = keep(written_->line_requests, message);
+    if (written_->on_line_request) written_->on_line_request(message);
+    return kept;
   }
   dds::Rejected rejected() const override { return {}; }
 

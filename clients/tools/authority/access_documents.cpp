@@ -10,9 +10,11 @@ namespace {
 
 // The topics of protocol/dds, by direction; a test compares them. They are written out, because dnc
 // has no DDS.
-constexpr std::array kFromGateway{"dripline_Announce", "dripline_Status", "dripline_Record",
-                                  "dripline_CommandResult", "dripline_BlockRequest"};
-constexpr std::array kFromServer{"dripline_RecordAck", "dripline_Command", "dripline_BlockData"};
+constexpr std::array kFromGateway{"dripline_Announce",     "dripline_Status",
+                                  "dripline_Record",       "dripline_CommandResult",
+                                  "dripline_BlockRequest", "dripline_LineData"};
+constexpr std::array kFromServer{"dripline_RecordAck", "dripline_Command", "dripline_BlockData",
+                                 "dripline_LineRequest"};
 
 using Topics = std::span<const char* const>;
 

@@ -52,12 +52,14 @@ Result<ServerTopics> ServerTopics::create(const Domain& domain) {
   if (auto r = open_topic<RecordAck>(topics.record_ack, domain); !r) return fail(r.error());
   if (auto r = open_topic<Command>(topics.command, domain); !r) return fail(r.error());
   if (auto r = open_topic<BlockData>(topics.block_data, domain); !r) return fail(r.error());
+  if (auto r = open_topic<LineRequest>(topics.line_request, domain); !r) return fail(r.error());
+  if (auto r = open_topic<LineData>(topics.line_data, domain); !r) return fail(r.error());
   return topics;
 }
 
 Result<std::unique_ptr<Attachment>> Attachment::create(const Domain& domain,
                                                        const ServerTopics& topics,
-                                                       const std::string& machine,
+                                                       const std::string& machine, bool has_line,
                                                        const ServerHandlers& handlers,
                                                        Rejections& rejections,
                                                        const std::function<void()>& on_matched) {
@@ -88,6 +90,11 @@ Result<std::unique_ptr<Attachment>> Attachment::create(const Domain& domain,
   if (auto r = reader(a->request, topics.block_request, handlers.on_request); !r) {
     return fail(r.error());
   }
+  if (!has_line) return a;
+  if (auto r = writer(a->line_request, topics.line_request); !r) return fail(r.error());
+  if (auto r = reader(a->line_data, topics.line_data, handlers.on_line_data); !r) {
+    return fail(r.error());
+  }
   return a;
 }
 
@@ -97,6 +104,7 @@ void Attachment::set_gateway(const std::string& participant) {
   record->set_peer(participant);
   command_result->set_peer(participant);
   request->set_peer(participant);
+  if (line_data) line_data->set_peer(participant);
 }
 
 void Attachment::resolve() {
@@ -104,6 +112,7 @@ void Attachment::resolve() {
   record->resolve();
   command_result->resolve();
   request->resolve();
+  if (line_data) line_data->resolve();
 }
 
 bool Attachment::is_matched_with(const std::string& participant) const {

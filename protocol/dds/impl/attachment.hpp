@@ -18,7 +18,8 @@ struct Arrived {
 
 /// The topics of the server, created once for all machines.
 struct ServerTopics {
-  Entity announce, status, record, command_result, block_request, record_ack, command, block_data;
+  Entity announce, status, record, command_result, block_request, record_ack, command, block_data,
+      line_request, line_data;
   static Result<ServerTopics> create(const Domain& domain);
 };
 
@@ -34,6 +35,10 @@ struct Attachment {
   std::unique_ptr<PeerReader<Record>> record;
   std::unique_ptr<PeerReader<CommandResult>> command_result;
   std::unique_ptr<PeerReader<BlockRequest>> request;
+  /// Null: the machine has no line of its own. What is lost before they are matched is repeated.
+  std::unique_ptr<Writer<LineRequest>> line_request;
+  std::unique_ptr<PeerReader<LineData>> line_data;
+  bool has_line() const { return line_request != nullptr; }
 
   bool is_ready = false;           ///< on_announce was called, on_lost not since
   std::optional<Arrived> waiting;  ///< it names us, but not all of its endpoints are matched yet
@@ -47,7 +52,7 @@ struct Attachment {
   /// `handlers` and `rejections` must outlive the attachment.
   static Result<std::unique_ptr<Attachment>> create(const Domain& domain,
                                                     const ServerTopics& topics,
-                                                    const std::string& machine,
+                                                    const std::string& machine, bool has_line,
                                                     const ServerHandlers& handlers,
                                                     Rejections& rejections,
                                                     const std::function<void()>& on_matched);

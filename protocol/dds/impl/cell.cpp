@@ -146,7 +146,7 @@ void Cell::handle_announced(const std::string& machine, Arrived arrived) {
   if (speaks_for_another(arrived.participant, machine)) {
     return shared_.rejections.add(Topic<Announce>::kName, "one participant, several machines");
   }
-  const auto attached = attach(machine);
+  const auto attached = attach(machine, arrived.announce.has_line);
   if (attached == nullptr) return;
   look_at_rival(machine, *attached);
   if (attached->gateway.empty()) attached->set_gateway(arrived.participant);
@@ -205,8 +205,14 @@ bool Cell::has_room() {
   return true;
 }
 
-std::shared_ptr<Attachment> Cell::attach(const std::string& machine) {
-  if (auto attached = find(machine)) return attached;
+/// A machine that has a line now and had none is attached anew: its entities are all there, or none
+/// are.
+std::shared_ptr<Attachment> Cell::attach(const std::string& machine, bool has_line) {
+  if (auto attached = find(machine)) {
+    if (attached->has_line() || !has_line) return attached;
+    handle_lost(machine);
+    drop(machine);
+  }
   if (cell_of(machine) != number_) {
     shared_.rejections.add(Topic<Announce>::kName, "announced to another cell than the machine's");
     return nullptr;
@@ -215,8 +221,8 @@ std::shared_ptr<Attachment> Cell::attach(const std::string& machine) {
     shared_.rejections.add(Topic<Announce>::kName, "too many machines");
     return nullptr;
   }
-  auto created = Attachment::create(domain_, topics_, machine, shared_.handlers, shared_.rejections,
-                                    [this] { wake_watcher(); });
+  auto created = Attachment::create(domain_, topics_, machine, has_line, shared_.handlers,
+                                    shared_.rejections, [this] { wake_watcher(); });
   if (!created) {
     shared_.rejections.add(Topic<Announce>::kName, created.error().what);
     return nullptr;

@@ -37,6 +37,9 @@ class Cell {
   Result<void> write(const RecordAck& message) { return write_to(message, &Attachment::ack); }
   Result<void> write(const Command& message) { return write_to(message, &Attachment::command); }
   Result<void> write(const BlockData& message) { return write_to(message, &Attachment::block); }
+  Result<void> write(const LineRequest& message) {
+    return write_to(message, &Attachment::line_request);
+  }
 
  private:
   /// What happened to one machine since the watcher's last look: its announcement is gone, then
@@ -55,6 +58,8 @@ class Cell {
                         std::unique_ptr<Writer<Message>> Attachment::*writer) {
     // Also before on_announce: a record that overtook it may be acknowledged.
     const auto machine = find(message.machine);
+    if (machine != nullptr && (*machine).*writer == nullptr)
+      return fail(Errc::Unsupported, "machine {} has no line of its own", message.machine);
     if (machine == nullptr || !((*machine).*writer)->has_readers()) {
       return fail(Errc::NotFound, "machine {} is not connected", message.machine);
     }
@@ -81,7 +86,7 @@ class Cell {
   void look_at_rival(const std::string& machine, Attachment& attached);
   bool speaks_for_another(const std::string& participant, const std::string& machine) const;
   bool has_room();
-  std::shared_ptr<Attachment> attach(const std::string& machine);
+  std::shared_ptr<Attachment> attach(const std::string& machine, bool has_line);
   void try_ready(Attachment& machine);
 
   // Order matters: the listeners of readers and writers use the members above them.

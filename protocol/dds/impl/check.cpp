@@ -158,6 +158,16 @@ Result<void> check(const BlockData& m) {
       .result();
 }
 
+Result<void> check(const LineRequest& m) {
+  return check_members("line_request", m).result();
+}
+
+Result<void> check(const LineData& m) {
+  return check_members("line_data", m)
+      .that(m.status == LineResult::Done || m.bytes.empty(), "bytes", "come with a failure")
+      .result();
+}
+
 namespace {
 
 constexpr std::string_view kEllipsis = "…";

@@ -19,6 +19,8 @@ Result<void> check(const Command& message);
 Result<void> check(const CommandResult& message);
 Result<void> check(const BlockRequest& message);
 Result<void> check(const BlockData& message);
+Result<void> check(const LineRequest& message);
+Result<void> check(const LineData& message);
 
 /// Well-formed UTF-8 (no overlong forms, surrogates or values beyond U+10FFFF) without NUL, which a
 /// DDS string cannot carry.

@@ -87,7 +87,7 @@ class SampleReader {
   }
   template <class T, class Field, class Flag>
   void get(std::optional<T>& value, const Field& field, std::string_view name,
-           const PresentIf<Flag>& present) {
+           const PresentIf<Flag>& present, const auto&...) {
     if (!present.flag(sample_)) return;
     value.emplace();
     if constexpr (requires { get(*value, field, name); }) {
@@ -128,5 +128,7 @@ template Result<Command> decode(const SampleOf<Command>&);
 template Result<CommandResult> decode(const SampleOf<CommandResult>&);
 template Result<BlockRequest> decode(const SampleOf<BlockRequest>&);
 template Result<BlockData> decode(const SampleOf<BlockData>&);
+template Result<LineRequest> decode(const SampleOf<LineRequest>&);
+template Result<LineData> decode(const SampleOf<LineData>&);
 
 }  // namespace dripline::dds

@@ -91,7 +91,7 @@ class SampleWriter {
   }
   template <class T, class Field, class Flag>
   void put(const std::optional<T>& value, Field& field, std::string_view name,
-           const PresentIf<Flag>& present) {
+           const PresentIf<Flag>& present, const auto&...) {
     present.flag(sample_) = value.has_value();
     if (!value) return;
     if constexpr (requires { put(*value, field, name); }) {
@@ -138,5 +138,7 @@ template Result<void> encode(const Command&, SampleOf<Command>&);
 template Result<void> encode(const CommandResult&, SampleOf<CommandResult>&);
 template Result<void> encode(const BlockRequest&, SampleOf<BlockRequest>&);
 template Result<void> encode(const BlockData&, SampleOf<BlockData>&);
+template Result<void> encode(const LineRequest&, SampleOf<LineRequest>&);
+template Result<void> encode(const LineData&, SampleOf<LineData>&);
 
 }  // namespace dripline::dds

@@ -33,6 +33,8 @@ DRIPLINE_TOPIC(Command);
 DRIPLINE_TOPIC(CommandResult);
 DRIPLINE_TOPIC(BlockRequest);
 DRIPLINE_TOPIC(BlockData);
+DRIPLINE_TOPIC(LineRequest);
+DRIPLINE_TOPIC(LineData);
 #undef DRIPLINE_TOPIC
 
 template <class Message>

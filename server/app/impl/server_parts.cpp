@@ -99,6 +99,16 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
       ports({.store = *store, .releases = releases, .clock = clock}, programs,
             {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
             published()),
+      gateway_lines({.store = *store,
+                     .releases = releases,
+                     .programs = programs,
+                     .clock = clock,
+                     .ask =
+                         [this](dds::LineRequest request, std::chrono::milliseconds limit) {
+                           return machine_service.ask_line(std::move(request), limit);
+                         },
+                     .machines = machine_service}),
+      port_router(ports, gateway_lines),
       machines(store->runs, machine_service, ports.machines()),
       api({.programs = programs,
            .releases = releases,
@@ -122,7 +132,7 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
                      .certificate_expires = certificate_expires,
                      .dds_certificate_expires = dds_certificate_expires},
            .dds_rejected = [this] { return machine_service.rejected().messages; },
-           .ports = &ports,
+           .ports = &port_router,
            .health = &health,
            .backups = backups.get(),
            .imports = &imports,
@@ -137,6 +147,9 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
 machines::MachineService::Options ServerParts::machine_options() {
   machines::MachineService::Options options;
   options.on_fault = records_watch();
+  options.on_line = [this](const dds::Status& status) {
+    if (are_lines_handled) gateway_lines.on_status(status);
+  };
   return options;
 }
 

@@ -31,7 +31,9 @@
 #include "server/measurements/measurements.hpp"
 #include "server/mtconnect/agent.hpp"
 #include "server/offsets/offsets.hpp"
+#include "server/ports/gateway_lines.hpp"
 #include "server/ports/line_machines.hpp"
+#include "server/ports/port_router.hpp"
 #include "server/ports/port_service.hpp"
 #include "server/web/page.hpp"
 #include "server/webhooks/webhooks.hpp"
@@ -115,7 +117,10 @@ struct ServerParts {
   std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
   offsets::Offsets offsets;
   machines::MachineService machine_service;
+  std::atomic<bool> are_lines_handled = false;  ///< by gateway_lines
   ports::PortService ports;
+  ports::GatewayLines gateway_lines;
+  ports::PortRouter port_router;
   ports::MachineRouter machines;
   api::Api api;
   web::Page page{web::embedded_assets()};

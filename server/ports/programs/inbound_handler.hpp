@@ -6,25 +6,26 @@
 #include <string>
 #include <vector>
 
+#include "gateway/line/inbound/inbound_router.hpp"
 #include "server/library/programs.hpp"
-#include "server/ports/programs/inbound_splitter.hpp"
+#include "server/ports/line_records.hpp"
 #include "server/ports/programs/uploaded_program.hpp"
 #include "server/ports/requests/remote_request_handler.hpp"
 
 namespace dripline::ports {
 
-/// Takes everything a control sends, sorts it by the port's rules and puts it where it belongs:
-/// printed lines become records, programs held revisions, calls are carried out when the line is
-/// free. On
-/// the machine's strand.
-class InboundHandler {
+/// Puts what a control on a port sends where it belongs on the server: printed lines become
+/// records, programs held revisions, calls are carried out when the line is free. On the machine's
+/// strand.
+class InboundHandler final : private line::InboundSink {
  public:
   struct Parts {
     storage::MachineStore& machines;
     library::Programs& programs;
+    const LineDirectory& directory;
     std::shared_ptr<LineRecords> records;
     std::string machine, port;
-    std::shared_ptr<const RuleSet> rules;
+    std::shared_ptr<const line::RuleSet> rules;
     bool extracts_programs = false;    ///< a text with several programs becomes several
     bool sends_programs_only = false;  ///< the control prints nothing
     RemoteRequestHandler::Parts calls;
@@ -32,7 +33,9 @@ class InboundHandler {
   explicit InboundHandler(Parts parts);
 
   /// `kept` is called when the text is stored, or needs not be.
-  void take(const Incoming& incoming, std::function<void()> kept);
+  void take(const line::Incoming& incoming, std::function<void()> kept) {
+    router_.take(incoming, std::move(kept));
+  }
   void answer(const wire::TransferRequest& request) { calls_.answer(request); }
   void on_answer_over() { calls_.on_answer_over(); }
   void on_transfer_completed() { calls_.on_transfer_completed(); }
@@ -45,30 +48,26 @@ class InboundHandler {
   }
 
  private:
-  struct Call {
-    RuleAction action = RuleAction::Ignore;
-    std::string argument;
-  };
-  void handle(InboundSplitter::Item& item, std::vector<LineRecords::Entry>& entries);
-  void handle_line(const std::string& line, std::vector<LineRecords::Entry>& entries);
+  bool sends_programs_only() const override;
+  void note_kind(bool may_be_program) override;
+  void print(std::vector<line::PrintedLine> lines, std::function<void()> kept) override;
+  void begin_program() override;
+  void add_text(const std::string& text) override;
+  void damage(const std::string& how) override;
+  void store_program(const std::string& name) override;
+  void drop_program() override { program_.reset(); }
+  void note(const std::string& words) override;
+  void carry_out(line::RuleAction action, const std::string& argument) override;
+  void answer(const std::string& words) override { calls_.report({words}); }
+
   std::string current_run();
   std::string machine_control() const;
-  void begin_program(const std::string& name);
-  void end_program(const std::string& head);
-  void store_program(const std::string& name);
-  void report(const std::string& words);
-  void call(RuleAction action, const std::string& argument);
-  void do_calls();
 
   Parts parts_;
   RemoteRequestHandler calls_;
-  InboundSplitter splitter_;
+  line::InboundRouter router_;
   std::optional<UploadedProgram> program_;
-  std::string program_name_;  ///< as the protocol carried it
   std::string run_;
-  bool is_in_transfer_ = false;
-  std::string early_damage_;   ///< since the last program began; the next may begin after it
-  std::vector<Call> waiting_;  ///< for the end of the transfer they came in; at most kMaxWaiting
 };
 
 }  // namespace dripline::ports

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "gateway/interpreter/dialects/centurion/reading/program_extraction.hpp"
-#include "server/ports/programs/program_head.hpp"
+#include "gateway/line/inbound/program_head.hpp"
 
 namespace dripline::ports {
 namespace {
@@ -41,7 +41,7 @@ std::size_t lines_after(std::string_view text) {
 
 /// Made from a program's name. Errors: Syntax (it has no number).
 Result<std::string> o_line_of(const std::string& program) {
-  const std::string number = program_number(program);
+  const std::string number = line::program_number(program);
   if (!number.empty()) return fmt::format("O{:0>4}\n", number);
   return fail(Errc::Syntax,
               "program '{}' has no O number, in its text or as its name: among several the control "
@@ -98,11 +98,11 @@ void ProgramStream::add(std::string text) {
 }
 
 Result<void> ProgramStream::add(storage::ProgramStore& store, const storage::Revision& revision) {
-  const auto head = text_of(store, revision.content, 0, kProgramHead);
+  const auto head = text_of(store, revision.content, 0, line::kProgramHead);
   if (!head) return fail(head.error());
   const std::uint64_t tail_at =
-      revision.size - std::min<std::uint64_t>(revision.size, kProgramHead);
-  const auto tail = text_of(store, revision.content, tail_at, kProgramHead);
+      revision.size - std::min<std::uint64_t>(revision.size, line::kProgramHead);
+  const auto tail = text_of(store, revision.content, tail_at, line::kProgramHead);
   if (!tail) return fail(tail.error());
   const std::uint64_t front = lines_in_front(*head);
   const std::uint64_t after = lines_after(*tail);
@@ -144,6 +144,27 @@ Result<std::string> ProgramStream::read(storage::ProgramStore& store, std::uint6
     return text;
   }
   return fail(Errc::Corrupt, "the text to be sent is short");
+}
+
+namespace {
+
+class StoredText final : public line::TextSource {
+ public:
+  StoredText(ProgramStream stream, storage::ProgramStore& store)
+      : stream_(std::move(stream)), store_(store) {}
+  Result<std::string> read(std::uint64_t offset, std::uint64_t length) override {
+    return stream_.read(store_, offset, length);
+  }
+
+ private:
+  const ProgramStream stream_;
+  storage::ProgramStore& store_;
+};
+
+}  // namespace
+
+std::shared_ptr<line::TextSource> source_of(ProgramStream stream, storage::ProgramStore& store) {
+  return std::make_shared<StoredText>(std::move(stream), store);
 }
 
 }  // namespace dripline::ports

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "gateway/line/text_source.hpp"
 #include "storage/program_store.hpp"
 
 namespace dripline::ports {
@@ -39,5 +41,8 @@ class ProgramStream {
   std::vector<Piece> pieces_;
   std::uint64_t size_ = 0;
 };
+
+/// The same for a line; the store must outlive it.
+std::shared_ptr<line::TextSource> source_of(ProgramStream stream, storage::ProgramStore& store);
 
 }  // namespace dripline::ports

@@ -1,7 +1,7 @@
 #include "server/ports/programs/uploaded_program.hpp"
 
+#include "gateway/line/inbound/program_head.hpp"
 #include "protocol/base/names.hpp"
-#include "server/ports/programs/program_head.hpp"
 
 namespace dripline::ports {
 
@@ -29,7 +29,7 @@ Result<void> UploadedProgram::append(const std::string& text) {
   if (error_) return fail(*error_);
   text_ += text;
   if (text_.size() < kInMemory) return {};
-  const std::string name = fit_program_name(program_name(text_));
+  const std::string name = fit_program_name(line::program_name(text_));
   if (auto spilled = spill(name.empty() ? fallback_name() : name); !spilled) return spilled;
   if (damages_ > 0) error_ = Error{Errc::Corrupt, "it came damaged: " + first_damage_};
   return {};

@@ -9,6 +9,9 @@
 #include <vector>
 
 #include "gateway/interpreter/core/called_program_names.hpp"
+#include "gateway/line/inbound/comment_program.hpp"
+#include "gateway/line/inbound/program_head.hpp"
+#include "gateway/line/line_words.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
 #include "server/library/control_catalog.hpp"
@@ -16,7 +19,6 @@
 #include "server/machines/start_point.hpp"
 #include "server/ports/line_runs.hpp"
 #include "server/ports/line_transfer.hpp"
-#include "server/ports/programs/program_head.hpp"
 #include "server/ports/programs/program_stream.hpp"
 #include "storage/store.hpp"
 
@@ -24,51 +26,11 @@ namespace dripline::ports {
 namespace {
 
 constexpr std::size_t kMaxListed = 200;
-constexpr std::size_t kMaxComment = 60;
-constexpr std::string_view kSigns = " .-+/=:,";
 
 bool is_offered(const storage::ProgramSummary& program, const std::string& control) {
   const auto& latest = program.latest;
   if (program.is_removed || latest.is_held) return false;
   return control.empty() || latest.control.empty() || latest.control == control;
-}
-
-/// Capitals, digits and `.-+/=:,` only, at most 60 characters: what every control takes in a
-/// comment.
-std::string comment_text(std::string_view words) {
-  std::string text;
-  for (const char c : words.substr(0, kMaxComment)) {
-    const bool is_small = c >= 'a' && c <= 'z';
-    const bool is_plain =
-        (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || kSigns.find(c) != kSigns.npos;
-    if (is_small) {
-      text += static_cast<char>(c - 'a' + 'A');
-    } else {
-      text += is_plain ? c : ' ';
-    }
-  }
-  return text;
-}
-
-/// `words` broken at blanks into at most four lines of that length; none for no words.
-std::vector<std::string> comment_lines(std::string_view words) {
-  constexpr std::size_t kMaxLines = 4;
-  std::vector<std::string> lines;
-  while (!words.empty() && lines.size() < kMaxLines) {
-    auto end = words.size() <= kMaxComment ? words.size() : words.rfind(' ', kMaxComment);
-    if (end == std::string_view::npos || end == 0) end = kMaxComment;
-    lines.emplace_back(words.substr(0, end));
-    words.remove_prefix(end);
-    words.remove_prefix(std::min(words.find_first_not_of(' '), words.size()));
-  }
-  return lines;
-}
-
-/// A program called `name` ("O9998") that shows these lines and does nothing.
-std::string comment_program(const std::string& name, std::span<const std::string> lines) {
-  std::string text = fmt::format("%\n{}\n", name);
-  for (const auto& line : lines) text += fmt::format("({})\n", comment_text(line));
-  return text + "M30\n%\n";
 }
 
 /// One line for each program that can be sent to a machine with that control (empty: any), at most
@@ -97,7 +59,7 @@ std::vector<storage::Revision> numbered_programs(std::span<const storage::Progra
                                                  const std::string& control) {
   std::map<std::pair<std::size_t, std::string>, storage::Revision> in_order;
   for (const auto& program : programs) {
-    const std::string number = program_number(program.latest.program);
+    const std::string number = line::program_number(program.latest.program);
     const bool is_for_it = !control.empty() && program.latest.control == control;
     if (number.empty() || !is_for_it || !is_offered(program, control)) continue;
     in_order.emplace(std::pair(number.size(), number), program.latest);
@@ -141,23 +103,20 @@ Result<std::string> RemoteRequestHandler::find_offered(const std::string& name) 
               name);
 }
 
-void RemoteRequestHandler::carry_out(RuleAction action, const std::string& argument) {
+void RemoteRequestHandler::carry_out(line::RuleAction action, const std::string& argument) {
   process::log_info("request from the control machine={} action={} argument={}", parts_.machine,
                     to_string(action), argument);
-  if (action == RuleAction::Send) send(argument, false);
-  if (action == RuleAction::Directory) send_listing(false);
-  if (action == RuleAction::Restart) restart(argument);
-  if (action == RuleAction::NextJob) start_next_job();
+  if (action == line::RuleAction::Send) send(argument, false);
+  if (action == line::RuleAction::Directory) send_listing(false);
+  if (action == line::RuleAction::Restart) restart(argument);
+  if (action == line::RuleAction::NextJob) start_next_job();
 }
 
 void RemoteRequestHandler::answer(const wire::TransferRequest& request) {
   using Kind = wire::TransferRequest::Kind;
   if (request.kind == Kind::TakeProgram) {
     offers_.reset();
-    if (const auto line = parts_.directory.line_of(parts_.machine)) {
-      line->accept_receive(request.name);
-    }
-    return;
+    return parts_.line->accept_receive(request.name);
   }
   const bool names_one = request.kind == Kind::SendProgram && !request.name.empty();
   const auto needed = names_one ? wire::Offer::Named : wire::Offer::All;
@@ -170,16 +129,13 @@ void RemoteRequestHandler::answer(const wire::TransferRequest& request) {
 
 /// Nothing is sent that was not commanded: the request waits for the run that is started next.
 void RemoteRequestHandler::leave(const wire::TransferRequest& request) const {
-  const auto line = parts_.directory.line_of(parts_.machine);
-  if (!line) return;
-  const PortRequest asked{.since = {}, .program = request.name, .answer = {}};
-  process::log_info("port={} machine={}: {}", line->port().name, parts_.machine,
-                    request_words(asked));
-  line->note(request_words(asked));
-  if (parts_.refuses) line->refuse("NO RUN WAITS");
+  const line::PortRequest asked{.since = {}, .program = request.name, .answer = {}};
+  process::log_info("machine={}: {}", parts_.machine, request_words(asked));
+  parts_.line->note(request_words(asked));
+  if (parts_.refuses) parts_.line->refuse("NO RUN WAITS");
 }
 
-LineMachines::Started RemoteRequestHandler::on_started(bool is_request) const {
+RequestedLine::Started RemoteRequestHandler::on_started(bool is_request) const {
   return [handler = *this, is_request](const Result<storage::Run>& run) {
     if (!run) handler.refuse(run.error().what, is_request);
   };
@@ -209,12 +165,12 @@ void RemoteRequestHandler::send(const std::string& name, bool is_request) {
   if (!program) {
     return refuse(program.error().what, is_request, library::Refusal::NoSuchProgram);
   }
-  parts_.machines.start_later({.machine = parts_.machine,
-                               .program = *program,
-                               .revision = {},
-                               .author = kAuthor,
-                               .before = note_start("run.start")},
-                              on_started(is_request), is_request ? name : "");
+  parts_.line->start_later({.machine = parts_.machine,
+                            .program = *program,
+                            .revision = {},
+                            .author = kAuthor,
+                            .before = note_start("run.start")},
+                           on_started(is_request), is_request ? name : "");
 }
 
 void RemoteRequestHandler::restart(const std::string& block) {
@@ -228,29 +184,29 @@ void RemoteRequestHandler::restart(const std::string& block) {
   const auto last =
       parts_.store.runs.list({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});
   if (!last || last->empty()) return refuse("there was no run to begin again", false);
-  parts_.machines.start_later({.machine = parts_.machine,
-                               .program = last->front().program,
-                               .revision = last->front().revision,
-                               .author = kAuthor,
-                               .from = *point,
-                               .head = choice == "HEAD"  ? machines::StartHead::Send
-                                       : choice == "SET" ? machines::StartHead::Set
-                                                         : machines::StartHead::Ask,
-                               .before = note_start("run.restart")},
-                              on_started(false));
+  parts_.line->start_later({.machine = parts_.machine,
+                            .program = last->front().program,
+                            .revision = last->front().revision,
+                            .author = kAuthor,
+                            .from = *point,
+                            .head = choice == "HEAD"  ? machines::StartHead::Send
+                                    : choice == "SET" ? machines::StartHead::Set
+                                                      : machines::StartHead::Ask,
+                            .before = note_start("run.restart")},
+                           on_started(false), "");
 }
 
 /// The operator is at the control: what is sent waits there for his cycle start.
 void RemoteRequestHandler::start_next_job() {
   const auto job = library::take_job(parts_.store.jobs, parts_.machine, std::nullopt);
   if (!job) return refuse(job.error().what, false, library::Refusal::NothingToSelect);
-  parts_.machines.start_later({.machine = parts_.machine,
-                               .program = job->program,
-                               .revision = job->revision,
-                               .author = kAuthor,
-                               .job = job->id,
-                               .before = note_start("run.start")},
-                              on_started(false));
+  parts_.line->start_later({.machine = parts_.machine,
+                            .program = job->program,
+                            .revision = job->revision,
+                            .author = kAuthor,
+                            .job = job->id,
+                            .before = note_start("run.start")},
+                           on_started(false), "");
 }
 
 void RemoteRequestHandler::send_listing(bool is_request) {
@@ -266,23 +222,21 @@ void RemoteRequestHandler::send_listing(bool is_request) {
     for (const auto& line : lines) text += line + "\n";
     return send_answer("", text);
   }
-  const std::string& name = parts_.rules->reply();
-  send_answer(name, comment_program(name.empty() ? "O9998" : name, lines));
+  const std::string& name = parts_.reply;
+  send_answer(name, line::comment_program(name.empty() ? "O9998" : name, lines));
 }
 
 /// A control that names none gets all that have a number, one a request, and then "no more": so it
 /// lists them, or takes those it wants. They are no runs.
 void RemoteRequestHandler::send_next() {
-  const auto line = parts_.directory.line_of(parts_.machine);
-  if (!line) return;
   if (auto sound = check_last_run(); !sound) return refuse(sound.error().what, true);
   if (auto listed = list_offers(); !listed) return refuse(listed.error().what, true);
   if (next_offer_ >= offers_->size()) {
     if (!std::exchange(is_end_told_, true)) {
-      line->note(
+      parts_.line->note(
           fmt::format("the control has been offered {} programs: none is left", next_offer_));
     }
-    return line->refuse("");
+    return parts_.line->refuse("");
   }
   const auto& revision = (*offers_)[next_offer_++];
   // It may have been withdrawn since the list was made.
@@ -292,11 +246,11 @@ void RemoteRequestHandler::send_next() {
   const std::string what = fmt::format("{} revision {}", revision.program, revision.number);
   if (auto noted = note("port.offer", parts_.machine, what); !noted)
     return refuse(noted.error().what, true);
-  line->note(fmt::format("the control asked: program {} revision {} is offered", revision.program,
-                         revision.number));
+  parts_.line->note(fmt::format("the control asked: program {} revision {} is offered",
+                                revision.program, revision.number));
   SendJob job;
-  job.name = program_number(revision.program);
-  job.stream = std::make_shared<ProgramStream>(ProgramStream::of(revision.content, revision.size));
+  job.name = line::program_number(revision.program);
+  job.source = source_of(ProgramStream::of(revision.content, revision.size), parts_.store.programs);
   job.size = revision.size;
   put_on_line(std::move(job));
 }
@@ -349,20 +303,18 @@ Result<void> RemoteRequestHandler::list_offers() {
 void RemoteRequestHandler::refuse(const std::string& why, bool is_request,
                                   library::Refusal refusal) const {
   process::log_warning("request from the control refused machine={}: {}", parts_.machine, why);
-  const auto line = parts_.directory.line_of(parts_.machine);
-  if (!line) return;
-  line->note("refused: " + why);
-  if (is_request) return line->refuse(why);
+  parts_.line->note("refused: " + why);
+  if (is_request) return parts_.line->refuse(why);
   report({why, library::control_words(control(), refusal)});
 }
 
 void RemoteRequestHandler::report(const std::vector<std::string>& words) const {
-  if (parts_.rules->reply().empty()) return;
+  if (parts_.reply.empty()) return;
   std::vector<std::string> lines;
   for (const auto& word : words) {
-    for (auto& line : comment_lines(word)) lines.push_back(std::move(line));
+    for (auto& line : line::comment_lines(word)) lines.push_back(std::move(line));
   }
-  send_answer(parts_.rules->reply(), comment_program(parts_.rules->reply(), lines));
+  send_answer(parts_.reply, line::comment_program(parts_.reply, lines));
 }
 
 void RemoteRequestHandler::send_answer(std::string name, std::string text) const {
@@ -374,13 +326,9 @@ void RemoteRequestHandler::send_answer(std::string name, std::string text) const
 }
 
 void RemoteRequestHandler::put_on_line(SendJob job) const {
-  const auto line = parts_.directory.line_of(parts_.machine);
-  if (!line) return;
   job.kind = JobKind::Answer;
   job.id = fmt::format("answer-{}", random_hex(4));
-  line->begin(std::move(job), [machine = parts_.machine](const Result<void>& begun) {
-    if (!begun) process::log_warning("answer not sent machine={}: {}", machine, begun.error().what);
-  });
+  parts_.line->send(std::move(job));
 }
 
 }  // namespace dripline::ports

@@ -3,11 +3,10 @@
 #include <memory>
 #include <string>
 
+#include "gateway/line/inbound/rule_set.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/releases.hpp"
-#include "server/ports/line_machines.hpp"
-#include "server/ports/line_records.hpp"
-#include "server/ports/requests/rule_set.hpp"
+#include "server/ports/requests/requested_line.hpp"
 
 namespace dripline::ports {
 
@@ -30,11 +29,10 @@ class RemoteRequestHandler {
   struct Parts {
     const storage::Store& store;
     library::Releases& releases;
-    LineMachines& machines;
-    const LineDirectory& directory;
+    std::shared_ptr<RequestedLine> line;
     const Clock& clock;
     std::string machine;
-    std::shared_ptr<const RuleSet> rules;
+    std::string reply;  ///< the program that messages come in; empty: none do
     wire::Offer offer = wire::Offer::None;
     bool refuses = false;  ///< a request that is not answered at once is worth nothing: blockwise
     bool tells_aborts =
@@ -43,7 +41,7 @@ class RemoteRequestHandler {
   explicit RemoteRequestHandler(Parts parts) : parts_(std::move(parts)) {}
 
   /// Send, Directory, Restart or NextJob.
-  void carry_out(RuleAction action, const std::string& argument);
+  void carry_out(line::RuleAction action, const std::string& argument);
   /// A request of the protocol itself.
   void answer(const wire::TransferRequest& request);
   /// What `answer` put on the line has been sent, or not.
@@ -52,7 +50,7 @@ class RemoteRequestHandler {
   void on_transfer_completed() { is_sent_since_ = true; }
   /// A run is on the line, or was.
   void on_run() { is_sent_since_ = false; }
-  /// Short messages to the control, as a program; nothing when the rules name no program for it.
+  /// Short messages to the control, as a program; nothing when there is no program for it.
   void report(const std::vector<std::string>& words) const;
 
  private:
@@ -74,7 +72,7 @@ class RemoteRequestHandler {
               library::Refusal refusal = library::Refusal::None) const;
   void send_answer(std::string name, std::string text) const;
   void put_on_line(SendJob job) const;
-  LineMachines::Started on_started(bool is_request) const;
+  RequestedLine::Started on_started(bool is_request) const;
   /// The library's name for what the control calls `name`. Errors: NotFound.
   Result<std::string> find_program(const std::string& name) const;
   /// The same for a request: only what is known to be for the machine's control.

@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <string>
 
-#include "server/ports/programs/inbound_splitter.hpp"
-#include "server/ports/requests/rule_reader.hpp"
+#include "gateway/line/inbound/inbound_splitter.hpp"
+#include "gateway/line/inbound/rule_reader.hpp"
 
 namespace {
 
-using namespace dripline::ports;
+using namespace dripline::line;
 using What = InboundSplitter::Item::What;
 
 void add(const std::vector<InboundSplitter::Item>& items, std::string& reported) {

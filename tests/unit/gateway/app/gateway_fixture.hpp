@@ -68,6 +68,7 @@ class GatewayFixture : public dds::GatewayEndpoint {
   Result<void> write(const dds::Record& message) override;
   Result<void> write(const dds::CommandResult& message) override;
   Result<void> write(const dds::BlockRequest& message) override;
+  Result<void> write(const dds::LineData&) override { return {}; }
   bool is_connected() const override { return is_up; }
   dds::Rejected rejected() const override { return {}; }
 

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <fstream>
+#include <sstream>
 
 #include "gateway/app/options.hpp"
 #include "gateway/interpreter/core/setup.hpp"
@@ -136,6 +138,54 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"list_where_none_is", "line = ['/dev/ttyS3']\n", "not a list"},
         Refused{"neither_server_nor_line", "server = 'none'\n", "--server none"}),
     [](const auto& i) { return std::string(i.param.name); });
+
+GatewayOptions beside_a_control(const std::string& more) {
+  GatewayOptions options = base();
+  EXPECT_TRUE(apply_config("motion = 'line:/dev/ttyUSB0'\n" + more, options));
+  return options;
+}
+
+TEST(BesideAControl, TheLineIsTheMotions) {
+  GatewayOptions options =
+      beside_a_control("line-setting = ['4800e71', 'end_char=%']\nline-ahead-s = 60\n");
+  ASSERT_TRUE(complete(options));
+  EXPECT_TRUE(options.drives_control());
+  EXPECT_EQ(options.line->address, "/dev/ttyUSB0");
+  EXPECT_EQ(options.line->template_name, "centurion");
+  EXPECT_EQ(wire::short_form(options.line->settings), "4800e71");
+  EXPECT_EQ(options.line->settings.end_character, '%');
+  EXPECT_EQ(options.line->ahead, std::chrono::seconds(60));
+  EXPECT_FALSE(options.is_unattended) << "people are at a real machine";
+}
+
+TEST(BesideAControl, RefusesWhatOnlyTheOtherEndHas) {
+  for (const char* more : {"line = '/dev/ttyS3'\n", "server = 'none'\n"}) {
+    GatewayOptions options = beside_a_control(more);
+    EXPECT_FALSE(complete(options)) << more;
+  }
+  GatewayOptions options = base();
+  EXPECT_FALSE(apply_config("motion = 'line:'\n", options) && complete(options));
+}
+
+TEST(BesideAControl, ATncIsNotAskedByItself) {
+  GatewayOptions options = beside_a_control("line-template = 'tnc155-bcc'\n");
+  ASSERT_TRUE(complete(options));
+  EXPECT_EQ(options.line->request, "");
+}
+
+TEST(BesideAControl, TheExampleIsRead) {
+  std::ifstream file("deploy/examples/box/mill.toml");
+  std::ostringstream text;
+  text << file.rdbuf();
+  GatewayOptions options;
+  options.state = "/tmp/state";
+  const auto applied = apply_config(text.str(), options);
+  ASSERT_TRUE(applied) << applied.error().what;
+  const auto done = complete(options);
+  ASSERT_TRUE(done) << done.error().what;
+  EXPECT_TRUE(options.drives_control());
+  EXPECT_EQ(options.line->ahead, std::chrono::minutes(10));
+}
 
 }  // namespace
 }  // namespace dripline::gateway

@@ -19,6 +19,8 @@ const std::map<std::string, Names> kOutsideTheLists{
     {"ActiveModes", {"is_present"}},
     {"Coordinates", {"is_present", "has_following_error", "has_program"}},
     {"BlockData", {"crc"}},
+    {"LineStatus", {"is_present", "has_upload", "has_call"}},
+    {"LineData", {"crc"}},
 };
 
 class NameCollector {
@@ -76,7 +78,12 @@ TEST(Members, AreThoseOfTheIdlInItsOrder) {
   EXPECT_EQ(names_in_list<CommandResult>(), names_in_idl("CommandResult"));
   EXPECT_EQ(names_in_list<BlockRequest>(), names_in_idl("BlockRequest"));
   EXPECT_EQ(names_in_list<BlockData>(), names_in_idl("BlockData"));
-  EXPECT_GE(names_in_idl("Status").size(), 31U);
+  EXPECT_EQ(names_in_list<LineUpload>(), names_in_idl("LineUpload"));
+  EXPECT_EQ(names_in_list<LineCall>(), names_in_idl("LineCall"));
+  EXPECT_EQ(names_in_list<LineStatus>(), names_in_idl("LineStatus"));
+  EXPECT_EQ(names_in_list<LineRequest>(), names_in_idl("LineRequest"));
+  EXPECT_EQ(names_in_list<LineData>(), names_in_idl("LineData"));
+  EXPECT_GE(names_in_idl("Status").size(), 32U);
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "gateway/line/inbound/rule_reader.hpp"
 #include "server/app/settings.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/release_policy.hpp"
 #include "server/ports/port_settings.hpp"
-#include "server/ports/requests/rule_reader.hpp"
 
 namespace dripline {
 namespace {
@@ -27,7 +27,7 @@ TEST(Examples, PortsAreTakenByTheServersSettingsAndFitTheirTemplates) {
   for (const auto& port : settings.ports) {
     const auto line = ports::effective_settings(port);
     EXPECT_TRUE(line) << port.name << ": " << line.error().what;
-    const auto rules = ports::read_rules(port.rules);
+    const auto rules = line::read_rules(port.rules);
     EXPECT_TRUE(rules) << port.name << ": " << rules.error().what;
   }
   EXPECT_EQ(wire::short_form(ports::effective_settings(settings.ports[1]).value()), "9600e71");
@@ -78,7 +78,7 @@ TEST(Ports, OfATncHaveItsEightRates) {
 }
 
 TEST(Examples, RulesDoWhatTheirCommentsDescribe) {
-  const auto rules = ports::read_rules(read("deploy/examples/rules.toml"));
+  const auto rules = line::read_rules(read("deploy/examples/rules.toml"));
   ASSERT_TRUE(rules) << rules.error().what;
   const auto verdict = [&](const std::string& text) {
     const auto found = rules->explain(text);

@@ -27,10 +27,11 @@ std::string topics() {
 }
 
 std::string from_gateway() {
-  return topics<dds::Announce, dds::Status, dds::Record, dds::CommandResult, dds::BlockRequest>();
+  return topics<dds::Announce, dds::Status, dds::Record, dds::CommandResult, dds::BlockRequest,
+                dds::LineData>();
 }
 std::string from_server() {
-  return topics<dds::RecordAck, dds::Command, dds::BlockData>();
+  return topics<dds::RecordAck, dds::Command, dds::BlockData, dds::LineRequest>();
 }
 
 TEST(Permissions, OfAGatewayAreItsDirectionInItsMachinesPartition) {

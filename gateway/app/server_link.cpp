@@ -1,0 +1,48 @@
+#include "gateway/app/server_link.hpp"
+
+#include <utility>
+
+#include "protocol/process/log.hpp"
+
+namespace dripline::gateway {
+
+void ServerLink::on_server(bool is_connected) {
+  process::log_info("server {} machine={}", is_connected ? "connected" : "gone",
+                    parts_.options.machine);
+  is_connected_ = is_connected;
+  refused_.clear();
+  if (is_connected_) is_due_ = true;
+}
+
+void ServerLink::on_refusal(const dds::Command& command) {
+  if (std::exchange(refused_, command.argument) == command.argument) return;
+  process::log_error("the server does not command this gateway: {} machine={}", command.argument,
+                     parts_.options.machine);
+}
+
+void ServerLink::announce() {
+  if (!is_due_) return;
+  dds::Announce message;
+  message.machine = parts_.options.machine;
+  message.control = parts_.options.control;
+  message.version = DRIPLINE_VERSION;
+  message.epoch = parts_.outbox.epoch();
+  message.session = parts_.session;
+  message.description = parts_.options.description;
+  if (const auto& certificate = parts_.options.certificate)
+    message.certificate_expires = certificate->not_after;
+  message.has_line = parts_.options.drives_control();
+  is_due_ = !parts_.endpoint.write(message).has_value();
+}
+
+void ServerLink::log_rejected(SteadyTime now) {
+  constexpr std::chrono::minutes kInterval{1};
+  const dds::Rejected dropped = parts_.endpoint.rejected();
+  if (dropped.messages == logged_ || now < next_log_) return;
+  process::log_warning("dropped {} DDS messages, the last: {} machine={}",
+                       dropped.messages - logged_, dropped.last_reason, parts_.options.machine);
+  logged_ = dropped.messages;
+  next_log_ = now + kInterval;
+}
+
+}  // namespace dripline::gateway

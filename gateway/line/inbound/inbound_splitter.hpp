@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/dialects/centurion/reading/program_extraction.hpp"
+
+namespace dripline::line {
+
+class RuleSet;
+
+/// Cuts what a control sends into programs and printed lines while it arrives. A line is an item
+/// when it is complete; a program is several, because it may be of any size. NUL, DEL and CR are
+/// dropped. With `extracts` a program ends where the next one's O line begins, so a text with
+/// several becomes several; nothing is left out. One thread; the rules must outlive it.
+class InboundSplitter {
+ public:
+  /// A longer line that is printed becomes several items.
+  static constexpr std::size_t kMaxLine = 4096;
+
+  struct Item {
+    enum class What : std::uint8_t {
+      Line,           ///< text: without its LF
+      ProgramBegan,   ///< text: the name, when the protocol carries one
+      ProgramText,    ///< text: a piece, LF after each block
+      ProgramEnded,   ///< text: its head, at most kProgramHead bytes
+      ProgramFailed,  ///< it was cut off
+    };
+    What what = What::Line;
+    std::string text;
+  };
+
+  explicit InboundSplitter(const RuleSet& rules, bool extracts = false)
+      : rules_(rules), extracts_(extracts) {}
+
+  /// What such a control sends is a program whatever it looks like: it prints nothing.
+  void take_programs_only(bool only) { takes_programs_only_ = only; }
+  /// A transfer begins; one with a name, or a requested one, is a program and nothing else.
+  void begin(std::string name, bool is_program = false);
+  std::vector<Item> take(std::string_view text);
+  /// The transfer is over, whether one was begun or not.
+  std::vector<Item> end();
+  /// It was cut off: what was printed stays, a program does not.
+  std::vector<Item> fail();
+  /// What is coming in is a program, or may turn out to be one; false: it is printed.
+  bool may_be_program() const;
+
+ private:
+  void end_line();
+  bool is_program_line(const std::string& line) const;
+  bool begins_next(const std::string& line);
+  void begin_program();
+  void begin_program_with(const std::string& line);
+  void add_to_program(std::string_view text);
+  void flush_program();
+  void end_program();
+  std::vector<Item> taken();
+
+  const RuleSet& rules_;
+  const bool extracts_;
+  bool takes_programs_only_ = false;
+  interpreter::centurion::ProgramSplitter programs_;  ///< of the text in hand
+  std::vector<Item> items_;
+  std::string line_;   ///< not complete
+  std::string piece_;  ///< of a program, not yet an item
+  std::string head_;
+  std::string name_;
+  bool is_program_ = false;
+  bool is_after_percent_ = false;  ///< a line of % alone came, and nothing since
+  bool is_printing_ = false;       ///< what is between two % is printed
+  std::uint64_t blocks_ = 0;       ///< of the program
+};
+
+}  // namespace dripline::line

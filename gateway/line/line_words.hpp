@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "gateway/line/line_session.hpp"
+#include "gateway/line/port_view.hpp"
+
+/// What a line does, for people: the same words on a port of the server and on a gateway.
+namespace dripline::line {
+
+enum class LineActivity : std::uint8_t { Ready, Waiting, Held, Active };
+LineActivity activity_of(const LineView& port, const std::optional<SendProgress>& progress);
+/// What it waits for, or why it does nothing; empty: nothing is to be said.
+std::string message_of(const LineView& port, const std::optional<SendProgress>& progress);
+
+/// What a control asked for in vain, for people.
+std::string request_words(const PortRequest& request);
+/// Of a busy port: "receiving", "sending run ..." or which programs it sends.
+std::string what_it_does(const LineView& port);
+
+}  // namespace dripline::line

@@ -1,0 +1,394 @@
+#include "gateway/line/port_line.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "gateway/line/once_answer.hpp"
+#include "protocol/process/log.hpp"
+
+namespace dripline::line {
+namespace {
+
+constexpr std::uint64_t kFetchPiece = 32 * 1024;
+
+bool is_answer(const SendProgress& progress) {
+  return progress.kind == JobKind::Answer;
+}
+
+TransferState state_of(SendOutcome outcome) {
+  switch (outcome) {
+    case SendOutcome::Completed:
+      return TransferState::Completed;
+    case SendOutcome::Aborted:
+      return TransferState::Aborted;
+    case SendOutcome::Interrupted:
+      return TransferState::Interrupted;
+  }
+  return TransferState::Interrupted;
+}
+
+}  // namespace
+
+PortLine::PortLine(Parts parts)
+    : parts_(std::move(parts)),
+      recorder_(parts_.recording, parts_.clock, parts_.on_traffic),
+      session_(parts_.settings, *this) {}
+
+std::shared_ptr<PortLine> PortLine::make(Parts parts) {
+  return std::shared_ptr<PortLine>(new PortLine(std::move(parts)));
+}
+
+PortLine::~PortLine() {
+  // The driver's thread calls this object until it is joined.
+  close("the server is stopping");
+}
+
+serial::LineListener PortLine::line_listener() {
+  return {.on_event =
+              [this](wire::Event& event) {
+                with_line([this, event = std::move(event)](wire::Discipline& line,
+                                                           wire::LineTime now) mutable {
+                  session_.on_event(std::move(event), line, now);
+                  refresh();
+                });
+              },
+          .on_traffic = [this](const serial::LineTraffic& traffic) { recorder_.add(traffic); },
+          .on_channel = [this](const Error* lost) { on_channel(lost); },
+          .on_room =
+              [this] {
+                with_line([this](wire::Discipline& line, wire::LineTime now) {
+                  session_.on_room(line, now);
+                });
+              }};
+}
+
+void PortLine::open() {
+  // Held while the driver starts, so that its first calls find it here.
+  const std::lock_guard lock(mutex_);
+  if (is_closed_ || driver_) return;
+  auto driver = parts_.open({.address = parts_.names.address,
+                             .settings = parts_.settings,
+                             .role = wire::Role::Host,
+                             .listener = line_listener()});
+  if (driver) {
+    driver_ = *std::move(driver);
+    if (parts_.is_program_broken)
+      driver_->post([](wire::Discipline& line, wire::LineTime) { line.expect_release(); });
+    return;
+  }
+  fault_ = driver.error().what;
+  process::log_error("port={} cannot be used: {}", parts_.names.name, fault_);
+}
+
+void PortLine::close(const std::string& reason) {
+  std::unique_ptr<serial::LineDriver> driver;
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(is_closed_, true)) return;
+    driver = std::move(driver_);
+  }
+  driver.reset();
+  session_.stop(reason);
+  refresh();
+  recorder_.flush();
+}
+
+bool PortLine::with_line(Work work) {
+  const std::lock_guard lock(mutex_);
+  if (!driver_) return false;
+  driver_->post(std::move(work));
+  return true;
+}
+
+void PortLine::on_channel(const Error* lost) {
+  set_fault(lost != nullptr ? lost->what : "");
+  if (lost != nullptr) {
+    with_line([this, error = *lost](wire::Discipline& line, wire::LineTime) {
+      session_.on_lost(error, line);
+      refresh();
+    });
+  } else {
+    recorder_.on_opened();
+    with_line([this](wire::Discipline& line, wire::LineTime now) {
+      session_.on_open(line, now);
+      refresh();
+    });
+  }
+  process::log_info("port={} machine={} {}", parts_.names.name, parts_.names.machine,
+                    lost != nullptr ? "has no line: " + lost->what : "is open");
+  parts_.post([on_change = parts_.listener.on_change] { on_change(); });
+}
+
+void PortLine::set_fault(const std::string& words) {
+  const std::lock_guard lock(mutex_);
+  fault_ = words;
+}
+
+/// What others may know of the session, copied for them on the session's thread.
+void PortLine::refresh() {
+  auto progress = session_.progress();
+  const std::lock_guard lock(mutex_);
+  progress_ = std::move(progress);
+  text_ahead_ = session_.text_ahead();
+  is_receiving_ = session_.is_receiving();
+}
+
+LineView PortLine::view() const {
+  LineView view;
+  view.names = parts_.names;
+  view.settings = parts_.settings;
+  view.sent = recorder_.sent();
+  view.received = recorder_.received();
+  const std::lock_guard lock(mutex_);
+  view.fault = store_fault_.empty() ? fault_ : store_fault_;
+  view.waiting_since = waiting_since_;
+  if (progress_ && progress_->kind == JobKind::Run) view.run = progress_->id;
+  view.transfer = transfer_;
+  if (transfer_ && progress_ && progress_->id == transfer_->id) {
+    view.transfer->sent = progress_->sent.bytes;
+  }
+  if (!driver_) return view;
+  view.is_open = driver_->is_open();
+  view.line = driver_->state();
+  const bool is_over = request_ && request_->answer.empty() && !view.line.is_asked;
+  if (!is_over) view.request = request_;
+  return view;
+}
+
+std::uint64_t PortLine::text_ahead() const {
+  const std::lock_guard lock(mutex_);
+  return text_ahead_;
+}
+
+std::optional<SendProgress> PortLine::progress() const {
+  const std::lock_guard lock(mutex_);
+  return progress_;
+}
+
+bool PortLine::is_busy() const {
+  const std::lock_guard lock(mutex_);
+  if (progress_ && !is_answer(*progress_)) return true;
+  return is_receiving_ && may_be_program_ && !(driver_ && driver_->state().is_stray);
+}
+
+void PortLine::note_kind(bool may_be_program) {
+  const std::lock_guard lock(mutex_);
+  may_be_program_ = may_be_program;
+}
+
+void PortLine::note_store_fault(const std::string& words) {
+  const std::lock_guard lock(mutex_);
+  store_fault_ = words;
+}
+
+void PortLine::drop_answer() {
+  const auto progress = this->progress();
+  if (!progress || !is_answer(*progress)) return;
+  abort(progress->id, "a run takes its place", [](const Result<void>&) {});
+}
+
+void PortLine::ask(std::function<Result<void>(wire::Discipline&, wire::LineTime)> work,
+                   Answer answer) {
+  const auto once = std::make_shared<OnceAnswer>(parts_.post, std::move(answer));
+  with_line([this, work = std::move(work), once](wire::Discipline& line, wire::LineTime now) {
+    auto result = work(line, now);
+    refresh();
+    once->give(std::move(result));
+  });
+}
+
+void PortLine::begin(SendJob job, Answer answer) {
+  const auto shared = std::make_shared<SendJob>(std::move(job));
+  ask(
+      [this, shared](wire::Discipline& line, wire::LineTime now) {
+        auto before = show_transfer(*shared);
+        auto begun = session_.begin(std::move(*shared), line, now);
+        begun ? answer_request() : take_back(std::move(before));
+        return begun;
+      },
+      std::move(answer));
+}
+
+void PortLine::begin_receive(Answer answer) {
+  ask([this](wire::Discipline& line,
+             wire::LineTime now) { return session_.begin_receive(line, now); },
+      std::move(answer));
+}
+
+void PortLine::stop_receiving(const std::string& reason, Answer answer) {
+  ask(
+      [this, reason](wire::Discipline& line, wire::LineTime now) -> Result<void> {
+        if (session_.stop_receiving(reason, line, now)) return {};
+        return fail(Errc::Conflict, "nothing comes in that could be stopped");
+      },
+      std::move(answer));
+}
+
+namespace {
+
+Result<void> unless_over(bool is_done, const std::string& id) {
+  if (is_done) return {};
+  return fail(Errc::Conflict, "{} is not on the line any more", id);
+}
+
+}  // namespace
+
+void PortLine::hold(const std::string& id, Answer answer) {
+  ask([this, id](wire::Discipline&, wire::LineTime) { return unless_over(session_.hold(id), id); },
+      std::move(answer));
+}
+
+void PortLine::resume(const std::string& id, Answer answer) {
+  ask([this, id](wire::Discipline& line,
+                 wire::LineTime now) { return unless_over(session_.resume(id, line, now), id); },
+      std::move(answer));
+}
+
+void PortLine::abort(const std::string& id, const std::string& reason, Answer answer) {
+  ask(
+      [this, id, reason](wire::Discipline& line, wire::LineTime now) {
+        return unless_over(session_.abort(id, reason, line, now), id);
+      },
+      std::move(answer));
+}
+
+void PortLine::refuse(const std::string& reason) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (request_) request_->answer = reason.empty() ? "no program is left" : reason;
+  }
+  with_line([reason](wire::Discipline& line, wire::LineTime now) {
+    if (auto refused = line.refuse(reason, now); !refused) {
+      process::log_warning("refusal not sent: {}", refused.error().what);
+    }
+  });
+}
+
+void PortLine::accept_receive(const std::string& name) {
+  with_line([this, name](wire::Discipline& line, wire::LineTime now) {
+    if (auto begun = line.begin_receive(name, now); !begun) on_fault(begun.error());
+  });
+}
+
+void PortLine::note(const std::string& text) {
+  recorder_.add({.what = serial::LineTraffic::What::Note, .time = {}, .bytes = {}, .text = text});
+}
+
+void PortLine::tick() {
+  with_line([this](wire::Discipline& line, wire::LineTime now) {
+    session_.poll(line, now);
+    refresh();
+  });
+  watch_wait();
+  recorder_.flush();
+}
+
+void PortLine::watch_wait() {
+  const std::lock_guard lock(mutex_);
+  const bool is_waiting = driver_ && driver_->state().may_wait_without_limit;
+  if (!is_waiting) {
+    waiting_since_.reset();
+  } else if (!waiting_since_) {
+    waiting_since_ = parts_.clock.now();
+  }
+}
+
+void PortLine::fetch(const SendJob& job, std::uint64_t offset) {
+  Wanted wanted{.id = job.id, .source = job.source, .offset = offset, .size = job.size};
+  parts_.post([weak = weak_from_this(), wanted = std::move(wanted)] {
+    if (const auto self = weak.lock()) self->read_piece(wanted);
+  });
+}
+
+void PortLine::read_piece(const Wanted& wanted) {
+  auto piece = wanted.source->read(wanted.offset, kFetchPiece);
+  const bool has_come = !piece || !piece->empty() || wanted.offset >= wanted.size;
+  if (!has_come) {
+    wanted_ = wanted;
+    return;
+  }
+  wanted_.reset();
+  // The driver is this object's own: no work outlives it.
+  with_line([this, id = wanted.id, offset = wanted.offset, piece = std::move(piece)](
+                wire::Discipline& line, wire::LineTime now) {
+    if (!piece) return session_.supply_failed(id, piece.error(), line, now);
+    session_.supply(id, offset, *piece, line, now);
+  });
+}
+
+void PortLine::on_text() {
+  if (const auto wanted = std::exchange(wanted_, std::nullopt)) read_piece(*wanted);
+}
+
+/// Before it begins, because its end may come at once. What was shown before.
+std::optional<PortTransfer> PortLine::show_transfer(const SendJob& job) {
+  const std::lock_guard lock(mutex_);
+  auto before = transfer_;
+  if (job.kind == JobKind::Transfer) {
+    transfer_ = PortTransfer{.id = job.id, .programs = job.programs, .size = job.size};
+  }
+  return before;
+}
+
+void PortLine::take_back(std::optional<PortTransfer> before) {
+  const std::lock_guard lock(mutex_);
+  transfer_ = std::move(before);
+}
+
+void PortLine::end_transfer(const SendEnd& end) {
+  const std::lock_guard lock(mutex_);
+  if (!transfer_ || transfer_->id != end.progress.id) return;
+  transfer_->sent = end.progress.sent.bytes;
+  transfer_->state = state_of(end.outcome);
+  transfer_->reason = end.reason;
+}
+
+void PortLine::on_sent(const SendEnd& end) {
+  end_transfer(end);
+  refresh();  // the listener must not find it any more
+  parts_.post([on_sent = parts_.listener.on_sent, end] { on_sent(end); });
+}
+
+void PortLine::on_incoming(Incoming incoming) {
+  refresh();  // a listener that acts on the end must not find the line receiving
+  // Destroyed lines keep nothing up: the text is kept all the same.
+  parts_.post([weak = weak_from_this(), on_incoming = parts_.listener.on_incoming,
+               incoming = std::move(incoming)] {
+    const std::size_t size = incoming.what == Incoming::What::Text ? incoming.text.size() : 0;
+    on_incoming(incoming, [weak, size] {
+      const auto self = weak.lock();
+      if (!self || size == 0) return;
+      PortLine& port = *self;
+      port.with_line([&port, size](wire::Discipline& line, wire::LineTime now) {
+        port.session_.kept(size, line, now);
+      });
+    });
+  });
+}
+
+/// What is sent now is the answer.
+void PortLine::answer_request() {
+  const std::lock_guard lock(mutex_);
+  request_.reset();
+}
+
+void PortLine::on_request(const wire::TransferRequest& request) {
+  if (request.kind != wire::TransferRequest::Kind::TakeProgram) {
+    const std::lock_guard lock(mutex_);
+    request_ = PortRequest{.since = parts_.clock.now(), .program = request.name, .answer = {}};
+  }
+  parts_.post([on_request = parts_.listener.on_request, request] { on_request(request); });
+}
+
+void PortLine::on_fault(const Error& error) {
+  process::log_warning("port={} machine={}: {}", parts_.names.name, parts_.names.machine,
+                       error.what);
+  set_fault(error.what);
+  note(error.what);
+}
+
+void PortLine::on_progress(const SendProgress& progress) {
+  if (parts_.listener.on_progress) parts_.listener.on_progress(progress);
+}
+
+}  // namespace dripline::line

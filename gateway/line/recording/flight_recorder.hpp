@@ -1,0 +1,74 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "gateway/line/port_view.hpp"
+#include "gateway/line/recording/recording_file.hpp"
+#include "protocol/base/clock.hpp"
+#include "protocol/serial/line_driver.hpp"
+
+namespace dripline::line {
+
+/// Keeps the last minutes of what passed over one line. Characters of one direction that follow
+/// each other closely are one entry. Memory is bounded by Options; a copy goes to disk with every
+/// flush, so that a kill costs what came after the last one. Any thread.
+class FlightRecorder {
+ public:
+  struct Options {
+    std::string port;
+    std::filesystem::path folder;  ///< empty: in memory only
+    std::size_t max_bytes = 4 * 1024 * 1024;
+    std::chrono::seconds max_age{600};
+  };
+  /// An entry is closed at this size, when the direction changes, and this long after it began.
+  static constexpr std::size_t kMaxEntry = 256;
+  static constexpr std::chrono::milliseconds kMaxSpan{50};
+
+  /// Reads what an earlier life of the server has left. `on_entry` is called by flush().
+  FlightRecorder(Options options, const Clock& clock,
+                 std::function<void(const PortTraffic&)> on_entry);
+
+  /// Uses memory only: for the line's thread.
+  void add(const serial::LineTraffic& traffic);
+  /// Publishes and writes complete entries; called some times a second, from one thread at a time.
+  void flush();
+  /// Resets the counts.
+  void on_opened();
+  /// Oldest first.
+  std::vector<PortTraffic> entries() const;
+  /// Those from the `number`th on that this object has seen and still has; the first of them has
+  /// the number `first`. Only complete ones, so that their number is final.
+  struct Part {
+    std::uint64_t first = 0;
+    std::vector<PortTraffic> entries;
+  };
+  Part entries_from(std::uint64_t number, std::size_t max_entries = 512) const;
+  std::uint64_t sent() const;      ///< characters, since the line was opened
+  std::uint64_t received() const;  ///< the same
+  std::uint64_t faults() const;    ///< the same
+
+ private:
+  bool joins(const serial::LineTraffic& traffic, UtcTime now) const;
+  void append(PortTraffic entry);
+  void close_open(UtcTime now);
+  void drop_old(UtcTime now);
+
+  const Options options_;
+  const Clock& clock_;
+  const std::function<void(const PortTraffic&)> on_entry_;
+  std::optional<RecordingFile> file_;  ///< used by flush only
+  mutable std::mutex mutex_;
+  std::deque<PortTraffic> entries_;
+  std::optional<PortTraffic> open_;  ///< still growing
+  std::uint64_t dropped_ = 0;        ///< entries before the first one
+  std::size_t bytes_ = 0;
+  std::size_t untold_ = 0;  ///< of the newest entries
+  std::uint64_t sent_ = 0, received_ = 0, faults_ = 0;
+};
+
+}  // namespace dripline::line

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "protocol/base/result.hpp"
+
+namespace dripline::line {
+
+/// Where the text of a job comes from. Read where the owner of the line waits, never on the line's
+/// thread.
+class TextSource {
+ public:
+  virtual ~TextSource() = default;
+  /// At most `length` bytes from `offset`, which lies before the text's end; fewer do not mean the
+  /// end. Empty: they have not come yet, PortLine::on_text asks again. Errors: it cannot be had;
+  /// the job ends.
+  virtual Result<std::string> read(std::uint64_t offset, std::uint64_t length) = 0;
+};
+
+}  // namespace dripline::line

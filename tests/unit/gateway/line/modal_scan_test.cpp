@@ -1,0 +1,115 @@
+#include "gateway/line/heads/modal_scan.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dripline::line {
+namespace {
+
+/// A program cut where a run begins, and what is found out about it.
+struct ModalCase {
+  const char* name;
+  const char* control;
+  std::vector<const char*> skipped, rest;
+  const char* words;  ///< as words_text has them
+  const char* head = nullptr;
+};
+
+class ModalScanTest : public testing::TestWithParam<ModalCase> {};
+
+TEST_P(ModalScanTest, NamesWhatTheRestReliesOn) {
+  ModalScan scan(GetParam().control);
+  for (const auto* block : GetParam().skipped) scan.skip(block);
+  bool is_decided = false;
+  for (const auto* block : GetParam().rest) is_decided = is_decided || !scan.look(block);
+  if (!is_decided) scan.end();
+  EXPECT_EQ(words_text(scan.relied_on()), GetParam().words);
+  if (GetParam().head == nullptr) return;
+  EXPECT_EQ(head_text(scan.relied_on()), GetParam().head);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , ModalScanTest,
+    testing::Values(
+        ModalCase{"nothing_in_force", "fanuc", {"%", "O1", "(G21)"}, {"G1X1."}, "", ""},
+        ModalCase{"said_again", "fanuc", {"G21G90G1F100"}, {"G20 G91", "G0 X1.", "G1 X2. F50"}, ""},
+        ModalCase{"units_and_distance",
+                  "fanuc",
+                  {"G21", "G91"},
+                  {"G1 X1. F5"},
+                  "G21 (line 1), G91 (line 2)",
+                  "G21\nG91\n"},
+        ModalCase{"the_last_one_counts", "fanuc", {"G90", "G91", "G90"}, {"G0X1."}, "G90 (line 3)"},
+        ModalCase{"feed_by_the_first_feed_move", "fanuc", {"F100"}, {"G0X1.", "G1X2.F5"}, ""},
+        ModalCase{"feed_of_a_later_move", "fanuc", {"F100"}, {"G0X1.", "G1X2."}, "F100 (line 1)"},
+        ModalCase{"no_move_needs_it", "fanuc", {"G21 F100"}, {"M30"}, ""},
+        ModalCase{"motion", "fanuc", {"G2"}, {"X1.Y1.R5."}, "G2 (line 1)"},
+        ModalCase{"tool_and_spindle",
+                  "fanuc",
+                  {"T2", "M6", "S800 M3", "M8"},
+                  {"G1 X1. F5"},
+                  "T2 M6 (line 2), S800 (line 3), M3 (line 3), M8 (line 4)",
+                  "T2 M6\nS800 M3\nM8\n"},
+        ModalCase{"next_tool", "fanuc", {"T2 M6", "T3"}, {"M6", "G1X1.F5"}, "T3 (line 2)"},
+        ModalCase{"tool_changed_in_the_rest", "fanuc", {"T2 M6", "T3"}, {"T4 M6", "G1X1.F5"}, ""},
+        ModalCase{
+            "work_offset_with_its_page", "fanuc", {"G54.1 P3"}, {"G0X1."}, "G54.1 P3 (line 1)"},
+        ModalCase{"length_with_its_offset", "fanuc", {"G43 H2 Z5."}, {"G0X1."}, "G43 H2 (line 1)"},
+        ModalCase{"rotation_as_its_block",
+                  "fanuc",
+                  {"N7 G68 X0 Y0 R30."},
+                  {"G0X1."},
+                  "G68 X0 Y0 R30. (line 1)",
+                  "G68 X0 Y0 R30.\n"},
+        ModalCase{"cycle", "fanuc", {"G81 X0 Z-5. R1. F50"}, {"X5."}, "G81 (line 1), F50 (line 1)"},
+        ModalCase{
+            "cycle_canceled", "fanuc", {"G81 Z-5. R1. F50", "G80"}, {"G0 X5.", "G1X6.F2"}, ""},
+        ModalCase{"call_and_variable",
+                  "fanuc",
+                  {"M98 P100", "#1=5", "N3 IF[#1 GT 2]GOTO 9"},
+                  {"X1."},
+                  "M98 P100 (line 1), #1=5 (line 2), N3 IF[#1 GT 2]GOTO 9 (line 3)"},
+        ModalCase{
+            "prints_change_nothing", "fanuc", {"POPEN", "DPRNT[X#1[44]]", "PCLOS"}, {"X1."}, ""},
+        ModalCase{"tektronix_arcs_are_no_units",
+                  "tektronix-1704",
+                  {"N001G20X1000I500"},
+                  {"N002X2000"},
+                  "G20 (line 1)"},
+        ModalCase{"no_diameter_on_a_mill", "fanuc", {"G7.1", "G8 P1"}, {"X1."}, ""},
+        ModalCase{"diameter", "rs274ngc", {"G7"}, {"X1."}, "G7 (line 1)"},
+        ModalCase{"prototrak_header",
+                  "prototrak-plus",
+                  {"PN7 G21 ;", "G91 ;", "N1 G101 XB0A YB0A XE1. YE1. F5.0 T2 TC1 ;"},
+                  {"N2 G101 XB1. YB1. XE2. YE2. F5.0 T2 TC1 ;"},
+                  "PN7 G21 ; G91 ; (line 2)",
+                  "PN7 G21 ;\nG91 ;\n"},
+        ModalCase{
+            "prototrak_events_build_on_the_one_before",
+            "prototrak-plus",
+            {"PN7 G21 ;", "N1 G101 XB0A YB0A XE1. YE1. F5.0 T2 TC1 ;"},
+            {"N2 G101 XE2. YE2. ;"},
+            "PN7 G21 ; (line 1), T2 (line 2), the end of the event, where the next one begins "
+            "(line 2), TC1 (line 2), F5.0 (line 2)"},
+        ModalCase{"tnc",
+                  "tnc155",
+                  {"0 BEGIN PGM 15 MM", "1 TOOL CALL 2 Z S800", "2 L X+1 R0 F200 M3"},
+                  {"3 L X+2 R F M"},
+                  "BEGIN PGM 15 MM (line 1), TOOL CALL 2 Z S800 (line 2), R0 (line 3), F200 (line "
+                  "3), M3 (line 3)"}),
+    [](const auto& i) { return std::string(i.param.name); });
+
+TEST(ModalScan, KnowsWhatCannotBeSentByItself) {
+  ModalScan scan("fanuc");
+  scan.skip("G21");
+  scan.skip("G41 D1");
+  scan.skip("G92 X0");
+  scan.look("G1 X1. F5");
+  const auto words = scan.relied_on();
+  ASSERT_EQ(words.size(), 3u);
+  EXPECT_TRUE(words[0].can_be_sent);
+  EXPECT_FALSE(words[1].can_be_sent);
+  EXPECT_FALSE(words[2].can_be_sent);
+}
+
+}  // namespace
+}  // namespace dripline::line
