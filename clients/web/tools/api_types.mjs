@@ -7,7 +7,7 @@ const [from, to] = process.argv.slice(2);
 const document = JSON.parse(await readFile(from, 'utf8'));
 
 /// What only narrows values or explains them has no place in a type.
-const kIgnored = new Set(['description', 'format', 'pattern', 'minimum', 'maximum', 'minLength', 'maxLength', 'default', 'example']);
+const kIgnored = new Set(['description', 'format', 'pattern', 'minimum', 'maximum', 'minLength', 'maxLength', 'minProperties', 'maxItems', 'default', 'example']);
 const kKnown = new Set(['$ref', 'type', 'properties', 'required', 'additionalProperties', 'items', 'enum', 'nullable', 'allOf']);
 
 function typeOf(schema, where) {
