@@ -1,5 +1,5 @@
 // A machine, its status and a run with usual values, for tests that are about one of them.
-import type { Import, Machine, Record as ReportRecord, Run, Status } from '../../generated/api';
+import type { Import, Job, Machine, Record as ReportRecord, Run, Status } from '../../generated/api';
 
 export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<Status> {
   return {
@@ -37,5 +37,12 @@ export function importOf(changed: Partial<Import> = {}): Import {
     program: 'O0200', revision: 2, machine: 'lathe-2', control: 'centurion', size: 100, sha256: '0'.repeat(64), comment: null, received: '2026-11-23T12:00:00Z',
     state: 'pending', class: 'feed_and_speed', base: 1, fault: null, compared: '2026-11-23T12:00:01Z', decided: null, who: null, reason: null, at_once: false,
     accepted_as: null, ...changed,
+  };
+}
+
+export function job(changed: Partial<Job> = {}): Job {
+  return {
+    id: 1, machine: 'mill-1', program: 'O0200', revision: null, quantity: 1, parts_per_run: 1, completed: 0, runs: 0, state: 'waiting', comment: null,
+    author: 'admin', created: '2026-11-23T12:00:00Z', ...changed,
   };
 }
