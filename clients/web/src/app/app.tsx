@@ -60,6 +60,7 @@ const kLater: { [view: string]: () => Promise<{ default: LaterView }> } = {
   programs: () => import('../programs/programs'),
   imports: () => import('../imports/imports'),
   reports: () => import('../reports/reports'),
+  measurements: () => import('../measurements/measurements'),
   path: () => import('../path/path'),
   compare: () => import('../compare/compare'),
   account: () => import('../account/account'),

@@ -1,0 +1,26 @@
+// Values between their limits, and what is asked of the server for a list and for a chart.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { chartOf, choicesOf, filterOf, placeOf, utcOf } from '../../src/measurements/tolerance';
+import { measurement } from './samples';
+
+test('the limits are at a quarter and three quarters, and a value on one is in', () => {
+  assert.deepEqual(placeOf(measurement({ lower: 0, upper: 2, nominal: 1, actual: 2 })), { actual: 0.75, nominal: 0.5, isOut: false });
+  assert.deepEqual(placeOf(measurement({ lower: 0, upper: 2, nominal: null, actual: -100 })), { actual: 0, nominal: null, isOut: true });
+});
+
+test('a value without both limits has no place', () => {
+  assert.deepEqual([{ lower: null }, { upper: null }, { lower: 1, upper: 1 }].map((limits) => placeOf(measurement(limits))), [null, null, null]);
+});
+
+test('a time of the page is sent in UTC, and what is none is left out', () => {
+  assert.equal(utcOf('2026-11-24T20:05'), new Date(2026, 10, 24, 20, 5).toISOString());
+  assert.deepEqual(['', 'soon'].map(utcOf), ['', '']);
+});
+
+test('a chart takes what is for its kind', () => {
+  const choices = choicesOf(new URLSearchParams('characteristic=D12&kind=histogram&rules=nelson&subgroup=4&verdict=scrap'));
+  assert.equal(filterOf(choices).verdict, 'scrap');
+  assert.deepEqual([chartOf(choices).rules, chartOf(choices).subgroup], ['', '']);
+  assert.deepEqual([chartOf({ ...choices, kind: 'xbar-r' }).rules, chartOf({ ...choices, kind: 'xbar-r' }).subgroup], ['nelson', '4']);
+});
