@@ -2,14 +2,21 @@
 import { useFeed } from '../live/use_feed';
 import { texts } from '../texts/texts';
 
+interface Props {
+  /// Usually "Machine", and of no choice "All".
+  label?: string;
+  value: string;
+  onChoose: (machine: string) => void;
+}
+
 /// A machine that came with the address is offered, known or not.
-export function MachineChoice({ value, onChoose }: { value: string; onChoose: (machine: string) => void }) {
+export function MachineChoice({ label, value, onChoose }: Props) {
   const names = [...new Set([...useFeed('machines').machines.keys(), ...(value === '' ? [] : [value])])].sort();
   return (
     <label>
-      {texts().administration.machine}
+      {label ?? texts().administration.machine}
       <select value={value} onChange={(e) => onChoose(e.currentTarget.value)}>
-        <option value="">{texts().floor.all}</option>
+        <option value="">{label === undefined ? texts().floor.all : '–'}</option>
         {names.map((name) => <option key={name} value={name}>{name}</option>)}
       </select>
     </label>
