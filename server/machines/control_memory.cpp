@@ -37,15 +37,15 @@ Result<storage::Revision> resolve_called_program(const RunSources& sources, cons
       if (revisions.error().code == Errc::NotFound) continue;
       return fail(revisions.error());
     }
-    const storage::Revision* pinned = nullptr;
+    const storage::Revision* newest = nullptr;
     for (const auto& revision : *revisions) {
       const bool fits = revision.control.empty() || revision.control == run.control;
       if (!fits || !library::Releases::may_call(revision, run)) continue;
-      if (pinned == nullptr || revision.number > pinned->number) pinned = &revision;
+      if (newest == nullptr || revision.number > newest->number) newest = &revision;
     }
-    if (pinned == nullptr) continue;
-    if (auto good = sources.releases.check_call(*pinned, run); !good) return fail(good.error());
-    return *pinned;
+    if (newest == nullptr) continue;
+    if (auto good = sources.releases.check_call(*newest, run); !good) return fail(good.error());
+    return *newest;
   }
   return fail(Errc::NotFound,
               "program '{}' called by '{}' was not {} for control {} when the run began", name,

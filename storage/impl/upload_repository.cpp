@@ -290,11 +290,7 @@ auto UploadRepository::finish(const std::string& id, const std::optional<Digest>
     }
     const auto content = name_content(database, row->content, *digest);
     if (!content) return fail(content.error());
-    auto revision = publish(database, row->upload, *content, *digest);
-    if (!revision || !row->upload.folder_file) return revision;
-    auto stored = store_folder_file(database, *row->upload.folder_file, *revision);
-    if (!stored) return fail(stored.error());
-    return revision;
+    return publish(database, row->upload, *content, *digest);
   });
   if (published) table_.erase(id);
   return published;
@@ -309,7 +305,11 @@ Result<Revision> UploadRepository::commit(const std::string& id,
                     return fail(Errc::Conflict, "upload {} is of attachment '{}'", id,
                                 *upload.attachment);
                   }
-                  return publish_revision(database, upload, content, clock_.now());
+                  auto revision = publish_revision(database, upload, content, clock_.now());
+                  if (!revision || !upload.folder_file) return revision;
+                  auto stored = store_folder_file(database, *upload.folder_file, *revision);
+                  if (!stored) return fail(stored.error());
+                  return revision;
                 });
 }
 

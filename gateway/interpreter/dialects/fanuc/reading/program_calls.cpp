@@ -110,9 +110,9 @@ class BlockCall {
 
   void finish() {
     const bool may_call = is_macro_ || is_subprogram_ || has_computed_m_;
-    if (is_code_call_ || !p_ || !may_call) return;
-    if (p_->is_computed || has_computed_m_) return add_computed();
-    std::uint64_t program = static_cast<std::uint64_t>(std::clamp(p_->value, 0.0, 99'999'999.0));
+    if (is_code_call_ || p_.letter == 0 || !may_call) return;
+    if (p_.is_computed || has_computed_m_) return add_computed();
+    std::uint64_t program = static_cast<std::uint64_t>(std::clamp(p_.value, 0.0, 99'999'999.0));
     const bool takes_l = options_.call_form != CallForm::EightDigits && has_l_;
     const bool has_passes = is_subprogram_ && options_.call_form != CallForm::L && !takes_l;
     if (has_passes && program > 9999) program %= 10000;
@@ -129,7 +129,7 @@ class BlockCall {
       return call_code(kFirstByG + place);
     if (word.value != 65 && word.value != 66) return;
     is_macro_ = true;
-    p_.reset();
+    p_ = {};
   }
 
   void take_m(const WrittenWord& word) {
@@ -162,7 +162,7 @@ class BlockCall {
   const std::uint64_t line_;
   bool is_macro_ = false, is_subprogram_ = false, is_code_call_ = false, has_computed_m_ = false;
   bool has_l_ = false;
-  std::optional<WrittenWord> p_;
+  WrittenWord p_;  ///< without a letter: none
 };
 
 void read_calls(const ControlOptions& options, const CallLines& lines, CallCollector& calls) {
