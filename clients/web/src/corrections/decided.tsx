@@ -4,7 +4,6 @@ import type { Offset, Offsets } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
-import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { Pages } from '../parts/pages';
 import { useLoaded } from '../parts/use_loaded';
@@ -48,7 +47,11 @@ export function Decided() {
       {list.length > 0 && (
         <div class="scroll" tabIndex={0} role="region" aria-label={t.states[state]}>
           <table class="data">
-            <Heads of={[t.target, texts().reports.machine, t.before, t.after, t.decidedAt, t.who, t.comment]} />
+            <thead>
+              <tr>
+                {[t.target, texts().reports.machine, t.before, t.after, t.decidedAt, t.who, t.comment].map((name, i) => <th scope="col" key={name} class={i === 2 || i === 3 ? 'number' : ''}>{name}</th>)}
+              </tr>
+            </thead>
             <tbody>{list.map((row) => <Row key={row.id} offset={row} />)}</tbody>
           </table>
         </div>

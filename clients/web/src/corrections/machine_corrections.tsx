@@ -43,7 +43,7 @@ function Runs({ runs }: { runs: string[] }) {
 
 function HistoryTable({ history }: { history: PastValue[] }) {
   const t = texts().corrections;
-  const heads: Array<[string, boolean]> = [[t.target, false], [t.value, true], [t.change, true], [t.since, false], [t.who, false], [t.why, false], [t.parts, false], [texts().reports.title, false]];
+  const heads: Array<[string, boolean]> = [[t.target, false], [t.value, true], [t.change, true], [t.since, false], [t.who, false], [t.why, false], [t.parts, false], [texts().machine.runs, false]];
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={t.history}>
       <table class="data">
@@ -53,13 +53,13 @@ function HistoryTable({ history }: { history: PastValue[] }) {
             const change = changeOf(history, i);
             return (
               <tr key={`${past.target} ${past.setup}`}>
-                <th scope="row">{past.target}</th>
+                <th scope="row" class="nowrap">{past.target}</th>
                 <td class="number"><b>{valueText(past.value, past.unit)}</b></td>
                 <td class="number">{change === null ? '–' : valueText(change, past.unit, true)}</td>
-                <td>{dateTimeText(past.time)} <span class="muted">{t.setup(past.setup)}</span></td>
+                <td>{dateTimeText(past.time)} <span class="muted nowrap">{t.setup(past.setup)}</span></td>
                 <td>{past.who ?? '–'}</td>
                 <td class="record-text">{past.why ?? '–'}</td>
-                <td>{past.parts === 0 ? '–' : t.goodOf(numberText(past.good), numberText(past.parts))}</td>
+                <td class="nowrap">{past.parts === 0 ? '–' : t.goodOf(numberText(past.good), numberText(past.parts))}</td>
                 <td><Runs runs={past.runs} /></td>
               </tr>
             );
@@ -88,8 +88,8 @@ export function MachineCorrections({ machine, target }: { machine: string; targe
         <label>
           {t.target}
           <input list="targets" autocomplete="off" placeholder="T3, T3.wear.X, G54" value={target} onChange={(e) => location.replace(addressOf('corrections', [machine], { target: e.currentTarget.value.trim() }))} />
-          <datalist id="targets">{known.map((name) => <option key={name} value={name} />)}</datalist>
         </label>
+        <datalist id="targets">{known.map((name) => <option key={name} value={name} />)}</datalist>
       </div>
       <Loading of={history} />
       {history.value && list.length === 0 && <p class="notice">{t.noHistory}</p>}

@@ -48,14 +48,14 @@ function Evaluation({ machine }: { machine: string }) {
       <Allowed to="set_up" machine={machine}><p class="buttons"><button type="button" disabled={command.isBusy} onClick={() => void evaluate()}>{t.evaluate}</button></p></Allowed>
       <CommandFault command={command} />
       {result && (
-        <ul class="list" role="status">
+        <div role="status"><ul class="list">
           {result.rules.map((rule) => (
             <li key={rule.rule} class="notice">
               <b>{rule.rule}</b> {rule.target} {valueText(rule.value, rule.unit)}{rule.proposal && <> → <b>{valueText(rule.proposal.new_value, rule.unit)}</b></>}
               <ul class="reasons">{rule.reasons.map((reason) => <li key={reason}>{reason}</li>)}</ul>
             </li>
           ))}
-        </ul>
+        </ul></div>
       )}
     </>
   );

@@ -26,11 +26,17 @@ export function valueText(value: number | null, { decimals, unit }: Measurement,
   return `${isSigned && value > 0 ? '+' : ''}${numberText(value, decimals)}\u00a0${kUnits[unit] ?? unit}`;
 }
 
-/// `of`: one part, whose name needs no column; otherwise each value leads to its part.
+/// "0.9900 … 1.0100": in the unit of the values beside them.
+function limitsText({ lower, upper, decimals }: Measurement): string {
+  const text = (limit: number | null) => (limit === null ? '' : numberText(limit, decimals));
+  return lower === null && upper === null ? '–' : `${text(lower)} … ${text(upper)}`.trim();
+}
+
+/// `isOfPart`: of one part, whose name needs no column; otherwise each value leads to its part.
 export function ValueTable({ values, label, isOfPart = false }: { values: Measurement[]; label: string; isOfPart?: boolean }) {
   const t = texts().measurements;
   const heads: Array<[string, boolean]> = [
-    [t.characteristic, false], [t.actual, true], [t.deviation, true], [t.inTolerance, false], [t.verdict, false], [t.nominal, true], [texts().reports.lower, true], [texts().reports.upper, true],
+    [t.characteristic, false], [t.actual, true], [t.deviation, true], [t.inTolerance, false], [t.verdict, false], [t.nominal, true], [t.limits, false],
     ...(isOfPart ? [] : [[t.part, false] as [string, boolean], [texts().reports.machine, false] as [string, boolean]]), [texts().machine.tool, false], [t.time, false],
   ];
   return (
@@ -45,7 +51,8 @@ export function ValueTable({ values, label, isOfPart = false }: { values: Measur
               <td class="number">{valueText(one.deviation, one, true)}</td>
               <td><ToleranceBar of={one} /></td>
               <td><VerdictPill verdict={one.verdict} /></td>
-              <td class="number">{valueText(one.nominal, one)}</td><td class="number">{valueText(one.lower, one)}</td><td class="number">{valueText(one.upper, one)}</td>
+              <td class="number">{valueText(one.nominal, one)}</td>
+              <td>{limitsText(one)}</td>
               {!isOfPart && <td><a href={addressOf('measurements', ['parts', String(one.part)])}>{one.serial ?? one.part}</a></td>}
               {!isOfPart && <td>{one.machine}</td>}
               <td>{one.tool ?? '–'}</td>

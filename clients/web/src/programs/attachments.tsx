@@ -69,7 +69,7 @@ function Row({ attachment, onRemoved }: { attachment: Attachment; onRemoved: () 
   return (
     <li class="attachment">
       <button type="button" class="name" onClick={() => void command.send(() => download(path, attachment.name))}>
-        <span aria-hidden="true">⭳</span> <span class="record-text">{attachment.name}</span><span class="visually-hidden"> {t.save}</span>
+        <span aria-hidden="true">↓</span> <span class="record-text">{attachment.name}</span><span class="visually-hidden"> {t.save}</span>
       </button>
       <SureButton class="danger" label={texts().programs.remove} question={t.removeSure(attachment.name)} disabled={isRefused || command.isBusy} onSure={() => void remove()} />
       <p class="muted">

@@ -82,6 +82,8 @@ export function ProgramPage({ name, number, line }: { name: string; number: numb
       <div class="program-columns">
         <div>
           <TextView program={name} revision={shown.revision} size={shown.size} findings={findings} goTo={goTo} />
+          {shown.control !== null && <Closure revision={shown} closure={closure} choice={choice} onChoose={setChoice} />}
+          <Attachments key={`${name} ${shown.revision}`} shown={shown} />
           <Compare key={shown.revision} revisions={revisions} to={shown} />
         </div>
         <div>
@@ -89,8 +91,6 @@ export function ProgramPage({ name, number, line }: { name: string; number: numb
           <About program={value} shown={shown} onStored={program.reload} />
           <section class="panel"><StartOn revision={shown} policy={policy.value} /></section>
           {!shown.held && <ReleaseState policy={policy} revision={shown} revisions={revisions} closure={closure.value} choice={choice} onDecided={program.reload} />}
-          {shown.control !== null && <Closure revision={shown} closure={closure} choice={choice} onChoose={setChoice} />}
-          <Attachments key={`${name} ${shown.revision}`} shown={shown} />
           <RevisionList revisions={revisions} shown={shown} />
           <section class="panel">
             <p class="buttons">

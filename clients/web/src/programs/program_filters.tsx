@@ -40,11 +40,10 @@ export function ProgramFilters({ filters, shown, onFilter }: Props) {
       <summary class="button">{count === 0 ? t.filters : t.filtersSet(count)}</summary>
       <div class="panel filter-grid">
         {kTyped.map((field) => (
-          <label key={field}>
-            {t.fields[field]}
-            <input list={`known-${field}`} autocomplete="off" value={filters[field]} onChange={(e) => onFilter(field, e.currentTarget.value.trim())} />
+          <div key={field}>
+            <label>{t.fields[field]}<input list={`known-${field}`} autocomplete="off" value={filters[field]} onChange={(e) => onFilter(field, e.currentTarget.value.trim())} /></label>
             <datalist id={`known-${field}`}>{[...new Set(shown.map((p) => p[field]).filter((value) => value !== null))].map((value) => <option key={value} value={value} />)}</datalist>
-          </label>
+          </div>
         ))}
         <Choice label={t.fields.machine_group} value={filters.machine_group} options={(groups.value?.groups ?? []).map(({ name }) => [name, name])} onChange={(value) => onFilter('machine_group', value)} />
         <Choice label={texts().programs.control} value={filters.control} options={controls.map((name) => [name, name])} onChange={(value) => onFilter('control', value)} />

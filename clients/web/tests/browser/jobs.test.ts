@@ -75,7 +75,7 @@ test('the next part is started from the machine\'s first view, and counted', asy
 test('a program is queued from its own page; a viewer sees the queue and changes nothing', async () => {
   const { page } = await visit('#/programs/O0300', { user: 'otto' });
   await page.getByText('Add to the queue of a machine').click();
-  await page.getByLabel('Machine', { exact: true }).selectOption('mill-1');
+  await page.getByRole('combobox', { name: 'Machine' }).selectOption('mill-1');
   await page.getByRole('button', { name: 'Add to the queue', exact: true }).click();
   await page.getByText('It waits in the queue of mill-1.').waitFor();
   assert.deepEqual(await findBarriers(page), []);

@@ -24,11 +24,10 @@ interface Props {
 function ProgramField({ control, value, onChange }: { control: string | null; value: string; onChange: (name: string) => void }) {
   const { value: list } = useLoaded((signal) => get<Programs>(pathOf('programs'), { limit: kMaxListed, control }, signal), [control]);
   return (
-    <label>
-      {texts().machine.program}
-      <input required list="job-programs" autocomplete="off" maxLength={128} value={value} onInput={(e) => onChange(e.currentTarget.value)} />
+    <>
+      <label>{texts().machine.program}<input required list="job-programs" autocomplete="off" maxLength={128} value={value} onInput={(e) => onChange(e.currentTarget.value)} /></label>
       <datalist id="job-programs">{(list?.programs ?? []).map((p) => <option key={p.name} value={p.name}>{p.title ?? ''}</option>)}</datalist>
-    </label>
+    </>
   );
 }
 
@@ -57,7 +56,7 @@ export function JobForm({ machine, control = null, fixed, onAdded }: Props) {
           </select>
         </label>
       ) : (
-        <label>{t.revision}<input type="number" min={1} step={1} placeholder={t.latest} value={job.revision} onInput={(e) => set({ revision: e.currentTarget.value })} /></label>
+        <label>{t.revision}<input type="number" min={1} step={1} placeholder={texts().machine.latest} value={job.revision} onInput={(e) => set({ revision: e.currentTarget.value })} /></label>
       )}
       <label>{t.quantity}<input type="number" required min={1} max={kMaxQuantity} step={1} value={job.quantity} onInput={(e) => set({ quantity: e.currentTarget.valueAsNumber })} /></label>
       <label>{t.partsPerRun}<input type="number" required min={1} max={kMaxPartsPerRun} step={1} value={job.partsPerRun} onInput={(e) => set({ partsPerRun: e.currentTarget.valueAsNumber })} /></label>
