@@ -154,5 +154,6 @@ inline storage::Store with(const storage::Store& store, storage::RecordStore& re
           store.measurements, store.archives, store.offsets,
           store.attachments,  store.search,   store.folders,
           store.jobs,         store.webhooks};
+}
 
 }  // namespace dripline::test_support

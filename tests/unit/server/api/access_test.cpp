@@ -149,6 +149,12 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
       {"POST", "/api/v1/machines/lathe-1/offsets/1/reject", "{}"},
       {"POST", "/api/v1/machines/lathe-1/offsets/evaluation", ""},
       {"PUT", "/api/v1/machines/lathe-1/offset-rules", ""},
+      {"POST", "/api/v1/machines/lathe-1/jobs", R"({"program":"O0100"})"},
+      {"PUT", "/api/v1/machines/lathe-1/jobs/1", R"({"place":1})"},
+      {"DELETE", "/api/v1/machines/lathe-1/jobs/1", ""},
+      {"POST", "/api/v1/machines/lathe-1/start-job", "{}"},
+      {"PUT", "/api/v1/machines/lathe-1/job-hold", R"({"reason":"wide"})"},
+      {"DELETE", "/api/v1/machines/lathe-1/job-hold", ""},
   };
   std::size_t guarded = 0;
   for (const auto& row : api::route_permissions())

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using storage::FolderFileState;
 
 constexpr const char* kGood = "O1\nG21 G90\nG0 X10.\nG1 Y5. F100.\nM30\n";
-constexpr const char* kAlarm = "O1\nG21 G90\nG1 X10.\nG999\nM30\n";
+constexpr const char* kAlarm = "O1\nG21 G90\nG1 X10. F100.\nG999\nM30\n";
 
 class HotFolderTest : public server_test::ServerTest {
  protected:

@@ -40,7 +40,7 @@ TEST_F(ProgramsTest, DropTheUploadAtItsFirstBadByteAndChangeNothing) {
   EXPECT_EQ(bad.error().code, Errc::Syntax);
   EXPECT_NE(bad.error().what.find("offset 4, line 2"), std::string::npos) << bad.error().what;
   EXPECT_EQ(programs_->append(id, 3, bytes_of("Y")).error().code, Errc::NotFound);
-  EXPECT_TRUE(programs_->list({})->empty());
+  EXPECT_TRUE(programs_->list({}, {})->empty());
 }
 
 TEST_F(ProgramsTest, RefuseAnEmptyUploadAtCommit) {
@@ -92,7 +92,7 @@ TEST_F(ProgramsTest, AskForAControlWhenTheTextDoesNotTell) {
     EXPECT_EQ(committed.error().code, Errc::Unsupported);
     EXPECT_NE(committed.error().what.find("name"), std::string::npos);
   }
-  EXPECT_TRUE(programs_->list({})->empty());
+  EXPECT_TRUE(programs_->list({}, {})->empty());
 }
 
 TEST_F(ProgramsTest, AskForAControlAsSoonAsTheHeadIsThere) {

@@ -123,6 +123,7 @@ TEST_F(CertificateAccess, IsTheUserOfItsNameWithHisRights) {
 
 TEST_F(CertificateAccess, IsNamedBySerialInTheAuditTrail) {
   with_certificate("anna", "GET", "/api/v1/users");
+  accounts_->refusals().flush();
   const auto entries = store_->audit.list({});
   const auto refused =
       std::ranges::find(*entries, std::string("access.refused"), &storage::AuditEntry::action);
