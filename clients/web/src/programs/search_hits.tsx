@@ -52,7 +52,7 @@ function Named({ programs, typed }: { programs: Program[]; typed: string }) {
     <>
       <h2>{texts().library.named}</h2>
       <ul class="named">
-        {programs.map((p) => <li key={p.name}><a class="button" href={addressOf('programs', [p.name])}><Marked text={p.name} typed={typed} />{p.title !== null && <span class="muted">{p.title}</span>}</a></li>)}
+        {programs.map((p) => <li key={p.name}><a class="button" href={addressOf('programs', [p.name])}><span><Marked text={p.name} typed={typed} /></span>{p.title !== null && <span class="muted">{p.title}</span>}</a></li>)}
       </ul>
     </>
   );

@@ -55,7 +55,7 @@ test('what became of the files of a hot folder is shown, with the reason of a re
 test('a webhook is added, its secret is shown once, it is tested and removed', async () => {
   const { page, complaints } = await visit('#/administration/webhooks');
   await page.getByText('There is none yet.').waitFor();
-  await page.getByText('Add a webhook').click();
+  await page.locator('summary', { hasText: 'Add a webhook' }).click();
   await page.getByLabel('Name').fill('mes');
   await page.getByLabel('Address').fill(`http://127.0.0.1:${(receiver.address() as AddressInfo).port}/dripline`);
   await page.getByLabel('Alarms').uncheck();
