@@ -8,12 +8,12 @@ import { texts } from '../texts/texts';
 import { chartOf, type Choices } from './tolerance';
 
 const kWide = { width: 1120, height: 560 };
-const kNarrow = { width: 640, height: 520 };
-const kNarrowBelow = 900;
+const kNarrow = { width: 720, height: 540 };
+const kPhone = { width: 400, height: 460 };
 
 export function ChartPicture({ choices, version }: { choices: Choices; version: unknown }) {
   const t = texts().measurements;
-  const { current: size } = useRef(innerWidth < kNarrowBelow ? kNarrow : kWide);
+  const { current: size } = useRef(innerWidth < 500 ? kPhone : innerWidth < 1000 ? kNarrow : kWide);
   const request = withQuery(pathOf('measurements', 'chart'), { ...chartOf(choices), ...size });
   const picture = useLoaded(async (signal) => ({ request, svg: await (await fetchApi('GET', request, {}, signal)).text() }), [request, version]);
   // What was chosen before is not shown as what is chosen now.
