@@ -7,6 +7,7 @@ import { CommandFault, useCommand } from '../parts/command';
 import { GroupChoice } from '../parts/group_choice';
 import { Loading } from '../parts/loading';
 import { RoleSelect } from '../parts/role_select';
+import { Secret } from '../parts/secret';
 import { SureButton } from '../parts/sure_button';
 import { useLoaded } from '../parts/use_loaded';
 import { dateTimeText, texts } from '../texts/texts';
@@ -14,22 +15,6 @@ import { dateTimeText, texts } from '../texts/texts';
 const kUsualDays = 90;
 const kMaxDays = 730;
 const kOrder: Array<Token['kind']> = ['token', 'login', 'page'];
-
-/// In memory as long as it is shown, and nowhere else.
-function Secret({ token, onDone }: { token: IssuedToken; onDone: () => void }) {
-  const t = texts().account;
-  const [isCopied, setCopied] = useState(false);
-  return (
-    <div class="notice warn" role="status">
-      <p><b>{t.issued(token.name)}</b></p>
-      <p class="mono secret">{token.secret}</p>
-      <p class="buttons">
-        <button type="button" onClick={() => void navigator.clipboard?.writeText(token.secret).then(() => setCopied(true), () => {})}>{isCopied ? t.copied : t.copy}</button>
-        <button type="button" class="primary" onClick={onDone}>{t.done}</button>
-      </p>
-    </div>
-  );
-}
 
 function NewToken({ user, onMade }: { user: string; onMade: (token: IssuedToken) => void }) {
   const t = texts().account;
@@ -100,7 +85,7 @@ export function Tokens({ user, title }: { user: string; title: string }) {
         </div>
       )}
       <CommandFault command={command} />
-      {issued ? <Secret token={issued} onDone={() => setIssued(null)} /> : (
+      {issued ? <Secret title={t.issued(issued.name)} secret={issued.secret} onDone={() => setIssued(null)} /> : (
         <details>
           <summary class="button">{t.addToken}</summary>
           <NewToken user={user} onMade={take} />

@@ -1,4 +1,4 @@
-// What looks after the server: its state, backups, certificates, the serial ports, users, groups of machines, the release policy, and who changed what.
+// What looks after the server: its state, backups, certificates, the serial ports, hot folders, webhooks, users, groups of machines, the release policy, and who changed what.
 import { addressOf } from '../app/route';
 import { Only } from '../parts/allowed';
 import { Tabs } from '../parts/tabs';
@@ -7,13 +7,15 @@ import { AuditTrail } from './audit';
 import { AuditState } from './audit_state';
 import { BackupList } from './backups';
 import { CertificateList } from './certificates';
+import { Folders } from './folders';
 import { Groups } from './groups';
 import { Policy } from './policy';
 import { Ports } from './ports';
 import { ServerState } from './server_state';
 import { Users } from './users';
+import { Webhooks } from './webhooks';
 
-const kTabs = ['server', 'backups', 'certificates', 'ports', 'users', 'groups', 'policy', 'audit'] as const;
+const kTabs = ['server', 'backups', 'certificates', 'ports', 'folders', 'webhooks', 'users', 'groups', 'policy', 'audit'] as const;
 
 export default function AdministrationView({ path }: { path: string[] }) {
   const [tab = 'server'] = path;
@@ -26,6 +28,8 @@ export default function AdministrationView({ path }: { path: string[] }) {
       {tab === 'backups' && <Only to="administer"><BackupList /></Only>}
       {tab === 'certificates' && <CertificateList />}
       {tab === 'ports' && <Ports />}
+      {tab === 'folders' && <Folders />}
+      {tab === 'webhooks' && <Only to="administer"><Webhooks /></Only>}
       {tab === 'users' && <Only to="administer"><Users chosen={path[1]} /></Only>}
       {tab === 'groups' && <Groups />}
       {tab === 'policy' && <Policy />}

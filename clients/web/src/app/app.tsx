@@ -60,6 +60,8 @@ const kLater: { [view: string]: () => Promise<{ default: LaterView }> } = {
   programs: () => import('../programs/programs'),
   imports: () => import('../imports/imports'),
   reports: () => import('../reports/reports'),
+  measurements: () => import('../measurements/measurements'),
+  corrections: () => import('../corrections/corrections'),
   path: () => import('../path/path'),
   compare: () => import('../compare/compare'),
   account: () => import('../account/account'),

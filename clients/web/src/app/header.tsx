@@ -9,7 +9,7 @@ import { addressOf, type Route } from './route';
 
 /// The views of the bar, and those that belong to one of them.
 const kViews = ['floor', 'programs', 'imports', 'reports', 'administration'] as const;
-const kParents: { [view: string]: string } = { machine: 'floor', path: 'programs', compare: 'programs' };
+const kParents: { [view: string]: string } = { machine: 'floor', path: 'programs', compare: 'programs', measurements: 'reports', corrections: 'reports' };
 
 function skip(event: Event): void {
   event.preventDefault();
@@ -64,10 +64,11 @@ function LinkState() {
   return <span class={`link ${link.state}`}>{link.state === 'live' ? t.live : link.state === 'connecting' ? '…' : t.old}</span>;
 }
 
-/// How many programs from machines wait for a decision.
-function PendingImports() {
-  const { imports } = useFeed('imports');
-  return imports.size === 0 ? null : <span class="count"><span aria-hidden="true">{imports.size}</span><span class="visually-hidden">{texts().app.waiting(imports.size)}</span></span>;
+/// How many programs from machines, or corrections, wait for a decision.
+function Waiting({ view }: { view: 'imports' | 'reports' }) {
+  const { imports, offsets } = useFeed('imports', 'offsets');
+  const { size } = view === 'imports' ? imports : offsets;
+  return size === 0 ? null : <span class="count"><span aria-hidden="true">{size}</span><span class="visually-hidden">{texts().app.waiting(size)}</span></span>;
 }
 
 export function Header({ route, onLanguage }: { route: Route; onLanguage: () => void }) {
@@ -79,7 +80,7 @@ export function Header({ route, onLanguage }: { route: Route; onLanguage: () => 
       <span class="name">{t.title}</span>
       <nav aria-label={t.menu}>
         {kViews.map((view) => (
-          <a key={view} href={addressOf(view)} aria-current={view === shown ? 'page' : undefined}>{t.views[view]}{view === 'imports' && <PendingImports />}</a>
+          <a key={view} href={addressOf(view)} aria-current={view === shown ? 'page' : undefined}>{t.views[view]}{(view === 'imports' || view === 'reports') && <Waiting view={view} />}</a>
         ))}
       </nav>
       <LinkState />

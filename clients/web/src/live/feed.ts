@@ -1,6 +1,7 @@
 // What the page knows of the shop, kept current by one event stream: every machine, each one's latest run, and what machines sent that
-// is not decided yet. Views read it and are notified when their part has changed, at most four times a second, so that a thousand busy machines stay fluid.
-import type { Import, Imports, Machine, Machines, Record as ReportRecord, Run, Runs } from '../../generated/api';
+// is not decided yet, and corrections that wait for a decision. Views read it and are notified when their part has changed, at most four times a second,
+// so that a thousand busy machines stay fluid. Of measured parts it keeps nothing: a view loads what it shows when one has changed.
+import type { Import, Imports, Machine, Machines, Offset, Offsets, Record as ReportRecord, Run, Runs } from '../../generated/api';
 import { ApiError, get, pathOf } from '../api/request';
 import type { StreamEvent } from './event_parser';
 import { readEvents } from './event_stream';
@@ -8,15 +9,19 @@ import { stateOf, type MachineState } from './machine_state';
 
 export type Link = { state: 'connecting' } | { state: 'live' } | { state: 'lost' | 'signedOut'; since: Date };
 
-/// What a view listens to: the list of machines and their states, the link, the import queue, or one machine.
-export type Topic = 'machines' | 'link' | 'runs' | 'imports' | `machine:${string}`;
+/// What a view listens to: the list of machines and their states, the link, the import queue, pending corrections,
+/// measured parts, or one machine.
+export type Topic = 'machines' | 'link' | 'runs' | 'imports' | 'offsets' | 'parts' | `machine:${string}`;
 
 const kFlushMs = 250;
 const kDelaysMs = [250, 500, 1000, 2000, 4000];
 const kMaxRuns = 1000;
 const kMaxImports = 1000;
+const kMaxOffsets = 1000;
 
 export const importKey = (import_: { program: string; revision: number }) => `import ${import_.revision} ${import_.program}`;
+
+const offsetKey = (id: number) => `offset ${id}`;
 
 export class Feed {
   readonly machines = new Map<string, Machine>();
@@ -24,12 +29,14 @@ export class Feed {
   readonly runs = new Map<string, Run>();
   /// Pending ones, by importKey.
   readonly imports = new Map<string, Import>();
+  /// Pending corrections, by id.
+  readonly offsets = new Map<number, Offset>();
   link: Link = { state: 'connecting' };
 
   private readonly listeners = new Map<Topic, Set<() => void>>();
   private readonly recordListeners = new Set<(record: ReportRecord) => void>();
   private readonly changed = new Set<Topic>();
-  /// Machines, ids of runs and keys of imports of which an event has come since the stream was opened: newer than any answer to a request.
+  /// Machines, ids of runs, keys of imports and of corrections of which an event has come since the stream was opened: newer than any answer to a request.
   private readonly fresh = new Set<string>();
   private flushing = false;
   private ending: AbortController | null = null;
@@ -52,6 +59,7 @@ export class Feed {
     this.machines.clear();
     this.runs.clear();
     this.imports.clear();
+    this.offsets.clear();
     this.link = { state: 'connecting' };
   }
 
@@ -108,17 +116,20 @@ export class Feed {
   /// The whole state, once the stream is open: what changes meanwhile arrives as an event, which is newer.
   private async load(signal: AbortSignal): Promise<void> {
     try {
-      const [{ machines }, { runs }, { imports }] = await Promise.all([
+      const [{ machines }, { runs }, { imports }, { offsets }] = await Promise.all([
         get<Machines>(pathOf('machines'), {}, signal), get<Runs>(pathOf('runs'), { limit: kMaxRuns }, signal),
-        get<Imports>(pathOf('imports'), { limit: kMaxImports }, signal)]);
+        get<Imports>(pathOf('imports'), { limit: kMaxImports }, signal), get<Offsets>(pathOf('offsets'), { state: 'pending', limit: kMaxOffsets }, signal)]);
       const present = new Set(machines.map((machine) => machine.name));
       for (const name of this.machines.keys()) if (!present.has(name)) this.machines.delete(name);
       for (const machine of machines) if (!this.fresh.has(machine.name)) this.takeMachine(machine);
       for (const run of runs.reverse()) if (!this.fresh.has(run.id)) this.takeRun(run);
       for (const key of this.imports.keys()) if (!this.fresh.has(key)) this.imports.delete(key);
       for (const import_ of imports) if (!this.fresh.has(importKey(import_))) this.takeImport(import_);
+      for (const id of this.offsets.keys()) if (!this.fresh.has(offsetKey(id))) this.offsets.delete(id);
+      for (const offset of offsets) if (!this.fresh.has(offsetKey(offset.id))) this.takeOffset(offset);
       this.note('machines');
       this.note('imports');
+      this.note('offsets');
       this.setLink({ state: 'live' });
     } catch {
       // The stream ends too, and both begin again.
@@ -141,6 +152,12 @@ export class Feed {
       this.fresh.add(importKey(import_));
       this.takeImport(import_);
     }
+    if (event.name === 'offset') {
+      const offset = JSON.parse(event.data) as Offset;
+      this.fresh.add(offsetKey(offset.id));
+      this.takeOffset(offset);
+    }
+    if (event.name === 'part') this.note('parts');
     if (event.name !== 'record') return;
     const record = JSON.parse(event.data) as ReportRecord;
     for (const listener of this.recordListeners) listener(record);
@@ -166,6 +183,12 @@ export class Feed {
     if (import_.state === 'pending') this.imports.set(importKey(import_), import_);
     else this.imports.delete(importKey(import_));
     this.note('imports');
+  }
+
+  private takeOffset(offset: Offset): void {
+    if (offset.state === 'pending') this.offsets.set(offset.id, offset);
+    else this.offsets.delete(offset.id);
+    this.note('offsets');
   }
 
   private setLink(link: Link): void {

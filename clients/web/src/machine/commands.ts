@@ -1,5 +1,5 @@
 // The commands that the API has for a machine and for its run.
-import type { CommandRequest, Run } from '../../generated/api';
+import type { CommandRequest, Run, RunRequest } from '../../generated/api';
 import { pathOf, send } from '../api/request';
 
 /// Needs a run: hold, resume, abort, answer.
@@ -12,17 +12,38 @@ export function commandMachine(machine: string, command: CommandRequest): Promis
   return send('POST', pathOf('machines', machine, 'commands'), { json: command });
 }
 
+/// How a run begins that does not begin at the beginning. `ask`: the server refuses what would have to be decided, and names it.
+export interface StartOptions {
+  /// On a serial line: the skipped words on which the rest depends are sent first, or are in force at the control.
+  head: 'ask' | 'send' | 'set';
+  /// At a gateway: with which memory the skipped part is interpreted.
+  memory: 'ask' | 'begin' | 'now';
+  /// At a gateway: of a block that is executed more than once, from 1.
+  pass: string;
+}
+
+export const kNoOptions: StartOptions = { head: 'ask', memory: 'ask', pass: '' };
+
 export interface StartRequest {
   machine: string;
   program: string;
   revision: number | null;
   /// N120, L7, B4096, T3 or +25; empty: from the beginning.
   from: string;
+  options?: StartOptions;
 }
 
-export function startRun({ machine, program, revision, from }: StartRequest): Promise<Run> {
-  const request = { machine, program, ...(revision !== null && { revision }), ...(from !== '' && { from }) };
-  return send<Run>('POST', pathOf('runs'), { json: request });
+/// From the beginning nothing is skipped: the options say nothing then.
+export function startBody({ machine, program, revision, from, options = kNoOptions }: StartRequest): RunRequest {
+  const { head, memory, pass } = from === '' ? kNoOptions : options;
+  return {
+    machine, program, ...(revision !== null && { revision }), ...(from !== '' && { from }), ...(head !== 'ask' && { head }), ...(memory !== 'ask' && { memory }),
+    ...(pass !== '' && { pass: Number(pass) }),
+  };
+}
+
+export function startRun(request: StartRequest): Promise<Run> {
+  return send<Run>('POST', pathOf('runs'), { json: startBody(request) });
 }
 
 /// `at` empty: after the block executed last.

@@ -1,4 +1,4 @@
-// One machine: what it does now and the commands to it, its setup, what its control retained, and its runs.
+// One machine: what it does now and the commands to it, its job queue, its setup, what its control retained, and its runs.
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
 import { durationText, percentDigits, progressOf } from '../live/progress';
@@ -7,6 +7,7 @@ import { Tabs } from '../parts/tabs';
 import { dateTimeText, numberText, texts } from '../texts/texts';
 import { ExecutedPath } from './executed_path';
 import { ExecutingText } from './executing_text';
+import { MachineQueue, NextJob } from './jobs/queue';
 import { MachineMemory } from './memory';
 import { Modes } from './modes';
 import { Overrides } from './overrides';
@@ -17,7 +18,7 @@ import { MachineRuns } from './runs';
 import { MachineSetup } from './setup/setup';
 import { StartForm } from './start_form';
 
-const kTabs = ['now', 'setup', 'memory', 'runs'] as const;
+const kTabs = ['now', 'queue', 'setup', 'memory', 'runs'] as const;
 
 function Now({ name }: { name: string }) {
   const feed = useFeed(`machine:${name}`, 'link');
@@ -34,6 +35,7 @@ function Now({ name }: { name: string }) {
       <div class="columns">
         <div>
           {status && <Position machine={machine} status={status} />}
+          {!hasRun && <NextJob key={`next ${name}`} name={name} />}
           {!hasRun && <StartForm key={name} machine={machine} />}
           {hasPath && executing && <ExecutedPath key={executing.id} run={executing} status={status} />}
           {run && <RunRecords run={run.id} />}
@@ -82,6 +84,7 @@ export default function MachineView({ path }: { path: string[] }) {
       <Head name={name} />
       <Tabs label={t.parts} tabs={kTabs.map((key) => ({ address: addressOf('machine', [name, key]), name: t.tabs[key], isShown: key === tab }))} />
       {tab === 'now' && <Now name={name} />}
+      {tab === 'queue' && <MachineQueue name={name} key={name} />}
       {tab === 'setup' && <MachineSetup machine={name} key={name} />}
       {tab === 'memory' && <MachineMemory machine={name} />}
       {tab === 'runs' && <MachineRuns machine={name} />}

@@ -9,7 +9,8 @@ import { useLoaded } from '../parts/use_loaded';
 import { usePolicy } from '../parts/use_policy';
 import { revisionToStart } from '../programs/release_steps';
 import { texts } from '../texts/texts';
-import { startRun } from './commands';
+import { kNoOptions, startRun, type StartOptions } from './commands';
+import { StartOptionFields } from './start_options';
 
 const kMaxListed = 1000;
 
@@ -18,6 +19,7 @@ export function StartForm({ machine }: { machine: Machine }) {
   const command = useCommand();
   const [program, setProgram] = useState('');
   const [from, setFrom] = useState('');
+  const [options, setOptions] = useState<StartOptions>(kNoOptions);
   const { value } = useLoaded((signal) => get<Programs>(pathOf('programs'), { limit: kMaxListed }, signal), []);
   const fitting = (value?.programs ?? []).filter((p) => p.control === null || p.control === machine.control);
   const chosen = fitting.find((p) => p.name === program);
@@ -27,8 +29,10 @@ export function StartForm({ machine }: { machine: Machine }) {
   const latest = policy?.runs === 'release' ? t.latestReleased : t.latest;
   const start = async () => {
     // The revision that the question named, whatever has been uploaded since.
-    const request = { machine: machine.name, program, revision, from: from.trim() };
-    if (await command.send(() => startRun(request))) setFrom('');
+    const request = { machine: machine.name, program, revision, from: from.trim(), options };
+    if (!(await command.send(() => startRun(request)))) return;
+    setFrom('');
+    setOptions(kNoOptions);
   };
   return (
     <section class="panel" aria-labelledby="start">
@@ -43,6 +47,7 @@ export function StartForm({ machine }: { machine: Machine }) {
         {t.from}
         <input name="from" autocomplete="off" maxLength={24} placeholder={t.fromHint} value={from} onInput={(e) => setFrom(e.currentTarget.value)} />
       </label>
+      {from.trim() !== '' && <StartOptionFields machine={machine} options={options} onChange={setOptions} />}
       <SureButton class="big primary" label={t.start} disabled={program === '' || command.isBusy || !machine.connected}
         question={t.startSure(program, revision === null ? latest : String(revision), machine.name, from.trim())} onSure={() => void start()} />
       <CommandFault command={command} />

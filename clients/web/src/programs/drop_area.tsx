@@ -2,7 +2,14 @@
 import { useRef, useState } from 'preact/hooks';
 import { texts } from '../texts/texts';
 
-export function DropArea({ onFiles }: { onFiles: (files: File[]) => void }) {
+interface Props {
+  /// What may be dropped here.
+  label?: string;
+  class?: string;
+  onFiles: (files: File[]) => void;
+}
+
+export function DropArea({ label, onFiles, ...more }: Props) {
   const t = texts().programs;
   const input = useRef<HTMLInputElement>(null);
   const [isOver, setOver] = useState(false);
@@ -12,8 +19,8 @@ export function DropArea({ onFiles }: { onFiles: (files: File[]) => void }) {
     onFiles([...(event.dataTransfer?.files ?? [])]);
   };
   return (
-    <div class={`drop ${isOver ? 'over' : ''}`} data-testid="drop" onDragOver={(e) => { e.preventDefault(); setOver(true); }} onDragLeave={() => setOver(false)} onDrop={drop}>
-      <span>{t.dropHere}</span>
+    <div class={`drop ${more.class ?? ''} ${isOver ? 'over' : ''}`} data-testid="drop" onDragOver={(e) => { e.preventDefault(); setOver(true); }} onDragLeave={() => setOver(false)} onDrop={drop}>
+      <span>{label ?? t.dropHere}</span>
       <button type="button" onClick={() => input.current?.click()}>{t.choose}</button>
       <input ref={input} type="file" multiple hidden aria-label={t.choose}
         onChange={(e) => { onFiles([...(e.currentTarget.files ?? [])]); e.currentTarget.value = ''; }} />

@@ -1,4 +1,4 @@
-// One program: its revisions, the text of the chosen one, approval, the start on a machine, comparison.
+// One program: its revisions, the text of the chosen one, what it is for, attachments, what it calls, approval, the start on a machine, comparison.
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import type { ProgramCheck, ProgramWithRevisions, Revision } from '../../generated/api';
 import { get, pathOf, withQuery } from '../api/request';
@@ -10,7 +10,11 @@ import { RevisionPill } from '../parts/revision_pill';
 import { useLoaded } from '../parts/use_loaded';
 import { usePolicy } from '../parts/use_policy';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
+import { About } from './about';
+import { Attachments } from './attachments';
+import { kNoChoice, type ClosureChoice } from './calls';
 import { Check } from './check';
+import { Closure, useClosure } from './closure';
 import { Compare } from './compare';
 import { download } from './download';
 import { findingsByLine } from './findings';
@@ -49,7 +53,8 @@ function RevisionList({ revisions, shown }: { revisions: Revision[]; shown: Revi
   );
 }
 
-export function ProgramPage({ name, number }: { name: string; number: number | null }) {
+/// `line` is gone to: a search found it there.
+export function ProgramPage({ name, number, line }: { name: string; number: number | null; line: number | null }) {
   const t = texts().programs;
   const program = useLoaded((signal) => get<ProgramWithRevisions>(pathOf('programs', name), {}, signal), [name]);
   const policy = usePolicy();
@@ -57,10 +62,14 @@ export function ProgramPage({ name, number }: { name: string; number: number | n
   const [check, setCheck] = useState<ProgramCheck | null>(null);
   const [goTo, setGoTo] = useState<Place | null>(null);
   const findings = useMemo(() => findingsByLine(check), [check]);
-  useEffect(() => setGoTo(null), [name, number]);
+  // A search reads the first 256 KiB: the line is in the first piece.
+  useEffect(() => setGoTo(line === null ? null : { offset: 0, line }), [name, number, line]);
+  const [choice, setChoice] = useState<ClosureChoice>(kNoChoice);
+  useEffect(() => setChoice(kNoChoice), [name, number]);
   const revisions = [...(program.value?.revisions ?? [])].sort((a, b) => b.revision - a.revision);
   const shown = revisions.find((r) => r.revision === number) ?? revisions.find((r) => !r.held) ?? revisions[0];
   const { value } = program;
+  const closure = useClosure(shown, choice, value);
   if (!value || !shown) return <><h1>{name}</h1><Loading of={program} /></>;
   const path = withQuery(pathOf('programs', name, 'content'), { revision: shown.revision });
   return (
@@ -73,12 +82,15 @@ export function ProgramPage({ name, number }: { name: string; number: number | n
       <div class="program-columns">
         <div>
           <TextView program={name} revision={shown.revision} size={shown.size} findings={findings} goTo={goTo} />
+          {shown.control !== null && <Closure revision={shown} closure={closure} choice={choice} onChoose={setChoice} />}
+          <Attachments key={`${name} ${shown.revision}`} shown={shown} />
           <Compare key={shown.revision} revisions={revisions} to={shown} />
         </div>
         <div>
           {shown.control !== null && <Check key={shown.revision} revision={shown} onChecked={setCheck} onGoTo={setGoTo} />}
+          <About program={value} shown={shown} onStored={program.reload} />
           <section class="panel"><StartOn revision={shown} policy={policy.value} /></section>
-          {!shown.held && <ReleaseState policy={policy} revision={shown} revisions={revisions} onDecided={program.reload} />}
+          {!shown.held && <ReleaseState policy={policy} revision={shown} revisions={revisions} closure={closure.value} choice={choice} onDecided={program.reload} />}
           <RevisionList revisions={revisions} shown={shown} />
           <section class="panel">
             <p class="buttons">

@@ -1,26 +1,29 @@
-// The programs of the server: search, upload, and a link to each.
-import { useState } from 'preact/hooks';
+// The programs of the server: search of all that is known of them and of their texts, filters, upload, and a link to each. What is chosen is in the address.
+import { useEffect, useState } from 'preact/hooks';
 import { addressOf } from '../app/route';
 import { feed } from '../live/feed';
 import { Allowed, useRefusal } from '../parts/allowed';
-import { Heads } from '../parts/heads';
-import { Loading } from '../parts/loading';
-import { RevisionPill } from '../parts/revision_pill';
 import { useLoaded } from '../parts/use_loaded';
-import { bytesText, dateTimeText, texts } from '../texts/texts';
+import { texts } from '../texts/texts';
 import { DropArea } from './drop_area';
-import { loadPrograms, searchPrograms } from './list';
+import { ProgramFilters } from './program_filters';
+import { ProgramTable } from './program_table';
+import { filtersOf, listPrograms, type Filter } from './search';
+import { SearchHits, useSlow } from './search_hits';
 import { UploadRow } from './upload_row';
 
-const kShown = 200;
-
-export function ProgramList() {
+export function ProgramList({ query }: { query: URLSearchParams }) {
   const t = texts().programs;
-  const [search, setSearch] = useState('');
   const [files, setFiles] = useState<Array<{ key: number; file: File }>>([]);
   const isRefused = useRefusal('program') !== null;
-  const programs = useLoaded(loadPrograms, []);
-  const found = searchPrograms(programs.value ?? [], search);
+  const filters = filtersOf(query);
+  const replaced = query.has('replaced');
+  const [typed, setTyped] = useState(query.get('words') ?? '');
+  const words = useSlow(typed).trim();
+  const choose = (changed: Record<string, string>) =>
+    location.replace(addressOf('programs', [], { ...filters, words: typed.trim(), replaced: replaced ? '1' : '', ...changed }));
+  useEffect(() => { if (words !== (query.get('words') ?? '')) choose({ words }); }, [words]);
+  const programs = useLoaded((signal) => listPrograms(filters, '', signal), Object.values(filters));
   const controls = [...new Set([...(programs.value ?? []), ...feed.machines.values()].map((known) => known.control).filter((c) => c !== null))].sort();
   const take = (added: File[]) => {
     if (!isRefused) setFiles((before) => [...before, ...added.map((file, i) => ({ key: before.length + i, file }))]);
@@ -35,31 +38,12 @@ export function ProgramList() {
       <div class="tools">
         <label class="search">
           <span class="visually-hidden">{t.search}</span>
-          <input type="search" placeholder={t.searchHint} value={search} onInput={(e) => setSearch(e.currentTarget.value)} />
+          <input type="search" placeholder={t.searchHint} value={typed} onInput={(e) => setTyped(e.currentTarget.value)} />
         </label>
-        {programs.value && <span class="muted" role="status">{t.count(found.length, programs.value.length)}</span>}
+        {words !== '' && <label class="check"><input type="checkbox" checked={replaced} onChange={(e) => choose({ replaced: e.currentTarget.checked ? '1' : '' })} />{texts().library.replaced}</label>}
       </div>
-      <Loading of={programs} />
-      <div class="scroll" tabIndex={0} role="region" aria-label={t.title}>
-        <table class="data">
-          <Heads of={[t.name, t.programTitle, t.control, t.revision, t.state, t.size, t.storedAt, t.author]} />
-          <tbody>
-            {found.slice(0, kShown).map((p) => (
-              <tr key={p.name}>
-                <th scope="row"><a class="target" href={addressOf('programs', [p.name])}>{p.name}</a></th>
-                <td>{p.title}</td>
-                <td>{p.control}</td>
-                <td>{p.revision}</td>
-                <td class="pills">{!p.held && <RevisionPill revision={p} />}{p.held_revisions > 0 && <span class="pill waiting">{t.pending(p.held_revisions)}</span>}</td>
-                <td>{bytesText(p.size)}</td>
-                <td>{dateTimeText(p.created)}</td>
-                <td>{p.author}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
-      {found.length > kShown && <p class="muted">{t.onlyFirst(kShown)}</p>}
+      <ProgramFilters filters={filters} shown={programs.value ?? []} onFilter={(filter: Filter, value) => choose({ [filter]: value })} />
+      {words === '' ? <ProgramTable first={programs} filters={filters} /> : <SearchHits typed={words} filters={filters} replaced={replaced} />}
     </>
   );
 }

@@ -1,6 +1,6 @@
-// Stores a file as a program's new revision, in pieces. What has arrived is kept by the server: after a lost connection the next attempt
+// Stores a file as a program's new revision or as an attachment, in pieces. What has arrived is kept by the server: after a lost connection the next attempt
 // continues where it stopped, since a piece names its place and is stored once.
-import type { CommittedRevision, Upload } from '../../generated/api';
+import type { Attachment, CommittedRevision, Upload } from '../../generated/api';
 import { get, pathOf, send, withQuery } from '../api/request';
 
 export interface UploadOptions {
@@ -15,18 +15,24 @@ export function programNameOf(file: string): string {
   return file.replace(/\.[A-Za-z0-9]{1,4}$/, '') || file;
 }
 
-export class ProgramUpload {
+/// What begins an upload, and what becomes of its bytes.
+interface Ends<T> {
+  begin(): Promise<Upload>;
+  finish(id: string, force: boolean): Promise<T>;
+}
+
+export class PieceUpload<T> {
   private id: string | null = null;
   private hasAll = false;
 
-  constructor(private readonly file: Blob, private readonly options: UploadOptions, private readonly onProgress: (fraction: number) => void) {}
+  constructor(private readonly file: Blob, private readonly ends: Ends<T>, private readonly onProgress: (fraction: number) => void) {}
 
   /// Begins, or continues after a failure. `force` replaces a program that is protected against change.
-  async run(force = false): Promise<CommittedRevision> {
+  async run(force = false): Promise<T> {
     const upload = await this.begin();
     if (!this.hasAll) await this.sendPieces(upload);
     this.hasAll = true;
-    return send<CommittedRevision>('POST', pathOf('uploads', upload.id, 'commit'), { json: force ? { force } : {} });
+    return this.ends.finish(upload.id, force);
   }
 
   /// Nothing of it stays at the server.
@@ -36,9 +42,7 @@ export class ProgramUpload {
 
   private async begin(): Promise<Upload> {
     if (this.id !== null) return get<Upload>(pathOf('uploads', this.id));
-    const { program, control, comment } = this.options;
-    const request = { program, ...(control !== null && { control }), ...(comment !== '' && { comment }) };
-    const upload = await send<Upload>('POST', pathOf('uploads'), { json: request });
+    const upload = await this.ends.begin();
     this.id = upload.id;
     return upload;
   }
@@ -51,4 +55,27 @@ export class ProgramUpload {
       this.onProgress(received / this.file.size);
     }
   }
+}
+
+export function programUpload(file: Blob, { program, control, comment }: UploadOptions, onProgress: (fraction: number) => void): PieceUpload<CommittedRevision> {
+  const request = { program, ...(control !== null && { control }), ...(comment !== '' && { comment }) };
+  return new PieceUpload(file, {
+    begin: () => send<Upload>('POST', pathOf('uploads'), { json: request }),
+    finish: (id, force) => send<CommittedRevision>('POST', pathOf('uploads', id, 'commit'), { json: force ? { force } : {} }),
+  }, onProgress);
+}
+
+export interface AttachmentOptions {
+  program: string;
+  /// null: it belongs to the program.
+  revision: number | null;
+  name: string;
+}
+
+export function attachmentUpload(file: Blob, { program, revision, name }: AttachmentOptions, onProgress: (fraction: number) => void): PieceUpload<Attachment> {
+  const request = { name, ...(revision !== null && { revision }) };
+  return new PieceUpload(file, {
+    begin: () => send<Upload>('POST', pathOf('programs', program, 'attachments'), { json: request }),
+    finish: (id) => send<Attachment>('POST', pathOf('uploads', id, 'attach'), { json: {} }),
+  }, onProgress);
 }

@@ -5,7 +5,7 @@ import { ApiError } from '../api/request';
 import { addressOf } from '../app/route';
 import { faultText } from '../parts/command';
 import { bytesText, numberText, texts } from '../texts/texts';
-import { ProgramUpload, programNameOf } from './upload';
+import { programNameOf, programUpload, type PieceUpload } from './upload';
 
 type State = { step: 'sending' } | { step: 'failed'; fault: string; status: number } | { step: 'stored'; revision: CommittedRevision };
 
@@ -15,11 +15,11 @@ export function UploadRow({ file, controls, onStored }: { file: File; controls: 
   const [control, setControl] = useState('');
   const [fraction, setFraction] = useState(0);
   const [state, setState] = useState<State>({ step: 'sending' });
-  const upload = useRef<ProgramUpload | null>(null);
+  const upload = useRef<PieceUpload<CommittedRevision> | null>(null);
   const run = async (isNew: boolean, force = false) => {
     if (isNew || !upload.current) {
       await upload.current?.drop().catch(() => {}); // the server drops it after a day
-      upload.current = new ProgramUpload(file, { program: name, control: control || null, comment: '' }, setFraction);
+      upload.current = programUpload(file, { program: name, control: control || null, comment: '' }, setFraction);
     }
     setState({ step: 'sending' });
     try {

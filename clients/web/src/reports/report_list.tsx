@@ -7,6 +7,7 @@ import { CommandFault, useCommand } from '../parts/command';
 import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { Pages } from '../parts/pages';
+import { ReportTabs } from '../parts/report_tabs';
 import { RunPill } from '../parts/run_pill';
 import { useLoaded } from '../parts/use_loaded';
 import { download } from '../programs/download';
@@ -50,6 +51,7 @@ export function ReportList({ query }: { query: URLSearchParams }) {
   return (
     <>
       <h1>{t.title}</h1>
+      <ReportTabs shown="runs" />
       <div class="tools">
         <label>{t.machine}<input value={machine} onChange={choose(setMachine)} /></label>
         <label>{t.program}<input value={program} onChange={choose(setProgram)} /></label>

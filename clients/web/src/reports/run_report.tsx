@@ -1,4 +1,4 @@
-// One run: how it went, what it measured, every record, and its exports.
+// One run: how it went, its parts with their verdicts, what it measured, every record, and its exports.
 import { useState } from 'preact/hooks';
 import type { Record as ReportRecord, Records, Run } from '../../generated/api';
 import { get, pathOf } from '../api/request';
@@ -14,6 +14,7 @@ import { download } from '../programs/download';
 import { dateTimeText, numberText, texts, timeText } from '../texts/texts';
 import { Exports } from './exports';
 import { Measured } from './measured';
+import { RunParts } from './run_parts';
 
 const kPage = 1000;
 /// A run may report for hours: more is for the exports.
@@ -109,6 +110,7 @@ export function RunReport({ id, query }: { id: string; query: URLSearchParams })
         <Exports onExport={(format) => void command.send(() => download(`${pathOf('reports', id)}?format=${format}`, `${file}.${format === 'text' ? 'txt' : format}`))} />
       </div>
       <CommandFault command={command} />
+      <RunParts key={id} run={id} />
       <Loading of={records} />
       {records.value && <Measured run={id} records={records.value} query={query} />}
       {records.value && <RecordTable key={id} records={records.value} />}

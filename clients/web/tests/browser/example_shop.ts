@@ -1,7 +1,9 @@
-// A shop in which much is going on, for pictures: a run, a question of a control, an alarm, a stop, a machine that was switched off.
-import { writeFileSync } from 'node:fs';
+// A shop in which much is going on, for pictures: a run, a question of a control, an alarm, a stop, a machine that was switched off, jobs that wait,
+// parts that were measured.
+import { mkdirSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { LineControl } from './line_control';
+import { addMeasuringLathe, makePart } from './measured_shop';
 import { Shop, longProgram, measuringProgram, until } from './shop';
 
 const kAsks = 'O0300 (DIAMETERS FROM THE OPERATOR)\nG20 G93 G98\nINPUT (LARGEST DIAMETER) P1\nG0 X[P1]\nM30\n';
@@ -50,11 +52,49 @@ name = "#500"
 value = 12.5
 `;
 
+/// What belongs to a program besides its text, with one that it calls and one that is missing.
+async function addLibrary(shop: Shop): Promise<void> {
+  await shop.push('O0610', 'O0610 (DEEP POCKET, FINISH)\nG1 X1. F100.\nM99\n', 'fanuc');
+  await shop.push('O0620', 'O0620 (BRACKET, BOTH SIDES)\nG21 G90\nM98 P610\nM98 P611\nM30\n', 'fanuc', 'from the second office');
+  const fields = { part: 'Bracket 7-114', operation: '20', material: 'EN AW-6082', machine_group: 'cell-1', cam_file: 'bracket-7-114.prt' };
+  await shop.api('PUT', 'programs/O0620/fields', fields);
+  await shop.api('PUT', 'programs/O0610/fields', { part: fields.part, material: fields.material });
+  for (const name of ['setup sheet 7-114.pdf', 'fixture.jpg']) {
+    const upload = await shop.api<{ id: string }>('POST', 'programs/O0620/attachments', { name });
+    await shop.api('PUT', `uploads/${upload!.id}/content?offset=0`, name.repeat(4000));
+    await shop.api('POST', `uploads/${upload!.id}/attach`, {});
+  }
+}
+
+async function addJobs(shop: Shop): Promise<void> {
+  const jobs = 'machines/mill-2/jobs';
+  await shop.api('POST', jobs, { program: 'O0600', quantity: 25, comment: 'steel, fixture 7' });
+  await shop.api('POST', jobs, { program: 'O0620', quantity: 8, parts_per_run: 4, comment: 'pallet B' });
+  await shop.api('POST', jobs, { program: 'O0100', revision: 1 });
+  await shop.api('POST', 'machines/mill-3/jobs', { program: 'O0600', quantity: 3 });
+  await shop.api('PUT', 'machines/mill-3/job-hold', { reason: 'the probe is being calibrated' });
+}
+
+async function addMeasurements(shop: Shop): Promise<void> {
+  await addMeasuringLathe(shop);
+  for (let i = 0; i < 16; ++i) await makePart(shop, { length: 1 + 0.0006 * i, diameter: 2 + 0.003 * Math.sin(i) + (i === 11 ? 0.004 : 0), ...(i === 4 && { more: 'TOOL 3 IS WARM' }) });
+  await until('a correction is proposed', async () => (await shop.api<{ offsets: unknown[] }>('GET', 'offsets?state=pending'))?.offsets.length === 1);
+  const { offsets } = (await shop.api<{ offsets: Array<{ id: number }> }>('GET', 'offsets?state=pending'))!;
+  await shop.api('POST', `machines/lathe-3/offsets/${offsets[0]!.id}/approve`, { comment: 'checked with a gauge' });
+  for (let i = 0; i < 5; ++i) await makePart(shop, { length: 1.003 + 0.0008 * i, diameter: 2.001 });
+}
+
 export async function exampleShop(): Promise<Shop> {
   const shop = new Shop();
   const policy = path.join(shop.folder, 'policy.toml');
   writeFileSync(policy, '[approve]\nfour_eyes = true\n[withdraw]\ncomment = true\n[imports]\naccept_at_once = ["comment"]\n');
-  shop.serverArgs = ['--policy', policy, '--backups', path.join(shop.folder, 'backups')];
+  const folder = path.join(shop.folder, 'cam');
+  mkdirSync(folder);
+  const settings = path.join(shop.folder, 'dncd.toml');
+  writeFileSync(settings, `[[folder]]\nname = "cam-mills"\npath = ${JSON.stringify(folder)}\ncontrol = "fanuc"\npoll_seconds = 1\n`);
+  writeFileSync(path.join(folder, 'O0810.nc'), 'O0810 (POSTED)\nG21 G90\nG1 X10. F100.\nM30\n');
+  writeFileSync(path.join(folder, 'O0811.nc'), 'O0811 (WITH AN ALARM)\nG21 G90\nG1 X10. F100.\nG999\nM30\n');
+  shop.serverArgs = ['--config', settings, '--policy', policy, '--backups', path.join(shop.folder, 'backups')];
   await shop.startServer();
   await shop.startMachine('mill-1', { control: 'fanuc', description: 'Vertical, three axes' });
   await shop.startMachine('mill-2', { control: 'fanuc', description: 'Vertical, pallet changer' });
@@ -90,6 +130,10 @@ export async function exampleShop(): Promise<Shop> {
   await control.punch(`%\n${bracket.join('\n').replace('F900.', 'F1100.').replace('Z-6.', 'Z-6.5')}%\n`);
   await shop.push('O0900', 'O0900 (LOOK AT ME)\nG20 G90 F500.\nG1 X1. F5\nG1 X10.\nX2. ZZ5.\nM30\n', 'fanuc');
   await shop.api('POST', 'programs/O0600/revisions/1/submit', { comment: 'second side' });
+  await addLibrary(shop);
+  await addJobs(shop);
+  await addMeasurements(shop);
+  await shop.api('POST', 'webhooks', { name: 'mes', url: 'http://127.0.0.1:9/dripline', kinds: ['run', 'alarm', 'part'] });
   await shop.stopMachine('mill-4');
   await until('lathe-1 asks', async () => {
     const machine = await shop.api<{ status: { waits_for: string } | null }>('GET', 'machines/lathe-1');

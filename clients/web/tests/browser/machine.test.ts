@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Page } from 'playwright-core';
+import { LineControl } from './line_control';
 import { assertNoComplaints, findBarriers, pressTwice, shopForTests } from './page';
 import { longProgram, until } from './shop';
 
@@ -140,5 +141,30 @@ test('a lathe shows X as a diameter, in the unit of its program', async () => {
   const position = (await shop.api<{ status: { position: { X: number } } }>('GET', 'machines/lathe-1'))!.status.position;
   assert.equal(position.X, 15, 'the API has the radius');
   assert.deepEqual(await findBarriers(page), []);
+  assertNoComplaints(complaints);
+});
+
+test('a start in the middle has the options of its machine: memory and pass at a gateway, skipped words on a line', async () => {
+  await shop.startMachine('mill-3', { control: 'fanuc' });
+  const control = await LineControl.listen();
+  await shop.api('PUT', 'ports/line-9', { machine: 'mill-9', address: control.address, template: 'fanuc' });
+  const { page, complaints } = await visit('#/machine/mill-3');
+  await page.getByLabel('Program', { exact: true }).fill('O0100');
+  assert.equal(await page.getByLabel('Memory for the skipped part').count(), 0);
+  await page.getByLabel(/^From/).fill('N1000');
+  await page.getByRole('combobox', { name: 'Memory for the skipped part' }).selectOption('now');
+  await page.getByLabel('Pass').fill('1');
+  assert.deepEqual(await findBarriers(page), []);
+  const [request] = await Promise.all([
+    page.waitForRequest((one) => one.method() === 'POST' && one.url().endsWith('/runs')),
+    pressTwice(page.getByRole('button', { name: 'Start', exact: true }), page.getByRole('button', { name: 'Press again: start O0100, revision 1, on mill-3 from N1000' })),
+  ]);
+  assert.deepEqual(request.postDataJSON(), { machine: 'mill-3', program: 'O0100', revision: 1, from: 'N1000', memory: 'now', pass: 1 });
+  await until('it has begun', async () => (await shop.api<{ runs: Array<{ state: string }> }>('GET', 'runs?machine=mill-3'))?.runs[0]?.state === 'active');
+  await page.goto(`${shop.url}/#/machine/mill-9`);
+  await page.getByLabel(/^From/).fill('N1000');
+  await page.getByRole('combobox', { name: /^Skipped words/ }).selectOption('send');
+  assert.deepEqual(await findBarriers(page), []);
+  await control.end();
   assertNoComplaints(complaints);
 });

@@ -1,9 +1,11 @@
 // Pictures of every view at both widths and in both themes, to be looked at: tests/run pictures FOLDER [VIEW]. With ONE_SCREEN=1 they show
-// what fits a screen, as those of deploy/docs do.
+// what fits a screen, as those of deploy/docs do; with NARROW=1 as a telephone shows it.
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { exampleShop } from './example_shop';
 import { kThemes, kWidths, openBrowser, visit } from './page';
+
+const kNarrow = 390;
 
 const kPlaces: Record<string, string> = {
   floor: '#/floor',
@@ -11,9 +13,15 @@ const kPlaces: Record<string, string> = {
   machine: '#/machine/mill-1',
   prompt: '#/machine/lathe-1',
   setup: '#/machine/mill-1/setup',
+  queue: '#/machine/mill-2/queue',
+  'queue-held': '#/machine/mill-3/queue',
+  'next-job': '#/machine/mill-3',
   runs: '#/machine/mill-2/runs',
   programs: '#/programs',
   program: '#/programs/O0600',
+  search: '#/programs?words=pocket',
+  filtered: '#/programs?part=Bracket+7-114',
+  library: '#/programs/O0620',
   check: '#/programs/O0900',
   imports: '#/imports',
   import: '#/imports/O0700/3',
@@ -23,6 +31,14 @@ const kPlaces: Record<string, string> = {
   normalized: '#/compare/O0700/1/2?by=normalized',
   reports: '#/reports',
   report: '#/reports/RUN?series=Z&lower=-1.9',
+  parts: '#/measurements/parts',
+  part: '#/measurements/parts/5',
+  values: '#/measurements?characteristic=L&machine=lathe-3&rules=nelson',
+  findings: '#/measurements/findings',
+  corrections: '#/corrections',
+  history: '#/corrections/lathe-3?target=T3.wear.Z',
+  folders: '#/administration/folders',
+  webhooks: '#/administration/webhooks',
   server: '#/administration/server',
   ports: '#/administration/ports',
   backups: '#/administration/backups',
@@ -42,12 +58,12 @@ async function main(): Promise<void> {
   const browser = await openBrowser();
   try {
     for (const [name, place] of Object.entries(kPlaces)) {
-      if (process.argv[3] && !name.includes(process.argv[3])) continue;
+      if (process.argv[3] && !process.argv[3].split(',').some((part) => name.includes(part))) continue;
       const measured = await shop.api<{ runs: Array<{ id: string }> }>('GET', 'runs?machine=lathe-2&limit=1');
       const { page, complaints } = await visit(browser, shop, place.replace('RUN', measured?.runs[0]?.id ?? ''), name === 'signin' ? { user: null } : {});
       await page.waitForLoadState('networkidle', { timeout: 2000 }).catch(() => {}); // the event stream stays open
       for (const theme of kThemes) {
-        for (const width of kWidths) {
+        for (const width of process.env.NARROW ? [kNarrow] : kWidths) {
           await page.emulateMedia({ colorScheme: theme });
           await page.setViewportSize({ width, height: 900 });
           await page.waitForTimeout(400);

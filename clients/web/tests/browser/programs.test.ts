@@ -60,7 +60,7 @@ test('names and texts that others wrote are shown and do nothing', async () => {
   await drop(page, `${kHostile}.nc`, 'O1\nM30\n');
   await page.locator('.upload .message', { hasText: kHostile }).waitFor(); // the server allows no such name, and says so
   await page.getByRole('searchbox').fill('onerror');
-  await page.getByRole('rowheader', { name: 'O0666' }).getByRole('link').click();
+  await page.locator('.hit', { hasText: 'O0666' }).getByRole('link').click();
   await page.getByRole('heading', { name: 'O0666', level: 1 }).waitFor();
   await page.getByText(kHostile).waitFor();
   await page.getByText('(<script>alert(1)</script>)').first().waitFor();

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Certificate, PortSetting, PortTemplate } from '../../generated/api';
 import { sortCertificates } from '../../src/administration/certificates';
+import { folderTone, kindsToSend, kKinds, webhookTone } from '../../src/administration/folder_state';
 import { readTypedSettings, shownSettings, unknownSettings } from '../../src/administration/port_settings';
 import { readNames } from '../../src/administration/port_transfer';
 import { relativeText } from '../../src/texts/texts';
@@ -44,4 +45,14 @@ test('ages are in the largest unit that fills', () => {
   const now = Date.parse('2026-11-24T12:00:00Z');
   const ages = ['2026-11-24T11:59:58Z', '2026-11-24T11:01:00Z', '2026-11-23T11:00:00Z', '2026-12-24T12:00:00Z'].map((time) => relativeText(time, now));
   assert.deepEqual(ages, ['2 seconds ago', '59 minutes ago', '1 day ago', 'in 30 days']);
+});
+
+test('a folder that cannot be read is an alarm, one that refused a file needs a look', () => {
+  const folder = (changed: object) => folderTone({ fault: null, waiting: 0, failed: 0, last_refused: null, ...changed } as never);
+  assert.deepEqual([{}, { waiting: 1 }, { failed: 1 }, { last_refused: 'a.nc' }, { fault: 'no such folder' }].map(folder), ['ready', 'running', 'waiting', 'waiting', 'alarm']);
+});
+
+test('a webhook that lost events is an alarm; one for all kinds names none', () => {
+  assert.deepEqual([{ failures: 0, lost: 0 }, { failures: 3, lost: 0 }, { failures: 0, lost: 1 }].map((webhook) => webhookTone(webhook as never)), ['ready', 'waiting', 'alarm']);
+  assert.deepEqual([kindsToSend(kKinds), kindsToSend(['job', 'run'])], [{}, { kinds: ['run', 'job'] }]);
 });

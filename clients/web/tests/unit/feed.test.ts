@@ -2,14 +2,14 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Feed } from '../../src/live/feed';
-import { importOf, machine, run } from './samples';
+import { importOf, machine, offset, run } from './samples';
 
 /// Answers requests when the test says so; events go to the readers of the stream.
 class FakeServer {
   private events!: ReadableStreamDefaultController<Uint8Array>;
   private readonly waiting: Array<() => void> = [];
 
-  constructor(machines: unknown[], runs: unknown[], imports: unknown[] = []) {
+  constructor(machines: unknown[], runs: unknown[], imports: unknown[] = [], offsets: unknown[] = []) {
     const answer = (body: unknown) => new Response(JSON.stringify(body));
     globalThis.fetch = (async (path: string, init: RequestInit) => {
       if (path.endsWith('/events')) {
@@ -17,7 +17,7 @@ class FakeServer {
         return new Response(new ReadableStream({ start: (controller) => { this.events = controller; } }));
       }
       await new Promise<void>((done) => this.waiting.push(done));
-      return answer(path.includes('/machines') ? { machines } : path.includes('/imports') ? { imports } : { runs });
+      return answer(path.includes('/machines') ? { machines } : path.includes('/imports') ? { imports } : path.includes('/offsets') ? { offsets } : { runs });
     }) as typeof fetch;
   }
 
@@ -26,7 +26,7 @@ class FakeServer {
   }
 
   async isAsked(): Promise<void> {
-    while (this.waiting.length < 3) await new Promise((done) => setTimeout(done, 1));
+    while (this.waiting.length < 4) await new Promise((done) => setTimeout(done, 1));
   }
 
   answerAll(): void {
@@ -80,5 +80,23 @@ test('what waits is what was listed and has come since, without what was decided
   server.send('import', importOf({ revision: 3, state: 'accepted_as' }));
   await until(() => feed.imports.size === 1);
   assert.deepEqual(waiting(), [1]);
+  feed.end();
+});
+
+test('pending corrections are what was listed and has come since; a measured part is noted', { timeout: 10_000 }, async () => {
+  const server = new FakeServer([], [], [], [offset({ id: 1 }), offset({ id: 2 })]);
+  const feed = new Feed();
+  let parts = 0;
+  feed.on('parts', () => ++parts);
+  feed.begin();
+  await server.isAsked();
+  server.send('offset', offset({ id: 2, state: 'superseded' }));
+  server.send('offset', offset({ id: 3 }));
+  server.send('part', { id: 7 });
+  await until(() => feed.offsets.size === 1);
+  server.answerAll();
+  await until(() => feed.link.state === 'live');
+  assert.deepEqual([...feed.offsets.keys()].sort(), [1, 3]);
+  await until(() => parts > 0);
   feed.end();
 });

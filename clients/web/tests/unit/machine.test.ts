@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { probingOf, recordText } from '../../src/live/record_text';
+import { startBody } from '../../src/machine/commands';
 import { addRow, columnsOf, readTables, setCell } from '../../src/machine/setup/setup_tables';
 import { holds, numberLines, rangeAround, type TextWindow } from '../../src/machine/text_window';
 import { axisText, isDiameter, lengthText, sortAxes, unitOf } from '../../src/machine/units';
@@ -118,4 +119,11 @@ test('a probing result is a point', () => {
   assert.deepEqual(probingOf(probe), { at: { X: 1.5, Z: -0.25 }, tripped: true });
   assert.equal(recordText(probe), 'X 1.5000  Z -0.2500');
   assert.equal(probingOf(record({ kind: 'output', text: probe.text })), null);
+});
+
+test('options of a start are sent with a place in the program alone', () => {
+  const request = { machine: 'mill-1', program: 'O0200', revision: null, options: { head: 'send', memory: 'now', pass: '2' } } as const;
+  assert.deepEqual(startBody({ ...request, from: '' }), { machine: 'mill-1', program: 'O0200' });
+  assert.deepEqual(startBody({ ...request, from: 'N120' }), { machine: 'mill-1', program: 'O0200', from: 'N120', head: 'send', memory: 'now', pass: 2 });
+  assert.deepEqual(startBody({ machine: 'mill-1', program: 'O0200', revision: 3, from: 'L7' }), { machine: 'mill-1', program: 'O0200', revision: 3, from: 'L7' });
 });

@@ -1,12 +1,13 @@
 // The logic of the programs' view: names, pieces of long texts, parts of a block, search.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { searchPrograms } from '../../src/programs/list';
+import { canPin, releaseOf } from '../../src/programs/calls';
+import { changeOf, fieldsOf } from '../../src/programs/fields';
 import { holdsPlace, nextOf, pieceOf, rangeAround, rangeBefore, rangeFrom, type Range } from '../../src/programs/pieces';
 import { findingsByLine, sortFindings } from '../../src/programs/findings';
+import { beforeName, markWords, wordsToSend } from '../../src/programs/search';
 import { partsOf } from '../../src/programs/syntax';
 import { programNameOf } from '../../src/programs/upload';
-import type { Program } from '../../generated/api';
 
 test('a program is called as its file, without the ending', () => {
   assert.deepEqual(['O0100.nc', '15.H', 'part.v2.nc', 'O0100', '.nc', 'a.longending'].map(programNameOf), ['O0100', '15', 'part.v2', 'O0100', '.nc', 'a.longending']);
@@ -73,8 +74,39 @@ test('comments, numbers, codes and words are distinguished', () => {
   assert.deepEqual(kinds, ['number:N10', 'code:G1', 'word:X1.5', 'comment:(GO)', 'code:M3']);
 });
 
-test('a search fits all words, wherever they are', () => {
-  const programs = [{ name: 'O0100', title: 'PLATE' }, { name: 'O0200', title: 'SHAFT' }] as Program[];
-  assert.deepEqual(searchPrograms(programs, 'o0 shaft').map((p) => p.name), ['O0200']);
-  assert.equal(searchPrograms(programs, '').length, 2);
+test('the beginning of a word is searched for while it is typed, of letters alone', () => {
+  assert.deepEqual(['brack', 'O07', 'po', ' pocket mill ', 'T1 rou*', 'G1', 'träger'].map(wordsToSend), ['brack*', 'O07', 'po', 'pocket mill*', 'T1 rou*', 'G1', 'träger*']);
+});
+
+test('names that begin so are those past the name before', () => {
+  const names = ['O', 'O06', 'O0699', 'O07', 'O0700', 'O071', 'O08'];
+  const bytes = (text: string) => Buffer.from(text);
+  const past = names.filter((name) => Buffer.compare(bytes(name), bytes(beforeName('O07'))) > 0);
+  assert.deepEqual(past, ['O07', 'O0700', 'O071', 'O08']);
+});
+
+for (const [text, words] of [['DEEP POCKET, POCKET 2', 'pocket* deep'], ['<img src=x>', 'img <'], ['İstanbul', 'i'], ['G01 X1', ''], ['', 'x']] as const) {
+  test(`the marked parts of "${text}" are all of it`, () => {
+    assert.equal(markWords(text, words).map((part) => part.text).join(''), text);
+  });
+}
+
+test('words are marked wherever they are', () => {
+  const found = markWords('DEEP POCKET, pocket 2', 'pocket* deep').filter((part) => part.isFound).map((part) => part.text);
+  assert.deepEqual(found, ['DEEP', 'POCKET', 'pocket']);
+});
+
+test('only the fields that were changed are sent, an emptied one too', () => {
+  const before = fieldsOf({ part: 'bracket', operation: null, material: 'steel', machine_group: null, cam_file: null });
+  assert.equal(changeOf(before, { ...before, part: 'bracket ' }, 3), null);
+  assert.deepEqual(changeOf(before, { ...before, material: '', operation: '2' }, 3), { operation: '2', material: '' });
+  assert.deepEqual(changeOf(before, { ...before, cam_file: 'b.prt' }, 3), { cam_file: 'b.prt', revision: 3 });
+});
+
+test('what is called is pinned when all of it is there and approved', () => {
+  const call = (state: string) => ({ name: '210', program: 'O0210', revision: 1, sha256: '', state, site: null });
+  const closure = (calls: unknown[], missing: unknown[] = []) => ({ program: 'O0200', revision: 1, calls, missing, computed: [] }) as never;
+  assert.deepEqual([closure([]), closure([call('draft')]), closure([call('approved'), call('released')]), closure([call('released')], [{}])].map(canPin), [false, false, true, false]);
+  assert.deepEqual(releaseOf(false, { machine: 'mill-1', with: 'O0220' }), {});
+  assert.deepEqual(releaseOf(true, { machine: '', with: 'O0220@3, O0230' }), { closure: true, with: ['O0220@3', 'O0230'] });
 });

@@ -1,5 +1,5 @@
 // A machine, its status and a run with usual values, for tests that are about one of them.
-import type { Import, Machine, Record as ReportRecord, Run, Status } from '../../generated/api';
+import type { Import, Job, Machine, Measurement, Offset, Record as ReportRecord, Run, Status } from '../../generated/api';
 
 export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<Status> {
   return {
@@ -37,5 +37,26 @@ export function importOf(changed: Partial<Import> = {}): Import {
     program: 'O0200', revision: 2, machine: 'lathe-2', control: 'centurion', size: 100, sha256: '0'.repeat(64), comment: null, received: '2026-11-23T12:00:00Z',
     state: 'pending', class: 'feed_and_speed', base: 1, fault: null, compared: '2026-11-23T12:00:01Z', decided: null, who: null, reason: null, at_once: false,
     accepted_as: null, ...changed,
+  };
+}
+
+export function job(changed: Partial<Job> = {}): Job {
+  return {
+    id: 1, machine: 'mill-1', program: 'O0200', revision: null, quantity: 1, parts_per_run: 1, completed: 0, runs: 0, state: 'waiting', comment: null,
+    author: 'admin', created: '2026-11-23T12:00:00Z', ...changed,
+  };
+}
+
+export function offset(changed: Partial<Offset> = {}): Offset {
+  return {
+    id: 1, machine: 'lathe-1', rule: 'L', target: 'T3.wear.Z', unit: 'mm', old_value: 0, new_value: 0.025, base: 1, state: 'pending', used: 3, left_out: 0, mean: 0.025, first: 1,
+    last: 3, reasons: ['mean of 3'], created: '2026-11-23T12:00:00Z', decided: null, who: null, comment: null, automatic: false, setup: null, ...changed,
+  };
+}
+
+export function measurement(changed: Partial<Measurement> = {}): Measurement {
+  return {
+    id: 1, machine: 'lathe-1', run: 'run-1', program: 'O0100', revision: 1, block: 1, line: 1, part: 1, part_number: null, serial: null, tool: null, characteristic: 'D12',
+    nominal: 12, lower: 11.9, upper: 12.1, unit: 'mm', decimals: 3, actual: 12, deviation: 0, time: '2026-11-23T12:00:00Z', epoch: 1, number: 1, item: 0, verdict: 'good', ...changed,
   };
 }

@@ -3,6 +3,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { Setup } from '../../../generated/api';
 import { ApiError, get, pathOf, send, withQuery } from '../../api/request';
+import { addressOf } from '../../app/route';
 import { Allowed } from '../../parts/allowed';
 import { CommandFault, useCommand } from '../../parts/command';
 import { DiffView } from '../../parts/diff_view';
@@ -85,7 +86,7 @@ export function MachineSetup({ machine }: { machine: string }) {
   const isChanged = text !== (base.text ?? '');
   return (
     <>
-      <p class="muted">{base.revision === 0 ? t.none : t.revision(base.revision, dateTimeText(base.created), base.author ?? '–')}</p>
+      <p class="muted">{base.revision === 0 ? t.none : t.revision(base.revision, dateTimeText(base.created), base.author ?? '–')} <a href={addressOf('corrections', [machine])}>{t.history}</a></p>
       {kTables.map((table) => <SetupTable key={table} table={table} text={text} onChange={setText} />)}
       <section class="panel" aria-labelledby="setup-text">
         <h2 id="setup-text">{t.text}</h2>

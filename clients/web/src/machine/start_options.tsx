@@ -1,0 +1,43 @@
+// What has to be decided for a start in the middle of a program: on a serial line about the words that are skipped, at a gateway about its control's
+// memory and the pass of a loop.
+import type { Machine } from '../../generated/api';
+import { texts } from '../texts/texts';
+import type { StartOptions } from './commands';
+
+const kMaxPass = 1_000_000;
+
+interface Props {
+  machine: Machine;
+  options: StartOptions;
+  onChange: (options: StartOptions) => void;
+}
+
+function Choice<K extends string>({ label, value, names, onChange }: { label: string; value: K; names: Record<K, string>; onChange: (value: K) => void }) {
+  return (
+    <label>
+      {label}
+      <select value={value} onChange={(e) => onChange(e.currentTarget.value as K)}>
+        {(Object.keys(names) as K[]).map((key) => <option key={key} value={key}>{names[key]}</option>)}
+      </select>
+    </label>
+  );
+}
+
+export function StartOptionFields({ machine, options, onChange }: Props) {
+  const t = texts().start;
+  if (machine.gateway_version === null) {
+    return (
+      <>
+        <Choice label={t.head} value={options.head} names={t.heads} onChange={(head) => onChange({ ...options, head })} />
+        <p class="hint">{t.headHint}</p>
+      </>
+    );
+  }
+  return (
+    <div class="start-options">
+      <Choice label={t.memory} value={options.memory} names={t.memories} onChange={(memory) => onChange({ ...options, memory })} />
+      <label>{t.pass}<input type="number" min={1} max={kMaxPass} step={1} placeholder={t.passHint} value={options.pass} onInput={(e) => onChange({ ...options, pass: e.currentTarget.value })} /></label>
+      <p class="hint">{t.searchHint}</p>
+    </div>
+  );
+}

@@ -1,0 +1,10 @@
+// Whether a part, or a measurement of it, is good: a word on a color.
+import type { Part } from '../../generated/api';
+import type { Tone } from '../live/machine_state';
+import { texts } from '../texts/texts';
+
+const kTones: Record<Part['verdict'], Tone> = { good: 'running', unknown: 'offline', rework: 'waiting', scrap: 'alarm' };
+
+export function VerdictPill({ verdict }: { verdict: Part['verdict'] }) {
+  return <span class={`pill ${kTones[verdict]}`}>{texts().measurements.verdicts[verdict]}</span>;
+}
