@@ -17,12 +17,13 @@ constexpr bool is_capital(char c) {
 /// sure is left out: then texts differ that mean the same, never the reverse.
 struct LexicalRules {
   std::string_view control;
-  bool has_parentheses = false;     ///< comments in parentheses
-  bool has_semicolon = false;       ///< comments from a semicolon to the end of the line
-  bool has_marks = false;           ///< a comment that begins with LOG, PRINT ... does something
-  bool has_numbers = false;         ///< 1. = 1.0 = 01.000, and a sign + changes nothing
-  bool point_counts = false;        ///< X1 is not X1., but X0 is X0.: counts of the increment have no point
-  bool has_comma = false;           ///< a decimal comma is a point
+  bool has_parentheses = false;  ///< comments in parentheses
+  bool has_semicolon = false;    ///< comments from a semicolon to the end of the line
+  bool has_marks = false;        ///< a comment that begins with LOG, PRINT ... does something
+  bool has_numbers = false;      ///< 1. = 1.0 = 01.000, and a sign + changes nothing
+  bool point_counts =
+      false;               ///< X1 is not X1., but X0 is X0.: counts of the increment have no point
+  bool has_comma = false;  ///< a decimal comma is a point
   bool begins_with_number = false;  ///< a block's number is digits without N
   bool has_block_numbers = false;   ///< N and digits at the beginning of a block number it
   char variable = 0;                ///< what names a variable: # or Q; P of a Centurion
