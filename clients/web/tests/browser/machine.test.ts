@@ -145,11 +145,12 @@ test('a lathe shows X as a diameter, in the unit of its program', async () => {
 });
 
 test('a start in the middle has the options of its machine: memory and pass at a gateway, skipped words on a line', async () => {
-  await shop.startMachine('mill-3', { control: 'fanuc' });
+  await shop.startMachine('lathe-3', { control: 'centurion' });
+  await shop.push('O0320', `O0320\nG20 G93 G98\n${Array.from({ length: 200 }, (_, i) => `N${(i + 1) * 10} G1 X${i % 2} F2.`).join('\n')}\nM30\n`, 'centurion');
   const control = await LineControl.listen();
   await shop.api('PUT', 'ports/line-9', { machine: 'mill-9', address: control.address, template: 'fanuc' });
-  const { page, complaints } = await visit('#/machine/mill-3');
-  await page.getByLabel('Program', { exact: true }).fill('O0100');
+  const { page, complaints } = await visit('#/machine/lathe-3');
+  await page.getByLabel('Program', { exact: true }).fill('O0320');
   assert.equal(await page.getByLabel('Memory for the skipped part').count(), 0);
   await page.getByLabel(/^From/).fill('N1000');
   await page.getByRole('combobox', { name: 'Memory for the skipped part' }).selectOption('now');
@@ -157,10 +158,10 @@ test('a start in the middle has the options of its machine: memory and pass at a
   assert.deepEqual(await findBarriers(page), []);
   const [request] = await Promise.all([
     page.waitForRequest((one) => one.method() === 'POST' && one.url().endsWith('/runs')),
-    pressTwice(page.getByRole('button', { name: 'Start', exact: true }), page.getByRole('button', { name: 'Press again: start O0100, revision 1, on mill-3 from N1000' })),
+    pressTwice(page.getByRole('button', { name: 'Start', exact: true }), page.getByRole('button', { name: 'Press again: start O0320, revision 1, on lathe-3 from N1000' })),
   ]);
-  assert.deepEqual(request.postDataJSON(), { machine: 'mill-3', program: 'O0100', revision: 1, from: 'N1000', memory: 'now', pass: 1 });
-  await until('it has begun', async () => (await shop.api<{ runs: Array<{ state: string }> }>('GET', 'runs?machine=mill-3'))?.runs[0]?.state === 'active');
+  assert.deepEqual(request.postDataJSON(), { machine: 'lathe-3', program: 'O0320', revision: 1, from: 'N1000', memory: 'now', pass: 1 });
+  await until('it has begun', async () => (await shop.api<{ runs: Array<{ state: string }> }>('GET', 'runs?machine=lathe-3'))?.runs[0]?.state === 'active');
   await page.goto(`${shop.url}/#/machine/mill-9`);
   await page.getByLabel(/^From/).fill('N1000');
   await page.getByRole('combobox', { name: /^Skipped words/ }).selectOption('send');
