@@ -63,13 +63,19 @@ class HttplibSender final : public Sender {
       received += size;
       return received <= kMaxAnswer;
     };
+    int status = 0;  // it counts where the text was too long to be read to its end
+    request.response_handler = [&status](const httplib::Response& head) {
+      status = head.status;
+      return true;
+    };
     const auto answer = [&] {
       const Deadline deadline(client, 3 * timeout_, stop);
       return client.send(request);
     }();
-    if (!answer) return fail(refusal(answer.error(), origin));
-    if (answer->status >= 200 && answer->status < 300) return {};
-    return fail(Errc::Conflict, "{} answered with status {}", origin, answer->status);
+    if (!answer && received <= kMaxAnswer) return fail(refusal(answer.error(), origin));
+    if (answer) status = answer->status;
+    if (status >= 200 && status < 300) return {};
+    return fail(Errc::Conflict, "{} answered with status {}", origin, status);
   }
 
  private:
@@ -78,7 +84,16 @@ class HttplibSender final : public Sender {
   static Error refusal(httplib::Error error, const std::string& origin) {
     const bool is_untrusted = error == httplib::Error::SSLServerVerification;
     if (is_untrusted) return {Errc::Denied, origin + ": its certificate is not trusted"};
-    return {Errc::Timeout, fmt::format("{}: {}", origin, httplib::to_string(error))};
+    switch (error) {
+      case httplib::Error::Connection:
+      case httplib::Error::ConnectionTimeout:
+        return {Errc::Timeout, origin + ": no connection"};
+      case httplib::Error::Read:
+      case httplib::Error::Canceled:
+        return {Errc::Timeout, origin + ": no answer in time"};
+      default:
+        return {Errc::Timeout, fmt::format("{}: {}", origin, httplib::to_string(error))};
+    }
   }
 
   const std::chrono::milliseconds timeout_;

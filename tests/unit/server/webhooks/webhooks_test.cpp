@@ -206,6 +206,10 @@ class HttpSenderTest : public testing::Test {
     server_.Post("/moved", [](const httplib::Request&, httplib::Response& response) {
       response.set_redirect("/hook");
     });
+    server_.Post("/long", [](const httplib::Request& request, httplib::Response& response) {
+      response.set_content(std::string(10'000'000, 'x'), "text/plain");
+      response.status = request.has_param("bad") ? 500 : 200;
+    });
     server_.Post("/drip", [](const httplib::Request&, httplib::Response& response) {
       response.set_chunked_content_provider("text/plain", [](std::size_t, httplib::DataSink& sink) {
         test_support::wait_a_little();
@@ -250,6 +254,14 @@ TEST_F(HttpSenderTest, FollowsNoRedirectionAndNamesTheStatus) {
   EXPECT_NE(moved.error().what.find("302"), std::string::npos) << moved.error().what;
   EXPECT_EQ(seen_.body, "");
   EXPECT_NE(send("/nothing").error().what.find("404"), std::string::npos);
+}
+
+TEST_F(HttpSenderTest, TakesTheStatusOfAnAnswerThatIsTooLong) {
+  const auto sent = send("/long");
+  EXPECT_TRUE(sent) << sent.error().what;
+  const auto refused = send("/long?bad=1");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("500"), std::string::npos) << refused.error().what;
 }
 
 TEST_F(HttpSenderTest, AReceiverThatDripsIsCutOff) {
