@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SerialGateway, IsHeldByTheControlAndReportsItsBuffer) {
   SerialSystem shop({.settings = {"flow=xonxoff"},
                      .gateway_arguments = {"--line-ahead-s", "20"},
-                     .control_speed = "20x",
+                     .control_speed = "8x",
                      .control_arguments = {"--line-buffer", "1024"}});
   const std::string text = contour(60'000);
   const std::string id = shop.start("contour", text);
@@ -61,7 +61,7 @@ TEST(SerialGateway, IsHeldByTheControlAndReportsItsBuffer) {
     return shop.message().find("the rest of the program is buffered") != std::string::npos &&
            shop.status().value("buffered_seconds", 0.0) > 1;
   })) << shop.status().dump();
-  EXPECT_TRUE(eventually([&] { return shop.message().find("holds the line") == 0; }))
+  EXPECT_TRUE(eventually([&] { return shop.message().find("the control holds the line") == 0; }))
       << shop.message();
   const auto run = shop.system->wait_ended(id, 120s);
   EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
