@@ -93,13 +93,13 @@ TEST_F(Release, PinsWhatAProgramCallsSoThatANewerSubprogramDoesNotRun) {
   };
   push("O1", "O1\nM98 P2\nDPRNT[END]\nM30\n");
   refused(as("anna", "program closure O1"), "missing: O0002");
-  push("O0002", "O2\nPOPEN\nDPRNT[APPROVED]\nM99\n");
+  push("O0002", "O2\nPOPEN P1\nDPRNT[APPROVED]\nM99\n");
   good(as("anna", "program closure O1"));
   approve("O1 1");
   refused(as("bert", "program release O1 1 --closure"), "O0002 revision 1 is draft");
   approve("O0002 1");
   good(as("bert", "program release O1 1 --closure"));
-  push("O0002", "O2\nPOPEN\nDPRNT[NEWER]\nM99\n");
+  push("O0002", "O2\nPOPEN P1\nDPRNT[NEWER]\nM99\n");
   approve("O0002 2");
   good(as("bert", "program release O0002 2"));
   const auto started = as("anna", "run start lathe-1 O1 --json");

@@ -92,9 +92,9 @@ class Week : public testing::Test {
   TlsShop shop_;
 };
 
-constexpr const char* kFirst = "G00 X1.\nG01 X2. F10.\nM30\n";
-constexpr const char* kSecond = "G00 X1.\nG01 X2. F8.\nM30\n";
-constexpr const char* kOnTheFloor = "%\nO0200\nG00 X1.\nG01 X2. F6.\nM30\n%\n";
+constexpr const char* kFirst = "S500 M03\nG00 X1.\nG01 X2. F10.\nM30\n";
+constexpr const char* kSecond = "S500 M03\nG00 X1.\nG01 X2. F8.\nM30\n";
+constexpr const char* kOnTheFloor = "%\nO0200\nS500 M03\nG00 X1.\nG01 X2. F6.\nM30\n%\n";
 
 TEST_F(Week, OfACamGroup) {
   // Monday: a first draft, which its reviewer does not like.
@@ -119,7 +119,7 @@ TEST_F(Week, OfACamGroup) {
   const auto first = parsed(as("olga", "job start lathe-1 --json"));
   EXPECT_EQ(first["revision"], 2);
   const auto ended = wait_ended(first["id"]);
-  EXPECT_EQ(ended["state"], "completed");
+  EXPECT_EQ(ended["state"], "completed") << ended.dump();
   EXPECT_EQ(ended["allowed_as"], "released");
   EXPECT_EQ(ended["author"], "olga");
   EXPECT_EQ(parsed(as("quentin", "job list lathe-1 --closed --json"))["jobs"][0]["state"], "done");
@@ -149,7 +149,8 @@ TEST_F(Week, OfACamGroup) {
   good(as("bert", "program release O0200 3"));
   const auto second = parsed(as("olga", "run start lathe-1 O0200 --json"));
   EXPECT_EQ(second["revision"], 3);
-  EXPECT_EQ(wait_ended(second["id"])["state"], "completed");
+  const auto again = wait_ended(second["id"]);
+  EXPECT_EQ(again["state"], "completed") << again.dump();
   good(as("bert", "program withdraw O0200 3 --comment \"insert was worn\""));
   EXPECT_EQ(parsed(as("olga", "run start lathe-1 O0200 --json"))["revision"], 2);
 
