@@ -313,6 +313,7 @@ void PortLine::read_piece(const Wanted& wanted) {
                 wire::Discipline& line, wire::LineTime now) {
     if (!piece) return session_.supply_failed(id, piece.error(), line, now);
     session_.supply(id, offset, *piece, line, now);
+    refresh();  // what waits here is no more with who gave it
   });
 }
 

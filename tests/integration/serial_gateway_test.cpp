@@ -1,3 +1,5 @@
+#include <fstream>
+
 #include "tests/integration/serial_system.hpp"
 
 /// A gateway beside an old control: programs over DDS, then over its serial line, and what the
@@ -48,21 +50,24 @@ INSTANTIATE_TEST_SUITE_P(
                     Protocol{"heidenhain_bcc", {"flow=heidenhain_bcc", "control=plain"}, "77"}),
     [](const auto& i) { return std::string(i.param.name); });
 
-/// The control holds the gateway most of the time: it executes in real time.
+/// At the question the control waits for the end of a long move, and its memory fills up.
 TEST(SerialGateway, IsHeldByTheControlAndReportsItsBuffer) {
+  const test_support::TemporaryFolder folder;
+  const auto setup = folder.path() / "setup.toml";
+  std::ofstream(setup) << "units = \"in\"\nanswers = [\"1\"]\n";
   SerialSystem shop({.settings = {"flow=xonxoff"},
                      .gateway_arguments = {"--line-ahead-s", "20"},
-                     .control_speed = "20x",
-                     .control_arguments = {"--line-buffer", "1024"}});
-  const std::string text = contour(60'000);
-  const std::string id = shop.start("contour", text);
-  // 60,000 bytes are 5 s of this line: all of it is here long before it has left.
+                     .control_speed = "100x",
+                     .control_arguments = {"--line-buffer", "1024", "--setup", setup}});
+  std::string text = "O0077\nG20 G98\nG0 X3. Z0\nG1 Z-5. F1.\nINPUT (GO ON) P1\n";
+  for (int i = 0; i < 1500; ++i) text += "G1 X1. F500.\n";
+  const std::string id = shop.start("O0077", text + "M30\n");
   EXPECT_TRUE(eventually([&] {
-    return shop.message().find("the rest of the program is buffered") != std::string::npos &&
+    const std::string message = shop.message();
+    return message.find("the control holds the line") == 0 &&
+           message.find("the rest of the program is buffered") != std::string::npos &&
            shop.status().value("buffered_seconds", 0.0) > 1;
-  })) << shop.status().dump();
-  EXPECT_TRUE(eventually([&] { return shop.message().find("holds the line") == 0; }))
-      << shop.message();
+  })) << shop.message();
   const auto run = shop.system->wait_ended(id, 120s);
   EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
 }
