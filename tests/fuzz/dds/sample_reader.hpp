@@ -38,7 +38,7 @@ class SampleReader {
   void fill(auto& sample, const auto& member, const auto&...) { one(member.field(sample)); }
   template <class T, class Field, class Flag>
   void fill(auto& sample, const Member<const std::optional<T>, Field>& member,
-            const PresentIf<Flag>& present) {
+            const PresentIf<Flag>& present, const auto&...) {
     one(present.flag(sample));
     if constexpr (requires { one(member.field(sample)); }) {
       one(member.field(sample));
