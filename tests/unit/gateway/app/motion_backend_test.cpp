@@ -163,8 +163,10 @@ TEST(MotionChoice, NamesTheBackEndsItKnows) {
   EXPECT_TRUE(check_motion("grbl:tcp://board:23"));
   EXPECT_TRUE(check_motion("linuxcnc:deploy/examples/linuxcnc/mill.ini"));
   EXPECT_TRUE(check_motion("grbl:/dev/ttyUSB0,57600"));
+  EXPECT_TRUE(check_motion("line:/dev/ttyUSB0"));
+  EXPECT_FALSE(check_motion("line:"));
   EXPECT_EQ(check_motion("real").error().what,
-            "motion 'real' is not known: simulated, linuxcnc:INI, grbl:ADDRESS");
+            "motion 'real' is not known: simulated, linuxcnc:INI, grbl:ADDRESS, line:ADDRESS");
 }
 
 TEST(MotionChoice, RefusesAnAddressThatIsNone) {
