@@ -126,7 +126,6 @@ TEST(ProgramCalls, AreRefusedWhereTheTextIsNotUnderstood) {
   std::string many;
   for (int i = 1; i <= 1100; ++i) many += fmt::format("M98 P{}\n", i);
   EXPECT_EQ(calls_of("fanuc", many).error().code, Errc::LimitExceeded);
-  EXPECT_FALSE(calls_of("tnc155", "CALL PGM 12\n"));
 }
 
 TEST(ProgramCalls, ControlsWithoutCallsHaveNone) {
