@@ -10,10 +10,15 @@ std::string to_text(const nlohmann::json& value) {
 }
 
 Response json_response(int status, const nlohmann::json& value) {
-  Response response;
+  Response response = json_text_response(to_text(value));
   response.status = status;
+  return response;
+}
+
+Response json_text_response(std::string text) {
+  Response response;
   response.content_type = "application/json";
-  response.body = to_text(value);
+  response.body = std::move(text);
   return response;
 }
 

@@ -46,6 +46,8 @@ struct Response {
 };
 
 Response json_response(int status, const nlohmann::json& value);
+/// A JSON text that is made already.
+Response json_text_response(std::string text);
 Response no_content();
 /// `{"error":{"code","message"}}` with the status that belongs to the code.
 Response error_response(const Error& error);

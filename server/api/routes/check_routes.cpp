@@ -1,5 +1,5 @@
-
 #include "server/api/api.hpp"
+#include "server/api/interpretation.hpp"
 
 namespace dripline::api {
 namespace {
@@ -14,17 +14,8 @@ Response check_program(Services& services, const Request& request) {
   if (!found) return error_response(found.error());
   checked.revision = *found;
   auto result = services.paths.check(checked);
-  if (!result && result.error().code == Errc::Busy) {
-    constexpr int kUnavailable = 503;
-    Response response = error_response(kUnavailable, result.error());
-    response.headers.emplace_back("Retry-After", "2");
-    return response;
-  }
-  if (!result) return error_response(result.error());
-  Response response;
-  response.content_type = "application/json";
-  response.body = *std::move(result);
-  return response;
+  if (!result) return refused_interpretation(result.error());
+  return json_text_response(*std::move(result));
 }
 
 }  // namespace

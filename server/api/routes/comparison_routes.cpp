@@ -1,12 +1,9 @@
-#include <charconv>
-#include <cmath>
-
 #include "server/api/api.hpp"
+#include "server/api/interpretation.hpp"
 
 namespace dripline::api {
 namespace {
 
-constexpr std::uint64_t kMaxNumber = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t kMaxContext = 100;
 
 Result<paths::CompareBy> read_by(const std::optional<std::string>& text) {
@@ -16,25 +13,10 @@ Result<paths::CompareBy> read_by(const std::optional<std::string>& text) {
   return fail(Errc::Syntax, "query parameter 'by' is '{}': text, normalized or motion", *text);
 }
 
-Result<double> read_distance(const std::optional<std::string>& text, double otherwise) {
-  if (!text) return otherwise;
-  double value = 0;
-  const auto read = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (read.ec != std::errc{} || read.ptr != text->data() + text->size() || !std::isfinite(value))
-    return fail(Errc::Syntax, "query parameter 'tolerance' is '{}': a number", *text);
-  if (value < 0 || value > paths::kMaxTolerance) {
-    return fail(Errc::LimitExceeded, "query parameter 'tolerance' is {}: 0 to {} mm", *text,
-                paths::kMaxTolerance);
-  }
-  return value;
-}
-
 Response refused_comparison(const Error& error) {
   constexpr int kUnavailable = 503;
-  if (error.code != Errc::Busy && error.code != Errc::Timeout) return error_response(error);
-  Response response = error_response(kUnavailable, error);
-  if (error.code == Errc::Busy) response.headers.emplace_back("Retry-After", "2");
-  return response;
+  return error.code == Errc::Timeout ? error_response(kUnavailable, error)
+                                     : refused_interpretation(error);
 }
 
 Response compare_programs(Services& services, const Request& request) {
@@ -46,7 +28,7 @@ Response compare_programs(Services& services, const Request& request) {
   const auto other_revision = query.number("other_revision", kMaxNumber);
   const auto by = read_by(query.text("by"));
   compared.machine = query.text("machine").value_or("");
-  const auto tolerance = read_distance(query.text("tolerance"), compared.tolerance);
+  const auto tolerance = read_tolerance(query.text("tolerance"), compared.tolerance);
   compared.context = query.number("context", kMaxContext).value_or(compared.context);
   if (auto good = query.finish(); !good) return error_response(good.error());
   if (!by) return error_response(by.error());
@@ -61,10 +43,7 @@ Response compare_programs(Services& services, const Request& request) {
   compared.second = *second;
   auto result = services.paths.compare(compared);
   if (!result) return refused_comparison(result.error());
-  Response response;
-  response.content_type = "application/json";
-  response.body = *std::move(result);
-  return response;
+  return json_text_response(*std::move(result));
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
 #include "server/api/content_body.hpp"
+#include "server/api/interpretation.hpp"
 #include "server/api/request.hpp"
 #include "server/api/views.hpp"
 
@@ -206,40 +205,18 @@ Response send_content(Services& services, const Request& request) {
   return response;
 }
 
-/// Millimeters. Errors: Syntax, LimitExceeded.
-Result<double> read_tolerance(const std::optional<std::string>& text) {
-  if (!text) return 0.0;
-  double value = 0;
-  const auto read = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (read.ec != std::errc{} || read.ptr != text->data() + text->size() || !std::isfinite(value))
-    return fail(Errc::Syntax, "query parameter 'tolerance' is '{}': a number", *text);
-  if (value < 0 || value > paths::kMaxTolerance) {
-    return fail(Errc::LimitExceeded, "query parameter 'tolerance' is {}: 0 to {} mm", *text,
-                paths::kMaxTolerance);
-  }
-  return value;
-}
-
-Response refused_path(const Error& error) {
-  constexpr int kUnavailable = 503;
-  if (error.code != Errc::Busy) return error_response(error);
-  Response response = error_response(kUnavailable, error);
-  response.headers.emplace_back("Retry-After", "2");
-  return response;
-}
-
 Response send_path(Services& services, const Request& request) {
   QueryReader query(request);
   const auto number = query.number("revision", kMaxNumber);
   const auto machine = query.text("machine");
-  const auto tolerance = read_tolerance(query.text("tolerance"));
+  const auto tolerance = read_tolerance(query.text("tolerance"), 0);
   if (auto good = query.finish(); !good) return error_response(good.error());
   if (!tolerance) return error_response(tolerance.error());
   const auto revision = services.programs.revision(request.parameter("name"), number);
   if (!revision) return error_response(revision.error());
   auto opened = services.paths.open(
       {.revision = *revision, .machine = machine.value_or(""), .tolerance = *tolerance});
-  if (!opened) return refused_path(opened.error());
+  if (!opened) return refused_interpretation(opened.error());
   Response response;
   response.content_type = "application/octet-stream";
   response.headers = {{"Dripline-Revision", std::to_string(revision->number)}};

@@ -103,12 +103,8 @@ void add_server_routes(Router& router, Services& services) {
     const bool is_failed = state.level == library::Health::Level::Failed;
     return json_response(is_failed ? kUnavailable : 200, health_json(state, Audience::Anybody));
   });
-  router.add("GET", "/api/v1/openapi.json", [](const Request&) {
-    Response response;
-    response.content_type = "application/json";
-    response.body = openapi_text();
-    return response;
-  });
+  router.add("GET", "/api/v1/openapi.json",
+             [](const Request&) { return json_text_response(std::string(openapi_text())); });
   router.add("GET", "/api/v1/server", with(services, describe_server));
   router.add("GET", "/api/v1/events", with(services, open_events));
 }
