@@ -10,6 +10,7 @@ namespace dripline::client {
 
 using impl::dumped;
 using impl::get;
+using impl::get_part;
 using impl::path_of;
 using impl::with_method;
 using impl::with_number;
@@ -235,12 +236,9 @@ Reply<Revision> Client::accept_revision(std::string_view name, std::uint64_t rev
 }
 
 Reply<Content> Client::content(const ContentRange& range) {
-  HttpRequest request = get(with_query(path_of("programs", range.program) + "/content", "revision",
-                                       std::to_string(range.revision)));
-  const std::uint64_t last = range.offset + range.length - 1;
-  request.headers.emplace_back("Range", fmt::format("bytes={}-{}", range.offset, last));
-  constexpr std::uint64_t kMaxErrorText = 4096;  // an error may replace a content of a few bytes
-  request.max_body = std::max(range.length, kMaxErrorText);
+  const HttpRequest request = get_part(with_query(path_of("programs", range.program) + "/content",
+                                                  "revision", std::to_string(range.revision)),
+                                       range.offset, range.length);
   auto response = exchange(request);
   if (!response) return failed(response.error());
   if (response->body.size() > range.length) {

@@ -9,6 +9,7 @@ namespace dripline::client {
 
 using impl::dumped;
 using impl::get;
+using impl::get_part;
 using impl::path_of;
 using impl::with_method;
 using impl::with_query;
@@ -101,13 +102,9 @@ Reply<Attachment> Client::commit_attachment(std::string_view upload, const std::
 }
 
 Reply<std::string> Client::attachment_bytes(const AttachmentRange& range) {
-  HttpRequest request =
-      get(with_revision(attachment_path(range.program, range.name), range.revision));
-  const std::uint64_t last = range.offset + range.length - 1;
-  request.headers.emplace_back("Range", fmt::format("bytes={}-{}", range.offset, last));
-  constexpr std::uint64_t kMaxErrorText = 4096;  // an error may replace a content of a few bytes
-  request.max_body = std::max(range.length, kMaxErrorText);
-  auto response = exchange(request);
+  auto response =
+      exchange(get_part(with_revision(attachment_path(range.program, range.name), range.revision),
+                        range.offset, range.length));
   if (!response) return failed(response.error());
   if (response->body.size() != range.length) {
     return failed(Failure::Kind::BadReply, Errc::Corrupt,

@@ -12,6 +12,14 @@ HttpRequest get(std::string path) {
   return request;
 }
 
+HttpRequest get_part(std::string path, std::uint64_t offset, std::uint64_t length) {
+  constexpr std::uint64_t kMaxErrorText = 4096;
+  HttpRequest request = get(std::move(path));
+  request.headers.emplace_back("Range", fmt::format("bytes={}-{}", offset, offset + length - 1));
+  request.max_body = std::max(length, kMaxErrorText);
+  return request;
+}
+
 HttpRequest with_method(std::string method, std::string path) {
   HttpRequest request = get(std::move(path));
   request.method = std::move(method);

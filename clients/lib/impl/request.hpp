@@ -17,6 +17,8 @@ HttpRequest with_method(std::string method, std::string path);
 /// `/api/v1/COLLECTION` and, percent-encoded, `/ITEM`.
 std::string path_of(std::string_view collection);
 std::string path_of(std::string_view collection, std::string_view item);
+/// A part of what is at `path`, which is not empty. An error may replace a part of a few bytes.
+HttpRequest get_part(std::string path, std::uint64_t offset, std::uint64_t length);
 /// Adds `key=value` to a path's query; nothing for an empty value.
 std::string with_query(std::string path, std::string_view key, std::string_view value);
 /// The same for a number; nothing without one.
