@@ -4,6 +4,7 @@
 
 #include "protocol/base/digest.hpp"
 #include "tests/integration/line_gateway.hpp"
+#include "tests/integration/line_protocols.hpp"
 #include "tests/integration/system.hpp"
 #include "tests/support/line/host_line.hpp"
 #include "tests/support/line/pty.hpp"
@@ -80,12 +81,6 @@ nlohmann::json status(const System& system) {
   return system.rest().get("/api/v1/machines/lathe-1").json().value("status", nlohmann::json());
 }
 
-struct Protocol {
-  const char* name;
-  std::vector<std::string> settings;
-  const char* request = "";  ///< what the control asks for; nothing: the server begins
-  bool prints_back = true;
-};
 class LineSystem : public testing::TestWithParam<Protocol> {};
 
 TEST_P(LineSystem, FromTheServerOverTheLineToTheMachineAndBackIntoTheReport) {
@@ -116,15 +111,8 @@ TEST_P(LineSystem, FromTheServerOverTheLineToTheMachineAndBackIntoTheReport) {
   EXPECT_EQ(line.gateway->outputs(), expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , LineSystem,
-    testing::Values(Protocol{"xonxoff", {"flow=xonxoff"}}, Protocol{"rtscts", {"flow=rtscts"}},
-                    Protocol{"none", {"flow=none", "line_delay_ms=2"}},
-                    Protocol{"dc_codes", {"flow=dc_codes", "start_char=%", "end_char=%"}, "next"},
-                    Protocol{"xmodem", {"flow=xmodem", "control=plain"}, "", false},
-                    Protocol{"heidenhain", {"flow=heidenhain", "control=plain"}, "next"},
-                    Protocol{"heidenhain_bcc", {"flow=heidenhain_bcc", "control=plain"}, "77"}),
-    [](const auto& i) { return std::string(i.param.name); });
+INSTANTIATE_TEST_SUITE_P(, LineSystem, every_protocol(),
+                         [](const auto& i) { return std::string(i.param.name); });
 
 /// A control that asks when it is switched on, before any command.
 TEST(LineSystemCommands, RunsNothingThatWasNotCommandedAndThenWhatIsStarted) {

@@ -1,5 +1,6 @@
 #include <fstream>
 
+#include "tests/integration/line_protocols.hpp"
 #include "tests/integration/serial_system.hpp"
 
 /// A gateway beside an old control: programs over DDS, then over its serial line, and what the
@@ -10,12 +11,6 @@ namespace {
 using namespace std::chrono_literals;
 using test_support::eventually;
 
-struct Protocol {
-  const char* name;
-  std::vector<std::string> settings;
-  const char* request = "";  ///< what the control asks for; nothing: the gateway begins
-  bool prints_back = true;
-};
 class SerialGatewayProtocol : public testing::TestWithParam<Protocol> {};
 
 TEST_P(SerialGatewayProtocol, FeedsTheControlAndBringsItsPrintsHome) {
@@ -40,15 +35,8 @@ TEST_P(SerialGatewayProtocol, FeedsTheControlAndBringsItsPrintsHome) {
             static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n')));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , SerialGatewayProtocol,
-    testing::Values(Protocol{"xonxoff", {"flow=xonxoff"}}, Protocol{"rtscts", {"flow=rtscts"}},
-                    Protocol{"none", {"flow=none", "line_delay_ms=2"}},
-                    Protocol{"dc_codes", {"flow=dc_codes", "start_char=%", "end_char=%"}, "next"},
-                    Protocol{"xmodem", {"flow=xmodem", "control=plain"}, "", false},
-                    Protocol{"heidenhain", {"flow=heidenhain", "control=plain"}, "next"},
-                    Protocol{"heidenhain_bcc", {"flow=heidenhain_bcc", "control=plain"}, "77"}),
-    [](const auto& i) { return std::string(i.param.name); });
+INSTANTIATE_TEST_SUITE_P(, SerialGatewayProtocol, every_protocol(),
+                         [](const auto& i) { return std::string(i.param.name); });
 
 /// At the question the control waits for the end of a long move, and its memory fills up.
 TEST(SerialGateway, IsHeldByTheControlAndReportsItsBuffer) {
