@@ -91,6 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "0 BEGIN PGM 1 MM\n1 CALL PGM 12\n2 CALL LBL 3\n3 LBL 3\n4 LBL 0\n"
                  "5 CYCL DEF 12.0 PGM CALL\n6 CYCL DEF 12.1 PGM 13\n7 END PGM 1 MM\n",
                  "12:2 13:7"},
+        CallCase{"without_block_numbers", "tnc155", "CALL PGM 12\n", "12:1"},
         CallCase{"iso", "tnc155", "%1 G71 *\nN10 %12 *\nN20 L3,0 *\nN9999 %1 G71 *\n", "12:2"},
         CallCase{"past_a_block_that_is_none", "tnc155",
                  "0 BEGIN PGM 1 MM\n1 L X+WRONG\n2 CALL PGM 12\n3 END PGM 1 MM\n", "12:3"}),
@@ -126,6 +127,8 @@ TEST(ProgramCalls, AreRefusedWhereTheTextIsNotUnderstood) {
   std::string many;
   for (int i = 1; i <= 1100; ++i) many += fmt::format("M98 P{}\n", i);
   EXPECT_EQ(calls_of("fanuc", many).error().code, Errc::LimitExceeded);
+  EXPECT_EQ(calls_of("tnc155", "1 L X" + std::string(70000, '1') + "\n").error().code,
+            Errc::Syntax);
 }
 
 TEST(ProgramCalls, ControlsWithoutCallsHaveNone) {
