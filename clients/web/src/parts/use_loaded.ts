@@ -24,11 +24,13 @@ export function useLoaded<T>(load: (signal: AbortSignal) => Promise<T>, inputs: 
   const hasFailed = useRef(false);
   hasFailed.current = state.fault !== null;
   useEffect(() => {
-    let before = feed.link.state;
+    let { link } = feed;
     return feed.on('link', () => {
-      // The first connection is no return of the server, and what was loaded while it was made is current.
-      if (feed.link.state === 'live' && (before !== 'connecting' || hasFailed.current)) reload();
-      before = feed.link.state;
+      // The first connection is no return of the server, and what was loaded while it was made is current; nor is one that was
+      // made before this began to listen, whose word comes a little later.
+      const isBack = feed.link !== link && link.state !== 'connecting';
+      if (feed.link.state === 'live' && (isBack || hasFailed.current)) reload();
+      link = feed.link;
     });
   }, []);
   return { ...state, reload };

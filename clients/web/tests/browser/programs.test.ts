@@ -121,7 +121,6 @@ test('an opened program is checked once, and another revision is read once', asy
   await shop.push('O0902', 'O0902\nG21 G90 G54\nG1 X10. F500.\nM30\n', 'fanuc');
   await shop.push('O0902', 'O0902\nG21 G90 G54\nG1 X10. F500.\nG1 Y10.\nM30\n', 'fanuc');
   const { page } = await visit('#/programs/O0902');
-  await page.getByText('The program reaches its end.').waitFor();  // its own request is not counted
   const asked: string[] = [];
   page.on('request', (request) => asked.push(request.url()));
   await page.reload();
@@ -131,8 +130,7 @@ test('an opened program is checked once, and another revision is read once', asy
   asked.length = 0;
   await page.getByRole('link', { name: 'Revision 1', exact: true }).click();
   await page.getByText('G1 Y10.').waitFor({ state: 'detached' });
-  const read = asked.filter((url) => url.includes('/content?revision=1'));
-  assert.equal(read.length, 1, read.join(' '));
+  assert.equal(asked.filter((url) => url.includes('/content?')).length, 1);
 });
 
 test('a program is copied and removed', async () => {
