@@ -83,12 +83,12 @@ export function ProgramPage({ name, number, line }: { name: string; number: numb
         <div>
           <TextView program={name} revision={shown.revision} size={shown.size} findings={findings} goTo={goTo} />
           {shown.control !== null && <Closure revision={shown} closure={closure} choice={choice} onChoose={setChoice} />}
-          <Attachments key={`${name} ${shown.revision}`} shown={shown} />
+          <Attachments key={shown.revision} shown={shown} />
           <Compare key={shown.revision} revisions={revisions} to={shown} />
         </div>
         <div>
           {shown.control !== null && <Check key={shown.revision} revision={shown} onChecked={setCheck} onGoTo={setGoTo} />}
-          <About program={value} shown={shown} onStored={program.reload} />
+          <About key={shown.revision} program={value} shown={shown} onStored={program.reload} />
           <section class="panel"><StartOn revision={shown} policy={policy.value} /></section>
           {!shown.held && <ReleaseState policy={policy} revision={shown} revisions={revisions} closure={closure.value} choice={choice} onDecided={program.reload} />}
           <RevisionList revisions={revisions} shown={shown} />
@@ -98,7 +98,7 @@ export function ProgramPage({ name, number, line }: { name: string; number: numb
               <button type="button" onClick={() => void command.send(() => download(path, name))}>{t.download}</button>
             </p>
             <CommandFault command={command} />
-            <Manage key={name} program={value} />
+            <Manage program={value} />
             <p class="hint mono">{t.digest} {shown.sha256}</p>
           </section>
         </div>

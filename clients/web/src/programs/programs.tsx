@@ -5,5 +5,5 @@ import { ProgramPage } from './program';
 export default function ProgramsView({ path, query }: { path: string[]; query: URLSearchParams }) {
   const [name, number] = path;
   if (name === undefined) return <ProgramList query={query} />;
-  return <ProgramPage name={name} number={number === undefined ? null : Number(number)} line={Number(query.get('line')) || null} />;
+  return <ProgramPage key={name} name={name} number={number === undefined ? null : Number(number)} line={Number(query.get('line')) || null} />;
 }
