@@ -1,6 +1,7 @@
 // A control chart, histogram or trend, drawn by the server and shown as a picture: nothing in it runs.
-import { useRef } from 'preact/hooks';
+import { useEffect, useRef } from 'preact/hooks';
 import { fetchApi, pathOf, withQuery } from '../api/request';
+import { feed } from '../live/feed';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
 import { saveText } from '../programs/download';
@@ -11,11 +12,12 @@ const kWide = { width: 1120, height: 560 };
 const kNarrow = { width: 720, height: 540 };
 const kPhone = { width: 400, height: 460 };
 
-export function ChartPicture({ choices, version }: { choices: Choices; version: unknown }) {
+export function ChartPicture({ choices }: { choices: Choices }) {
   const t = texts().measurements;
   const { current: size } = useRef(innerWidth < 500 ? kPhone : innerWidth < 1000 ? kNarrow : kWide);
   const request = withQuery(pathOf('measurements', 'chart'), { ...chartOf(choices), ...size });
-  const picture = useLoaded(async (signal) => ({ request, svg: await (await fetchApi('GET', request, {}, signal)).text() }), [request, version]);
+  const picture = useLoaded(async (signal) => ({ request, svg: await (await fetchApi('GET', request, {}, signal)).text() }), [request]);
+  useEffect(() => feed.on('parts', picture.reload), []);
   // What was chosen before is not shown as what is chosen now.
   const shown = picture.value?.request === request && picture.fault === null ? picture.value.svg : null;
   const name = `${choices.characteristic}-${choices.kind || 'individuals'}.svg`;

@@ -9,12 +9,10 @@ import { Loading } from '../parts/loading';
 import { MachineChoice } from '../parts/machine_choice';
 import { Pages } from '../parts/pages';
 import { useLoaded } from '../parts/use_loaded';
-import { VerdictPill } from '../parts/verdict_pill';
+import { kVerdicts, kVerdictTones, VerdictPill } from '../parts/verdict_pill';
 import { dateTimeText, numberText, texts } from '../texts/texts';
 
 const kPage = 100;
-export const kVerdicts: Array<Part['verdict']> = ['good', 'rework', 'scrap', 'unknown'];
-const kTones = { good: 'running', rework: 'waiting', scrap: 'alarm', unknown: 'offline' };
 
 /// How a part is called: by its serial number or its number, otherwise as the server counts it.
 export function partName(part: Part): string {
@@ -62,7 +60,7 @@ export function PartList({ query }: { query: URLSearchParams }) {
         <div class="chips" role="group" aria-label={t.verdict}>
           <button type="button" aria-pressed={choice.verdict === ''} onClick={() => choose({ verdict: '' })}>{texts().floor.all}</button>
           {kVerdicts.map((verdict) => (
-            <button key={verdict} type="button" class={kTones[verdict]} aria-pressed={choice.verdict === verdict} onClick={() => choose({ verdict: choice.verdict === verdict ? '' : verdict })}>{t.verdicts[verdict]}</button>
+            <button key={verdict} type="button" class={kVerdictTones[verdict]} aria-pressed={choice.verdict === verdict} onClick={() => choose({ verdict: choice.verdict === verdict ? '' : verdict })}>{t.verdicts[verdict]}</button>
           ))}
         </div>
         {choice.run !== '' && <button type="button" onClick={() => choose({ run: '' })}>{t.onlyRun(choice.run.slice(0, 8))} ×</button>}

@@ -8,6 +8,7 @@ import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { MachineChoice } from '../parts/machine_choice';
 import { useLoaded } from '../parts/use_loaded';
+import { kVerdicts } from '../parts/verdict_pill';
 import { download } from '../programs/download';
 import { texts } from '../texts/texts';
 import { ChartPicture } from './chart_picture';
@@ -45,7 +46,7 @@ function Which({ choices, choose }: ChoiceProps) {
         {t.verdict}
         <select value={choices.verdict} onChange={(e) => choose({ verdict: e.currentTarget.value })}>
           <option value="">{texts().floor.all}</option>
-          {(['good', 'rework', 'scrap', 'unknown'] as const).map((verdict) => <option key={verdict} value={verdict}>{t.verdicts[verdict]}</option>)}
+          {kVerdicts.map((verdict) => <option key={verdict} value={verdict}>{t.verdicts[verdict]}</option>)}
         </select>
       </label>
       {(['run', 'part'] as const).map((only) => choices[only] !== '' && (
@@ -80,11 +81,12 @@ function useValues(choices: Choices) {
   useEffect(() => setMore(null), Object.values(filter));
   const next = more ? more.next : (first.value?.next ?? null);
   const loading = useCommand();
+  const byId = new Map([...(first.value?.measurements ?? []), ...(more?.values ?? [])].map((one) => [one.id, one]));
   const loadMore = () => loading.send(async () => {
     const page = await load(next ?? '', new AbortController().signal);
-    setMore({ values: [...(more?.values ?? []), ...page.measurements], next: page.next });
+    // All that is shown is kept: newer values push the last ones out of the first page.
+    setMore({ values: [...byId.values(), ...page.measurements], next: page.next });
   });
-  const byId = new Map([...(first.value?.measurements ?? []), ...(more?.values ?? [])].map((one) => [one.id, one]));
   return { first, values: [...byId.values()], hasMore: next !== null, loading, loadMore };
 }
 
@@ -100,7 +102,7 @@ export function ValueList({ query }: { query: URLSearchParams }) {
     <>
       <Which choices={choices} choose={choose} />
       {choices.characteristic === '' ? values.length > 0 && <p class="hint">{t.chooseForChart}</p> : <How choices={choices} choose={choose} />}
-      {choices.characteristic !== '' && <ChartPicture choices={choices} version={first.value} />}
+      {choices.characteristic !== '' && <ChartPicture choices={choices} />}
       <Loading of={first} />
       {first.value && values.length === 0 && <p class="notice">{hasFilter ? t.noneFits : t.noneMeasured}</p>}
       {values.length > 0 && (

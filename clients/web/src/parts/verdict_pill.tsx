@@ -3,8 +3,9 @@ import type { Part } from '../../generated/api';
 import type { Tone } from '../live/machine_state';
 import { texts } from '../texts/texts';
 
-const kTones: Record<Part['verdict'], Tone> = { good: 'running', unknown: 'offline', rework: 'waiting', scrap: 'alarm' };
+export const kVerdicts: Array<Part['verdict']> = ['good', 'rework', 'scrap', 'unknown'];
+export const kVerdictTones: Record<Part['verdict'], Tone> = { good: 'running', unknown: 'offline', rework: 'waiting', scrap: 'alarm' };
 
 export function VerdictPill({ verdict }: { verdict: Part['verdict'] }) {
-  return <span class={`pill ${kTones[verdict]}`}>{texts().measurements.verdicts[verdict]}</span>;
+  return <span class={`pill ${kVerdictTones[verdict]}`}>{texts().measurements.verdicts[verdict]}</span>;
 }
