@@ -116,6 +116,17 @@ TEST(SerialGatewayAttended, SendsNothingBeforeCycleStartAtItsPanel) {
   ASSERT_TRUE(shop.control->wait_ended(1));
 }
 
+/// As on a machine that the gateway moves: who released the stop has not enabled the network again.
+TEST(SerialGatewayAttended, AnEmergencyStopEndsTheRemoteEnable) {
+  SerialSystem shop({.settings = {"flow=xonxoff"}, .is_unattended = false});
+  const auto enabled = [&] { return shop.status().value("remote_enable", ""); };
+  EXPECT_EQ(shop.panel({"remote-enable", "on"}).output, "ok\n");
+  ASSERT_TRUE(eventually([&] { return enabled() == "given"; })) << shop.status().dump();
+  EXPECT_EQ(shop.panel({"emergency-stop", "on"}).output, "ok\n");
+  EXPECT_EQ(shop.panel({"emergency-stop", "off"}).output, "ok\n");
+  ASSERT_TRUE(eventually([&] { return enabled() == "not_given"; })) << shop.status().dump();
+}
+
 TEST(SerialGatewayAttended, TakesTheControlsRequestForConsentWhenItComesAfterTheStart) {
   SerialSystem shop({.settings = {"flow=dc_codes", "start_char=%", "end_char=%"},
                      .request = "next",
@@ -140,7 +151,8 @@ TEST(SerialGatewayStops, HoldsResumesAndAborts) {
       << shop.status().dump();
   command("resume");
   const auto before = shop.cable.passed();
-  ASSERT_TRUE(eventually([&] { return shop.cable.passed() > before + 3000; }));
+  // What the gateway is sure of is a little less than what has passed the cable.
+  ASSERT_TRUE(eventually([&] { return shop.cable.passed() > before + 4000; }));
   command("abort");
   const auto run = shop.system->wait_ended(id);
   EXPECT_EQ(run.value("state", ""), "aborted") << run.dump();

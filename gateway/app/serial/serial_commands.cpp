@@ -103,6 +103,7 @@ Reply SerialGateway::set_emergency_stop(bool is_pressed, bool is_at_panel) {
                      .run = run_.is_active() ? run_.run().run : std::string(),
                      .text = "emergency stop"});
   is_emergency_stopped_ = is_pressed;
+  if (is_pressed) consent_.set_enabled(false);  // after the stop the network may start nothing
   is_stopped_at_panel_ = is_pressed && (is_at_panel || is_stopped_at_panel_);
   if (is_pressed) run_.abort(std::string(kEmergencyStopReason));
   publisher_.reset();
