@@ -219,7 +219,10 @@ dds::Status SerialGateway::status() const {
                     .server = server_,
                     .uploads = parts_.uploads,
                     .calls = calls_,
-                    .is_emergency_stopped = is_emergency_stopped_};
+                    .is_emergency_stopped = is_emergency_stopped_,
+                    .buffered_bytes = run_.buffered_bytes(),
+                    .has_all_text = run_.has_all_text()};
+  state.buffered_seconds = run_.seconds_of(state.buffered_bytes);
   if (port_) {
     state.view = port_->view();
     state.progress = port_->progress();

@@ -300,8 +300,8 @@ std::uint64_t SerialRun::buffered_bytes() const {
   return current_->text->bytes_ahead() + (current_->is_on_line ? port_->text_ahead() : 0);
 }
 
-double SerialRun::buffered_seconds() const {
-  return static_cast<double>(buffered_bytes()) / wire::characters_per_second(parts_.settings);
+double SerialRun::seconds_of(std::uint64_t bytes) const {
+  return static_cast<double>(bytes) / wire::characters_per_second(parts_.settings);
 }
 
 bool SerialRun::has_all_text() const {

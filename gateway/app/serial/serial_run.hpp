@@ -71,7 +71,7 @@ class SerialRun {
   line::SendProgress progress() const;
   /// Text that has come and has not left.
   std::uint64_t buffered_bytes() const;
-  double buffered_seconds() const;
+  double seconds_of(std::uint64_t bytes) const;  ///< on the line
   /// The program is looked through for the place where the run begins; nothing has left.
   bool is_looking() const;
   std::uint64_t looked_at() const { return current_->start->looked_at(); }

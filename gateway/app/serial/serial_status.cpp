@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gateway/app/run_texts.hpp"
+#include "gateway/line/heads/head_scan.hpp"
 #include "gateway/line/line_words.hpp"
 
 namespace dripline::gateway {
@@ -12,21 +13,11 @@ using dds::Execution;
 
 /// How long the line does without the network, known before that is needed.
 std::string buffer_text(const SerialState& state) {
-  const std::uint64_t bytes = state.run.buffered_bytes();
-  if (state.run.has_all_text())
-    return fmt::format("the rest of the program is buffered: {} bytes, {:.0f} s of the line", bytes,
-                       state.run.buffered_seconds());
-  return fmt::format("buffered: {} bytes, {:.0f} s of the line{}", bytes,
-                     state.run.buffered_seconds(),
-                     state.server.is_connected() ? "" : "; no server");
-}
-
-/// Blocks of a head in one line.
-std::string shown_head(std::string head) {
-  while (head.ends_with('\n')) head.pop_back();
-  std::string shown;
-  for (const char c : head) c == '\n' ? shown += " / " : shown += c;
-  return shown;
+  if (state.has_all_text)
+    return fmt::format("the rest of the program is buffered: {} bytes, {:.0f} s of the line",
+                       state.buffered_bytes, state.buffered_seconds);
+  return fmt::format("buffered: {} bytes, {:.0f} s of the line{}", state.buffered_bytes,
+                     state.buffered_seconds, state.server.is_connected() ? "" : "; no server");
 }
 
 Execution execution_of(const SerialState& state) {
@@ -41,8 +32,8 @@ Execution execution_of(const SerialState& state) {
     default:
       break;
   }
-  const bool is_starved = state.run.buffered_bytes() == 0 && !state.run.has_all_text();
-  return is_starved || state.view.line.awaits_start ? Execution::Waiting : Execution::Active;
+  return state.is_starved() || state.view.line.awaits_start ? Execution::Waiting
+                                                            : Execution::Active;
 }
 
 std::string message_of(const SerialState& state) {
@@ -62,7 +53,7 @@ std::string message_of(const SerialState& state) {
                                                  : line::message_of(state.view, state.progress);
   if (!words.empty()) words += "; ";
   if (const std::string head = state.run.head(); !head.empty())
-    words += fmt::format("sent first: {}; ", shown_head(head));
+    words += fmt::format("sent first: {}; ", line::head_in_one_line(head));
   return words + buffer_text(state);
 }
 
@@ -72,8 +63,7 @@ dds::WaitsFor waits_for(const SerialState& state, Execution execution) {
   if (state.consent.is_awaited() || execution == Execution::FeedHold ||
       state.view.line.awaits_start)
     return dds::WaitsFor::CycleStart;
-  const bool is_starved = state.run.buffered_bytes() == 0 && !state.run.has_all_text();
-  return is_starved ? dds::WaitsFor::Text : dds::WaitsFor::Nothing;
+  return state.is_starved() ? dds::WaitsFor::Text : dds::WaitsFor::Nothing;
 }
 
 static_assert(static_cast<int>(dds::LinePhase::Requesting) ==
@@ -100,7 +90,7 @@ dds::LineStatus line_status(const SerialState& state) {
   status.waiting_for = view.line.waiting_for;
   status.characters_sent = view.sent;
   status.characters_received = view.received;
-  status.buffered_bytes = state.run.buffered_bytes();
+  status.buffered_bytes = state.buffered_bytes;
   status.call = state.calls.call();
   if (state.uploads.waiting().empty()) return status;
   const Upload& upload = state.uploads.waiting().front();
@@ -131,7 +121,7 @@ dds::Status make_status(const SerialState& state) {
     status.offset = progress.sent;
     status.line = progress.line;
     status.sequence = progress.sequence;
-    status.buffered_seconds = state.run.buffered_seconds();
+    status.buffered_seconds = state.buffered_seconds;
   }
   status.emergency_stop = state.is_emergency_stopped;
   status.execution = execution_of(state);

@@ -24,6 +24,12 @@ struct SerialState {
   line::LineView view = {};
   std::optional<line::SendProgress> progress = {};
   bool is_emergency_stopped = false;
+  // Of one moment: the line goes on while a status is made, and counting walks the buffer.
+  std::uint64_t buffered_bytes = 0;
+  double buffered_seconds = 0;
+  bool has_all_text = false;
+
+  bool is_starved() const { return buffered_bytes == 0 && !has_all_text; }
 };
 
 /// A line reports nothing of the machine itself: no position, no block that is executed.

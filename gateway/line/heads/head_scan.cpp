@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::size_t kMaxBlock = 4096;  ///< the rest of a longer block is not searched
 
-std::string one_line(std::string text) {
+}  // namespace
+
+std::string head_in_one_line(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   std::string shown;
   for (const char c : text) c == '\n' ? shown += " / " : shown += c;
   return shown;
 }
-
-}  // namespace
 
 bool HeadScan::take(std::string_view piece) {
   for (const char c : piece) {
@@ -70,7 +70,7 @@ Result<std::string> HeadScan::head(HeadChoice choice) const {
   return fail(Errc::Conflict,
               "line {} and what follows rely on {}, which would not be sent: --send-head sends "
               "'{}' first, --modes-set confirms that all of it is in force at the control",
-              place_.line, words_text(words), one_line(head_text(words)));
+              place_.line, words_text(words), head_in_one_line(head_text(words)));
 }
 
 }  // namespace dripline::line

@@ -17,6 +17,9 @@ enum class HeadChoice : std::uint8_t {
   Set,   ///< the operator confirms that they are in force at the control
 };
 
+/// The blocks of a head, to be shown in one line.
+std::string head_in_one_line(std::string head);
+
 /// Reads a program from its first byte, in pieces, and determines what must be sent before its rest
 /// from `place` on. Bounded memory; pure.
 class HeadScan {
