@@ -5,7 +5,7 @@
 namespace dripline::interpreter {
 
 void CallCollector::add(ProgramCall call) {
-  if (!names_.insert(call.name).second || found_.calls.size() > kMaxCalls) return;
+  if (found_.calls.size() > kMaxCalls || !names_.insert(call.name).second) return;
   found_.calls.push_back(std::move(call));
 }
 
