@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "storage/impl/audit_repository.hpp"
+#include "storage/impl/repositories.hpp"
 #include "storage/impl/revision_rows.hpp"
 #include "storage/sqlite/query.hpp"
 
@@ -60,15 +61,6 @@ Result<std::vector<Job>> open_jobs(sqlite::Database& database, const std::string
   static const std::string kSql =
       kSelect + "WHERE machine = ?1 AND " + kOpen + kInOrder + "LIMIT ?2 OFFSET ?3";
   return sqlite::all_rows(database, kSql, read_job, machine, page.limit, page.offset);
-}
-
-Result<std::int64_t> machine_id(sqlite::Database& database, const std::string& name) {
-  const auto id = sqlite::first_row(
-      database, "SELECT id FROM machine WHERE name = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); }, name);
-  if (!id) return fail(id.error());
-  if (!*id) return fail(Errc::NotFound, "machine {} is not known", name);
-  return **id;
 }
 
 Result<void> check_open(const Job& job) {
@@ -146,7 +138,7 @@ Result<Job> JobRepository::find(std::uint64_t id) {
 Result<Job> JobRepository::add(const Job& job, const Actor& who,
                                std::optional<std::uint64_t> place) {
   return connections_.write([&](sqlite::Database& database) -> Result<Job> {
-    const auto machine = machine_id(database, job.machine);
+    const auto machine = known_machine(database, job.machine);
     if (!machine) return fail(machine.error());
     const auto revision = find_revision(database, job.program, job.revision);
     if (!revision) return fail(revision.error());
@@ -213,7 +205,7 @@ Result<std::optional<Job>> JobRepository::next(const std::string& machine) {
 
 Result<void> JobRepository::hold(const JobHold& hold, const Actor& who) {
   return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    const auto machine = machine_id(database, hold.machine);
+    const auto machine = known_machine(database, hold.machine);
     if (!machine) return fail(machine.error());
     auto held = sqlite::run(database,
                             "INSERT INTO job_hold (machine, who, reason, since_us) VALUES (?1, ?2, "

@@ -19,6 +19,15 @@ Machine read_machine(const sqlite::Statement& row) {
 
 }  // namespace
 
+Result<std::int64_t> known_machine(sqlite::Database& database, const std::string& name) {
+  const auto id = sqlite::first_row(
+      database, "SELECT id FROM machine WHERE name = ?1",
+      [](const sqlite::Statement& row) { return row.integer(0); }, name);
+  if (!id) return fail(id.error());
+  if (!*id) return fail(Errc::NotFound, "machine {} is not known", name);
+  return **id;
+}
+
 Result<std::int64_t> machine_id(sqlite::Database& database, const std::string& name,
                                 std::uint64_t epoch, UtcTime now) {
   const auto known = sqlite::first_row(

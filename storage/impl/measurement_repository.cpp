@@ -72,15 +72,6 @@ class Characteristics {
   std::map<std::string, std::vector<Known>> known_;
 };
 
-Result<std::int64_t> known_machine(sqlite::Database& database, const std::string& name) {
-  const auto found = sqlite::first_row(
-      database, "SELECT id FROM machine WHERE name = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); }, name);
-  if (!found) return fail(found.error());
-  if (!*found) return fail(Errc::NotFound, "machine {} is not known", name);
-  return **found;
-}
-
 Result<void> save_parts(sqlite::Database& database, std::int64_t machine,
                         const std::vector<MeasuredPart>& parts) {
   static const std::string kSave =

@@ -18,6 +18,9 @@ namespace dripline::storage {
 Result<std::int64_t> machine_id(sqlite::Database& database, const std::string& name,
                                 std::uint64_t epoch, UtcTime now);
 
+/// The same of one that is there. Errors: NotFound.
+Result<std::int64_t> known_machine(sqlite::Database& database, const std::string& name);
+
 class MachineRepository final : public MachineStore {
  public:
   explicit MachineRepository(Connections& connections) : connections_(connections) {}

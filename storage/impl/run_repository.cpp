@@ -70,15 +70,6 @@ struct RunPlace {
   std::int64_t program = 0;
 };
 
-Result<std::int64_t> known_machine(sqlite::Database& database, const std::string& name) {
-  const auto machine = sqlite::first_row(
-      database, "SELECT id FROM machine WHERE name = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); }, name);
-  if (!machine) return fail(machine.error());
-  if (!*machine) return fail(Errc::NotFound, "machine {} is not known", name);
-  return **machine;
-}
-
 /// What was judged before may have been withdrawn since.
 Result<void> check_state(const Run& run, RevisionState state) {
   const bool must_be_released = run.allowed_as == RunAllowance::Released;
