@@ -45,6 +45,8 @@ class WebhookStore {
   virtual Result<std::vector<Webhook>> list() = 0;
   /// Errors: NotFound.
   virtual Result<Webhook> find(const std::string& name) = 0;
+  /// What is to be delivered to, each time: without the count of what waits. Errors: NotFound.
+  virtual Result<Webhook> receiver(std::uint64_t id) = 0;
   /// It gets what happens from now on. The audit entry (webhook.add) is part of the transaction.
   /// Errors: Conflict (the name is taken), LimitExceeded (more than kMaxWebhooks).
   virtual Result<Webhook> add(const Webhook& webhook, const Actor& who) = 0;

@@ -34,13 +34,13 @@ Webhooks::~Webhooks() {
 }
 
 void Webhooks::stop() {
-  std::map<std::uint64_t, Worker> ended;
+  std::map<std::uint64_t, std::jthread> ended;
   {
     const std::lock_guard lock(mutex_);
     is_stopping_ = true;
     ended.swap(workers_);
   }
-  for (auto& [id, worker] : ended) worker.thread.request_stop();
+  for (auto& [id, worker] : ended) worker.request_stop();
 }
 
 void Webhooks::begin() {
@@ -55,10 +55,8 @@ void Webhooks::begin() {
 void Webhooks::start_worker(const storage::Webhook& webhook) {
   const std::lock_guard lock(mutex_);
   if (is_stopping_) return;
-  workers_[webhook.id].thread =
-      std::jthread([this, name = webhook.name, id = webhook.id](const std::stop_token& stop) {
-        work(stop, name, id);
-      });
+  workers_[webhook.id] =
+      std::jthread([this, id = webhook.id](const std::stop_token& stop) { work(stop, id); });
 }
 
 Result<storage::Webhook> Webhooks::add(const Addition& addition, const storage::Actor& who) {
@@ -85,7 +83,7 @@ Result<void> Webhooks::remove(const std::string& name, const storage::Actor& who
   const auto webhook = parts_.store.find(name);
   if (!webhook) return fail(webhook.error());
   if (auto removed = parts_.store.remove(name, who, parts_.clock.now()); !removed) return removed;
-  Worker ended;  // joined outside of the lock, when a delivery that is under way is over
+  std::jthread ended;  // joined outside of the lock, when a delivery that is under way is over
   {
     const std::lock_guard lock(mutex_);
     const auto found = workers_.find(webhook->id);
@@ -120,10 +118,10 @@ std::chrono::milliseconds Webhooks::pause_after(std::uint64_t failures) const {
   return std::min(std::chrono::milliseconds(doubled), options_.longest_retry);
 }
 
-void Webhooks::work(const std::stop_token& stop, const std::string& name, std::uint64_t id) {
+void Webhooks::work(const std::stop_token& stop, std::uint64_t id) {
   std::uint64_t failures = 0;
   while (!stop.stop_requested()) {
-    const Round round = deliver(stop, name, id);
+    const Round round = deliver(stop, id);
     if (round.is_over) return;
     if (round.has_failed) {
       sleep(stop, pause_after(failures++));
@@ -134,15 +132,13 @@ void Webhooks::work(const std::stop_token& stop, const std::string& name, std::u
   }
 }
 
-Webhooks::Round Webhooks::deliver(const std::stop_token& stop, const std::string& name,
-                                  std::uint64_t id) {
+Webhooks::Round Webhooks::deliver(const std::stop_token& stop, std::uint64_t id) {
   (void)parts_.store.trim();
-  const auto webhook = parts_.store.find(name);
+  const auto webhook = parts_.store.receiver(id);
   if (!webhook) {
     const bool is_removed = webhook.error().code == Errc::NotFound;
     return {.is_over = is_removed, .has_failed = !is_removed};
   }
-  if (webhook->id != id) return {.is_over = true};  // another one has the name by now
   const auto events = parts_.store.events(webhook->delivered, kBatch);
   if (!events) return {.has_failed = true};
   if (events->empty()) {
@@ -155,7 +151,8 @@ Webhooks::Round Webhooks::deliver(const std::stop_token& stop, const std::string
     return {.is_more = true};
   }
   const std::string fault = delivered.error().what.substr(0, kMaxFault);
-  if (webhook->failures == 0) process::log_warning("webhook {} is not delivered: {}", name, fault);
+  if (webhook->failures == 0)
+    process::log_warning("webhook {} is not delivered: {}", webhook->name, fault);
   (void)parts_.store.set_failing(id, fault, parts_.clock.now());
   report(*webhook, fault);
   return {.has_failed = true};

@@ -58,18 +58,14 @@ class Webhooks {
   static const std::vector<std::string>& kinds();  ///< of events
 
  private:
-  /// One thread for each webhook, so that one that hangs delays no other.
-  struct Worker {
-    std::jthread thread;
-  };
   void start_worker(const storage::Webhook& webhook);
-  void work(const std::stop_token& stop, const std::string& name, std::uint64_t id);
+  void work(const std::stop_token& stop, std::uint64_t id);
   struct Round {
     bool is_over = false;  ///< the webhook was removed
     bool has_failed = false;
     bool is_more = false;  ///< events wait that were not looked at
   };
-  Round deliver(const std::stop_token& stop, const std::string& name, std::uint64_t id);
+  Round deliver(const std::stop_token& stop, std::uint64_t id);
   Result<void> deliver_batch(const std::stop_token& stop, const storage::Webhook& webhook,
                              const std::vector<storage::Event>& events);
   void report(const storage::Webhook& webhook, const std::string& fault);
@@ -81,7 +77,8 @@ class Webhooks {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   bool is_stopping_ = false;
-  std::map<std::uint64_t, Worker> workers_;  ///< last: they use the others
+  /// One for each webhook, so that one that hangs delays no other. Last: they use the others.
+  std::map<std::uint64_t, std::jthread> workers_;
 };
 
 }  // namespace dripline::webhooks

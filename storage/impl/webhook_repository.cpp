@@ -9,11 +9,13 @@
 namespace dripline::storage {
 namespace {
 
-const std::string kSelect =
+const std::string kColumns =
     "SELECT id, name, url, secret, kinds, author, created_us, delivered, delivered_us, failures, "
-    "failing_since_us, fault, lost, (SELECT count(*) FROM event WHERE event.id > "
-    "webhook.delivered AND (kinds = '' OR instr(',' || kinds || ',', ',' || event.kind || ','))) "
-    "FROM webhook ";
+    "failing_since_us, fault, lost, ";
+const std::string kSelect =
+    kColumns +
+    "(SELECT count(*) FROM event WHERE event.id > webhook.delivered AND (kinds = '' OR "
+    "instr(',' || kinds || ',', ',' || event.kind || ','))) FROM webhook ";
 
 Webhook read_webhook(const sqlite::Statement& row) {
   Webhook webhook;
@@ -62,6 +64,16 @@ Result<std::vector<Webhook>> WebhookRepository::list() {
 Result<Webhook> WebhookRepository::find(const std::string& name) {
   return connections_.read(
       [&](sqlite::Database& database) { return find_webhook(database, name); });
+}
+
+Result<Webhook> WebhookRepository::receiver(std::uint64_t id) {
+  static const std::string kSql = kColumns + "0 FROM webhook WHERE id = ?1";
+  return connections_.read([&](sqlite::Database& database) -> Result<Webhook> {
+    auto webhook = sqlite::first_row(database, kSql, read_webhook, id);
+    if (!webhook) return fail(webhook.error());
+    if (!*webhook) return fail(Errc::NotFound, "webhook {} was removed", id);
+    return std::move(**webhook);
+  });
 }
 
 Result<Webhook> WebhookRepository::add(const Webhook& webhook, const Actor& who) {

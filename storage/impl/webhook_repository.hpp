@@ -11,6 +11,7 @@ class WebhookRepository final : public WebhookStore {
 
   Result<std::vector<Webhook>> list() override;
   Result<Webhook> find(const std::string& name) override;
+  Result<Webhook> receiver(std::uint64_t id) override;
   Result<Webhook> add(const Webhook& webhook, const Actor& who) override;
   Result<void> remove(const std::string& name, const Actor& who, UtcTime time) override;
   Result<std::vector<Event>> events(std::uint64_t after, std::uint64_t limit) override;
