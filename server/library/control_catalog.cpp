@@ -9,6 +9,14 @@
 
 namespace dripline::library {
 
+Result<void> check_fits(const storage::Revision& revision, const storage::Machine& machine) {
+  if (revision.control.empty() || machine.control.empty() || revision.control == machine.control) {
+    return {};
+  }
+  return fail(Errc::Unsupported, "program '{}' revision {} is for control {}; machine '{}' is a {}",
+              revision.program, revision.number, revision.control, machine.name, machine.control);
+}
+
 Result<void> check_control(const ControlCatalog& catalog, std::string_view control) {
   const std::vector<std::string> names = catalog.names();
   if (std::ranges::find(names, control) != names.end()) return {};

@@ -6,6 +6,8 @@
 
 #include "gateway/interpreter/core/dialect.hpp"
 #include "protocol/base/result.hpp"
+#include "storage/machine_store.hpp"
+#include "storage/program_store.hpp"
 
 namespace dripline::library {
 
@@ -29,6 +31,8 @@ class ControlCatalog {
 
 /// Errors: Unsupported, naming the known controls.
 Result<void> check_control(const ControlCatalog& catalog, std::string_view control);
+/// Errors: Unsupported (the revision is for another control than the machine is).
+Result<void> check_fits(const storage::Revision& revision, const storage::Machine& machine);
 /// The one control the text is for. Errors: Unsupported (none or several fit), asking for one.
 Result<std::string> detect_control(const ControlCatalog& catalog, std::string_view head,
                                    std::string_view program);

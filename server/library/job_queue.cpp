@@ -78,12 +78,7 @@ Result<void> JobQueue::check_fits(const Addition& addition) const {
                                                .revision = job.revision,
                                                .role = addition.role});
   if (!admitted) return fail(admitted.error());
-  const auto& revision = admitted->revision;
-  const bool fits =
-      revision.control.empty() || machine->control.empty() || revision.control == machine->control;
-  if (fits) return {};
-  return fail(Errc::Unsupported, "program '{}' revision {} is for control {}; machine '{}' is a {}",
-              revision.program, revision.number, revision.control, job.machine, machine->control);
+  return library::check_fits(admitted->revision, *machine);
 }
 
 Result<Job> JobQueue::add(Addition addition, const storage::Actor& who) {

@@ -4,6 +4,7 @@
 
 #include "protocol/dds/record_text.hpp"
 #include "protocol/process/log.hpp"
+#include "server/library/control_catalog.hpp"
 #include "server/machines/control_memory.hpp"
 #include "server/machines/identifiers.hpp"
 #include "server/machines/machine_control.hpp"
@@ -55,14 +56,6 @@ LineRecords::Entry ending_entry(const storage::RunEnding& ending) {
 
 }  // namespace
 
-Result<void> check_control(const storage::Revision& revision, const storage::Machine& machine) {
-  if (revision.control.empty() || machine.control.empty() || revision.control == machine.control) {
-    return {};
-  }
-  return fail(Errc::Unsupported, "program '{}' revision {} is for control {}; machine '{}' is a {}",
-              revision.program, revision.number, revision.control, machine.name, machine.control);
-}
-
 Result<std::optional<storage::Run>> broken_run(storage::RunStore& store, const std::string& machine,
                                                bool are_aborts_told) {
   using storage::RunState;
@@ -84,7 +77,7 @@ Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
   const auto admitted = sources_.releases.admit(request.wish());
   if (!admitted) return fail(admitted.error());
   const storage::Revision* const revision = &admitted->revision;
-  if (auto fits = check_control(*revision, machine); !fits) return fail(fits.error());
+  if (auto fits = library::check_fits(*revision, machine); !fits) return fail(fits.error());
   storage::Run run;
   run.created = clock_.now();
   run.id = machines::make_run_id(run.created);

@@ -16,9 +16,6 @@ namespace dripline::ports {
 Result<std::optional<storage::Run>> broken_run(storage::RunStore& store, const std::string& machine,
                                                bool are_aborts_told);
 
-/// Errors: Unsupported (the revision is for another control than the machine is).
-Result<void> check_control(const storage::Revision& revision, const storage::Machine& machine);
-
 /// The runs of machines on lines, as the store has them. What is counted: *sent* bytes that left
 /// the line (or were accepted, where the protocol checks), *accepted* blocks the control
 /// acknowledged (0 where it cannot), *executed* nothing: a line cannot report it. Any thread, one

@@ -64,7 +64,7 @@ Result<std::vector<storage::Revision>> chosen(library::Releases& releases, const
       return fail(Errc::Conflict, "program '{}' revision {} waits for acceptance", revision.program,
                   revision.number);
     }
-    if (auto fits = check_control(revision, machine); !fits) return fail(fits.error());
+    if (auto fits = library::check_fits(revision, machine); !fits) return fail(fits.error());
     revisions.push_back(std::move(revision));
   }
   return revisions;
