@@ -168,8 +168,7 @@ Response carry_out(Services& services, const Request& request,
 /// Of a path with `{number}`. Errors: Syntax.
 Result<std::uint64_t> revision_number(const Request& request);
 
-/// The upload that the request names. It belongs to who began it: what another sends would be
-/// stored under a wrong author. Errors: NotFound (also another one's).
+/// The upload that the request names, of its caller. Errors: those of Programs::upload.
 Result<storage::Upload> own_upload(Services& services, const Request& request);
 /// The answer when the hub has kMaxSubscriptions listeners.
 Response too_many_listeners();

@@ -73,6 +73,13 @@ Result<storage::Upload> Programs::begin(const UploadRequest& request, const stor
   return uploads_.begin(upload);
 }
 
+Result<storage::Upload> Programs::upload(const std::string& id, const storage::Actor& who) {
+  auto upload = uploads_.find(id);
+  if (upload && upload->author != who.name)
+    return fail(Errc::NotFound, "upload '{}' is not one of {}", id, who.name);
+  return upload;
+}
+
 Result<storage::Upload> Programs::append(const std::string& id, std::uint64_t offset,
                                          std::span<const std::byte> bytes) {
   const auto session = this->session(id);
@@ -114,8 +121,10 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
   const std::lock_guard lock(session->mutex);
   auto upload = uploads_.find(id);
   if (!upload) return drop_session(id), fail(upload.error());
-  if (upload->attachment)
+  if (upload->attachment) {
+    drop_session(id);
     return fail(Errc::Conflict, "upload {} is of attachment '{}'", id, *upload->attachment);
+  }
   if (auto caught_up = catch_up(*session, *upload); !caught_up) return fail(caught_up.error());
   if (auto good = session->check.finish(); !good) return drop(*upload, good.error());
   if (upload->control.empty()) {

@@ -58,7 +58,9 @@ class Programs {
 
   /// Errors: Syntax, LimitExceeded (name, comment), Unsupported (control; names the known ones).
   Result<storage::Upload> begin(const UploadRequest& request, const storage::Actor& who);
-  Result<storage::Upload> upload(const std::string& id) { return uploads_.find(id); }
+  /// It belongs to who began it: what another sends would be stored under a wrong author. Errors:
+  /// NotFound (also another one's).
+  Result<storage::Upload> upload(const std::string& id, const storage::Actor& who);
   /// Errors: those of ContentCheck and detect_control (the upload is dropped then), NotFound,
   /// Conflict (a gap or an overlap).
   Result<storage::Upload> append(const std::string& id, std::uint64_t offset,

@@ -66,10 +66,7 @@ Response abandon_upload(Services& services, const Request& request) {
 }  // namespace
 
 Result<storage::Upload> own_upload(Services& services, const Request& request) {
-  auto upload = services.programs.upload(request.parameter("id"));
-  if (upload && upload->author != request.who.name)
-    return fail(Errc::NotFound, "upload '{}' is not one of {}", upload->id, request.who.name);
-  return upload;
+  return services.programs.upload(request.parameter("id"), request.who);
 }
 
 Result<std::uint64_t> revision_number(const Request& request) {

@@ -49,7 +49,7 @@ TEST_F(ProgramsTest, RefuseAnEmptyUploadAtCommit) {
   ASSERT_FALSE(committed);
   EXPECT_EQ(committed.error().code, Errc::Syntax);
   EXPECT_NE(committed.error().what.find("empty"), std::string::npos);
-  EXPECT_FALSE(programs_->upload(id));
+  EXPECT_FALSE(programs_->upload(id, "cam"));
 }
 
 TEST_F(ProgramsTest, GoOnCheckingAnUploadAfterARestart) {
