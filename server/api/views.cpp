@@ -228,8 +228,8 @@ json run_json(const storage::Run& run) {
           {"outputs", run.outputs},
           {"setup", number_or_null(run.setup)},
           {"allowed_as", storage::to_string(run.allowed_as)},
-          {"approval", run.approval ? json(*run.approval) : json(nullptr)},
-          {"job", run.job ? json(*run.job) : json(nullptr)}};
+          {"approval", number_or_null(run.approval)},
+          {"job", number_or_null(run.job)}};
 }
 
 json setup_json(const storage::SetupRevision& setup) {

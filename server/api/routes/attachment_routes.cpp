@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <limits>
 
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
 #include "server/api/content_body.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
@@ -15,11 +15,11 @@ using nlohmann::json;
 
 json attachment_json(const storage::Attachment& attachment) {
   return {{"program", attachment.program},
-          {"revision", attachment.revision ? json(*attachment.revision) : json(nullptr)},
+          {"revision", number_or_null(attachment.revision)},
           {"name", attachment.name},
           {"size", attachment.size},
           {"sha256", attachment.content.hex()},
-          {"comment", attachment.comment.empty() ? json(nullptr) : json(attachment.comment)},
+          {"comment", text_or_null(attachment.comment)},
           {"author", attachment.author},
           {"created", to_iso8601(attachment.created)}};
 }
@@ -27,7 +27,7 @@ json attachment_json(const storage::Attachment& attachment) {
 /// The attachment of a path, and `revision` of its query.
 Result<storage::AttachmentName> named(const Request& request) {
   QueryReader query(request);
-  const auto revision = query.number("revision", std::numeric_limits<std::int64_t>::max());
+  const auto revision = query.number("revision", kMaxNumber);
   if (auto good = query.finish(); !good) return fail(good.error());
   return storage::AttachmentName{request.parameter("name"), revision,
                                  request.parameter("attachment")};
@@ -35,7 +35,7 @@ Result<storage::AttachmentName> named(const Request& request) {
 
 Response list_attachments(Services& services, const Request& request) {
   QueryReader query(request);
-  const auto revision = query.number("revision", std::numeric_limits<std::int64_t>::max());
+  const auto revision = query.number("revision", kMaxNumber);
   if (auto good = query.finish(); !good) return error_response(good.error());
   const auto attachments = services.attachments.list(request.parameter("name"), revision);
   if (!attachments) return error_response(attachments.error());

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/folders/name_rules.hpp"
 
 namespace dripline::api {
@@ -8,14 +9,6 @@ namespace dripline::api {
 namespace {
 
 using nlohmann::json;
-
-json text_or_null(const std::string& text) {
-  return text.empty() ? json(nullptr) : json(text);
-}
-
-json time_or_null(const std::optional<UtcTime>& time) {
-  return time ? json(to_iso8601(*time)) : json(nullptr);
-}
 
 json folder_json(const folders::FolderState& state) {
   return {{"name", state.settings.name},

@@ -2,6 +2,7 @@
 
 #include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
@@ -14,13 +15,13 @@ json job_json(const storage::Job& job) {
   return {{"id", job.id},
           {"machine", job.machine},
           {"program", job.program},
-          {"revision", job.revision ? json(*job.revision) : json(nullptr)},
+          {"revision", number_or_null(job.revision)},
           {"quantity", job.quantity},
           {"parts_per_run", job.parts_per_run},
           {"completed", job.completed},
           {"runs", job.runs},
           {"state", storage::to_string(job.state)},
-          {"comment", job.comment.empty() ? json(nullptr) : json(job.comment)},
+          {"comment", text_or_null(job.comment)},
           {"author", job.author},
           {"created", to_iso8601(job.created)}};
 }

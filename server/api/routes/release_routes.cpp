@@ -163,7 +163,7 @@ json closure_json(const library::Closure& closure) {
 
 Response show_closure(Services& services, const Request& request) {
   QueryReader query(request);
-  const auto number = query.number("revision", std::numeric_limits<std::int64_t>::max());
+  const auto number = query.number("revision", kMaxNumber);
   const auto machine = query.text("machine").value_or("");
   const auto with = query.text("with");
   if (auto good = query.finish(); !good) return error_response(good.error());

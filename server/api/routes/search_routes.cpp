@@ -1,8 +1,7 @@
-#include <limits>
-
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
@@ -33,7 +32,7 @@ Response search(Services& services, const Request& request) {
                    .machine = query.text("machine")};
   const auto state = query.text("state");
   const std::string replaced = query.text("replaced").value_or("false");
-  wanted.before = query.number("before", std::numeric_limits<std::int64_t>::max()).value_or(0);
+  wanted.before = query.number("before", kMaxNumber).value_or(0);
   wanted.limit = query.number("limit", library::ProgramSearch::kMaxLimit).value_or(wanted.limit);
   if (auto good = query.finish(); !good) return error_response(good.error());
   if (replaced != "true" && replaced != "false") {
@@ -51,7 +50,7 @@ Response search(Services& services, const Request& request) {
   json hits = json::array();
   for (const auto& hit : result->hits) hits.push_back(hit_json(services, hit));
   return json_response(200, {{"hits", std::move(hits)},
-                             {"next", result->next ? json(*result->next) : json(nullptr)},
+                             {"next", number_or_null(result->next)},
                              {"to_be_indexed", result->to_be_indexed}});
 }
 

@@ -2,6 +2,7 @@
 
 #include "server/api/api.hpp"
 #include "server/api/bodies.hpp"
+#include "server/api/nullable_json.hpp"
 
 namespace dripline::api {
 
@@ -11,21 +12,18 @@ using nlohmann::json;
 
 /// Without its secret.
 json webhook_json(const storage::Webhook& webhook) {
-  const auto time = [](const std::optional<UtcTime>& when) {
-    return when ? json(to_iso8601(*when)) : json(nullptr);
-  };
   return {{"name", webhook.name},
           {"url", webhook.url},
           {"kinds", webhook.kinds},
           {"author", webhook.author},
           {"created", to_iso8601(webhook.created)},
           {"delivered", webhook.delivered},
-          {"delivered_at", time(webhook.delivered_at)},
+          {"delivered_at", time_or_null(webhook.delivered_at)},
           {"waiting", webhook.waiting},
           {"lost", webhook.lost},
           {"failures", webhook.failures},
-          {"failing_since", time(webhook.failing_since)},
-          {"fault", webhook.fault.empty() ? json(nullptr) : json(webhook.fault)}};
+          {"failing_since", time_or_null(webhook.failing_since)},
+          {"fault", text_or_null(webhook.fault)}};
 }
 
 Response without_webhooks() {
