@@ -62,12 +62,14 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
                .policy = releases.policy(),
                .clock = clock,
                .on_change = api::publish_imports_to(events)}),
-      folders({.programs = programs,
-               .catalog = catalog,
-               .sources = {.store = *store, .releases = releases, .clock = clock},
-               .spool = folder.path(),
-               .on_fault = folders_watch()},
-              settings.folders),
+      folders(
+          {.programs = programs,
+           .catalog = catalog,
+           .sources = {.store = *store, .releases = releases, .clock = clock},
+           .spool = folder.path(),
+           .on_fault = watch_faults("folders", "folder",
+                                    "a hot folder cannot be read, or its files cannot be taken")},
+          settings.folders),
       measurements(
           {.store = *store,
            .clock = clock,
@@ -87,7 +89,8 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
                 .sender = *webhook_sender,
                 .clock = clock,
                 .server = loaded.identity,
-                .on_fault = webhooks_watch()},
+                .on_fault = watch_faults("webhooks", "webhook",
+                                         "a webhook has not been delivered for long")},
                {}),
       mtconnect(make_mtconnect(settings, loaded)),
       offsets({.store = *store,
@@ -198,37 +201,18 @@ std::unique_ptr<library::Retention> ServerParts::make_retention(const Settings& 
       options);
 }
 
-std::function<void(const std::string& machine, const std::string& fault)>
-ServerParts::records_watch() {
-  return [this](const std::string& machine, const std::string& fault) {
+FaultWatch ServerParts::watch_faults(const char* subject, const char* of, const char* what) {
+  return [this, subject, of, what](const std::string& name, const std::string& fault) {
     using Level = library::Health::Level;
-    health.report(machine, {.level = fault.empty() ? Level::Ok : Level::Degraded,
-                            .subject = "records",
-                            .what = "records of a machine cannot be stored",
-                            .detail = fmt::format("machine={}: {}", machine, fault)});
+    health.report(name, {.level = fault.empty() ? Level::Ok : Level::Degraded,
+                         .subject = subject,
+                         .what = what,
+                         .detail = fmt::format("{}={}: {}", of, name, fault)});
   };
 }
 
-std::function<void(const std::string& name, const std::string& fault)>
-ServerParts::folders_watch() {
-  return [this](const std::string& name, const std::string& fault) {
-    using Level = library::Health::Level;
-    health.report(name, {.level = fault.empty() ? Level::Ok : Level::Degraded,
-                         .subject = "folders",
-                         .what = "a hot folder cannot be read, or its files cannot be taken",
-                         .detail = fmt::format("folder={}: {}", name, fault)});
-  };
-}
-
-std::function<void(const std::string& name, const std::string& fault)>
-ServerParts::webhooks_watch() {
-  return [this](const std::string& name, const std::string& fault) {
-    using Level = library::Health::Level;
-    health.report(name, {.level = fault.empty() ? Level::Ok : Level::Degraded,
-                         .subject = "webhooks",
-                         .what = "a webhook has not been delivered for long",
-                         .detail = fmt::format("webhook={}: {}", name, fault)});
-  };
+FaultWatch ServerParts::records_watch() {
+  return watch_faults("records", "machine", "records of a machine cannot be stored");
 }
 
 std::unique_ptr<mtconnect::Agent> ServerParts::make_mtconnect(const Settings& settings,

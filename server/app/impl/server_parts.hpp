@@ -49,6 +49,9 @@ struct Loaded {
   std::string identity;  ///< of the database
 };
 
+/// Told what is wrong with something of this name; an empty fault: nothing any more.
+using FaultWatch = std::function<void(const std::string& name, const std::string& fault)>;
+
 /// In the order of their making; each may use those above it.
 struct ServerParts {
   ServerParts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
@@ -61,9 +64,9 @@ struct ServerParts {
   std::unique_ptr<library::Retention> make_retention(const Settings& settings,
                                                      const Loaded& loaded);
   /// Of machines with gateways and of those at the ends of lines.
-  std::function<void(const std::string& machine, const std::string& fault)> records_watch();
-  std::function<void(const std::string& name, const std::string& fault)> folders_watch();
-  std::function<void(const std::string& name, const std::string& fault)> webhooks_watch();
+  FaultWatch records_watch();
+  /// Makes a finding of `subject` of each fault; `of`: what has the name.
+  FaultWatch watch_faults(const char* subject, const char* of, const char* what);
   std::unique_ptr<mtconnect::Agent> make_mtconnect(const Settings& settings, const Loaded& loaded);
   /// Of the machine's last run, if it ended with an alarm.
   std::vector<storage::Record> last_alarms(const std::string& machine) const;
