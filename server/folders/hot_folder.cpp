@@ -71,10 +71,10 @@ void HotFolder::set_fault(const Result<void>& looked) {
 Result<void> HotFolder::look_through(const Arrivals& arrivals, const std::stop_token& stop) {
   const auto entries = files_->list();
   if (!entries) return fail(entries.error());
-  if (auto settled = settle_unfinished(*entries); !settled) return settled;
-  std::erase_if(watched_, [&](const auto& watched) {
-    return std::ranges::find(*entries, watched.first, &Entry::name) == entries->end();
-  });
+  std::map<std::string_view, const Entry*> by_name;
+  for (const Entry& entry : *entries) by_name.emplace(entry.name, &entry);
+  if (auto settled = settle_unfinished(by_name); !settled) return settled;
+  std::erase_if(watched_, [&](const auto& watched) { return !by_name.contains(watched.first); });
   Result<void> first;
   for (const Entry& entry : *entries) {
     if (stop.stop_requested()) break;
@@ -102,14 +102,14 @@ Result<void> HotFolder::look_through(const Arrivals& arrivals, const std::stop_t
 }
 
 /// Rows of files that were moved, and the server was killed before it wrote that down.
-Result<void> HotFolder::settle_unfinished(const std::vector<Entry>& entries) {
+Result<void> HotFolder::settle_unfinished(const std::map<std::string_view, const Entry*>& entries) {
   auto& store = parts_.sources.store.folders;
   const auto unfinished = store.unfinished(settings_.name);
   if (!unfinished) return fail(unfinished.error());
   for (const auto& file : *unfinished) {
-    const auto entry = std::ranges::find(entries, file.name, &Entry::name);
-    const bool is_there =
-        entry != entries.end() && entry->changed_ns == file.changed_ns && entry->size == file.size;
+    const auto found = entries.find(file.name);
+    const bool is_there = found != entries.end() && found->second->changed_ns == file.changed_ns &&
+                          found->second->size == file.size;
     if (is_there) continue;
     if (file.state == FolderFileState::Taken) {
       if (auto failed = store.fail_file(file.id, "it was gone before it was stored"); !failed)
