@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace dripline::cli {
@@ -94,9 +95,25 @@ Command Command::add_subcommand(const std::string& name, const std::string& help
   return Command(app_->add_subcommand(name, help));
 }
 
+namespace {
+
+template <class T>
+constexpr bool kIsUnsigned = std::is_unsigned_v<T>;
+template <class T>
+constexpr bool kIsUnsigned<std::optional<T>> = std::is_unsigned_v<T>;
+
+/// CLI11 takes -1 for the largest number.
+std::string refuse_negative(const std::string& text) {
+  return text.starts_with('-') ? fmt::format("{} is below 0", text) : std::string();
+}
+
+}  // namespace
+
 template <class T>
 Option Command::add_option(const std::string& names, T& value, const std::string& help) const {
-  return Option(app_->add_option(names, value, help));
+  CLI::Option* option = app_->add_option(names, value, help);
+  if constexpr (kIsUnsigned<T>) option->check(refuse_negative, "");
+  return Option(option);
 }
 
 // Every type that a command takes.

@@ -55,8 +55,9 @@ int revoke(Context& context, client::Client& client, const TokenCommand& command
   return kExitOk;
 }
 
-void add_user_option(Command command, const std::shared_ptr<TokenCommand>& options) {
-  command.add_option("--user", options->token.user, "The user it belongs to (default: yourself)")
+void add_user_option(Command command, const std::shared_ptr<TokenCommand>& options,
+                     const std::string& names = "--user") {
+  command.add_option(names, options->token.user, "The user it belongs to (default: yourself)")
       .type_name("NAME");
 }
 
@@ -91,7 +92,7 @@ void add_token_commands(Command app, Context& context) {
   add_add(group, context);
   auto listing = group.add_subcommand("list", "List the tokens and sessions of a user");
   auto whose = std::make_shared<TokenCommand>();
-  add_user_option(listing, whose);
+  add_user_option(listing, whose, "USER,--user");
   add_json_flag(listing, context);
   run_at_server(listing, context, whose, list);
   auto revoking = group.add_subcommand("revoke", "Revoke a token, or end a session");

@@ -27,7 +27,7 @@ int list_folders(Context& context, client::Client& client, const FolderList& /*c
     return kExitOk;
   }
   Table table({"FOLDER", "STATE", "MACHINE", right("WAITING"), right("STORED"), right("FAILED"),
-               "PATH", "LAST FAULT"});
+               "PATH", "FAULT, OR LAST REFUSED FILE"});
   for (const auto& folder : *folders) {
     const std::string refused =
         folder.last_refused.empty()
