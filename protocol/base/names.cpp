@@ -48,10 +48,10 @@ Result<void> check_program_name(std::string_view name) {
                 kMaxProgramName);
   }
   if (!std::ranges::all_of(name, is_program_name_character) || name.front() == '.' ||
-      name.front() == ' ' || name.back() == ' ') {
+      name.front() == '-' || name.front() == ' ' || name.back() == ' ') {
     return fail(Errc::Syntax,
                 "program name '{}': use letters, digits, blanks and . _ - +, not beginning with a "
-                "dot or a blank",
+                "dot, a minus or a blank",
                 name);
   }
   return {};

@@ -10,8 +10,9 @@ inline constexpr std::size_t kMaxProgramName = 128;
 inline constexpr std::size_t kMaxMachineName = 64;
 
 /// Names are checked where they enter; after that they are plain strings.
-/// A program name: 1 to 128 characters, letters, digits and ` ._-+`, not beginning with a dot or a
-/// blank and not ending with a blank, so that it can neither leave a folder nor hide in one.
+/// A program name: 1 to 128 characters, letters, digits and ` ._-+`, not beginning with a dot, a
+/// minus or a blank and not ending with a blank, so that it can neither leave a folder nor hide in
+/// one, nor be read as an option.
 /// Errors: Syntax, LimitExceeded.
 Result<void> check_program_name(std::string_view name);
 
