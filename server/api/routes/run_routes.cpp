@@ -201,6 +201,16 @@ bool stops(Services& services, const machines::CommandRequest& command) {
   return view && view->status && dds::lowers_override(command.action, command.value, *view->status);
 }
 
+/// What was asked for besides the action: "80 %" is 0.8 of an override.
+std::string detail_of(const machines::CommandRequest& command) {
+  using enum dds::CommandAction;
+  const bool has_value =
+      command.action == Switch || command.action == Handwheel || dds::is_override(command.action);
+  if (!has_value) return command.argument;
+  return fmt::format("{}{}{}", command.argument, command.argument.empty() ? "" : " ",
+                     command.value);
+}
+
 }  // namespace
 
 /// The entry comes first. When it cannot be written only what stops a machine goes out.
@@ -211,7 +221,7 @@ Response carry_out(Services& services, const Request& request,
       .who = request.who,
       .action = fmt::format("{}.{}", is_of_run ? "run" : "machine", dds::to_string(command.action)),
       .subject = is_of_run ? command.run : command.machine,
-      .detail = fmt::format("{} {}", command.argument, command.value)};
+      .detail = detail_of(command)};
   if (stops(services, command)) {
     services.audit.write(change);
   } else if (auto written = services.audit.write_before(change); !written) {
