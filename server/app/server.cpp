@@ -24,6 +24,19 @@ api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
               [&api](const api::Request& head) { return api.waits_for_machine(head); }};
 }
 
+/// What a folder stores has one author, whoever posted it: then four eyes may be those of one.
+void warn_of_authors(const library::ReleasePolicy& policy,
+                     const std::vector<folders::FolderSettings>& folders) {
+  if (std::ranges::none_of(policy.rules, &library::StepRule::needs_four_eyes)) return;
+  for (const auto& folder : folders) {
+    if (folder.author.find("{owner}") != std::string::npos) continue;
+    process::log_warning(
+        "folder={}: the policy asks for four eyes, but its author is '{}' for everybody; with "
+        "author = \"{{owner}}\" it is the account of the file",
+        folder.name, folder.author.empty() ? "folder " + folder.name : folder.author);
+  }
+}
+
 }  // namespace
 
 Server::Server(std::unique_ptr<ServerParts> parts) : parts_(std::move(parts)) {}
@@ -53,6 +66,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!network) return fail(network.error());
   const auto policy = library::ReleasePolicy::read(settings.policy);
   if (!policy) return fail(policy.error());
+  warn_of_authors(*policy, settings.folders);
   auto folder = StateFolder::open(settings.state);
   if (!folder) return fail(folder.error());
   if (auto is_there = folder->expect_database(settings.begin_empty); !is_there)
