@@ -48,6 +48,7 @@ struct MemoryReport {
 struct RunBeginning {
   std::string run;
   UtcTime started;
+  std::optional<std::string> gateway_setup = {};  ///< Run::gateway_setup
 };
 /// The end of a run as its record reports it; stored in the same transaction as the record.
 struct RunEnding {

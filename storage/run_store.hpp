@@ -60,6 +60,19 @@ struct Run {
   RunAllowance allowed_as = RunAllowance::Open;
   std::optional<std::uint64_t> approval = {};  ///< the Decision that released its revision
   std::optional<std::uint64_t> job = {};       ///< of the machine's queue
+  /// SHA-256 of the gateway's own setup file, as it reported at the start; absent: none, or unknown.
+  std::optional<std::string> gateway_setup = {};
+};
+
+/// A revision that a run's program called: its machine got text of it under this name.
+struct RunCall {
+  static constexpr std::size_t kMax = 128;  ///< of one run
+
+  std::string name;  ///< as the program calls it
+  std::string program;
+  std::uint64_t revision = 0;
+  Digest content;
+  friend bool operator==(const RunCall&, const RunCall&) = default;
 };
 
 struct RunFilter {
@@ -101,6 +114,11 @@ class RunStore {
   /// kill of the process; a power cut may take the last ones. Errors: NotFound, Conflict (the run
   /// is another machine's).
   virtual Result<void> update_counters(const RunProgress& progress) = 0;
+  /// On disk when it returns; the same call again changes nothing. Errors: NotFound, Conflict (the
+  /// run has ended, or the name stands for another revision in it), LimitExceeded (RunCall::kMax).
+  virtual Result<void> add_call(const std::string& run, const RunCall& call) = 0;
+  /// By name. An unknown run has none.
+  virtual Result<std::vector<RunCall>> calls(const std::string& run) = 0;
 };
 
 }  // namespace dripline::storage

@@ -8,7 +8,8 @@ namespace dripline::gateway {
 
 using dds::RecordKind;
 
-void ExecutionRecorder::begin(const report::ActiveRun& run, ProgressOf feed_progress) {
+void ExecutionRecorder::begin(const report::ActiveRun& run, const std::string& setup,
+                              ProgressOf feed_progress) {
   run_ = run.run;
   feed_progress_ = std::move(feed_progress);
   reached_ = counted_ = {};
@@ -23,7 +24,7 @@ void ExecutionRecorder::begin(const report::ActiveRun& run, ProgressOf feed_prog
   parts_.outbox.begin_run(run);
   append({}, {RecordKind::RunStarted,
               {},
-              dds::encode(dds::RunStartText{run.program, run.revision, run.control})});
+              dds::encode(dds::RunStartText{run.program, run.revision, run.control, setup})});
 }
 
 void ExecutionRecorder::continue_after(const interpreter::Origin& origin) {

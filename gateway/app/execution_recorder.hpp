@@ -39,8 +39,9 @@ class ExecutionRecorder final : public machine::ExecutionSink {
     std::uint64_t sent = 0, accepted = 0, path = 0;
   };
   using ProgressOf = std::function<FeedProgress(std::uint64_t block)>;
-  /// A new run; its RunStarted record is staged, not committed.
-  void begin(const report::ActiveRun& run, ProgressOf feed_progress);
+  /// A new run; its RunStarted record is staged, not committed. `setup`: SHA-256 of the gateway's
+  /// own setup, empty: it has none.
+  void begin(const report::ActiveRun& run, const std::string& setup, ProgressOf feed_progress);
   /// The run continues another after this block; to be committed.
   void continue_after(const interpreter::Origin& origin);
   /// Stages the run's end; its counters and place are filled in here. To be followed by `commit`

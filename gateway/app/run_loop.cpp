@@ -120,7 +120,7 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
   parts_.memory.stage();
   if (origin.from.place.empty() && !origin.from.restart)
     parts_.memory.stage_beginning(run.revision);
-  parts_.recorder.begin(run, [&session](std::uint64_t block) {
+  parts_.recorder.begin(run, parts_.setup_digest, [&session](std::uint64_t block) {
     return ExecutionRecorder::FeedProgress{session.feed().sent(), session.accepted(),
                                            session.path_at(block)};
   });

@@ -134,8 +134,10 @@ std::string_view to_string(RunOutcome value) {
 }
 
 std::string encode(const RunStartText& value) {
-  return dump(
-      {{"program", value.program}, {"revision", value.revision}, {"control", value.control}});
+  Json json{
+      {"program", value.program}, {"revision", value.revision}, {"control", value.control}};
+  if (!value.setup.empty()) json["setup"] = value.setup;
+  return dump(json);
 }
 
 std::string encode(const RunEndText& value) {
@@ -167,6 +169,10 @@ Result<RunStartText> decode_run_start(std::string_view text) {
   Members members(*json);
   RunStartText value{members.text("program"), members.text("revision"), members.text("control")};
   if (!is_digest(value.revision)) members.blame("revision");
+  if (json->contains("setup")) {
+    value.setup = members.text("setup");
+    if (!is_digest(value.setup)) members.blame("setup");
+  }
   return members.finish(std::move(value), "run start");
 }
 

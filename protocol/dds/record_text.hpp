@@ -17,6 +17,9 @@ struct RunStartText {
   std::string program;
   std::string revision;  ///< SHA-256 of the content, 64 hexadecimal digits
   std::string control;
+  /// SHA-256 of the gateway's own setup file, 64 hexadecimal digits; empty: it has none, or is an
+  /// older gateway.
+  std::string setup = {};
   friend bool operator==(const RunStartText&, const RunStartText&) = default;
 };
 

@@ -44,11 +44,26 @@ void add_outcome(Facts& facts, const storage::Run& run) {
 }
 
 Result<void> add_setup(Facts& facts, const storage::Store& store, const storage::Run& run) {
+  if (run.gateway_setup) facts.add("gateway_setup_sha256", *run.gateway_setup);
   if (!run.setup) return {};
   const auto setup = store.setups.find(run.machine, *run.setup);
   if (!setup) return fail(setup.error());
   facts.add("setup", *run.setup);
   facts.add("setup_sha256", setup->sha256.hex());
+  return {};
+}
+
+/// The revisions whose text the machine got, by the names that the program calls.
+Result<void> add_calls(Facts& facts, const storage::Store& store, const storage::Run& run) {
+  const auto calls = store.runs.calls(run.id);
+  if (!calls) return fail(calls.error());
+  facts.add("called_programs", calls->size());
+  for (std::size_t i = 0; i < calls->size(); ++i) {
+    const storage::RunCall& call = (*calls)[i];
+    facts.add(fmt::format("called_{}", i + 1),
+              fmt::format("{} = {} revision {} sha256 {}", call.name, call.program, call.revision,
+                          call.content.hex()));
+  }
   return {};
 }
 
@@ -100,6 +115,7 @@ Result<std::vector<audit::Fact>> facts_of_run(const storage::Store& store, const
   const auto machine = store.machines.find(run->machine);
   if (machine) facts.add("gateway_version", machine->gateway_version);  // as announced last
   add_program(facts, *run);
+  if (auto added = add_calls(facts, store, *run); !added) return fail(added.error());
   if (auto added = add_setup(facts, store, *run); !added) return fail(added.error());
   if (auto added = add_approval(facts, store, *run, database); !added) return fail(added.error());
   add_outcome(facts, *run);

@@ -177,7 +177,7 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::content(
     }
   }
   auto content = look_up(request);
-  if (!content) return content;
+  if (!content || !content->is_noted) return content;
   const std::lock_guard lock(mutex_);
   Pinned& pinned = lanes_[request.machine].pinned;
   if (pinned.run != request.run || pinned.programs.size() >= kMaxPinned) {
@@ -213,9 +213,20 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
     const auto status = is_missing ? dds::BlockStatus::NoSuchProgram : status_of(revision.error());
     return refuse_with(status, revision.error());
   }
+  // Before its first byte goes out, so that the run's attestation names all that it called. A disk
+  // that is full stops no machine: the next request tries again.
+  const auto noted = sources_.store.runs.add_call(
+      run->id, {request.program, revision->program, revision->number, revision->content});
+  if (!noted && noted.error().code != Errc::Io)
+    return refuse_with(status_of(noted.error()), noted.error());
+  if (!noted) {
+    process::log_error("called program not noted machine={} run={} program={}: {}", request.machine,
+                       run->id, revision->program, noted.error().what);
+  }
   process::log_info("pinned called program machine={} run={} program={} revision={}",
                     request.machine, run->id, revision->program, revision->number);
-  return Content{.digest = revision->content, .size = revision->size};
+  return Content{
+      .digest = revision->content, .size = revision->size, .is_noted = noted.has_value()};
 }
 
 }  // namespace dripline::machines

@@ -36,6 +36,7 @@ class BlockFeed {
   struct Content {
     Digest digest;
     std::uint64_t size = 0;
+    bool is_noted = true;  ///< it is on disk that the run got it
   };
   /// What the requests of a machine's current run refer to, by the program name in the request.
   struct Pinned {

@@ -92,6 +92,13 @@ Result<storage::RunEnding> read_run_ending(const storage::Store& store, const dd
   return ending;
 }
 
+/// Nothing where the gateway has no setup of its own, or the text is not what gateways write.
+std::optional<std::string> setup_of_start(const dds::Record& record) {
+  const auto text = dds::decode_run_start(record.text);
+  if (!text || text->setup.empty()) return std::nullopt;
+  return text->setup;
+}
+
 using namespace std::chrono_literals;
 
 constexpr auto kAckRetry = 20ms;
@@ -247,7 +254,9 @@ storage::RecordBatch RecordIngest::to_batch(const std::vector<dds::Record>& reco
     batch.records.back().received = received;
     if (foreign.contains(record.run)) continue;
     if (record.kind == dds::RecordKind::RunStarted) {
-      batch.beginnings.push_back({.run = record.run, .started = our_time(record)});
+      batch.beginnings.push_back({.run = record.run,
+                                  .started = our_time(record),
+                                  .gateway_setup = setup_of_start(record)});
     }
     if (record.kind != dds::RecordKind::RunEnded) continue;
     auto ending = read_run_ending(parts_.store, record);

@@ -14,9 +14,9 @@ const std::string kEntryColumns =
     "audit.id, audit.time_us, audit.who, audit.credential, audit.address, audit.action, "
     "audit.subject, audit.detail, audit.chain ";
 
-/// All that is known of a run that has ended, without the names that may change later. Texts are
-/// hexadecimal digits, so that there is one reading of it.
-const std::string kRunFacts =
+/// All that version 9 knew of a run that has ended, without the names that may change later. Texts
+/// are hexadecimal digits, so that there is one reading of it.
+const std::string kFirstRunFacts =
     "run.number || ' ' || hex(run.id) || ' ' || run.machine || ' ' || run.program || ' ' || "
     "run.revision || ' ' || "
     "hex(run.control) || ' ' || hex(run.state) || ' ' || run.sent || ' ' || run.accepted || ' ' || "
@@ -25,6 +25,13 @@ const std::string kRunFacts =
     "hex(run.author) || ' ' || run.created_us || ' ' || quote(run.started_us) || ' ' || "
     "quote(run.ended_us) || ' ' || quote(run.setup) || ' ' || quote(run.sha256) || ' ' || "
     "hex(run.allowed_as) || ' ' || quote(run.approval) ";
+/// What later versions know besides; nothing where a run has none of it, so that the digests of
+/// older runs are as they were.
+const std::string kRunFacts =
+    kFirstRunFacts +
+    "|| coalesce(' setup ' || hex(run.gateway_setup), '') || coalesce((SELECT group_concat("
+    "' call ' || hex(name) || ' ' || program || ' ' || revision || ' ' || hex(sha256), '') FROM "
+    "(SELECT * FROM run_call WHERE run_call.run = run.number ORDER BY name)), '') ";
 constexpr const char* kRunEnd = "run.end";
 
 Entry read_entry(const sqlite::Statement& row) {
@@ -114,16 +121,21 @@ Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry) {
       next.address, std::span<const std::byte>(digest.bytes));
 }
 
-Result<void> add_run_end(sqlite::Database& database, const std::string& run) {
-  static const std::string kSql =
-      "SELECT run.state, machine.name, program.name, run.revision, run.executed, run.reason, "
+namespace {
+
+std::string select_end(const std::string& facts) {
+  return "SELECT run.state, machine.name, program.name, run.revision, run.executed, run.reason, "
       "coalesce(run.ended_us, run.created_us), " +
-      kRunFacts +
+      facts +
       "FROM run JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
       "WHERE run.id = ?1 AND run.state NOT IN ('ordered', 'active') AND NOT EXISTS "
       "(SELECT 1 FROM audit WHERE audit.subject = run.id AND audit.action = 'run.end')";
+}
+
+Result<void> add_run_end(sqlite::Database& database, const std::string& sql,
+                         const std::string& run) {
   const auto entry = sqlite::first_row(
-      database, kSql,
+      database, sql,
       [&](const sqlite::Statement& row) {
         const std::string reason = row.text(5);
         return AuditEntry{
@@ -140,14 +152,22 @@ Result<void> add_run_end(sqlite::Database& database, const std::string& run) {
   return *entry ? add_audit(database, **entry) : Result<void>();
 }
 
+}  // namespace
+
+Result<void> add_run_end(sqlite::Database& database, const std::string& run) {
+  static const std::string kSql = select_end(kRunFacts);
+  return add_run_end(database, kSql, run);
+}
+
 Result<void> begin_chain(sqlite::Database& database) {
+  static const std::string kSql = select_end(kFirstRunFacts);
   if (auto chained = chain_entries(database); !chained) return chained;
   const auto ended = sqlite::all_rows(
       database, "SELECT id FROM run WHERE state NOT IN ('ordered', 'active') ORDER BY number",
       [](const sqlite::Statement& row) { return row.text(0); });
   if (!ended) return fail(ended.error());
   for (const auto& run : *ended) {
-    if (auto added = add_run_end(database, run); !added) return added;
+    if (auto added = add_run_end(database, kSql, run); !added) return added;
   }
   return {};
 }

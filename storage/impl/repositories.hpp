@@ -80,6 +80,8 @@ class RunRepository final : public RunStore {
   Result<std::uint64_t> count(const RunFilter& filter) override;
   Result<void> set_state(const std::string& id, RunState state, const std::string& reason) override;
   Result<void> update_counters(const RunProgress& progress) override;
+  Result<void> add_call(const std::string& run, const RunCall& call) override;
+  Result<std::vector<RunCall>> calls(const std::string& run) override;
 
  private:
   Connections& connections_;

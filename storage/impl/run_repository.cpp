@@ -1,5 +1,7 @@
 #include "storage/impl/repositories.hpp"
 
+#include <algorithm>
+
 #include "storage/impl/content.hpp"
 #include "storage/impl/job_repository.hpp"
 #include "storage/impl/revision_rows.hpp"
@@ -14,7 +16,7 @@ const std::string kSelect =
     "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
     "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS revision.sha256, "
     "run.allowed_as, "
-    "run.approval, run.job FROM run "
+    "run.approval, run.job, run.gateway_setup FROM run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
     "LEFT JOIN content ON content.sha256 = run.sha256 ";
@@ -53,6 +55,7 @@ Run read_run(const sqlite::Statement& row) {
   if (const auto approval = row.optional_integer(24))
     run.approval = static_cast<std::uint64_t>(*approval);
   if (const auto job = row.optional_integer(25)) run.job = static_cast<std::uint64_t>(*job);
+  run.gateway_setup = row.optional_text(26);
   return run;
 }
 
@@ -158,16 +161,14 @@ Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPla
       database,
       "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
       "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
-      "ended_us, setup, sha256, allowed_as, approval, job) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, "
-      "?9, "
-      "?10, ?11, ?12, ?13, "
-      "?14, "
-      "?15, ?16, ?17, ?18, ?19, ?20, ?21, ?22, ?23)",
+      "ended_us, setup, sha256, allowed_as, approval, job, gateway_setup) VALUES (?1, ?2, ?3, ?4, "
+      "?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20, ?21, ?22, ?23, "
+      "?24)",
       run.id, place.machine, place.program, run.revision, run.control, to_string(run.state),
       run.counters.sent, run.counters.accepted, run.counters.executed, run.line, run.sequence,
       run.reason, run.executed_content, run.content_verified, run.author, run.created, run.started,
       run.ended, run.setup, std::span<const std::byte>(run.content.bytes),
-      to_string(run.allowed_as), run.approval, run.job);
+      to_string(run.allowed_as), run.approval, run.job, run.gateway_setup);
 }
 
 }  // namespace
@@ -279,12 +280,65 @@ Result<void> RunRepository::update_counters(const RunProgress& progress) {
   return connections_.write(update, sqlite::Synchronous::Normal);
 }
 
+namespace {
+
+RunCall read_call(const sqlite::Statement& row) {
+  return {row.text(0), row.text(1), row.number(2), read_digest(row, 3)};
+}
+
+Result<std::vector<RunCall>> calls_of(sqlite::Database& database, const std::string& run) {
+  return sqlite::all_rows(
+      database,
+      "SELECT run_call.name, program.name, run_call.revision, run_call.sha256 FROM run_call "
+      "JOIN run ON run.number = run_call.run JOIN program ON program.id = run_call.program "
+      "WHERE run.id = ?1 ORDER BY run_call.name",
+      read_call, run);
+}
+
+}  // namespace
+
+Result<void> RunRepository::add_call(const std::string& id, const RunCall& call) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto run = find_run(database, id);
+    if (!run) return fail(run.error());
+    const auto calls = calls_of(database, id);
+    if (!calls) return fail(calls.error());
+    const auto known = std::ranges::find(*calls, call.name, &RunCall::name);
+    if (known != calls->end()) {
+      if (*known == call) return {};
+      return fail(Errc::Conflict, "run {}: '{}' is {} revision {}, not {} revision {}", id,
+                  call.name, known->program, known->revision, call.program, call.revision);
+    }
+    if (is_finished(run->state))
+      return fail(Errc::Conflict, "run {} is {}: it calls nothing", id, to_string(run->state));
+    if (calls->size() >= RunCall::kMax) {
+      return fail(Errc::LimitExceeded, "run {} calls more than {} programs", id, RunCall::kMax);
+    }
+    const auto added = sqlite::run(
+        database,
+        "INSERT INTO run_call (run, name, program, revision, sha256) SELECT run.number, ?2, "
+        "program.id, ?4, ?5 FROM run, program WHERE run.id = ?1 AND program.name = ?3",
+        id, call.name, call.program, call.revision, std::span<const std::byte>(call.content.bytes));
+    if (!added || database.changes() > 0) return added;
+    return fail(Errc::NotFound, "program {} is not in the library", call.program);
+  });
+}
+
+Result<std::vector<RunCall>> RunRepository::calls(const std::string& run) {
+  return connections_.read([&](sqlite::Database& database) { return calls_of(database, run); });
+}
+
 Result<void> apply_beginning(sqlite::Database& database, std::int64_t machine,
                              const RunBeginning& beginning) {
+  const auto begun = sqlite::run(database,
+                                 "UPDATE run SET state = 'active', started_us = max(?2, created_us) "
+                                 "WHERE id = ?1 AND machine = ?3 AND state = 'ordered'",
+                                 beginning.run, beginning.started, machine);
+  if (!begun || !beginning.gateway_setup) return begun;
   return sqlite::run(database,
-                     "UPDATE run SET state = 'active', started_us = max(?2, created_us) "
-                     "WHERE id = ?1 AND machine = ?3 AND state = 'ordered'",
-                     beginning.run, beginning.started, machine);
+                     "UPDATE run SET gateway_setup = ?2 "
+                     "WHERE id = ?1 AND machine = ?3 AND state = 'active'",
+                     beginning.run, *beginning.gateway_setup, machine);
 }
 
 Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,

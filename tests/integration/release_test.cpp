@@ -115,6 +115,7 @@ TEST_F(Release, PinsWhatAProgramCallsSoThatANewerSubprogramDoesNotRun) {
   good(as("anna", "run attestation " + id + " -o " + paper));
   good(as("anna", "run verify " + paper));
   good(run_shell("grep -q 'calls O0002 1 ' " + paper));
+  good(run_shell("grep -q '^called_1 .* = O0002 revision 1 sha256 ' " + paper));
 }
 
 TEST_F(Release, APolicyThatIsNotUnderstoodKeepsTheServerFromStarting) {

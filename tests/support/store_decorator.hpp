@@ -87,6 +87,12 @@ class RunStoreDecorator : public storage::RunStore {
   Result<void> update_counters(const storage::RunProgress& progress) override {
     return inner_.update_counters(progress);
   }
+  Result<void> add_call(const std::string& run, const storage::RunCall& call) override {
+    return inner_.add_call(run, call);
+  }
+  Result<std::vector<storage::RunCall>> calls(const std::string& run) override {
+    return inner_.calls(run);
+  }
 
  private:
   storage::RunStore& inner_;

@@ -199,10 +199,22 @@ TEST_P(KeptFile, HasHotFoldersJobsAndWebhooksSinceVersion14) {
   EXPECT_EQ(store_->webhooks.find("erp")->waiting, 1u);
 }
 
+TEST_P(KeptFile, HasCallsOfRunsSinceVersion15) {
+  reopen();
+  const bool has_them = version() >= 15;
+  EXPECT_EQ(store_->runs.find("r2").has_value(), has_them);
+  EXPECT_FALSE(store_->runs.find("r1")->gateway_setup);
+  if (!has_them) return;
+  EXPECT_EQ(store_->runs.find("r2")->gateway_setup, std::string(64, 'a'));
+  const auto calls = store_->runs.calls("r2");
+  ASSERT_EQ(calls->size(), 1u);
+  EXPECT_EQ(calls->at(0).program, "p.nc");
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
-                                         "v12.sql", "v13.sql", "v14.sql"),
+                                         "v12.sql", "v13.sql", "v14.sql", "v15.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

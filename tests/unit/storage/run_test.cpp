@@ -104,6 +104,34 @@ TEST_F(RunTest, UnknownOnesAreNotFound) {
   EXPECT_EQ(store_->runs.update_counters({"m1", "x", {}, 0, 0}).error().code, Errc::NotFound);
 }
 
+TEST_F(RunTest, HasTheProgramsThatItCalled) {
+  const auto second = push("O0002", "M99\n");
+  const RunCall call{"2", "O0002", 1, second->content};
+  ASSERT_TRUE(store_->runs.add_call("r1", call));
+  ASSERT_TRUE(store_->runs.add_call("r1", call)) << "again changes nothing";
+  EXPECT_EQ(store_->runs.calls("r1").value(), std::vector{call});
+  RunCall other = call;
+  other.content = sha256("other");
+  EXPECT_EQ(store_->runs.add_call("r1", other).error().code, Errc::Conflict);
+  EXPECT_EQ(store_->runs.add_call("x", call).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->runs.add_call("r1", {"3", "O0003", 1, {}}).error().code, Errc::NotFound);
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Aborted, ""));
+  EXPECT_EQ(store_->runs.add_call("r1", {"O2", "O0002", 1, call.content}).error().code,
+            Errc::Conflict);
+  reopen();
+  EXPECT_EQ(store_->runs.calls("r1").value(), std::vector{call});
+  EXPECT_TRUE(store_->runs.calls("x").value().empty());
+}
+
+TEST_F(RunTest, CallsAtMost128Programs) {
+  const auto called = push("O0002", "M99\n");
+  for (std::size_t i = 0; i < RunCall::kMax; ++i)
+    ASSERT_TRUE(
+        store_->runs.add_call("r1", {fmt::format("{}", i), "O0002", 1, called->content}));
+  const auto refused = store_->runs.add_call("r1", {"one more", "O0002", 1, called->content});
+  EXPECT_EQ(refused.error().code, Errc::LimitExceeded);
+}
+
 TEST_F(RunTest, CountersOnlyGoForward) {
   ASSERT_TRUE(store_->runs.update_counters({"m1", "r1", {1000, 50, 40}, 41, 400}));
   ASSERT_TRUE(store_->runs.update_counters({"m1", "r1", {900, 60, 30}, 31, 300}));

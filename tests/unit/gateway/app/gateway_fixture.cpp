@@ -51,6 +51,7 @@ void GatewayFixture::restart_gateway() {
       .options = options_,
       .dialect = control_,
       .setup = setup,
+      .setup_digest = setup_digest,
       .endpoint = *this,
       .outbox = process_->outbox,
       .journal = process_->journal,

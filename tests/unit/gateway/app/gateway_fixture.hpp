@@ -83,6 +83,7 @@ class GatewayFixture : public dds::GatewayEndpoint {
   std::map<std::string, dds::CommandResult> results;
   std::uint64_t outbox_bytes = 4ULL << 30;
   interpreter::Setup setup;
+  std::string setup_digest = std::string(64, 'b');  ///< as if a file had its text
   machine::MotionFactory motion;  ///< empty: the simulated machine; from the next gateway on
   std::unique_ptr<Gateway> gateway;
   std::filesystem::path folder() const { return folder_.path(); }

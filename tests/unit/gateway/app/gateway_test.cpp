@@ -32,6 +32,7 @@ TEST(Gateway, RunsAProgramAndReportsIt) {
   for (int i = 0; i < 100; ++i)
     EXPECT_EQ(lines[static_cast<std::size_t>(i)], "LINE " + std::to_string(i));
   EXPECT_EQ(fixture.records.front().kind, RecordKind::RunStarted);
+  EXPECT_EQ(dds::decode_run_start(fixture.records.front().text)->setup, fixture.setup_digest);
   EXPECT_EQ(fixture.records.back().kind, RecordKind::RunEnded);
   EXPECT_EQ(fixture.execution_probe().blocks_done, 401u);
   EXPECT_EQ(fixture.execution_probe().outputs_done, 100u);

@@ -14,6 +14,12 @@ TEST(RecordText, RunStartSurvivesTheRoundTrip) {
   EXPECT_EQ(decode_run_start(encode(value)).value(), value);
 }
 
+TEST(RecordText, RunStartNamesTheSetupOfItsGateway) {
+  const RunStartText value{"p.nc", kDigest, "centurion", kDigest};
+  EXPECT_EQ(decode_run_start(encode(value)), value);
+  EXPECT_FALSE(decode_run_start(encode(RunStartText{"p.nc", kDigest, "centurion", "a"})));
+}
+
 TEST(RecordText, RunEndSurvivesTheRoundTrip) {
   RunEndText value;
   value.outcome = RunOutcome::Alarmed;

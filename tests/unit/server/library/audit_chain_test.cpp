@@ -26,7 +26,11 @@ class AuditChainTest : public ServerTest {
     }
   }
   void end_run(const std::string& id, RunState state, const std::string& reason) {
-    ASSERT_TRUE(store_->runs.create(run_of(revision_, id)));
+    Run run = run_of(revision_, id);
+    run.gateway_setup = std::string(64, 'a');
+    ASSERT_TRUE(store_->runs.create(run));
+    ASSERT_TRUE(store_->runs.add_call(id, {"1", "P", 1, revision_.content}));
+    ASSERT_TRUE(store_->runs.add_call(id, {"2", "P", 1, revision_.content}));
     ASSERT_TRUE(store_->runs.set_state(id, state, reason));
   }
   AuditChain::Verification verify() {
@@ -126,13 +130,13 @@ class Tamperer {
     must(
         "PRAGMA foreign_keys = OFF; PRAGMA ignore_check_constraints = ON; "
         "PRAGMA synchronous = OFF");
-    for (const std::string table : {"audit", "run", "audit_checkpoint"})
+    for (const std::string table : {"audit", "run", "run_call", "audit_checkpoint"})
       must("CREATE TEMP TABLE kept_" + table + " AS SELECT * FROM main." + table);
     last_ = number("SELECT max(id) FROM audit");
   }
   void restore() {
     must("BEGIN");
-    for (const std::string table : {"audit", "run", "audit_checkpoint"})
+    for (const std::string table : {"audit", "run", "run_call", "audit_checkpoint"})
       must("DELETE FROM main." + table + "; INSERT INTO main." + table + " SELECT * FROM kept_" +
            table);
     must("COMMIT");
@@ -145,9 +149,10 @@ class Tamperer {
   /// nullopt: the schema did not let it happen, and nothing was changed.
   std::optional<Tampering> tamper() {
     using Way = std::optional<Tampering> (Tamperer::*)();
-    static constexpr std::array<Way, 10> kWays{
+    static constexpr std::array<Way, 11> kWays{
         &Tamperer::change_entry,     &Tamperer::change_entry, &Tamperer::change_checkpoint,
         &Tamperer::change_run,       &Tamperer::remove_entry, &Tamperer::insert_entry,
+        &Tamperer::change_calls,
         &Tamperer::swap_entries,     &Tamperer::cut_tail,     &Tamperer::change_runs,
         &Tamperer::remove_checkpoint};
     return (this->*kWays.at(below(kWays.size())))();
@@ -248,11 +253,25 @@ class Tamperer {
                                          "started_us",
                                          "setup",
                                          "allowed_as",
-                                         "approval"};
+                                         "approval",
+                                         "gateway_setup"};
     const std::string column = one_of(kColumns);
     const std::uint64_t run = 1 + below(6), end = end_of(run);
     return done(change("run", column, fmt::format("number = {}", run)),
                 {fmt::format("{} of run {}", column, run), end});
+  }
+  std::optional<Tampering> change_calls() {
+    static constexpr std::array kColumns{"run", "name", "program", "revision", "sha256"};
+    const std::uint64_t run = 1 + below(6), end = end_of(run);
+    const std::string row = fmt::format("run = {} AND name = '{}'", run, 1 + below(2));
+    if (below(2) == 0) {
+      must("DELETE FROM run_call WHERE " + row);
+      return Tampering{"call removed: " + row, end};
+    }
+    const std::string column = one_of(kColumns);
+    // A call may have been moved to an earlier run: that one's digest is wrong first.
+    return done(change("run_call", column, row),
+                {column + " of call " + row, column == "run" ? 0 : end});
   }
   /// With or without the numbers of the following being moved up.
   std::optional<Tampering> remove_entry() {

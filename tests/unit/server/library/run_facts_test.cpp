@@ -42,6 +42,34 @@ TEST_F(RunFacts, NameProgramApprovalAndTheEndInTheTrail) {
   EXPECT_EQ(read->value("audit_sha256"), entries.back().digest.hex());
 }
 
+TEST_F(RunFacts, NameTheCalledProgramsAndTheSetupOfTheGateway) {
+  const auto called = push("O0002", "M99\n");
+  Run run = run_of(push("P", "M98 P2\nM2\n"), "r1");
+  run.gateway_setup = sha256("[[tool]]\n").hex();
+  ASSERT_TRUE(store_->runs.create(run));
+  ASSERT_TRUE(store_->runs.add_call("r1", {"2", "O0002", 1, called.content}));
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Aborted, ""));
+  const auto read = attested("r1");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->value("called_programs"), "1");
+  EXPECT_EQ(read->value("called_1"), "2 = O0002 revision 1 sha256 " + sha256("M99\n").hex());
+  EXPECT_EQ(read->value("gateway_setup_sha256"), sha256("[[tool]]\n").hex());
+  EXPECT_EQ(read->value("setup_sha256"), "") << "the server had none for this machine";
+}
+
+/// So that the answer to "what did it call" is never more than a client reads.
+TEST_F(RunFacts, OfTheMostCallsFitIntoAnAttestation) {
+  const auto name = [](std::size_t i) { return fmt::format("{:0>120}", i); };
+  const auto called = push(name(0), "M99\n");
+  ASSERT_TRUE(store_->runs.create(run_of(push("P", "M2\n"), "r1")));
+  for (std::size_t i = 0; i < storage::RunCall::kMax; ++i)
+    ASSERT_TRUE(store_->runs.add_call("r1", {name(i), name(0), 1, called.content}));
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Aborted, ""));
+  const auto read = attested("r1");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->value("called_programs"), std::to_string(storage::RunCall::kMax));
+}
+
 TEST_F(RunFacts, AreNotGivenOfARunThatWasChanged) {
   ASSERT_TRUE(store_->runs.create(run_of(push("P", "M2\n"), "r1")));
   ASSERT_TRUE(store_->runs.set_state("r1", RunState::Aborted, ""));

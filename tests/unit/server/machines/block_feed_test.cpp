@@ -102,6 +102,48 @@ TEST_F(BlockFeedTest, FindsACalledProgramByItsNumber) {
       << "to be compared by a restart";
 }
 
+TEST_F(BlockFeedTest, NotesACalledProgramBeforeItsTextGoesOut) {
+  const auto called = push("O2.nc", "O2\nM99\n");
+  clock_.advance(std::chrono::seconds(1));
+  const std::string run = running("M98 P2\n");
+  request(run, 0, 100);
+  ASSERT_FALSE(fed(1).empty());
+  EXPECT_TRUE(store_->runs.calls(run)->empty()) << "its own program is no call";
+  request(run, 0, 100, "O0002");
+  ASSERT_TRUE(written_->wait([&] { return written_->blocks.size() == 2; }));
+  const storage::RunCall call{"O0002", "O2.nc", called.number, called.content};
+  EXPECT_EQ(store_->runs.calls(run).value(), std::vector{call});
+}
+
+/// A disk that is full stops no machine, and what it called is noted when there is room again.
+TEST_F(BlockFeedTest, FeedsACalledProgramThatCannotBeNotedYet) {
+  struct FullRuns final : test_support::RunStoreDecorator {
+    using RunStoreDecorator::RunStoreDecorator;
+    Result<void> add_call(const std::string& run, const storage::RunCall& call) override {
+      if (is_full) return fail(Errc::Io, "disk full");
+      return RunStoreDecorator::add_call(run, call);
+    }
+    std::atomic<bool> is_full = true;
+  };
+  push("O0002", "O2\nM99\n");
+  push("O0100", "M98 P2\n");
+  clock_.advance(std::chrono::seconds(1));
+  FullRuns runs(*store_);
+  const storage::Store store = test_support::with(*store_, runs);
+  start_service(store);
+  announce();
+  answer_commands(true);
+  const auto run = start("O0100");
+  ASSERT_TRUE(run) << run.error().what;
+  request(run->id, 0, 100, "O0002");
+  EXPECT_EQ(fed(1), "O2\nM99\n");
+  EXPECT_TRUE(store_->runs.calls(run->id)->empty());
+  runs.is_full = false;
+  request(run->id, 3, 100, "O0002");
+  ASSERT_TRUE(written_->wait([&] { return written_->blocks.size() == 2; }));
+  EXPECT_EQ(store_->runs.calls(run->id)->size(), 1u);
+}
+
 TEST_F(BlockFeedTest, KeepsACalledProgramAsItWasWhenTheRunBegan) {
   push("O0002", "O2\nM99\n");
   clock_.advance(std::chrono::seconds(1));

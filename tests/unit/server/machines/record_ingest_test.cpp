@@ -175,8 +175,10 @@ TEST_F(RecordIngestTest, EndARunWithItsCountersAndAVerdictOnItsBytes) {
   const std::string text = "O1\nM30\n";
   const std::string run = running(text);
   record(1, run, dds::RecordKind::RunStarted,
-         dds::encode(dds::RunStartText{
-             .program = "O0100", .revision = sha256(text).hex(), .control = "centurion"}));
+         dds::encode(dds::RunStartText{.program = "O0100",
+                                       .revision = sha256(text).hex(),
+                                       .control = "centurion",
+                                       .setup = sha256("[[tool]]").hex()}));
   record(2, run, dds::RecordKind::RunEnded, completed(text, 2));
   ASSERT_TRUE(wait_ack(2));
   const auto ended = store_->runs.find(run);
@@ -184,6 +186,7 @@ TEST_F(RecordIngestTest, EndARunWithItsCountersAndAVerdictOnItsBytes) {
   EXPECT_EQ(ended->state, storage::RunState::Completed);
   EXPECT_EQ(ended->counters.executed, 2u);
   EXPECT_TRUE(ended->started.has_value());
+  EXPECT_EQ(ended->gateway_setup, sha256("[[tool]]").hex());
   EXPECT_EQ(ended->content_verified, true);
   EXPECT_TRUE(
       wait_notified(runs_, [](const Run& r) { return r.state == storage::RunState::Completed; }));
