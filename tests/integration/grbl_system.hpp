@@ -19,11 +19,13 @@ class GrblSystem : public MotionSystem {
   double traveled() {
     return board->with([](test_support::GrblBoard& peer) { return peer.traveled(); });
   }
-  /// The axes stay where they are for a while.
+  /// The axes stay where they are for a while, and not because the board's thread has no processor.
   bool rests() {
     const double before = traveled();
     std::this_thread::sleep_for(std::chrono::milliseconds(300));  // 6 s at speed 20
-    return traveled() == before;
+    return board->with([&](test_support::GrblBoard& peer) {
+      return !peer.is_moving() && peer.traveled() == before;
+    });
   }
   /// A program of its own moves them back to X 0.
   void home_axes() {

@@ -46,9 +46,11 @@ class MotionSystem : public testing::Test {
     })) << refusal;
     return id;
   }
+  test_support::RestClient::Reply post_command(const std::string& id, const char* action) {
+    return system->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
+  }
   void command(const std::string& id, const char* action) {
-    const auto reply =
-        system->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
+    const auto reply = post_command(id, action);
     EXPECT_EQ(reply.status, 200) << reply.body;
   }
   test_support::Finished panel(const std::vector<std::string>& words) {
