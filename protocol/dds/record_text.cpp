@@ -134,8 +134,7 @@ std::string_view to_string(RunOutcome value) {
 }
 
 std::string encode(const RunStartText& value) {
-  Json json{
-      {"program", value.program}, {"revision", value.revision}, {"control", value.control}};
+  Json json{{"program", value.program}, {"revision", value.revision}, {"control", value.control}};
   if (!value.setup.empty()) json["setup"] = value.setup;
   return dump(json);
 }

@@ -125,11 +125,12 @@ namespace {
 
 std::string select_end(const std::string& facts) {
   return "SELECT run.state, machine.name, program.name, run.revision, run.executed, run.reason, "
-      "coalesce(run.ended_us, run.created_us), " +
-      facts +
-      "FROM run JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
-      "WHERE run.id = ?1 AND run.state NOT IN ('ordered', 'active') AND NOT EXISTS "
-      "(SELECT 1 FROM audit WHERE audit.subject = run.id AND audit.action = 'run.end')";
+         "coalesce(run.ended_us, run.created_us), " +
+         facts +
+         "FROM run JOIN machine ON machine.id = run.machine JOIN program ON program.id = "
+         "run.program "
+         "WHERE run.id = ?1 AND run.state NOT IN ('ordered', 'active') AND NOT EXISTS "
+         "(SELECT 1 FROM audit WHERE audit.subject = run.id AND audit.action = 'run.end')";
 }
 
 Result<void> add_run_end(sqlite::Database& database, const std::string& sql,

@@ -330,10 +330,11 @@ Result<std::vector<RunCall>> RunRepository::calls(const std::string& run) {
 
 Result<void> apply_beginning(sqlite::Database& database, std::int64_t machine,
                              const RunBeginning& beginning) {
-  const auto begun = sqlite::run(database,
-                                 "UPDATE run SET state = 'active', started_us = max(?2, created_us) "
-                                 "WHERE id = ?1 AND machine = ?3 AND state = 'ordered'",
-                                 beginning.run, beginning.started, machine);
+  const auto begun =
+      sqlite::run(database,
+                  "UPDATE run SET state = 'active', started_us = max(?2, created_us) "
+                  "WHERE id = ?1 AND machine = ?3 AND state = 'ordered'",
+                  beginning.run, beginning.started, machine);
   if (!begun || !beginning.gateway_setup) return begun;
   return sqlite::run(database,
                      "UPDATE run SET gateway_setup = ?2 "

@@ -126,8 +126,7 @@ TEST_F(RunTest, HasTheProgramsThatItCalled) {
 TEST_F(RunTest, CallsAtMost128Programs) {
   const auto called = push("O0002", "M99\n");
   for (std::size_t i = 0; i < RunCall::kMax; ++i)
-    ASSERT_TRUE(
-        store_->runs.add_call("r1", {fmt::format("{}", i), "O0002", 1, called->content}));
+    ASSERT_TRUE(store_->runs.add_call("r1", {fmt::format("{}", i), "O0002", 1, called->content}));
   const auto refused = store_->runs.add_call("r1", {"one more", "O0002", 1, called->content});
   EXPECT_EQ(refused.error().code, Errc::LimitExceeded);
 }

@@ -150,11 +150,10 @@ class Tamperer {
   std::optional<Tampering> tamper() {
     using Way = std::optional<Tampering> (Tamperer::*)();
     static constexpr std::array<Way, 11> kWays{
-        &Tamperer::change_entry,     &Tamperer::change_entry, &Tamperer::change_checkpoint,
-        &Tamperer::change_run,       &Tamperer::remove_entry, &Tamperer::insert_entry,
-        &Tamperer::change_calls,
-        &Tamperer::swap_entries,     &Tamperer::cut_tail,     &Tamperer::change_runs,
-        &Tamperer::remove_checkpoint};
+        &Tamperer::change_entry, &Tamperer::change_entry,     &Tamperer::change_checkpoint,
+        &Tamperer::change_run,   &Tamperer::remove_entry,     &Tamperer::insert_entry,
+        &Tamperer::change_calls, &Tamperer::swap_entries,     &Tamperer::cut_tail,
+        &Tamperer::change_runs,  &Tamperer::remove_checkpoint};
     return (this->*kWays.at(below(kWays.size())))();
   }
 
