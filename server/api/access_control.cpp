@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/api/bodies.hpp"
+#include "server/api/run_bodies.hpp"
 
 namespace dripline::api {
 namespace {

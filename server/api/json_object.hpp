@@ -11,6 +11,9 @@
 
 namespace dripline::api {
 
+/// Of a name in a body: longer ones are refused before they are checked.
+inline constexpr std::size_t kMaxName = 256;
+
 /// Reads one JSON object strictly: members have the right type, are within their bounds, known and
 /// unique. finish() returns the first error, so that decoding is a plain list of members. Nesting
 /// is checked before parsing.

@@ -2,7 +2,7 @@
 
 #include "protocol/dds/endpoint.hpp"
 #include "server/api/api.hpp"
-#include "server/api/bodies.hpp"
+#include "server/api/run_bodies.hpp"
 #include "server/api/views.hpp"
 #include "server/library/report_reader.hpp"
 

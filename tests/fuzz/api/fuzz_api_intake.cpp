@@ -3,7 +3,8 @@
 #include <cstdlib>
 
 #include "protocol/base/names.hpp"
-#include "server/api/bodies.hpp"
+#include "server/api/run_bodies.hpp"
+#include "server/api/webhook_bodies.hpp"
 #include "server/identity/revoked_certificates.hpp"
 #include "server/webhooks/delivery.hpp"
 

@@ -1,4 +1,7 @@
-#include "server/api/bodies.hpp"
+#include "server/api/port_bodies.hpp"
+#include "server/api/program_bodies.hpp"
+#include "server/api/run_bodies.hpp"
+#include "server/api/webhook_bodies.hpp"
 
 #include <gtest/gtest.h>
 #include <functional>

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "server/machines/machine_control.hpp"
+#include "storage/job_store.hpp"
+
+/// The JSON bodies of starts, commands and jobs, decoded and checked. Pure. Errors: Syntax,
+/// LimitExceeded, Unsupported (an unknown action); each names the member.
+namespace dripline::api {
+
+/// The author is left empty.
+Result<machines::StartRequest> decode_start(std::string_view body);
+struct JobBody {
+  storage::Job job;  ///< its machine is left empty
+  std::optional<std::uint64_t> place;
+};
+/// `{program, revision?, quantity?, parts_per_run?, comment?, place?}`.
+Result<JobBody> decode_job(std::string_view body);
+/// `{place}`.
+Result<std::uint64_t> decode_job_move(std::string_view body);
+/// `{job?}`, or nothing.
+Result<std::optional<std::uint64_t>> decode_job_start(std::string_view body);
+
+/// Where a run is to continue: {"at"?}.
+Result<std::string> decode_restart(std::string_view body);
+
+/// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
+Result<machines::CommandRequest> decode_command(std::string_view body);
+/// The same for a machine's panel: switches and overrides. Unsupported: an action of a run.
+Result<machines::CommandRequest> decode_machine_command(std::string_view body);
+inline constexpr double kMaxOverride = 10;
+inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one command
+
+}  // namespace dripline::api
