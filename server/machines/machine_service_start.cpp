@@ -1,0 +1,138 @@
+// How a run is started: what is checked before it exists, and what becomes of it.
+#include "protocol/process/log.hpp"
+#include "server/machines/control_memory.hpp"
+#include "server/machines/identifiers.hpp"
+#include "server/machines/machine_service.hpp"
+#include "server/machines/start_point.hpp"
+
+namespace dripline::machines {
+
+Result<storage::Run> MachineService::make_run(const StartRequest& request,
+                                              const MachineView& view) {
+  const auto admitted = sources_.releases.admit(request.wish());
+  if (!admitted) return fail(admitted.error());
+  const storage::Revision* const revision = &admitted->revision;
+  if (!revision->control.empty() && revision->control != view.machine.control) {
+    return fail(Errc::Unsupported,
+                "program '{}' revision {} is for control {}; machine '{}' is a {}",
+                revision->program, revision->number, revision->control, request.machine,
+                view.machine.control);
+  }
+  storage::Run run;
+  run.created = clock_.now();
+  run.id = make_run_id(run.created);
+  run.machine = request.machine;
+  run.program = revision->program;
+  run.revision = revision->number;
+  run.content = revision->content;
+  run.size = revision->size;
+  run.control = view.machine.control;
+  run.author = request.author;
+  run.allowed_as = admitted->allowed_as;
+  run.approval = admitted->approval;
+  run.job = request.job;
+  return run;
+}
+
+/// The machine's newest setup; none when the server keeps none for it.
+Result<std::optional<storage::SetupRevision>> MachineService::setup_of(const storage::Run& run) {
+  auto setup = store_.setups.find(run.machine, std::nullopt);
+  if (setup) return std::optional(*std::move(setup));
+  if (setup.error().code == Errc::NotFound) return std::optional<storage::SetupRevision>{};
+  return fail(setup.error());
+}
+
+/// What the gateway cannot see: a newer revision or setup on the server is not silently passed
+/// over.
+Result<void> MachineService::check_restart(const StartRequest& request, const storage::Run& run) {
+  if (!request.restart) return {};
+  const auto original = store_.runs.find(request.restart->run);
+  if (!original) return fail(original.error());
+  const std::string_view state = storage::to_string(original->state);
+  const bool was_cut_off = original->state == storage::RunState::Aborted ||
+                           original->state == storage::RunState::Alarmed ||
+                           original->state == storage::RunState::Interrupted;
+  if (!was_cut_off)
+    return fail(Errc::Conflict, "run {} was not cut off: it is {}", original->id, state);
+  auto newest = request.wish();
+  newest.revision.reset();
+  const auto latest = sources_.releases.admit(newest);
+  if (!latest) return fail(latest.error());
+  if (latest->revision.number != original->revision) {
+    return fail(Errc::Conflict,
+                "program '{}' has revision {} since run {}, which is of revision {}: start it with "
+                "--from, or make the old content the latest again",
+                run.program, latest->revision.number, original->id, original->revision);
+  }
+  if (run.setup == original->setup) return {};
+  const auto text = [](const std::optional<std::uint64_t>& number) {
+    return number ? fmt::format("version {}", *number) : std::string("none");
+  };
+  return fail(Errc::Conflict, "the setup of machine '{}' is {}, run {} had {}", run.machine,
+              text(run.setup), original->id, text(original->setup));
+}
+
+Result<storage::Run> MachineService::start(const StartRequest& request) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  const auto view = connected_machine(request.machine);
+  if (!view) return fail(view.error());
+  if (view->is_contested) {
+    return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them",
+                request.machine);
+  }
+  if (auto same = check_protocol(*view); !same) return fail(same.error());
+  auto run = make_run(request, *view);
+  if (!run) return run;
+  if (auto fits = check_control_memory(sources_, *run); !fits) return fail(fits.error());
+  // No run begins that could not continue: the list of its chunks is checked before.
+  if (auto sound = store_.programs.verify_content(run->content); !sound) {
+    return fail(sound.error().code, "program '{}' revision {}: {}", run->program, run->revision,
+                sound.error().what);
+  }
+  const auto setup = setup_of(*run);
+  if (!setup) return fail(setup.error());
+  if (*setup) run->setup = (*setup)->number;
+  if (auto same = check_restart(request, *run); !same) return fail(same.error());
+  // It may have announced itself just now, and a run needs its machine in the store.
+  if (auto saved = store_.machines.save(view->machine); !saved) return fail(saved.error());
+  if (auto created = store_.runs.create(*run); !created) return fail(created.error());
+  parts->reconciler.watch(run->machine, run->id);
+  announce_run(run->id);
+  if (request.before) {
+    if (auto ready = request.before(*run); !ready)
+      return conclude_start(*run, fail(Errc::Busy, "{}", ready.error().what));
+  }
+  dds::Command command;
+  command.machine = run->machine;
+  command.action = dds::CommandAction::Start;
+  command.run = run->id;
+  command.program = run->program;
+  command.revision = run->content.hex();
+  command.size = run->size;
+  command.control = run->control;
+  command.argument = start_argument(request);
+  if (*setup) command.setup = (*setup)->text;
+  return conclude_start(*run, parts->commands.carry_out(std::move(command)));
+}
+
+Result<storage::Run> MachineService::conclude_start(const storage::Run& run,
+                                                    const Result<void>& outcome) {
+  if (outcome) {
+    process::log_info("run started machine={} run={} program={} revision={}", run.machine, run.id,
+                      run.program, run.revision);
+    return owned_parts_->reconciler.resolve_ordered(run.id, storage::RunState::Active, "");
+  }
+  process::log_warning("run not started machine={} run={} program={}: {}", run.machine, run.id,
+                       run.program, outcome.error().what);
+  // The server stops before the outcome is known: the next one determines it.
+  if (outcome.error().code == Errc::Io) return fail(outcome.error());
+  const auto refused = owned_parts_->reconciler.resolve_ordered(run.id, storage::RunState::Refused,
+                                                                outcome.error().what);
+  if (!refused) return fail(refused.error());
+  if (refused->state != storage::RunState::Refused) return refused;
+  owned_parts_->reconciler.drop(run.id);
+  return fail(outcome.error());
+}
+
+}  // namespace dripline::machines
