@@ -152,6 +152,13 @@ inline storage::Store with(const storage::Store& store, storage::MachineStore& m
           store.measurements, store.archives, store.offsets, store.attachments,
           store.search,       store.folders,  store.jobs,    store.webhooks};
 }
+inline storage::Store with(const storage::Store& store, storage::RunStore& runs) {
+  return {store.programs,     store.uploads,  store.machines, runs,
+          store.records,      store.ports,    store.setups,   store.audit,
+          store.accounts,     store.releases, store.imports,  store.report_templates,
+          store.measurements, store.archives, store.offsets,  store.attachments,
+          store.search,       store.folders,  store.jobs,     store.webhooks};
+}
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
   return {store.programs,     store.uploads,  store.machines,
           store.runs,         records,        store.ports,
