@@ -29,7 +29,8 @@ const std::string kFirstRunFacts =
 /// older runs are as they were.
 const std::string kRunFacts =
     kFirstRunFacts +
-    "|| coalesce(' setup ' || hex(run.gateway_setup), '') || coalesce((SELECT group_concat("
+    "|| iif(run.gateway_setup IS NULL, '', ' setup ' || hex(run.gateway_setup)) || "
+    "coalesce((SELECT group_concat("
     "' call ' || hex(name) || ' ' || program || ' ' || revision || ' ' || hex(sha256), '') FROM "
     "(SELECT * FROM run_call WHERE run_call.run = run.number ORDER BY name)), '') ";
 constexpr const char* kRunEnd = "run.end";
