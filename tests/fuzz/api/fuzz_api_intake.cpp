@@ -6,6 +6,7 @@
 #include "server/api/run_bodies.hpp"
 #include "server/api/webhook_bodies.hpp"
 #include "server/identity/revoked_certificates.hpp"
+#include "server/library/job_queue.hpp"
 #include "server/webhooks/delivery.hpp"
 
 namespace {

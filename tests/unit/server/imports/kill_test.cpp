@@ -98,7 +98,7 @@ class KilledImports : public server_test::ServerTest {
     };
     confirm("begun", 0);
     for (;;) {
-      receive(random(), confirm);
+      receive(static_cast<unsigned>(random()), confirm);
       decide(imports, random, confirm);
     }
   }
@@ -139,7 +139,7 @@ TEST_F(KilledImports, LoseNothingThatWasConfirmedAndDecideNothingTwice) {
   std::uint64_t received = 0;
   for (int kill = 0; kill < kills() && !HasFailure(); ++kill) {
     const std::chrono::microseconds life(std::uniform_int_distribution<>(0, 60'000)(random));
-    std::istringstream lines(serve_and_be_killed(random(), life));
+    std::istringstream lines(serve_and_be_killed(static_cast<unsigned>(random()), life));
     std::string what;
     for (std::uint64_t revision = 0; lines >> what >> revision;) {
       if (what == "begun") continue;
