@@ -231,7 +231,8 @@ Response carry_out(Services& services, const Request& request,
   if (done) return json_response(200, {{"accepted", true}});
   // The gateway may have carried out the command although its answer is missing.
   const bool is_unknown = done.error().code == Errc::Timeout;
-  change.detail += is_unknown ? ": not answered" : ": refused, " + done.error().what;
+  if (!change.detail.empty()) change.detail += ": ";
+  change.detail += is_unknown ? "not answered" : "refused, " + done.error().what;
   services.audit.write(std::move(change));
   return error_response(done.error());
 }
