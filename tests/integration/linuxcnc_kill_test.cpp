@@ -65,7 +65,8 @@ class LinuxCncKill : public MotionSystem {
   }
   double x() const { return linuxcnc->position()[0]; }
   bool rests() {
-    return eventually([&] { return linuxcnc->rests(); });
+    // Its task may get no processor for a while: the axes wait for it then.
+    return eventually([&] { return linuxcnc->rests(std::chrono::seconds(1)); });
   }
   /// Block 1 is the line of modes: block n + 1 ends at X n.
   std::size_t blocks_done() const { return static_cast<std::size_t>(x() + kStep) + 1; }

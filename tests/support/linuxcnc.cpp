@@ -147,9 +147,31 @@ std::array<double, 3> LinuxCnc::position() const {
 }
 
 bool LinuxCnc::rests(std::chrono::milliseconds time) const {
+  constexpr std::chrono::seconds kDead{2};
+  const auto path = folder_.path() / "witness.txt";
+  const auto written = [&] { return fs::exists(path) ? fs::file_size(path) : 0; };
   const auto before = position();
-  std::this_thread::sleep_for(time);
+  const std::uintmax_t begin = written();
+  const std::uintmax_t enough = static_cast<std::uintmax_t>(time.count()) * line_bytes();
+  auto grown = begin;
+  auto last = std::chrono::steady_clock::now();
+  while (written() < begin + enough) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const auto now = std::chrono::steady_clock::now();
+    if (written() != grown) {
+      grown = written();
+      last = now;
+    }
+    if (now - last > kDead) break;
+  }
   return position() == before;
+}
+
+/// Of a line of the witness, as they are now.
+std::uintmax_t LinuxCnc::line_bytes() const {
+  std::ifstream file(folder_.path() / "witness.txt");
+  std::string line;
+  return std::getline(file, line) ? line.size() + 1 : 1;
 }
 
 }  // namespace dripline::test_support

@@ -44,10 +44,13 @@ class LinuxCnc {
   /// Where the axes were when the line in motion changed, and where they are now.
   std::vector<std::array<double, 3>> ends() const;
   std::array<double, 3> position() const;
-  /// They have not moved for `time`.
+  /// They have not moved for `time` of LinuxCNC's own, which counts its periods of 1 ms; on a
+  /// computer with much to do that takes longer. What was killed rests when nothing more comes.
   bool rests(std::chrono::milliseconds time = std::chrono::milliseconds(300)) const;
 
  private:
+  std::uintmax_t line_bytes() const;
+
   TemporaryFolder folder_;
   std::uintmax_t begin_ = 0;  ///< in the witness's file
   std::optional<ChildProcess> process_;
