@@ -60,7 +60,8 @@ struct Run {
   RunAllowance allowed_as = RunAllowance::Open;
   std::optional<std::uint64_t> approval = {};  ///< the Decision that released its revision
   std::optional<std::uint64_t> job = {};       ///< of the machine's queue
-  /// SHA-256 of the gateway's own setup file, as it reported at the start; absent: none, or unknown.
+  /// SHA-256 of the gateway's own setup file, as it reported at the start; absent: none, or
+  /// unknown.
   std::optional<std::string> gateway_setup = {};
 };
 

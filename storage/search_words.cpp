@@ -38,7 +38,12 @@ class WordReader {
   bool next(std::string& word) {
     while (at_ < text_.size()) {
       const char c = text_[at_];
-      if (c == '\n' || c == '\r') is_line_begin_ = true;
+      if (c == '\n' || c == '\r') {
+        is_line_begin_ = true;
+        is_comment_ = false;
+      }
+      if (c == '(' || c == ';') is_comment_ = true;
+      if (c == ')') is_comment_ = false;
       const bool is_begin = is_line_begin_;
       if (is_letter(c) || is_number_at(at_)) {
         is_line_begin_ = false;
@@ -53,6 +58,7 @@ class WordReader {
   }
 
  private:
+  bool has_all_words() const { return kind_ == WordsOf::Card || is_comment_; }
   bool is_number_at(std::size_t at) const {
     if (at >= text_.size()) return false;
     return is_digit(text_[at]) ||
@@ -68,12 +74,11 @@ class WordReader {
     std::size_t value = at_;
     const bool has_sign = value < text_.size() && (text_[value] == '-' || text_[value] == '+');
     if (has_sign) ++value;
-    if (!is_number_at(value)) return kind_ == WordsOf::Card;
+    if (!is_number_at(value)) return has_all_words();
     const bool is_negative = has_sign && text_[at_] == '-';
     at_ = value;
     const std::string number = read_number();
-    if (kind_ == WordsOf::Text && kCoordinates.find(word[0]) != std::string_view::npos)
-      return false;
+    if (!has_all_words() && kCoordinates.find(word[0]) != std::string_view::npos) return false;
     if (is_negative) word += '-';
     word += number;
     return true;
@@ -81,7 +86,7 @@ class WordReader {
 
   bool read_number_word(std::string& word, bool is_begin_of_line) {
     word = read_number();
-    return kind_ == WordsOf::Card || !is_begin_of_line;
+    return has_all_words() || !is_begin_of_line;
   }
 
   /// Without zeros that mean nothing; a comma between digits is a point.
@@ -110,14 +115,13 @@ class WordReader {
   const WordsOf kind_;
   std::size_t at_ = 0;
   bool is_line_begin_ = true;
+  bool is_comment_ = false;  ///< until the end of the line at most
 };
 
 Result<SearchTerm> beginning_of(const std::string& word) {
-  constexpr std::size_t kFewest = 3;
-  const bool has_digit = std::ranges::any_of(word, is_digit);
-  if (!has_digit && word.size() >= kFewest) return SearchTerm{word, true};
+  if (is_word_of_letters(word)) return SearchTerm{word, true};
   return fail(Errc::Syntax, "'{}*': only a word of letters has a beginning, of {} at least", word,
-              kFewest);
+              kFewestLetters);
 }
 
 /// Whole characters.
@@ -143,6 +147,10 @@ std::uint64_t terms_in(const std::set<std::string>& words, const std::vector<Sea
 }
 
 }  // namespace
+
+bool is_word_of_letters(std::string_view word) {
+  return word.size() >= kFewestLetters && std::ranges::all_of(word, is_letter);
+}
 
 void add_search_words(std::string_view text, WordsOf kind, std::set<std::string>& words) {
   WordReader reader(text, kind);

@@ -18,11 +18,16 @@ namespace dripline::storage {
 enum class WordsOf : std::uint8_t {
   Card,  ///< names, comments, fields: all words
   /// A program: without coordinates (X Y Z A B C U V W I J K Q R), N numbers and the number that
-  /// begins a line: nobody searches for them, and they would be most of the index.
+  /// begins a line: nobody searches for them, and they would be most of the index. Of a comment,
+  /// `(...)` or from `;` to the end of the line, all words.
   Text,
 };
 
 inline constexpr std::size_t kMaxWord = 64;  ///< bytes; longer ones are left out
+
+/// `rou*` is looked for among these.
+inline constexpr std::size_t kFewestLetters = 3;
+bool is_word_of_letters(std::string_view word);
 
 /// Adds the words of `text`.
 void add_search_words(std::string_view text, WordsOf kind, std::set<std::string>& words);

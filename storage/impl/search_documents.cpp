@@ -1,12 +1,14 @@
 #include "storage/impl/search_documents.hpp"
 
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "protocol/base/digest.hpp"
 #include "storage/impl/content.hpp"
 #include "storage/search_store.hpp"
+#include "storage/search_words.hpp"
 
 namespace dripline::storage {
 
@@ -194,6 +196,24 @@ Result<DueChanges> changes_of(sqlite::Database& database, std::int64_t program,
   return found;
 }
 
+namespace {
+
+/// Those of letters, separated by blanks: what `rou*` may stand for.
+Result<void> add_words(sqlite::Database& database, std::string_view words) {
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t end = std::min(words.find(' ', at), words.size());
+    const std::string_view word = words.substr(at, end - at);
+    at = end + 1;
+    if (!is_word_of_letters(word)) continue;
+    auto added =
+        sqlite::run(database, "INSERT OR IGNORE INTO search_word (word) VALUES (?1)", word);
+    if (!added) return added;
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<void> apply(sqlite::Database& database, const DocumentChange& change) {
   if (change.old_id) {
     // The index has no text of its own: what is taken out is named by its words.
@@ -211,8 +231,10 @@ Result<void> apply(sqlite::Database& database, const DocumentChange& change) {
                           "(?1, ?2, ?3, ?4)",
                           change.program, change.revision, change.words, change.text_bytes);
   if (!made) return made;
-  return sqlite::run(database, "INSERT INTO search_index (rowid, words) VALUES (?1, ?2)",
-                     database.last_insert_id(), change.words + " " + change.text);
+  const std::string words = change.words + " " + change.text;
+  made = sqlite::run(database, "INSERT INTO search_index (rowid, words) VALUES (?1, ?2)",
+                     database.last_insert_id(), words);
+  return made ? add_words(database, words) : made;
 }
 
 }  // namespace dripline::storage

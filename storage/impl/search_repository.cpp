@@ -27,6 +27,22 @@ Result<std::string> machine_condition(sqlite::Database& database, const std::str
   return condition + ")";
 }
 
+/// What the index has instead of `rou*`: its words that begin so, one after the other, because FTS5
+/// would read all rows of each before it names the first one. Of too many words it does that.
+Result<std::string> beginning_condition(sqlite::Database& database, const std::string& beginning) {
+  constexpr std::uint64_t kMaxWords = 64;
+  constexpr const char* kLastCharacter = "\xF4\x8F\xBF\xBF";
+  const auto words = sqlite::all_rows(
+      database, "SELECT word FROM search_word WHERE word >= ?1 AND word < ?2 LIMIT ?3",
+      [](const sqlite::Statement& row) { return row.text(0); }, beginning,
+      beginning + kLastCharacter, kMaxWords + 1);
+  if (!words) return fail(words.error());
+  if (words->empty() || words->size() > kMaxWords) return in_quotes(beginning) + " *";
+  std::string condition;
+  for (const auto& word : *words) condition += (condition.empty() ? "(" : " OR ") + in_quotes(word);
+  return condition + ")";
+}
+
 /// The expression of FTS5.
 Result<std::string> expression_of(sqlite::Database& database, const std::vector<SearchTerm>& terms,
                                   const SearchFilter& filter) {
@@ -34,7 +50,12 @@ Result<std::string> expression_of(sqlite::Database& database, const std::vector<
   const auto add = [&](const std::string& term) {
     expression += (expression.empty() ? "" : " AND ") + term;
   };
-  for (const SearchTerm& term : terms) add(in_quotes(term.word) + (term.is_beginning ? " *" : ""));
+  for (const SearchTerm& term : terms) {
+    auto condition = term.is_beginning ? beginning_condition(database, term.word)
+                                       : Result<std::string>(in_quotes(term.word));
+    if (!condition) return condition;
+    add(*condition);
+  }
   const auto add_facet = [&](char kind, const std::optional<std::string>& value) {
     if (value) add(in_quotes(facet(kind, *value)));
   };

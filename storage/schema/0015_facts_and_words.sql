@@ -1,4 +1,5 @@
--- Version 15: what an attestation of a run names besides: the setup file of its gateway, and the revisions that its program called.
+-- Version 15: what an attestation of a run names besides: the setup file of its gateway, and the revisions that its program called. And
+-- the words of the full-text index, for what begins with some letters.
 
 -- SHA-256 (hexadecimal) of the gateway's own setup file, as it reports it at the start; NULL: it has none, or did not say so.
 ALTER TABLE run ADD COLUMN gateway_setup TEXT;
@@ -12,3 +13,10 @@ CREATE TABLE run_call (
   sha256   BLOB NOT NULL CHECK (length(sha256) = 32),
   PRIMARY KEY (run, name)
 ) STRICT, WITHOUT ROWID;
+
+-- Words of letters alone, of three at least, that some document has or had: `rou*` is looked for as these words.
+CREATE TABLE search_word (word TEXT NOT NULL PRIMARY KEY) STRICT, WITHOUT ROWID;
+-- Comments have all their words now (storage/search_words.hpp): everything is read again.
+INSERT INTO search_index (search_index) VALUES ('delete-all');
+DELETE FROM search_document;
+INSERT INTO search_due (program) SELECT id FROM program WHERE true ON CONFLICT (program) DO UPDATE SET version = version + 1;

@@ -459,8 +459,8 @@ CREATE TABLE search_due (
   program INTEGER PRIMARY KEY REFERENCES program (id),
   version INTEGER NOT NULL DEFAULT 1
 ) STRICT;
-INSERT INTO search_due VALUES(1,4);
-INSERT INTO search_due VALUES(2,1);
+INSERT INTO search_due VALUES(1,5);
+INSERT INTO search_due VALUES(2,2);
 CREATE TABLE folder_file (
   id         INTEGER PRIMARY KEY AUTOINCREMENT,  -- never used twice: an upload names it
   folder     TEXT NOT NULL,  -- its name in the configuration
@@ -530,6 +530,7 @@ CREATE TABLE run_call (
   PRIMARY KEY (run, name)
 ) STRICT, WITHOUT ROWID;
 INSERT INTO run_call VALUES(2,'1',1,1,X'82fd126da9155a17a769ba10a60e7fa955e96af4fb37dca49e5dbe7d1468d450');
+CREATE TABLE search_word (word TEXT NOT NULL PRIMARY KEY) STRICT, WITHOUT ROWID;
 DELETE FROM sqlite_sequence;
 INSERT INTO sqlite_sequence VALUES('offset_proposal',2);
 INSERT INTO sqlite_sequence VALUES('folder_file',1);

@@ -24,6 +24,13 @@ TEST(SearchWords, OfATextAreWithoutCoordinatesAndLineNumbers) {
             (Words{"f100", "m3", "g1", "t3", "call", "pgm", "12"}));
 }
 
+TEST(SearchWords, OfACommentAreAllOfThem) {
+  EXPECT_EQ(words("N1 G1 X5. (PART A4711 OP 10) Y3.\nX1 ; JIG C12\n30 Z1", WordsOf::Text),
+            (Words{"g1", "part", "a4711", "op", "10", "jig", "c12"}));
+  EXPECT_EQ(words("(NO END A1\nX5. A2.\n", WordsOf::Text), (Words{"no", "end", "a1"}))
+      << "a comment ends with its line";
+}
+
 TEST(SearchWords, OfAQuery) {
   EXPECT_EQ(parse_search("T012 rou*  t12").value(),
             (std::vector<SearchTerm>{{"t12", false}, {"rou", true}}));
@@ -94,6 +101,24 @@ TEST_F(SearchTest, FindsWordsOfTextNamesFieldsAndComments) {
   index();
   EXPECT_EQ(found("steel"), "");
   EXPECT_EQ(found("brass"), "O0200@1 ");
+}
+
+TEST_F(SearchTest, FindsWhatBeginsWithSomeLettersAmongFewWordsAndAmongMany) {
+  ASSERT_TRUE(push("p.nc", "(ROUGH)\n"));
+  ASSERT_TRUE(push("q.nc", "(ROUGHING GR\xC3\x96SSE)\n"));
+  ASSERT_TRUE(push("r.nc", "(ROTOR)\n"));
+  index();
+  EXPECT_EQ(found("rou*"), "q.nc@1 p.nc@1 ");
+  EXPECT_EQ(found("rough*"), "q.nc@1 p.nc@1 ");
+  EXPECT_EQ(found("roughi* gr\xC3\xB6*"), "q.nc@1 ");
+  EXPECT_EQ(found("rum*"), "");
+  std::string text;
+  for (char a = 'A'; a <= 'Z'; ++a)
+    for (const char* b : {"A", "B", "C", "D"}) text += std::string("(ROU") + a + b + ")\n";
+  ASSERT_TRUE(push("s.nc", text));
+  index();
+  EXPECT_EQ(found("rou*"), "s.nc@1 q.nc@1 p.nc@1 ") << "over a hundred words";
+  EXPECT_EQ(found("rouz*"), "s.nc@1 ");
 }
 
 TEST_F(SearchTest, FindsWhatIsInForceAndOnRequestWhatWasReplaced) {
