@@ -94,7 +94,7 @@ export async function exampleShop(): Promise<Shop> {
   writeFileSync(settings, `[[folder]]\nname = "cam-mills"\npath = ${JSON.stringify(folder)}\ncontrol = "fanuc"\npoll_seconds = 1\n`);
   writeFileSync(path.join(folder, 'O0810.nc'), 'O0810 (POSTED)\nG21 G90\nG1 X10. F100.\nM30\n');
   writeFileSync(path.join(folder, 'O0811.nc'), 'O0811 (WITH AN ALARM)\nG21 G90\nG1 X10. F100.\nG999\nM30\n');
-  shop.serverArgs = ['--config', settings, '--policy', policy, '--backups', path.join(shop.folder, 'backups')];
+  shop.serverArgs = ['--config', settings, '--policy', policy, '--backups', path.join(shop.folder, 'backups'), '--archives', path.join(shop.folder, 'archives'), '--archive-records-thousands', '1'];
   await shop.startServer();
   await shop.startMachine('mill-1', { control: 'fanuc', description: 'Vertical, three axes' });
   await shop.startMachine('mill-2', { control: 'fanuc', description: 'Vertical, pallet changer' });
