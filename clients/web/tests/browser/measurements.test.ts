@@ -67,13 +67,66 @@ test('a characteristic has a chart, of each kind, and the values fit the choices
   assertNoComplaints(complaints, [400, 404, 409, 422]);
 });
 
+test('what was not understood is listed as text', async () => {
+  const { page, complaints } = await visit('#/measurements/findings');
+  await page.getByRole('row', { name: new RegExp('Not known') }).getByText(kHostile).waitFor();
+  assert.equal(await page.locator('main img').count(), 0);
+  assert.deepEqual(await findBarriers(page), []);
+  assertNoComplaints(complaints);
+});
+
+test('a correction that waits is counted, explained, and approved by who may', async () => {
+  const { page: programmers } = await visit('#/corrections', { user: 'paul' });
+  await programmers.getByText('Your role is Programmer: this needs Approver.').waitFor();
+  assert.ok(await programmers.getByRole('button', { name: 'Approve', exact: true }).isDisabled());
+  const { page, complaints } = await visit('#/measurements', { user: 'vera' });
+  await page.getByRole('link', { name: 'Reports 1 waiting' }).waitFor();
+  await page.getByRole('link', { name: 'Corrections (1)' }).click();
+  await page.getByRole('heading', { name: 'T3.wear.Z lathe-3' }).waitFor();
+  assert.ok((await page.getByRole('list', { name: 'Reasons' }).getByRole('listitem').count()) > 0);
+  assert.ok(await page.getByRole('button', { name: 'Reject', exact: true }).isDisabled());
+  assert.deepEqual(await findBarriers(page), []);
+  await page.getByLabel('Comment or reason').fill('checked with a gauge');
+  await pressTwice(page.getByRole('button', { name: 'Approve', exact: true }), page.getByRole('button', { name: /Press again: T3\.wear\.Z of lathe-3 becomes/ }));
+  await page.getByText('No correction waits.').waitFor();
+  await page.getByRole('row', { name: /T3\.wear\.Z lathe-3 .*vera checked with a gauge/ }).getByRole('link').click();
+  await page.getByRole('row', { name: /T3\.wear\.Z .*setup 2 vera/ }).waitFor();
+  await page.getByRole('row', { name: /setup 1 .*2 of 4/ }).waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  await programmers.getByText('No correction waits.').waitFor();
+  assertNoComplaints(complaints);
+});
+
+test('rules are evaluated with reasons in words, and changed by who may', async () => {
+  const { page } = await visit('#/corrections/lathe-3', { user: 'vera' });
+  await page.getByRole('button', { name: 'Evaluate now' }).click();
+  await page.getByRole('status').locator('.reasons li').first().waitFor();
+  await page.getByText('Change the rules').click();
+  const rules = page.getByLabel('Rules (TOML)');
+  await rules.fill((await rules.inputValue()).replace('min_count = 3', 'min_count = 0'));
+  await page.getByRole('button', { name: 'Store as a new version' }).click();
+  await page.getByRole('alert').waitFor();
+  await rules.fill((await rules.inputValue()).replace('min_count = 0', 'min_count = 5').replace('window = 3', 'window = 5'));
+  await page.getByRole('button', { name: 'Store as a new version' }).click();
+  await page.getByText(/Version 2, vera/).waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+});
+
+test('in German too', async () => {
+  const { page } = await visit('#/measurements/parts', { language: 'de-DE' });
+  await page.getByRole('row', { name: /Ausschuss/ }).waitFor();
+  await page.getByRole('link', { name: 'Korrekturen' }).click();
+  await page.getByRole('heading', { name: 'Warten auf Entscheidung' }).waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+});
+
 test('a characteristic has its capability with intervals, and a gauge study that says what it needs', async () => {
   for (const length of [1.002, 1.0, 0.999, 1.001]) await makePart(shop, { length, diameter: 2.0 });
   const { page, complaints } = await visit('#/measurements?characteristic=L');
   const study = page.getByRole('region', { name: 'Capability' });
   await study.getByText('Cpk', { exact: true }).waitFor();
   const { cpk } = (await shop.api<{ cpk: { value: number; low: number; high: number } }>('GET', 'measurements/capability?characteristic=L'))!;
-  const two = (value: number) => value.toFixed(2).replace('-0.00', '-0');
+  const two = (value: number) => value.toLocaleString('en', { minimumFractionDigits: 2, maximumFractionDigits: 2 });
   await study.getByText(`${two(cpk.value)} (${two(cpk.low)} to ${two(cpk.high)})`).first().waitFor();
   await page.getByText('Gauge study (R&R)').click();
   assert.deepEqual(await findBarriers(page), []);
@@ -136,57 +189,4 @@ test('a run shows the offsets in force, and a value what was cut under it', asyn
   await cut.getByRole('button', { name: 'Close' }).click();
   await cut.waitFor({ state: 'detached' });
   assertNoComplaints(complaints);
-});
-
-test('what was not understood is listed as text', async () => {
-  const { page, complaints } = await visit('#/measurements/findings');
-  await page.getByRole('row', { name: new RegExp('Not known') }).getByText(kHostile).waitFor();
-  assert.equal(await page.locator('main img').count(), 0);
-  assert.deepEqual(await findBarriers(page), []);
-  assertNoComplaints(complaints);
-});
-
-test('a correction that waits is counted, explained, and approved by who may', async () => {
-  const { page: programmers } = await visit('#/corrections', { user: 'paul' });
-  await programmers.getByText('Your role is Programmer: this needs Approver.').waitFor();
-  assert.ok(await programmers.getByRole('button', { name: 'Approve', exact: true }).isDisabled());
-  const { page, complaints } = await visit('#/measurements', { user: 'vera' });
-  await page.getByRole('link', { name: 'Reports 1 waiting' }).waitFor();
-  await page.getByRole('link', { name: 'Corrections (1)' }).click();
-  await page.getByRole('heading', { name: 'T3.wear.Z lathe-3' }).waitFor();
-  assert.ok((await page.getByRole('list', { name: 'Reasons' }).getByRole('listitem').count()) > 0);
-  assert.ok(await page.getByRole('button', { name: 'Reject', exact: true }).isDisabled());
-  assert.deepEqual(await findBarriers(page), []);
-  await page.getByLabel('Comment or reason').fill('checked with a gauge');
-  await pressTwice(page.getByRole('button', { name: 'Approve', exact: true }), page.getByRole('button', { name: /Press again: T3\.wear\.Z of lathe-3 becomes/ }));
-  await page.getByText('No correction waits.').waitFor();
-  await page.getByRole('row', { name: /T3\.wear\.Z lathe-3 .*vera checked with a gauge/ }).getByRole('link').click();
-  await page.getByRole('row', { name: /T3\.wear\.Z .*setup 2 vera/ }).waitFor();
-  await page.getByRole('row', { name: /setup 1 .*2 of 4/ }).waitFor();
-  assert.deepEqual(await findBarriers(page), []);
-  await programmers.getByText('No correction waits.').waitFor();
-  assertNoComplaints(complaints);
-});
-
-test('rules are evaluated with reasons in words, and changed by who may', async () => {
-  const { page } = await visit('#/corrections/lathe-3', { user: 'vera' });
-  await page.getByRole('button', { name: 'Evaluate now' }).click();
-  await page.getByRole('status').locator('.reasons li').first().waitFor();
-  await page.getByText('Change the rules').click();
-  const rules = page.getByLabel('Rules (TOML)');
-  await rules.fill((await rules.inputValue()).replace('min_count = 3', 'min_count = 0'));
-  await page.getByRole('button', { name: 'Store as a new version' }).click();
-  await page.getByRole('alert').waitFor();
-  await rules.fill((await rules.inputValue()).replace('min_count = 0', 'min_count = 5').replace('window = 3', 'window = 5'));
-  await page.getByRole('button', { name: 'Store as a new version' }).click();
-  await page.getByText(/Version 2, vera/).waitFor();
-  assert.deepEqual(await findBarriers(page), []);
-});
-
-test('in German too', async () => {
-  const { page } = await visit('#/measurements/parts', { language: 'de-DE' });
-  await page.getByRole('row', { name: /Ausschuss/ }).waitFor();
-  await page.getByRole('link', { name: 'Korrekturen' }).click();
-  await page.getByRole('heading', { name: 'Warten auf Entscheidung' }).waitFor();
-  assert.deepEqual(await findBarriers(page), []);
 });

@@ -61,7 +61,7 @@ test('a new version is stored, compared, and one of another user between is name
   await text.fill(`${before}# third\n`);
   await page.getByRole('button', { name: 'Store as a new version' }).click();
   await page.getByText(/^Stored as version 4\. Versions after 2/).waitFor();
-  await page.getByLabel('Version', { exact: true }).first().selectOption('3');
+  await page.getByRole('combobox', { name: 'Version' }).first().selectOption('3');
   await page.getByText('This is an older version; the newest is 4.').waitFor();
   assert.match(await page.getByLabel('Differences').first().innerText(), /− # of another user/);
   assert.deepEqual(await findBarriers(page), []);
@@ -76,7 +76,7 @@ test('a template is begun, assigned to a machine, taken back and removed', async
   await page.getByRole('textbox', { name: 'Text of the template (TOML)' }).fill("[[line]]\nform = 'LOAD {actual}'\ncharacteristic = 'load'\n");
   await page.getByRole('button', { name: 'Store as a new version' }).click();
   await page.getByText('It is for nothing yet').waitFor();
-  await page.getByLabel('For', { exact: true }).selectOption('machine');
+  await page.getByRole('combobox', { name: 'For', exact: true }).selectOption('machine');
   await page.getByLabel('Name', { exact: true }).fill('lathe-3');
   await page.getByRole('button', { name: 'Assign' }).click();
   await page.getByRole('link', { name: 'Machine lathe-3' }).waitFor();
