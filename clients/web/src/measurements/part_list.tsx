@@ -23,7 +23,7 @@ export function partName(part: Part): string {
 export function PartTable({ parts, label }: { parts: Part[]; label: string }) {
   const t = texts().measurements;
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label={label}>
+    <div class="scroll" tabIndex={0} role="group" aria-label={label}>
       <table class="data">
         <Heads of={[t.part, t.verdict, texts().reports.machine, texts().reports.program, t.ended, t.count, t.findings]} />
         <tbody>

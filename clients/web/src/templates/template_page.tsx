@@ -46,30 +46,36 @@ function Versions({ name, newest, shown }: { name: string; newest: ReportTemplat
   );
 }
 
+/// What the typed text was made from, and the newest version at that time; 0: there was none.
+interface Base {
+  text: string;
+  newest: number;
+}
+
 interface EditProps extends Loaded {
   name: string;
+  base: Base;
   text: string;
   onText: (text: string) => void;
-  onStored: () => void;
+  onStored: (version: number) => void;
 }
 
 /// What a store has come to; nobody's version is lost by it, but another user's may have come between.
-function outcomeText(stored: ReportTemplate, base: number): string {
+function outcomeText(stored: ReportTemplate, { newest }: Base): string {
   const t = texts().templates;
-  if (stored.version === base) return t.unchanged;
-  return stored.version === base + 1 ? t.storedAs(stored.version) : t.notAlone(stored.version, base);
+  if (stored.version === newest) return t.unchanged;
+  return stored.version === newest + 1 ? t.storedAs(stored.version) : t.notAlone(stored.version, newest);
 }
 
-function Edit({ name, newest, shown, text, onText, onStored }: EditProps) {
+function Edit({ name, newest, shown, base, text, onText, onStored }: EditProps) {
   const t = texts().templates;
   const command = useCommand();
   const [outcome, setOutcome] = useState('');
-  const before = shown?.text ?? '';
   const store = () => command.send(async () => {
     setOutcome('');
     const stored = await send<ReportTemplate>('PUT', pathOf('report-templates', name), { raw: text });
-    setOutcome(outcomeText(stored, newest?.version ?? 0));
-    onStored();
+    setOutcome(outcomeText(stored, base));
+    onStored(stored.version);
   });
   return (
     <section class="panel" aria-labelledby="template-text">
@@ -79,15 +85,15 @@ function Edit({ name, newest, shown, text, onText, onStored }: EditProps) {
         <>
           <p class="notice warn">{t.older(newest.version)}</p>
           <h3>{t.compared(shown.version, newest.version)}</h3>
-          <DiffView before={before} after={newest.text} />
+          <DiffView before={shown.text} after={newest.text} />
         </>
       )}
       <textarea rows={kRows} maxLength={kMaxText} spellcheck={false} aria-labelledby="template-text" value={text} onInput={(e) => onText(e.currentTarget.value)} />
-      {newest !== null && text !== before && <><h3>{t.changes}</h3><DiffView before={before} after={text} /></>}
+      {newest !== null && text !== base.text && <><h3>{t.changes}</h3><DiffView before={base.text} after={text} /></>}
       <Allowed to="program">
         <p class="buttons">
           <button type="button" class="primary" disabled={text.trim() === '' || text === newest?.text || command.isBusy} onClick={() => void store()}>{t.store}</button>
-          <button type="button" disabled={text === before} onClick={() => onText(before)}>{t.discard}</button>
+          <button type="button" disabled={text === base.text} onClick={() => onText(base.text)}>{t.discard}</button>
         </p>
       </Allowed>
       {outcome !== '' && <p class="notice" role="status">{outcome}</p>}
@@ -117,16 +123,16 @@ export function TemplatePage({ name, query }: { name: string; query: URLSearchPa
   const loaded = useLoaded((signal) => load(name, version, signal), [name, version]);
   const assignments = useAssignments();
   const [text, setText] = useState('');
-  /// As it was loaded: what was typed since stays when the template is read again.
-  const [base, setBase] = useState('');
+  const [base, setBase] = useState<Base>({ text: '', newest: 0 });
   const { value } = loaded;
   useEffect(() => {
-    if (!value) return;
+    if (!value || text !== base.text) return; // what was typed stays when the template is read again
     const next = value.shown?.text ?? '';
-    if (text === base) setText(next);
-    setBase(next);
+    setText(next);
+    setBase({ text: next, newest: value.newest?.version ?? 0 });
   }, [value]);
-  const reload = () => {
+  const take = (stored: number) => {
+    setBase({ text, newest: stored });
     if (version !== null) location.replace(addressOf('templates', [name])); // the newest is shown, which was stored now
     else loaded.reload();
   };
@@ -139,7 +145,7 @@ export function TemplatePage({ name, query }: { name: string; query: URLSearchPa
         <div class="program-columns">
           <div>
             {!value.newest && <p class="notice">{t.notStored}</p>}
-            <Edit name={name} newest={value.newest} shown={value.shown} text={text} onText={setText} onStored={reload} />
+            <Edit name={name} newest={value.newest} shown={value.shown} base={base} text={text} onText={setText} onStored={take} />
             <Trial text={text} asked={query.get('run') ?? ''} assignments={assignments.value?.assignments.filter(({ template }) => template === name) ?? []} />
           </div>
           <div>

@@ -33,7 +33,7 @@ test('an archive is read back, searched, and known to be whole', async () => {
     return route.fulfill({ json: { archive, found: isSearch ? 1 : 2, rows: isSearch ? [row('DIA 2')] : [row('DIA 2'), row(kHostile)] } });
   });
   await page.reload();
-  await page.getByRole('button', { name: 'Read records-lathe-3.zst back' }).click();
+  await page.getByRole('button', { name: 'Read back records-lathe-3.zst' }).click();
   await page.getByText('2 of 3 rows. The file is as it was written.').waitFor();
   await page.getByRole('row', { name: /lathe-3 run-1 Output/ }).filter({ hasText: kHostile }).waitFor();
   assert.equal(await page.locator('main img').count(), 0);

@@ -98,7 +98,7 @@ export const administration = {
     removing: 'Rows are still being removed',
     actions: 'Actions',
     read: 'Read back',
-    readOf: (file: string) => `Read ${file} back`,
+    readOf: (file: string) => `Read back ${file}`,
     rowsOf: (file: string) => `Rows of ${file}`,
     contains: 'Only rows that contain',
     search: 'Search',
