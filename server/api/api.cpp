@@ -24,6 +24,8 @@ Api::Api(Services services)
   add_import_routes(router_, services_);
   add_measurement_routes(router_, services_);
   add_chart_routes(router_, services_);
+  add_study_routes(router_, services_);
+  add_template_trial_routes(router_, services_);
   add_offset_routes(router_, services_);
   add_report_template_routes(router_, services_);
   add_archive_routes(router_, services_);

@@ -125,6 +125,9 @@ std::function<void(const storage::MeasuredPart&)> publish_parts_to(EventHub& hub
 /// The listener that publishes offset proposals and what becomes of them as events.
 std::function<void(const storage::OffsetProposal&)> publish_offsets_to(EventHub& hub);
 
+/// The listener that publishes what happens to job queues as events.
+std::function<void(const library::JobChange&)> publish_jobs_to(EventHub& hub);
+
 /// The OpenAPI description, as JSON text.
 std::string_view openapi_text();
 
@@ -141,6 +144,8 @@ void add_check_routes(Router& router, Services& services);
 void add_import_routes(Router& router, Services& services);
 void add_measurement_routes(Router& router, Services& services);
 void add_chart_routes(Router& router, Services& services);
+void add_study_routes(Router& router, Services& services);
+void add_template_trial_routes(Router& router, Services& services);
 void add_offset_routes(Router& router, Services& services);
 void add_report_template_routes(Router& router, Services& services);
 void add_folder_routes(Router& router, Services& services);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace dripline::api {
 
@@ -110,6 +111,17 @@ std::optional<std::uint64_t> QueryReader::number(const std::string& name, std::u
   } else {
     note({Errc::Syntax, fmt::format("{}: {}", name, value.error().what)});
   }
+  return std::nullopt;
+}
+
+std::optional<double> QueryReader::real(const std::string& name) {
+  const auto given = text(name);
+  if (!given) return std::nullopt;
+  double value = 0;
+  const char* const end = given->data() + given->size();
+  const auto read = std::from_chars(given->data(), end, value);
+  if (read.ec == std::errc{} && read.ptr == end && std::isfinite(value)) return value;
+  note({Errc::Syntax, fmt::format("query parameter '{}' is '{}': a number", name, *given)});
   return std::nullopt;
 }
 

@@ -52,14 +52,16 @@ class QueryReader {
   std::optional<std::string> text(const std::string& name);
   /// Without a sign, at most `highest`.
   std::optional<std::uint64_t> number(const std::string& name, std::uint64_t highest);
+  /// A finite decimal.
+  std::optional<double> real(const std::string& name);
   /// As parse_iso8601 reads it.
   std::optional<UtcTime> time(const std::string& name);
   /// yes or no; without it no.
   bool flag(const std::string& name);
   /// What was not asked for, taken out.
   std::map<std::string, std::string> rest() { return std::exchange(left_, {}); }
-  /// Errors: Syntax (no number, no time, neither yes nor no, unknown parameter), LimitExceeded; the
-  /// first error.
+  /// Errors: Syntax (no number, no decimal, no time, neither yes nor no, unknown parameter),
+  /// LimitExceeded; the first error.
   Result<void> finish();
 
  private:

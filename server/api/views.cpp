@@ -6,6 +6,7 @@
 #include "protocol/dds/members.hpp"
 #include "protocol/dds/message.hpp"
 #include "server/api/nullable_json.hpp"
+#include "server/library/control_catalog.hpp"
 #include "server/machines/machine_registry.hpp"
 
 namespace dripline::api {
@@ -187,6 +188,26 @@ static json display_json(const machines::MachineView& view) {
   return {{"units", is_inch ? "inch" : "mm"}, {"x", is_lathe ? "diameter" : "radius"}};
 }
 
+namespace {
+
+/// Where a run can begin, and what can be decided about it. A control at the end of a line gets the
+/// rest of the text; one of a gateway looks through the program, as far as it can.
+json starts_json(const machines::MachineView& view) {
+  const bool has_line =
+      view.machine.gateway_version.empty() || (view.status && view.status->serial_line);
+  if (has_line)
+    return {{"at", {"block", "line", "byte"}}, {"head", true}, {"memory", false}, {"pass", false}};
+  const auto& search = library::start_search_of(view.machine.control);
+  auto at = json::array();
+  for (const auto place : search.at) at.push_back(place);
+  return {{"at", std::move(at)},
+          {"head", false},
+          {"memory", search.has_memory},
+          {"pass", search.has_pass}};
+}
+
+}  // namespace
+
 json machine_json(const machines::MachineView& view) {
   const auto seconds = [](std::chrono::microseconds time) {
     return std::chrono::duration<double>(time).count();
@@ -201,6 +222,7 @@ json machine_json(const machines::MachineView& view) {
       {"notices", machines::notices_of(view)},
       {"first_seen", to_iso8601(view.machine.first_seen)},
       {"last_seen", to_iso8601(view.machine.last_seen)},
+      {"starts", starts_json(view)},
       {"display", display_json(view)},
       {"status", view.status ? status_json(*view.status) : json(nullptr)}};
 }

@@ -1,6 +1,8 @@
 #include "server/library/control_catalog.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include <fmt/ranges.h>
 
@@ -67,6 +69,45 @@ Result<void> DialectCatalog::check_setup(std::string_view control, std::string_v
 bool DialectCatalog::is_protected(std::string_view control, std::string_view head) const {
   const auto dialect = interpreter::find_dialect(control);
   return dialect && (*dialect)->is_protected != nullptr && (*dialect)->is_protected(head);
+}
+
+namespace {
+
+/// The dialect decides: it refuses an option or a place that its control does not have.
+StartSearch find_start_search(const interpreter::Dialect& dialect) {
+  const auto accepts = [&](std::string_view toml) {
+    const auto data = interpreter::parse_control_data(toml, dialect.units);
+    if (!data) return false;
+    interpreter::MemorySource no_text("");
+    interpreter::EventSink no_sink;
+    return dialect.make(*data, no_text, no_sink).has_value();
+  };
+  constexpr std::array kPlaces{std::pair{"block", "N1"}, std::pair{"line", "L1"},
+                               std::pair{"byte", "B1"}, std::pair{"tool", "T1"},
+                               std::pair{"count", "+1"}};
+  StartSearch found;
+  for (const auto& [name, place] : kPlaces) {
+    if (accepts(fmt::format("[control]\nstart_at = \"{}\"\n", place))) found.at.emplace_back(name);
+  }
+  if (found.at.empty()) return found;
+  constexpr std::string_view kStart = "[control]\nstart_at = \"N1\"\n";
+  found.has_memory = accepts(fmt::format("{}start_memory = \"now\"\n", kStart));
+  found.has_pass = accepts(fmt::format("{}start_pass = 1\n", kStart));
+  return found;
+}
+
+}  // namespace
+
+const StartSearch& start_search_of(std::string_view control) {
+  static const StartSearch kNone;
+  static const auto kFound = [] {
+    std::map<std::string_view, StartSearch, std::less<>> found;
+    for (const auto& dialect : interpreter::dialects())
+      found.emplace(dialect.name, find_start_search(dialect));
+    return found;
+  }();
+  const auto at = kFound.find(control);
+  return at == kFound.end() ? kNone : at->second;
 }
 
 std::string control_words(std::string_view control, Refusal refusal) {

@@ -46,6 +46,16 @@ class DialectCatalog final : public ControlCatalog {
   bool is_protected(std::string_view control, std::string_view head) const override;
 };
 
+/// Where a run can begin on a control that looks through its program up to there.
+struct StartSearch {
+  std::vector<std::string_view>
+      at;                   ///< block, line, byte, tool, count; empty: only at the beginning
+  bool has_memory = false;  ///< with which memory it looks through can be chosen
+  bool has_pass = false;    ///< which pass of a block can be named
+};
+/// As the control's dialect accepts it; of an unknown control nothing. Any thread.
+const StartSearch& start_search_of(std::string_view control);
+
 using interpreter::Refusal;
 
 /// The control's own words: "error 300: program already exists"; empty: it has no number for this

@@ -26,13 +26,20 @@ Result<Job> owned(Result<Job> job, const std::string& machine, std::uint64_t id)
 
 }  // namespace
 
-Result<void> hold_jobs(storage::JobStore& jobs, storage::JobHold hold, const storage::Actor& who) {
-  if (hold.reason.find_first_not_of(" \t\r\n") == std::string::npos)
-    return fail(Errc::Syntax, "a hold needs a reason");
-  if (auto good = check_text("reason", hold.reason); !good) return good;
-  if (auto held = jobs.hold(hold, who); !held) return held;
-  process::log_info("jobs held machine={} by={}: {}", hold.machine, hold.who, hold.reason);
-  return {};
+std::string_view to_string(JobChange::Kind kind) {
+  switch (kind) {
+    case JobChange::Kind::Added:
+      return "added";
+    case JobChange::Kind::Moved:
+      return "moved";
+    case JobChange::Kind::Removed:
+      return "removed";
+    case JobChange::Kind::Held:
+      return "held";
+    case JobChange::Kind::Released:
+      return "released";
+  }
+  return "";
 }
 
 Result<Job> take_job(storage::JobStore& jobs, const std::string& machine,
@@ -89,6 +96,7 @@ Result<Job> JobQueue::add(Addition addition, const storage::Actor& who) {
   if (added) {
     process::log_info("job {} added machine={} program={} quantity={} by={}", added->id,
                       added->machine, added->program, added->quantity, who.name);
+    notify({.kind = JobChange::Kind::Added, .machine = added->machine, .job = *added});
   }
   return added;
 }
@@ -102,26 +110,45 @@ Result<Job> JobQueue::move(const std::string& machine, std::uint64_t job, std::u
   if (auto good = check_number("place", place, storage::JobStore::kMaxJobs); !good)
     return fail(good.error());
   if (auto known = own(machine, job); !known) return known;
-  return parts_.store.jobs.move(job, place, who, parts_.clock.now());
+  auto moved = parts_.store.jobs.move(job, place, who, parts_.clock.now());
+  if (moved) notify({.kind = JobChange::Kind::Moved, .machine = machine, .job = *moved});
+  return moved;
 }
 
 Result<void> JobQueue::remove(const std::string& machine, std::uint64_t job,
                               const storage::Actor& who) {
   if (auto known = own(machine, job); !known) return fail(known.error());
-  return parts_.store.jobs.remove(job, who, parts_.clock.now());
+  if (auto removed = parts_.store.jobs.remove(job, who, parts_.clock.now()); !removed)
+    return removed;
+  JobChange change{.kind = JobChange::Kind::Removed, .machine = machine};
+  if (auto now = parts_.store.jobs.find(job)) change.job = *std::move(now);
+  notify(std::move(change));
+  return {};
 }
 
 Result<void> JobQueue::hold(const std::string& machine, const std::string& reason,
                             const storage::Actor& who) {
-  return hold_jobs(
-      parts_.store.jobs,
-      {.machine = machine, .who = who.name, .reason = reason, .since = parts_.clock.now()}, who);
+  if (reason.find_first_not_of(" \t\r\n") == std::string::npos)
+    return fail(Errc::Syntax, "a hold needs a reason");
+  if (auto good = check_text("reason", reason); !good) return good;
+  const storage::JobHold hold{
+      .machine = machine, .who = who.name, .reason = reason, .since = parts_.clock.now()};
+  if (auto held = parts_.store.jobs.hold(hold, who); !held) return held;
+  process::log_info("jobs held machine={} by={}: {}", machine, who.name, reason);
+  notify({.kind = JobChange::Kind::Held, .machine = machine, .hold = hold});
+  return {};
 }
 
 Result<void> JobQueue::release(const std::string& machine, const storage::Actor& who) {
   auto released = parts_.store.jobs.release(machine, who, parts_.clock.now());
-  if (released) process::log_info("jobs released machine={} by={}", machine, who.name);
+  if (!released) return released;
+  process::log_info("jobs released machine={} by={}", machine, who.name);
+  notify({.kind = JobChange::Kind::Released, .machine = machine});
   return released;
+}
+
+void JobQueue::notify(JobChange change) const {
+  if (parts_.on_change) parts_.on_change(change);
 }
 
 Result<Job> JobQueue::take(const std::string& machine, std::optional<std::uint64_t> job) const {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "server/library/releases.hpp"
@@ -9,10 +12,15 @@
 
 namespace dripline::library {
 
-/// Stops the queue of a machine: no run of its jobs begins until it is released. What runs goes on.
-/// For whoever has a reason: an operator, a measurement out of its tolerance. Errors: NotFound (the
-/// machine), Syntax (no reason), LimitExceeded (its length), those of the store.
-Result<void> hold_jobs(storage::JobStore& jobs, storage::JobHold hold, const storage::Actor& who);
+/// What has happened to the queue of a machine. A run of a job is the run's event.
+struct JobChange {
+  enum class Kind : std::uint8_t { Added, Moved, Removed, Held, Released };
+  Kind kind = Kind::Added;
+  std::string machine;
+  std::optional<storage::Job> job = {};       ///< added, moved, removed: as it is now
+  std::optional<storage::JobHold> hold = {};  ///< held
+};
+std::string_view to_string(JobChange::Kind kind);  ///< added, moved, removed, held, released
 
 /// The job queues of machines. Nothing here starts a run: an operator takes a job, with his rights
 /// and by the usual way of starting. Any thread.
@@ -22,8 +30,10 @@ class JobQueue {
     const storage::Store& store;
     Releases& releases;
     const Clock& clock;
+    /// Called after the commit, must return soon.
+    std::function<void(const JobChange&)> on_change = {};
   };
-  explicit JobQueue(const Parts& parts) : parts_(parts) {}
+  explicit JobQueue(Parts parts) : parts_(std::move(parts)) {}
 
   struct Queue {
     std::vector<storage::Job> jobs;
@@ -45,6 +55,9 @@ class JobQueue {
   Result<storage::Job> move(const std::string& machine, std::uint64_t job, std::uint64_t place,
                             const storage::Actor& who);
   Result<void> remove(const std::string& machine, std::uint64_t job, const storage::Actor& who);
+  /// Stops the queue of a machine: no run of its jobs begins until it is released. What runs goes
+  /// on. For whoever has a reason: an operator, a measurement out of its tolerance. Errors:
+  /// NotFound (the machine), Syntax (no reason), LimitExceeded (its length), those of the store.
   Result<void> hold(const std::string& machine, const std::string& reason,
                     const storage::Actor& who);
   Result<void> release(const std::string& machine, const storage::Actor& who);
@@ -60,6 +73,7 @@ class JobQueue {
  private:
   Result<storage::Job> own(const std::string& machine, std::uint64_t job) const;
   Result<void> check_fits(const Addition& addition) const;
+  void notify(JobChange change) const;
 
   const Parts parts_;
 };

@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "protocol/archive/archive_reader.hpp"
 #include "protocol/archive/archive_writer.hpp"
 #include "protocol/measurement/measurement_json.hpp"
 #include "protocol/process/log.hpp"
@@ -86,6 +87,34 @@ void Retention::work(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, stop, options_.every, [&stop] { return stop.stop_requested(); });
   }
+}
+
+Result<Archive> Retention::find(std::uint64_t id) {
+  constexpr std::uint64_t kPage = 1000;
+  for (std::uint64_t offset = 0;; offset += kPage) {
+    auto page = list({.limit = kPage, .offset = offset});
+    if (!page) return fail(page.error());
+    for (auto& archive : *page) {
+      if (archive.id == id) return std::move(archive);
+    }
+    if (page->size() < kPage) return fail(Errc::NotFound, "there is no archive {}", id);
+  }
+}
+
+Result<void> Retention::read(const Archive& archive,
+                             const std::function<Result<void>(const std::string& row)>& take) {
+  auto reader = archive::ArchiveReader::open((parts_.folder / archive.file).string());
+  if (!reader) return fail(reader.error());
+  for (;;) {
+    const auto row = reader->next();
+    if (!row) return fail(row.error());
+    if (!*row) break;
+    if (auto taken = take(**row); !taken) return taken;
+  }
+  if (reader->sha256() == archive.sha256) return {};
+  return fail(Errc::Corrupt,
+              "archive {} is not the file that was listed: its SHA-256 is {}, not {}", archive.file,
+              reader->sha256().hex(), archive.sha256.hex());
 }
 
 Result<std::uint64_t> Retention::apply(const std::stop_token& stop) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -54,6 +55,14 @@ class Retention {
   Result<std::vector<storage::Archive>> list(storage::Page page) {
     return parts_.store.archives.list(page);
   }
+  /// Errors: NotFound.
+  Result<storage::Archive> find(std::uint64_t id);
+  /// Every row of an archive, in order. Errors: those of `take` and ArchiveReader, Corrupt (it is
+  /// not the file that was listed).
+  Result<void> read(const storage::Archive& archive,
+                    const std::function<Result<void>(const std::string& row)>& take);
+  const Options& options() const { return options_; }
+  const std::filesystem::path& folder() const { return parts_.folder; }
 
  private:
   void work(const std::stop_token& stop);

@@ -45,7 +45,7 @@ server/paths: protocol/base storage gateway/interpreter clients/tools/comparison
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
 server/measurements: protocol/base protocol/measurement protocol/process storage clients/tools/report_template server/measurements
 server/offsets: protocol/base protocol/measurement protocol/process storage gateway/interpreter clients/tools/statistics server/library server/offsets
-server/api: protocol storage gateway/interpreter gateway/line clients/tools/charts server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/offsets server/folders server/webhooks server/api
+server/api: protocol storage gateway/interpreter gateway/line clients/tools/charts clients/tools/measurement_files clients/tools/report_template clients/tools/studies server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/offsets server/folders server/webhooks server/api
 server/folders: protocol/base protocol/process storage server/library server/machines server/paths server/folders
 server/webhooks: protocol/base protocol/process storage server/webhooks
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect

@@ -46,37 +46,6 @@ std::string limit_text(const measurement::Characteristic& characteristic) {
   return fmt::format("{} to {}", text(characteristic.lower), text(characteristic.upper));
 }
 
-ordered_json optional_json(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
-ordered_json event_json(const report_template::ReportEvent& event) {
-  if (const auto* value = std::get_if<Value>(&event)) {
-    const auto& characteristic = value->characteristic;
-    return {{"event", "measurement"},
-            {"characteristic", characteristic.name},
-            {"nominal", optional_json(characteristic.nominal)},
-            {"lower", optional_json(characteristic.lower)},
-            {"upper", optional_json(characteristic.upper)},
-            {"unit", characteristic.unit},
-            {"tool", value->tool},
-            {"actual", value->actual},
-            {"verdict", measurement::to_string(value->verdict)}};
-  }
-  if (const auto* finding = std::get_if<Finding>(&event)) {
-    return {{"event", "finding"},
-            {"kind", report_template::to_string(finding->kind)},
-            {"text", finding->text}};
-  }
-  if (const auto* ended = std::get_if<PartEnded>(&event)) {
-    return {{"event", "part_ended"},
-            {"part_number", ended->part.number},
-            {"serial", ended->part.serial},
-            {"verdict", measurement::to_string(ended->part.verdict)}};
-  }
-  return {{"event", "part_begun"}};
-}
-
 }  // namespace
 
 Table template_table(const ordered_json& templates, const ordered_json& assignments) {
@@ -163,18 +132,6 @@ std::string taken_text(std::string_view line, const report_template::LineRule* r
   if (!fields.empty()) text += fmt::format("    {}\n", fields);
   for (const auto& event : taken.events) text += event_text(event);
   return text;
-}
-
-ordered_json taken_json(std::string_view line, const report_template::LineRule* rule,
-                        const report_template::Taken& taken) {
-  ordered_json fields = ordered_json::object(), events = ordered_json::array();
-  for (const auto& [name, value] : taken.fields) fields[name] = value;
-  for (const auto& event : taken.events) events.push_back(event_json(event));
-  return {{"line", std::string(line)},
-          {"understood", rule != nullptr},
-          {"template_line", rule == nullptr ? ordered_json(nullptr) : ordered_json(rule->line)},
-          {"fields", fields},
-          {"events", events}};
 }
 
 }  // namespace dripline::cli

@@ -22,7 +22,5 @@ std::string event_text(const report_template::ReportEvent& event);
 /// The line, and below it what it brought; no rule: it was not understood.
 std::string taken_text(std::string_view line, const report_template::LineRule* rule,
                        const report_template::Taken& taken);
-nlohmann::ordered_json taken_json(std::string_view line, const report_template::LineRule* rule,
-                                  const report_template::Taken& taken);
 
 }  // namespace dripline::cli

@@ -4,9 +4,8 @@
 
 #include "clients/cli/measurements/measurement_input.hpp"
 #include "clients/cli/text/standard_output.hpp"
-#include "clients/tools/statistics/capability.hpp"
-#include "clients/tools/statistics/gauge_study.hpp"
-#include "clients/tools/statistics/normality.hpp"
+#include "clients/tools/studies/capability_study.hpp"
+#include "clients/tools/studies/gauge_study_of.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -37,51 +36,7 @@ std::string index_text(const std::optional<statistics::Index>& index) {
                      index->interval->high);
 }
 
-ordered_json index_json(const std::optional<statistics::Index>& index) {
-  if (!index) return nullptr;
-  ordered_json json{{"value", index->value}, {"low", nullptr}, {"high", nullptr}};
-  if (index->interval) {
-    json["low"] = index->interval->low;
-    json["high"] = index->interval->high;
-  }
-  return json;
-}
-
-/// The capability of the values, and whether they may be normal.
-struct Study {
-  Capability capability;
-  std::optional<statistics::AndersonDarling> normality;  ///< absent: too few values
-};
-
-ordered_json study_json(const Study& study) {
-  const Capability& c = study.capability;
-  ordered_json json{{"count", c.summary.count},
-                    {"mean", c.summary.mean},
-                    {"standard_deviation", c.summary.standard_deviation},
-                    {"minimum", c.summary.minimum},
-                    {"maximum", c.summary.maximum},
-                    {"shape", to_string(c.shape)},
-                    {"sigma_within", c.sigma_within},
-                    {"within_by", c.within_by},
-                    {"confidence", c.confidence},
-                    {"cp", index_json(c.cp)},
-                    {"cpk", index_json(c.cpk)},
-                    {"pp", index_json(c.pp)},
-                    {"ppk", index_json(c.ppk)},
-                    {"below", c.below},
-                    {"above", c.above},
-                    {"expected_outside_ppm", c.expected_outside},
-                    {"percentiles", {c.percentiles.low, c.percentiles.median, c.percentiles.high}},
-                    {"percentiles_reached", c.is_percentile_reached},
-                    {"anderson_darling", nullptr}};
-  if (const auto& test = study.normality) {
-    json["anderson_darling"] = {
-        {"statistic", test->statistic}, {"adjusted", test->adjusted}, {"p_value", test->p_value}};
-  }
-  return json;
-}
-
-void print_study(const Context& context, const Study& study) {
+void print_study(const Context& context, const studies::CapabilityStudy& study) {
   const Capability& c = study.capability;
   Details details;
   details.add("values", fmt::format("{}, mean {:.6g}, standard deviation {:.4g}", c.summary.count,
@@ -110,75 +65,22 @@ void print_study(const Context& context, const Study& study) {
   context.print(details);
 }
 
-Result<Study> study(const std::vector<Measurement>& all, const CapabilityCommand& command) {
-  if (all.empty()) return fail(Errc::NotFound, "nothing was measured");
-  std::vector<double> values;
-  for (const Measurement& m : all) {
-    if (m.characteristic.name != all.front().characteristic.name) {
-      return fail(Errc::Conflict, "capability of {} and {}: choose one characteristic",
-                  all.front().characteristic.name, m.characteristic.name);
-    }
-    values.push_back(m.actual);
-  }
-  const auto shape = statistics::parse_shape(command.shape);
-  if (!shape) return fail(shape.error());
-  const auto& of = all.back().characteristic;
-  const statistics::Tolerance tolerance{command.lower ? command.lower : of.lower,
-                                        command.upper ? command.upper : of.upper};
-  const auto found =
-      statistics::capability(values, tolerance, {command.subgroup, command.confidence, *shape});
-  if (!found) return fail(found.error());
-  Study result{*found, {}};
-  if (const auto test = statistics::anderson_darling(values)) result.normality = *test;
-  return result;
-}
-
 int show_capability(Context& context, const CapabilityCommand& command) {
   const auto source = open_measurements(context, command.choice);
   if (!source) return context.status;
   const auto all = all_measurements(*source);
   if (!all) return complain(all.error());
-  const auto found = study(*all, command);
+  const auto shape = statistics::parse_shape(command.shape);
+  if (!shape) return complain(shape.error());
+  const auto found = studies::study_capability(
+      *all, {command.lower, command.upper, {command.subgroup, command.confidence, *shape}});
   if (!found) return complain(found.error());
   if (context.wants_json) {
-    context.print(json_text(study_json(*found)));
+    context.print(json_text(studies::to_json(*found)));
   } else {
     print_study(context, *found);
   }
   return kExitOk;
-}
-
-Result<GaugeResult> judge_gauge(const std::vector<Measurement>& all, const GaugeCommand& command) {
-  std::vector<statistics::GaugeReading> readings;
-  readings.reserve(all.size());
-  for (const Measurement& m : all) {
-    readings.push_back({m.machine,
-                        m.serial.empty() ? std::string_view(m.part) : std::string_view(m.serial),
-                        m.actual});
-  }
-  const auto made = statistics::make_gauge_study(readings);
-  if (!made) return fail(made.error());
-  return command.method == "anova" ? statistics::gauge_anova(*made, command.tolerance)
-                                   : statistics::average_and_range(*made, command.tolerance);
-}
-
-ordered_json gauge_json(const GaugeResult& result) {
-  ordered_json json;
-  const auto add = [&](const char* name, const statistics::Component& of) {
-    json[name] = {{"deviation", of.deviation},
-                  {"study_percent", of.study_percent},
-                  {"contribution_percent", of.contribution_percent}};
-  };
-  add("repeatability", result.repeatability);
-  add("reproducibility", result.reproducibility);
-  add("gauge", result.gauge);
-  add("parts", result.parts);
-  json["total"] = result.total;
-  json["distinct_categories"] = result.distinct_categories;
-  json["tolerance_percent"] =
-      result.tolerance_percent ? ordered_json(*result.tolerance_percent) : ordered_json(nullptr);
-  json["interaction_kept"] = result.is_interaction_kept;
-  return json;
 }
 
 void print_gauge(const Context& context, const GaugeResult& result) {
@@ -204,10 +106,12 @@ int show_gauge(Context& context, const GaugeCommand& command) {
   if (!source) return context.status;
   const auto all = all_measurements(*source);
   if (!all) return complain(all.error());
-  const auto result = judge_gauge(*all, command);
+  const auto method = studies::parse_gauge_method(command.method);
+  if (!method) return complain(method.error());
+  const auto result = studies::study_gauge(*all, *method, command.tolerance);
   if (!result) return complain(result.error());
   if (context.wants_json) {
-    context.print(json_text(gauge_json(*result)));
+    context.print(json_text(studies::to_json(*result)));
   } else {
     print_gauge(context, *result);
   }

@@ -10,6 +10,7 @@
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/tools/report_template/report_interpreter.hpp"
+#include "clients/tools/report_template/taken_json.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -138,7 +139,7 @@ class Trial {
       for (const auto& event : last.events) context_.print(event_text(event));
       context_.print(fmt::format("\n{} lines, {} not understood\n", lines_, unmatched_));
     } else if (!last.events.empty()) {
-      context_.print(json_line(taken_json("", nullptr, last)));
+      context_.print(json_line(report_template::taken_json("", nullptr, last)));
     }
     return unmatched_ == 0 ? kExitOk : kExitNo;
   }
@@ -147,7 +148,7 @@ class Trial {
   void print(std::string_view text, const report_template::LineRule* rule,
              const report_template::Taken& taken) const {
     if (context_.wants_json) {
-      context_.print(json_line(taken_json(text, rule, taken)));
+      context_.print(json_line(report_template::taken_json(text, rule, taken)));
       return;
     }
     context_.print(taken_text(text, rule, taken));

@@ -116,6 +116,17 @@ Response start_job(Services& services, const Request& request) {
 
 }  // namespace
 
+std::function<void(const library::JobChange&)> publish_jobs_to(EventHub& hub) {
+  return [&hub](const library::JobChange& change) {
+    if (!hub.has_listeners()) return;
+    const json view{{"machine", change.machine},
+                    {"change", to_string(change.kind)},
+                    {"job", change.job ? job_json(*change.job) : json(nullptr)},
+                    {"hold", hold_json(change.hold)}};
+    hub.publish({.kind = "job", .machine = change.machine, .data = to_text(view), .port = {}});
+  };
+}
+
 void add_job_routes(Router& router, Services& services) {
   const std::string machine = "/api/v1/machines/{name}";
   router.add("GET", machine + "/jobs", with(services, list_jobs));

@@ -3,6 +3,8 @@
 #include "protocol/base/names.hpp"
 #include "server/api/api.hpp"
 #include "server/api/json_object.hpp"
+#include "server/api/measurement_files.hpp"
+#include "server/api/measurement_reading.hpp"
 #include "server/api/measurement_views.hpp"
 #include "server/api/views.hpp"
 
@@ -12,33 +14,6 @@ namespace {
 
 using measurement::Measurement;
 using nlohmann::json;
-
-Response without_measurements() {
-  return error_response({Errc::Unsupported, "this server has no measurements"});
-}
-
-Result<std::optional<measurement::Verdict>> read_verdict(QueryReader& query) {
-  const auto text = query.text("verdict");
-  if (!text) return std::optional<measurement::Verdict>();
-  const auto verdict = measurement::parse_verdict(*text);
-  if (!verdict) return fail(verdict.error());
-  return std::optional(*verdict);
-}
-
-Result<storage::MeasurementFilter> read_measurement_filter(QueryReader& query) {
-  storage::MeasurementFilter filter;
-  filter.machine = query.text("machine");
-  filter.run = query.text("run");
-  filter.characteristic = query.text("characteristic");
-  filter.part_id = query.number("part", kMaxNumber);
-  filter.since = query.time("since");
-  filter.until = query.time("until");
-  const auto verdict = read_verdict(query);
-  if (!verdict) return fail(verdict.error());
-  filter.verdict = *verdict;
-  filter.with_superseded = query.flag("superseded");
-  return filter;
-}
 
 /// `TIME:ID`, as an answer names the place of its last row; opaque to clients.
 std::string place_text(const Measurement& last) {
@@ -113,10 +88,7 @@ Response list_measurements(Services& services, const Request& request) {
   auto& store = services.measurements->stored();
   if (format == "csv" || format == "jsonl")
     return export_measurements(store, *filter, format == "csv");
-  if (format != "json") {
-    return error_response(
-        {Errc::Unsupported, fmt::format("format '{}' is none of json, csv, jsonl", format)});
-  }
+  if (format != "json") return file_response(store, *filter, format);
   const auto rows = order == "newest" ? store.list_newest(*filter, *place, limit)
                                       : store.list(*filter, *place, limit);
   if (!rows) return error_response(rows.error());

@@ -55,7 +55,10 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
       attachments(*store),
       search(*store),
       runs(*store),
-      jobs({.store = *store, .releases = releases, .clock = clock}),
+      jobs({.store = *store,
+            .releases = releases,
+            .clock = clock,
+            .on_change = api::publish_jobs_to(events)}),
       paths({.store = *store, .releases = releases, .clock = clock}),
       imports({.store = *store,
                .paths = paths,
@@ -257,10 +260,7 @@ machines::MachineListener ServerParts::published() {
 }
 
 Result<void> ServerParts::hold_queue(const storage::MeasuredPart& part, const std::string& reason) {
-  const std::string who = template_of(part);
-  return library::hold_jobs(
-      store->jobs, {.machine = part.machine, .who = who, .reason = reason, .since = clock.now()},
-      who);
+  return jobs.hold(part.machine, reason, template_of(part));
 }
 
 Result<void> ServerParts::hold_machine(const storage::MeasuredPart& part,

@@ -108,9 +108,9 @@ struct ServerParts {
   library::Attachments attachments;
   library::ProgramSearch search;
   library::RunHistory runs;
+  api::EventHub events;
   library::JobQueue jobs;
   paths::ProgramPaths paths;
-  api::EventHub events;
   imports::Imports imports;
   folders::Folders folders;
   measurements::Measurements measurements;

@@ -4,6 +4,7 @@ import type { IssuedToken, Token, Tokens as TokenList } from '../../generated/ap
 import { get, pathOf, send } from '../api/request';
 import { useSessionState } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
+import { Disclosure } from '../parts/disclosure';
 import { GroupChoice } from '../parts/group_choice';
 import { Loading } from '../parts/loading';
 import { RoleSelect } from '../parts/role_select';
@@ -86,10 +87,7 @@ export function Tokens({ user, title }: { user: string; title: string }) {
       )}
       <CommandFault command={command} />
       {issued ? <Secret title={t.issued(issued.name)} secret={issued.secret} onDone={() => setIssued(null)} /> : (
-        <details>
-          <summary class="button">{t.addToken}</summary>
-          <NewToken user={user} onMade={take} />
-        </details>
+        <Disclosure summary={t.addToken}><NewToken user={user} onMade={take} /></Disclosure>
       )}
     </section>
   );

@@ -1,8 +1,9 @@
-// What looks after the server: its state, backups, certificates, the serial ports, hot folders, webhooks, users, groups of machines, the release policy, and who changed what.
+// What looks after the server: its state, backups, archives, certificates, the serial ports, hot folders, webhooks, users, groups of machines, the release policy, and who changed what.
 import { addressOf } from '../app/route';
 import { Only } from '../parts/allowed';
 import { Tabs } from '../parts/tabs';
 import { texts } from '../texts/texts';
+import { ArchiveList } from './archives';
 import { AuditTrail } from './audit';
 import { AuditState } from './audit_state';
 import { BackupList } from './backups';
@@ -15,7 +16,7 @@ import { ServerState } from './server_state';
 import { Users } from './users';
 import { Webhooks } from './webhooks';
 
-const kTabs = ['server', 'backups', 'certificates', 'ports', 'folders', 'webhooks', 'users', 'groups', 'policy', 'audit'] as const;
+const kTabs = ['server', 'backups', 'archives', 'certificates', 'ports', 'folders', 'webhooks', 'users', 'groups', 'policy', 'audit'] as const;
 
 export default function AdministrationView({ path }: { path: string[] }) {
   const [tab = 'server'] = path;
@@ -26,6 +27,7 @@ export default function AdministrationView({ path }: { path: string[] }) {
       <Tabs label={t.title} tabs={kTabs.map((key) => ({ address: addressOf('administration', [key]), name: t.tabs[key], isShown: key === tab }))} />
       {tab === 'server' && <ServerState />}
       {tab === 'backups' && <Only to="administer"><BackupList /></Only>}
+      {tab === 'archives' && <Only to="administer"><ArchiveList /></Only>}
       {tab === 'certificates' && <CertificateList />}
       {tab === 'ports' && <Ports />}
       {tab === 'folders' && <Folders />}

@@ -6,6 +6,7 @@ import { kMinPassword } from '../account/password_form';
 import { get, pathOf, send } from '../api/request';
 import { addressOf } from '../app/route';
 import { CommandFault, useCommand } from '../parts/command';
+import { Disclosure } from '../parts/disclosure';
 import { GroupChoice } from '../parts/group_choice';
 import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
@@ -140,10 +141,7 @@ export function Users({ chosen }: { chosen: string | undefined }) {
           <Tokens user={user.name} title={texts().account.tokensOf(user.name)} />
         </div>
       )}
-      <details>
-        <summary class="button">{t.add}</summary>
-        <NewUser key={count} onAdded={() => { setCount(count + 1); users.reload(); }} />
-      </details>
+      <Disclosure summary={t.add}><NewUser key={count} onAdded={() => { setCount(count + 1); users.reload(); }} /></Disclosure>
     </section>
   );
 }

@@ -62,6 +62,7 @@ const kLater: { [view: string]: () => Promise<{ default: LaterView }> } = {
   reports: () => import('../reports/reports'),
   measurements: () => import('../measurements/measurements'),
   corrections: () => import('../corrections/corrections'),
+  templates: () => import('../templates/templates'),
   path: () => import('../path/path'),
   compare: () => import('../compare/compare'),
   account: () => import('../account/account'),

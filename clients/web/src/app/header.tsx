@@ -9,7 +9,7 @@ import { addressOf, type Route } from './route';
 
 /// The views of the bar, and those that belong to one of them.
 const kViews = ['floor', 'programs', 'imports', 'reports', 'administration'] as const;
-const kParents: { [view: string]: string } = { machine: 'floor', path: 'programs', compare: 'programs', measurements: 'reports', corrections: 'reports' };
+const kParents: { [view: string]: string } = { machine: 'floor', path: 'programs', compare: 'programs', measurements: 'reports', corrections: 'reports', templates: 'reports' };
 
 function skip(event: Event): void {
   event.preventDefault();

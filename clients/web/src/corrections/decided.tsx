@@ -1,11 +1,12 @@
 // The corrections that were applied, rejected, or replaced by a newer one.
-import { useEffect, useState } from 'preact/hooks';
+import { useState } from 'preact/hooks';
 import type { Offset, Offsets } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
 import { Loading } from '../parts/loading';
 import { Pages } from '../parts/pages';
+import { useOffset } from '../parts/use_kept';
 import { useLoaded } from '../parts/use_loaded';
 import { dateTimeText, texts } from '../texts/texts';
 import { valueText } from './steps';
@@ -32,8 +33,7 @@ export function Decided() {
   const t = texts().corrections;
   const { offsets: pending } = useFeed('offsets');
   const [state, setState] = useState<(typeof kStates)[number]>('applied');
-  const [offset, setOffset] = useState(0);
-  useEffect(() => setOffset(0), [state]);
+  const [offset, setOffset] = useOffset(state);
   const decided = useLoaded((signal) => get<Offsets>(pathOf('offsets'), { state, limit: kPage, offset }, signal), [state, offset, [...pending.keys()].join(' ')]);
   const list = decided.value?.offsets ?? [];
   return (

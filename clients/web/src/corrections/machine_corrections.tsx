@@ -7,6 +7,7 @@ import { useFeed } from '../live/use_feed';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
 import { dateTimeText, numberText, texts } from '../texts/texts';
+import { CutUnder } from './cut_under';
 import { Rules } from './rules';
 import { changeOf, stepLine, targetsOf, valueText, type PastValue } from './steps';
 
@@ -43,30 +44,38 @@ function Runs({ runs }: { runs: string[] }) {
 
 function HistoryTable({ history }: { history: PastValue[] }) {
   const t = texts().corrections;
+  const [shown, setShown] = useState<PastValue | null>(null);
   const heads: Array<[string, boolean]> = [[t.target, false], [t.value, true], [t.change, true], [t.since, false], [t.who, false], [t.why, false], [t.parts, false], [texts().machine.runs, false]];
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label={t.history}>
-      <table class="data">
-        <thead><tr>{heads.map(([name, isNumber]) => <th scope="col" key={name} class={isNumber ? 'number' : ''}>{name}</th>)}</tr></thead>
-        <tbody>
-          {history.map((past, i) => {
-            const change = changeOf(history, i);
-            return (
-              <tr key={`${past.target} ${past.setup}`}>
-                <th scope="row" class="nowrap">{past.target}</th>
-                <td class="number"><b>{valueText(past.value, past.unit)}</b></td>
-                <td class="number">{change === null ? '–' : valueText(change, past.unit, true)}</td>
-                <td>{dateTimeText(past.time)} <span class="muted nowrap">{t.setup(past.setup)}</span></td>
-                <td>{past.who ?? '–'}</td>
-                <td class="record-text">{past.why ?? '–'}</td>
-                <td class="nowrap">{past.parts === 0 ? '–' : t.goodOf(numberText(past.good), numberText(past.parts))}</td>
-                <td><Runs runs={past.runs} /></td>
-              </tr>
-            );
-          })}
-        </tbody>
-      </table>
-    </div>
+    <>
+      <div class="scroll" tabIndex={0} role="region" aria-label={t.history}>
+        <table class="data">
+          <thead><tr>{heads.map(([name, isNumber]) => <th scope="col" key={name} class={isNumber ? 'number' : ''}>{name}</th>)}</tr></thead>
+          <tbody>
+            {history.map((past, i) => {
+              const change = changeOf(history, i);
+              return (
+                <tr key={`${past.target} ${past.setup}`}>
+                  <th scope="row" class="nowrap">{past.target}</th>
+                  <td class="number"><b>{valueText(past.value, past.unit)}</b></td>
+                  <td class="number">{change === null ? '–' : valueText(change, past.unit, true)}</td>
+                  <td>{dateTimeText(past.time)} <span class="muted nowrap">{t.setup(past.setup)}</span></td>
+                  <td>{past.who ?? '–'}</td>
+                  <td class="record-text">{past.why ?? '–'}</td>
+                  <td class="nowrap">
+                    {past.parts === 0 ? '–' : (
+                      <button type="button" aria-pressed={shown === past} onClick={() => setShown(shown === past ? null : past)}>{t.goodOf(numberText(past.good), numberText(past.parts))}</button>
+                    )}
+                  </td>
+                  <td><Runs runs={past.runs} /></td>
+                </tr>
+              );
+            })}
+          </tbody>
+        </table>
+      </div>
+      {shown && <CutUnder key={`${shown.target} ${shown.setup}`} past={shown} onClose={() => setShown(null)} />}
+    </>
   );
 }
 
@@ -94,7 +103,7 @@ export function MachineCorrections({ machine, target }: { machine: string; targe
       <Loading of={history} />
       {history.value && list.length === 0 && <p class="notice">{t.noHistory}</p>}
       {targetsOf(list).length === 1 && <Steps values={list} />}
-      {list.length > 0 && <HistoryTable history={list} />}
+      {list.length > 0 && <HistoryTable key={target} history={list} />}
       <Rules machine={machine} />
     </>
   );

@@ -34,3 +34,8 @@ export function stepLine(newestFirst: number[], { width, height }: { width: numb
 }
 
 const round = (value: number) => Math.round(value * 10) / 10;
+
+/// The server gives them oldest first.
+export function latestRuns(runs: string[], count: number): string[] {
+  return [...runs].reverse().slice(0, count);
+}

@@ -1,7 +1,8 @@
 // What the page knows of the shop, kept current by one event stream: every machine, each one's latest run, and what machines sent that
 // is not decided yet, and corrections that wait for a decision. Views read it and are notified when their part has changed, at most four times a second,
-// so that a thousand busy machines stay fluid. Of measured parts it keeps nothing: a view loads what it shows when one has changed.
-import type { Import, Imports, Machine, Machines, Offset, Offsets, Record as ReportRecord, Run, Runs } from '../../generated/api';
+// so that a thousand busy machines stay fluid. Of measured parts and job queues it keeps nothing: a view loads
+// what it shows when one has changed.
+import type { Import, Imports, JobChange, Machine, Machines, Offset, Offsets, Record as ReportRecord, Run, Runs } from '../../generated/api';
 import { ApiError, get, pathOf } from '../api/request';
 import type { StreamEvent } from './event_parser';
 import { readEvents } from './event_stream';
@@ -10,8 +11,8 @@ import { stateOf, type MachineState } from './machine_state';
 export type Link = { state: 'connecting' } | { state: 'live' } | { state: 'lost' | 'signedOut'; since: Date };
 
 /// What a view listens to: the list of machines and their states, the link, the import queue, pending corrections,
-/// measured parts, or one machine.
-export type Topic = 'machines' | 'link' | 'runs' | 'imports' | 'offsets' | 'parts' | `machine:${string}`;
+/// measured parts; or of one machine its status, its runs, its job queue.
+export type Topic = 'machines' | 'link' | 'runs' | 'imports' | 'offsets' | 'parts' | `${'machine' | 'runs' | 'jobs'}:${string}`;
 
 const kFlushMs = 250;
 const kDelaysMs = [250, 500, 1000, 2000, 4000];
@@ -158,6 +159,7 @@ export class Feed {
       this.takeOffset(offset);
     }
     if (event.name === 'part') this.note('parts');
+    if (event.name === 'job') this.note(`jobs:${(JSON.parse(event.data) as JobChange).machine}`);
     if (event.name !== 'record') return;
     const record = JSON.parse(event.data) as ReportRecord;
     for (const listener of this.recordListeners) listener(record);
@@ -176,6 +178,7 @@ export class Feed {
     this.runs.set(run.machine, run);
     this.note(`machine:${run.machine}`);
     this.note('runs');
+    this.note(`runs:${run.machine}`);
     if (before?.state !== run.state) this.note('machines');
   }
 

@@ -44,7 +44,7 @@ function Restart({ run, onStarted }: { run: Run; onStarted: () => void }) {
 export function MachineRuns({ machine }: { machine: string }) {
   const t = texts().machine;
   const runs = useLoaded((signal) => get<Runs>(pathOf('runs'), { machine, limit: kShown }, signal), [machine]);
-  useEffect(() => feed.on('runs', runs.reload), [machine]);
+  useEffect(() => feed.on(`runs:${machine}`, runs.reload), [machine]);
   const list = runs.value?.runs ?? [];
   return (
     <section aria-labelledby="runs">

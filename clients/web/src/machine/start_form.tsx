@@ -11,8 +11,14 @@ import { revisionToStart } from '../programs/release_steps';
 import { texts } from '../texts/texts';
 import { kNoOptions, startRun, type StartOptions } from './commands';
 import { StartOptionFields } from './start_options';
+import { canStartAt, kExamples } from './start_places';
 
 const kMaxListed = 1000;
+
+/// "N120 (block), T3 (tool)": what the control of this machine goes to.
+function placesText({ starts }: Machine): string {
+  return starts.at.map((place) => texts().start.places[place](kExamples[place])).join(', ');
+}
 
 export function StartForm({ machine }: { machine: Machine }) {
   const t = texts().machine;
@@ -26,6 +32,7 @@ export function StartForm({ machine }: { machine: Machine }) {
   const session = useSessionState();
   const policy = usePolicy().value;
   const revision = chosen && 'session' in session ? revisionToStart(policy, chosen, machine.name, session.session) : null;
+  const canStart = canStartAt(from, machine.starts);
   const latest = policy?.runs === 'release' ? t.latestReleased : t.latest;
   const start = async () => {
     // The revision that the question named, whatever has been uploaded since.
@@ -43,12 +50,15 @@ export function StartForm({ machine }: { machine: Machine }) {
         <input name="program" list="programs" autocomplete="off" value={program} onInput={(e) => setProgram(e.currentTarget.value)} />
       </label>
       <datalist id="programs">{fitting.map((p) => <option key={p.name} value={p.name}>{p.title ?? ''}</option>)}</datalist>
-      <label>
-        {t.from}
-        <input name="from" autocomplete="off" maxLength={24} placeholder={t.fromHint} value={from} onInput={(e) => setFrom(e.currentTarget.value)} />
-      </label>
-      {from.trim() !== '' && <StartOptionFields machine={machine} options={options} onChange={setOptions} />}
-      <SureButton class="big primary" label={t.start} disabled={program === '' || command.isBusy || !machine.connected}
+      {machine.starts.at.length === 0 ? <p class="hint">{texts().start.noSearch}</p> : (
+        <label>
+          {t.from}
+          <input name="from" autocomplete="off" maxLength={24} placeholder={placesText(machine)} value={from} aria-invalid={!canStart} onInput={(e) => setFrom(e.currentTarget.value)} />
+        </label>
+      )}
+      {!canStart && <p class="notice warn" role="status">{texts().start.notThere(from.trim(), placesText(machine))}</p>}
+      {from.trim() !== '' && <StartOptionFields starts={machine.starts} options={options} onChange={setOptions} />}
+      <SureButton class="big primary" label={t.start} disabled={program === '' || !canStart || command.isBusy || !machine.connected}
         question={t.startSure(program, revision === null ? latest : String(revision), machine.name, from.trim())} onSure={() => void start()} />
       <CommandFault command={command} />
       </Allowed>

@@ -1,5 +1,5 @@
 // What has to be decided for a start in the middle of a program: on a serial line about the words that are skipped, at a gateway about its control's
-// memory and the pass of a loop.
+// memory and the pass of a loop, where the control has these.
 import type { Machine } from '../../generated/api';
 import { texts } from '../texts/texts';
 import type { StartOptions } from './commands';
@@ -7,7 +7,7 @@ import type { StartOptions } from './commands';
 const kMaxPass = 1_000_000;
 
 interface Props {
-  machine: Machine;
+  starts: Machine['starts'];
   options: StartOptions;
   onChange: (options: StartOptions) => void;
 }
@@ -23,21 +23,19 @@ function Choice<K extends string>({ label, value, names, onChange }: { label: st
   );
 }
 
-export function StartOptionFields({ machine, options, onChange }: Props) {
+export function StartOptionFields({ starts, options, onChange }: Props) {
   const t = texts().start;
-  if (machine.gateway_version === null) {
-    return (
-      <>
-        <Choice label={t.head} value={options.head} names={t.heads} onChange={(head) => onChange({ ...options, head })} />
-        <p class="hint">{t.headHint}</p>
-      </>
-    );
-  }
   return (
     <div class="start-options">
-      <Choice label={t.memory} value={options.memory} names={t.memories} onChange={(memory) => onChange({ ...options, memory })} />
-      <label>{t.pass}<input type="number" min={1} max={kMaxPass} step={1} placeholder={t.passHint} value={options.pass} onInput={(e) => onChange({ ...options, pass: e.currentTarget.value })} /></label>
-      <p class="hint">{t.searchHint}</p>
+      {starts.head && (
+        <>
+          <Choice label={t.head} value={options.head} names={t.heads} onChange={(head) => onChange({ ...options, head })} />
+          <p class="hint">{t.headHint}</p>
+        </>
+      )}
+      {starts.memory && <Choice label={t.memory} value={options.memory} names={t.memories} onChange={(memory) => onChange({ ...options, memory })} />}
+      {starts.pass && <label>{t.pass}<input type="number" min={1} max={kMaxPass} step={1} placeholder={t.passHint} value={options.pass} onInput={(e) => onChange({ ...options, pass: e.currentTarget.value })} /></label>}
+      {!starts.head && <p class="hint">{t.searchHint}{starts.pass && ` ${t.passNote}`}</p>}
     </div>
   );
 }

@@ -1,5 +1,5 @@
 // Report lines that no template knows, and those that are missing, come twice or out of order. None is dropped.
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import type { ReportFinding, ReportFindings } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
@@ -8,6 +8,7 @@ import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { MachineChoice } from '../parts/machine_choice';
 import { Pages } from '../parts/pages';
+import { useOffset } from '../parts/use_kept';
 import { useLoaded } from '../parts/use_loaded';
 import { dateTimeText, texts } from '../texts/texts';
 
@@ -39,8 +40,7 @@ export function FindingTable({ findings, label }: { findings: ReportFinding[]; l
 export function FindingList({ query }: { query: URLSearchParams }) {
   const t = texts().measurements;
   const machine = query.get('machine') ?? '';
-  const [offset, setOffset] = useState(0);
-  useEffect(() => setOffset(0), [machine]);
+  const [offset, setOffset] = useOffset(machine);
   const findings = useLoaded((signal) => get<ReportFindings>(pathOf('report-findings'), { machine, limit: kPage, offset }, signal), [machine, offset]);
   useEffect(() => feed.on('parts', findings.reload), []);
   const list = findings.value?.findings ?? [];

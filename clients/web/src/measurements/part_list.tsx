@@ -1,5 +1,5 @@
 // The measured parts with their verdicts, the newest first. A new verdict is there at once.
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import type { Part, Parts } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
@@ -8,6 +8,7 @@ import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
 import { MachineChoice } from '../parts/machine_choice';
 import { Pages } from '../parts/pages';
+import { useOffset } from '../parts/use_kept';
 import { useLoaded } from '../parts/use_loaded';
 import { kVerdicts, kVerdictTones, VerdictPill } from '../parts/verdict_pill';
 import { dateTimeText, numberText, texts } from '../texts/texts';
@@ -22,7 +23,7 @@ export function partName(part: Part): string {
 export function PartTable({ parts, label }: { parts: Part[]; label: string }) {
   const t = texts().measurements;
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label={label}>
+    <div class="scroll" tabIndex={0} role="group" aria-label={label}>
       <table class="data">
         <Heads of={[t.part, t.verdict, texts().reports.machine, texts().reports.program, t.ended, t.count, t.findings]} />
         <tbody>
@@ -45,10 +46,9 @@ export function PartTable({ parts, label }: { parts: Part[]; label: string }) {
 
 export function PartList({ query }: { query: URLSearchParams }) {
   const t = texts().measurements;
-  const [offset, setOffset] = useState(0);
   const choice = { machine: query.get('machine') ?? '', verdict: query.get('verdict') ?? '', run: query.get('run') ?? '' };
   const inputs = Object.values(choice);
-  useEffect(() => setOffset(0), inputs);
+  const [offset, setOffset] = useOffset(...inputs);
   const parts = useLoaded((signal) => get<Parts>(pathOf('parts'), { ...choice, limit: kPage, offset }, signal), [...inputs, offset]);
   useEffect(() => feed.on('parts', parts.reload), []);
   const choose = (changed: Partial<typeof choice>) => location.replace(addressOf('measurements', ['parts'], { ...choice, ...changed }));

@@ -1,7 +1,7 @@
 // One part: its verdict, every measurement, what of its report was not understood; and deriving it again after a template was changed.
 import { useEffect } from 'preact/hooks';
 import type { Measurement, Measurements, Part, Parts, ReportFindings } from '../../generated/api';
-import { get, pathOf, send, withQuery } from '../api/request';
+import { get, pathOf, send } from '../api/request';
 import { addressOf } from '../app/route';
 import { feed } from '../live/feed';
 import { Allowed } from '../parts/allowed';
@@ -10,8 +10,8 @@ import { Loading } from '../parts/loading';
 import { SureButton } from '../parts/sure_button';
 import { useLoaded } from '../parts/use_loaded';
 import { VerdictPill } from '../parts/verdict_pill';
-import { download } from '../programs/download';
 import { dateTimeText, numberText, texts } from '../texts/texts';
+import { MeasurementExports } from './exports';
 import { FindingTable } from './finding_list';
 import { partName } from './part_list';
 import { ValueTable } from './value_table';
@@ -72,7 +72,6 @@ export function PartPage({ id }: { id: string }) {
   if (!value) return <><h1>{t.part}</h1><Loading of={part} /></>;
   const own = (findings.value?.findings ?? []).filter((found) => found.part === value.id);
   const out = (values.value ?? []).filter(({ verdict }) => verdict !== 'good').length;
-  const save = (format: 'csv' | 'jsonl') => command.send(() => download(withQuery(pathOf('measurements'), { part: id, superseded: value.superseded ? 'yes' : null, format }), `part-${id}.${format}`));
   return (
     <>
       <p class="back"><a href={addressOf('measurements', ['parts'], { machine: value.machine })}>← {t.tabs.parts}</a></p>
@@ -84,7 +83,7 @@ export function PartPage({ id }: { id: string }) {
         <>
           <div class="head values-head">
             <span>{t.valueCount(values.value.length)}{out > 0 && <b class="outside"> {t.notGood(numberText(out))}</b>}</span>
-            <span class="buttons" role="group" aria-label={texts().reports.export}>{(['csv', 'jsonl'] as const).map((format) => <button key={format} type="button" onClick={() => void save(format)}>{t.formats[format]}</button>)}</span>
+            <MeasurementExports query={{ part: id, superseded: value.superseded ? 'yes' : null }} name={`part-${id}`} command={command} />
           </div>
           {values.value.length > 0 && <ValueTable values={values.value} label={t.tabs.values} isOfPart />}
         </>

@@ -18,7 +18,7 @@ export function placeOf({ lower, upper, nominal, actual }: Pick<Measurement, 'lo
   return { actual: scale(actual), nominal: nominal === null ? null : scale(nominal), isOut: actual < lower || actual > upper };
 }
 
-export const kChoices = ['characteristic', 'machine', 'run', 'part', 'since', 'until', 'verdict', 'kind', 'rules', 'subgroup'] as const;
+export const kChoices = ['characteristic', 'machine', 'run', 'part', 'since', 'until', 'verdict', 'kind', 'rules', 'subgroup', 'shape'] as const;
 export type Choice = (typeof kChoices)[number];
 export type Choices = Record<Choice, string>;
 
@@ -40,8 +40,30 @@ export function filterOf({ characteristic, machine, run, part, since, until, ver
 export const kKinds = ['individuals', 'xbar-r', 'xbar-s', 'ewma', 'cusum', 'histogram', 'trend'] as const;
 export const kRules = ['limits', 'western_electric', 'nelson'] as const;
 
-/// A chart has no part and no verdict: it is of all values in their order.
-export function chartOf({ characteristic, machine, run, since, until, kind, rules, subgroup }: Choices) {
-  const isOfMeans = kind.startsWith('xbar');
-  return { characteristic, machine, run, since: utcOf(since), until: utcOf(until), kind, rules: kind === 'histogram' || kind === 'trend' ? '' : rules, subgroup: isOfMeans ? subgroup : '' };
+export const kShapes = ['normal', 'lognormal', 'empirical'] as const;
+
+/// A chart or a study has no part and no verdict: it is of all values in their order.
+function allOf({ characteristic, machine, run, since, until }: Choices) {
+  return { characteristic, machine, run, since: utcOf(since), until: utcOf(until) };
+}
+
+export function chartOf(choices: Choices) {
+  const { kind, rules, subgroup, shape } = choices;
+  const hasRules = kind !== 'histogram' && kind !== 'trend';
+  return { ...allOf(choices), kind, rules: hasRules ? rules : '', subgroup: kind.startsWith('xbar') ? subgroup : '', shape: kind === 'histogram' ? shape : '' };
+}
+
+/// Sigma within is that of the subgroups which the chart shows.
+export function capabilityOf(choices: Choices) {
+  return { ...allOf(choices), shape: choices.shape, subgroup: choices.kind.startsWith('xbar') ? choices.subgroup || '5' : '' };
+}
+
+export interface GaugeChoice {
+  method: 'anova' | 'ranges';
+  /// As it is typed; empty: none.
+  tolerance: string;
+}
+
+export function gaugeOf(choices: Choices, { method, tolerance }: GaugeChoice) {
+  return { ...allOf(choices), method, tolerance };
 }

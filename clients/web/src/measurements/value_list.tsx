@@ -1,22 +1,24 @@
-// What was measured, by characteristic, machine and time: the chart of one characteristic, the values, and their export.
-import { useEffect, useState } from 'preact/hooks';
+// What was measured, by characteristic, machine and time: the chart and the studies of one characteristic, the values, and their export.
+import { useEffect } from 'preact/hooks';
 import type { Characteristics, Measurement, Measurements } from '../../generated/api';
-import { get, pathOf, withQuery } from '../api/request';
+import { get, pathOf } from '../api/request';
 import { addressOf } from '../app/route';
 import { feed } from '../live/feed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { MachineChoice } from '../parts/machine_choice';
+import { useKept } from '../parts/use_kept';
 import { useLoaded } from '../parts/use_loaded';
 import { kVerdicts } from '../parts/verdict_pill';
-import { download } from '../programs/download';
 import { texts } from '../texts/texts';
+import { Capability } from './capability';
 import { ChartPicture } from './chart_picture';
+import { MeasurementExports } from './exports';
+import { Gauge } from './gauge';
 import { choicesOf, filterOf, kKinds, kRules, type Choice, type Choices } from './tolerance';
 import { ValueTable } from './value_table';
 
 const kPage = 100;
-const kFormats = ['csv', 'jsonl'] as const;
 
 interface ChoiceProps {
   choices: Choices;
@@ -77,8 +79,7 @@ function useValues(choices: Choices) {
   const load = (after: string, signal: AbortSignal) => get<Measurements>(pathOf('measurements'), { ...filter, order: 'newest', after, limit: kPage }, signal);
   const first = useLoaded((signal) => load('', signal), Object.values(filter));
   useEffect(() => feed.on('parts', first.reload), []);
-  const [more, setMore] = useState<{ values: Measurement[]; next: string | null } | null>(null);
-  useEffect(() => setMore(null), Object.values(filter));
+  const [more, setMore] = useKept<{ values: Measurement[]; next: string | null } | null>(JSON.stringify(filter), null);
   const next = more ? more.next : (first.value?.next ?? null);
   const loading = useCommand();
   const byId = new Map([...(first.value?.measurements ?? []), ...(more?.values ?? [])].map((one) => [one.id, one]));
@@ -95,21 +96,19 @@ export function ValueList({ query }: { query: URLSearchParams }) {
   const choices = choicesOf(query);
   const choose = (changed: Partial<Choices>) => location.replace(addressOf('measurements', [], { ...choices, ...changed }));
   const { first, values, hasMore, loading, loadMore } = useValues(choices);
-  const save = (format: (typeof kFormats)[number]) =>
-    loading.send(() => download(withQuery(pathOf('measurements'), { ...filterOf(choices), format }), `${choices.characteristic || t.fileName}.${format}`));
   const hasFilter = Object.values(filterOf(choices)).some((value) => value !== '');
   return (
     <>
       <Which choices={choices} choose={choose} />
       {choices.characteristic === '' ? values.length > 0 && <p class="hint">{t.chooseForChart}</p> : <How choices={choices} choose={choose} />}
-      {choices.characteristic !== '' && <ChartPicture choices={choices} />}
+      {choices.characteristic !== '' && <><ChartPicture choices={choices} /><Capability choices={choices} choose={choose} /><Gauge key={JSON.stringify(filterOf(choices))} choices={choices} /></>}
       <Loading of={first} />
       {first.value && values.length === 0 && <p class="notice">{hasFilter ? t.noneFits : t.noneMeasured}</p>}
       {values.length > 0 && (
         <>
           <div class="head values-head">
             <span class="muted" role="status">{hasMore ? t.newest(values.length) : t.valueCount(values.length)}</span>
-            <span class="buttons" role="group" aria-label={texts().reports.export}>{kFormats.map((format) => <button key={format} type="button" disabled={loading.isBusy} onClick={() => void save(format)}>{t.formats[format]}</button>)}</span>
+            <MeasurementExports query={filterOf(choices)} name={choices.characteristic || t.fileName} command={loading} />
           </div>
           <ValueTable values={values} label={t.tabs.values} />
         </>

@@ -1,4 +1,4 @@
-// The views that are about what was made: runs, parts, measurements, findings, corrections.
+// The views that are about what was made: runs, parts, measurements, findings, corrections; and the templates by which reports are read.
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
 import { texts } from '../texts/texts';
@@ -6,7 +6,7 @@ import { Tabs } from './tabs';
 
 const kTabs = {
   runs: addressOf('reports'), parts: addressOf('measurements', ['parts']), values: addressOf('measurements'), findings: addressOf('measurements', ['findings']),
-  corrections: addressOf('corrections'),
+  corrections: addressOf('corrections'), templates: addressOf('templates'),
 };
 export type ReportTab = keyof typeof kTabs;
 

@@ -5,6 +5,7 @@ import { get, pathOf, send } from '../api/request';
 import { addressOf } from '../app/route';
 import { Allowed } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
+import { Disclosure } from '../parts/disclosure';
 import { useLoaded } from '../parts/use_loaded';
 import { texts } from '../texts/texts';
 import { changeOf, fieldsOf, kFields, kProgramFields, type Field, type Fields } from './fields';
@@ -57,10 +58,7 @@ export function About({ program, shown, onStored }: { program: ProgramWithRevisi
       <dl class="rows">
         {[...kProgramFields, 'cam_file' as const].map((field) => <div key={field}><dt>{t.fields[field]}</dt><dd><Value field={field} value={fields[field]} /></dd></div>)}
       </dl>
-      <details key={count}>
-        <summary class="button">{t.change}</summary>
-        <AboutForm program={program} shown={shown} onStored={() => { setCount(count + 1); onStored(); }} />
-      </details>
+      <Disclosure key={count} summary={t.change}><AboutForm program={program} shown={shown} onStored={() => { setCount(count + 1); onStored(); }} /></Disclosure>
     </section>
   );
 }

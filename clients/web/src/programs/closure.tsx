@@ -13,13 +13,16 @@ import { namesOf, type ClosureChoice } from './calls';
 /// Looked through without being asked for, as a check is.
 const kMaxAtOnce = 2 * 1024 * 1024;
 
+/// Another choice has no closure before its own is read: a release must not pin what another revision calls.
 export function useClosure(revision: Revision | undefined, { machine, with: typed }: ClosureChoice, version: unknown): Loaded<CallClosure | null> {
   const isRead = revision !== undefined && revision.control !== null && revision.size <= kMaxAtOnce;
   const names = namesOf(typed).join(',');
-  return useLoaded(async (signal) => {
-    if (!isRead) return null;
-    return get<CallClosure>(pathOf('programs', revision.program, 'closure'), { revision: revision.revision, machine, with: names }, signal);
-  }, [revision?.program, revision?.revision, isRead, machine, names, version]);
+  const of = JSON.stringify([revision?.program, revision?.revision, machine, names]);
+  const loaded = useLoaded(async (signal) => {
+    if (!isRead) return { of, closure: null };
+    return { of, closure: await get<CallClosure>(pathOf('programs', revision.program, 'closure'), { revision: revision.revision, machine, with: names }, signal) };
+  }, [of, isRead, version]);
+  return { ...loaded, value: loaded.value?.of === of ? loaded.value.closure : null };
 }
 
 function Site({ site }: { site: CallClosure['computed'][number] }) {

@@ -7,6 +7,7 @@ import { Decide } from '../imports/decide';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
 import { RevisionPill } from '../parts/revision_pill';
+import { useKept } from '../parts/use_kept';
 import { useLoaded } from '../parts/use_loaded';
 import { usePolicy } from '../parts/use_policy';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
@@ -64,8 +65,7 @@ export function ProgramPage({ name, number, line }: { name: string; number: numb
   const findings = useMemo(() => findingsByLine(check), [check]);
   // A search reads the first 256 KiB: the line is in the first piece.
   useEffect(() => setGoTo(line === null ? null : { offset: 0, line }), [name, number, line]);
-  const [choice, setChoice] = useState<ClosureChoice>(kNoChoice);
-  useEffect(() => setChoice(kNoChoice), [name, number]);
+  const [choice, setChoice] = useKept<ClosureChoice>(JSON.stringify([name, number]), kNoChoice);
   const revisions = [...(program.value?.revisions ?? [])].sort((a, b) => b.revision - a.revision);
   const shown = revisions.find((r) => r.revision === number) ?? revisions.find((r) => !r.held) ?? revisions[0];
   const { value } = program;

@@ -2,6 +2,7 @@
 import type { MachineGroups, Program } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { feed } from '../live/feed';
+import { Disclosure } from '../parts/disclosure';
 import { useLoaded } from '../parts/use_loaded';
 import { texts } from '../texts/texts';
 import type { Filter, Filters } from './search';
@@ -30,25 +31,29 @@ function Choice({ label, value, options, onChange }: { label: string; value: str
   );
 }
 
-export function ProgramFilters({ filters, shown, onFilter }: Props) {
+function FilterFields({ filters, shown, onFilter }: Props) {
   const t = texts().library;
   const groups = useLoaded((signal) => get<MachineGroups>(pathOf('machine-groups'), {}, signal), []);
   const controls = [...new Set([...shown, ...feed.machines.values()].map((known) => known.control).filter((c) => c !== null))].sort();
-  const count = Object.values(filters).filter((value) => value !== '').length;
   return (
-    <details class="filters" open={count > 0}>
-      <summary class="button">{count === 0 ? t.filters : t.filtersSet(count)}</summary>
-      <div class="panel filter-grid">
-        {kTyped.map((field) => (
-          <div key={field}>
-            <label>{t.fields[field]}<input list={`known-${field}`} autocomplete="off" value={filters[field]} onChange={(e) => onFilter(field, e.currentTarget.value.trim())} /></label>
-            <datalist id={`known-${field}`}>{[...new Set(shown.map((p) => p[field]).filter((value) => value !== null))].map((value) => <option key={value} value={value} />)}</datalist>
-          </div>
-        ))}
-        <Choice label={t.fields.machine_group} value={filters.machine_group} options={(groups.value?.groups ?? []).map(({ name }) => [name, name])} onChange={(value) => onFilter('machine_group', value)} />
-        <Choice label={texts().programs.control} value={filters.control} options={controls.map((name) => [name, name])} onChange={(value) => onFilter('control', value)} />
-        <Choice label={texts().programs.state} value={filters.state} options={kStates.map((state) => [state, texts().release.states[state]])} onChange={(value) => onFilter('state', value)} />
-      </div>
-    </details>
+    <div class="panel filter-grid">
+      {kTyped.map((field) => (
+        <div key={field}>
+          <label>{t.fields[field]}<input list={`known-${field}`} autocomplete="off" value={filters[field]} onChange={(e) => onFilter(field, e.currentTarget.value.trim())} /></label>
+          <datalist id={`known-${field}`}>{[...new Set(shown.map((p) => p[field]).filter((value) => value !== null))].map((value) => <option key={value} value={value} />)}</datalist>
+        </div>
+      ))}
+      <Choice label={t.fields.machine_group} value={filters.machine_group} options={(groups.value?.groups ?? []).map(({ name }) => [name, name])} onChange={(value) => onFilter('machine_group', value)} />
+      <Choice label={texts().programs.control} value={filters.control} options={controls.map((name) => [name, name])} onChange={(value) => onFilter('control', value)} />
+      <Choice label={texts().programs.state} value={filters.state} options={kStates.map((state) => [state, texts().release.states[state]])} onChange={(value) => onFilter('state', value)} />
+    </div>
+  );
+}
+
+export function ProgramFilters(props: Props) {
+  const t = texts().library;
+  const count = Object.values(props.filters).filter((value) => value !== '').length;
+  return (
+    <Disclosure class="filters" summary={count === 0 ? t.filters : t.filtersSet(count)} isOpen={count > 0}><FilterFields {...props} /></Disclosure>
   );
 }

@@ -14,6 +14,7 @@ import { download } from '../programs/download';
 import { dateTimeText, numberText, texts, timeText } from '../texts/texts';
 import { Exports } from './exports';
 import { Measured } from './measured';
+import { RunOffsets } from './run_offsets';
 import { RunParts } from './run_parts';
 
 const kPage = 1000;
@@ -111,6 +112,7 @@ export function RunReport({ id, query }: { id: string; query: URLSearchParams })
       </div>
       <CommandFault command={command} />
       <RunParts key={id} run={id} />
+      <RunOffsets key={`offsets ${id}`} run={id} />
       <Loading of={records} />
       {records.value && <Measured run={id} records={records.value} query={query} />}
       {records.value && <RecordTable key={id} records={records.value} />}

@@ -4,6 +4,7 @@ import { administration } from './de/administration';
 import { machine } from './de/machine';
 import { measured } from './de/measured';
 import { programs } from './de/programs';
+import { templates } from './de/templates';
 
 export const de: Texts = {
   states: {
@@ -106,5 +107,6 @@ export const de: Texts = {
   ...machine,
   ...programs,
   ...measured,
+  ...templates,
   ...administration,
 };

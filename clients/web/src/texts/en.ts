@@ -4,6 +4,7 @@ import { administration } from './en/administration';
 import { machine } from './en/machine';
 import { measured } from './en/measured';
 import { programs } from './en/programs';
+import { templates } from './en/templates';
 
 const states: Record<StateWord, string> = {
   disconnected: 'Not connected',
@@ -108,6 +109,7 @@ export const en = {
   ...machine,
   ...programs,
   ...measured,
+  ...templates,
   ...administration,
 };
 

@@ -94,7 +94,7 @@ export async function exampleShop(): Promise<Shop> {
   writeFileSync(settings, `[[folder]]\nname = "cam-mills"\npath = ${JSON.stringify(folder)}\ncontrol = "fanuc"\npoll_seconds = 1\n`);
   writeFileSync(path.join(folder, 'O0810.nc'), 'O0810 (POSTED)\nG21 G90\nG1 X10. F100.\nM30\n');
   writeFileSync(path.join(folder, 'O0811.nc'), 'O0811 (WITH AN ALARM)\nG21 G90\nG1 X10. F100.\nG999\nM30\n');
-  shop.serverArgs = ['--config', settings, '--policy', policy, '--backups', path.join(shop.folder, 'backups')];
+  shop.serverArgs = ['--config', settings, '--policy', policy, '--backups', path.join(shop.folder, 'backups'), '--archives', path.join(shop.folder, 'archives'), '--archive-records-thousands', '1'];
   await shop.startServer();
   await shop.startMachine('mill-1', { control: 'fanuc', description: 'Vertical, three axes' });
   await shop.startMachine('mill-2', { control: 'fanuc', description: 'Vertical, pallet changer' });
@@ -114,6 +114,9 @@ export async function exampleShop(): Promise<Shop> {
   await shop.start('mill-3', 'O0400');
   await shop.start('lathe-1', 'O0300');
   for (const machine of ['mill-1', 'mill-2', 'lathe-1']) await shop.api('PUT', `machine-groups/cell-1/machines/${machine}`);
+  await shop.push('O0510', measuringProgram(1200).replace('O0500', 'O0510'), 'centurion'); // more than the archives leave
+  await shop.start('lathe-2', 'O0510');
+  await until('lathe-2 has measured', async () => (await shop.api<{ runs: Array<{ state: string }> }>('GET', 'runs?machine=lathe-2'))?.runs[0]?.state === 'completed');
   await shop.push('O0500', measuringProgram(40), 'centurion');
   await shop.start('lathe-2', 'O0500');
   await shop.push('O0600', spiralProgram(), 'fanuc');
@@ -134,6 +137,7 @@ export async function exampleShop(): Promise<Shop> {
   await addJobs(shop);
   await addMeasurements(shop);
   await shop.api('POST', 'webhooks', { name: 'mes', url: 'http://127.0.0.1:9/dripline', kinds: ['run', 'alarm', 'part'] });
+  await shop.api('POST', 'archives');
   await shop.stopMachine('mill-4');
   await until('lathe-1 asks', async () => {
     const machine = await shop.api<{ status: { waits_for: string } | null }>('GET', 'machines/lathe-1');

@@ -169,3 +169,22 @@ test('a start in the middle has the options of its machine: memory and pass at a
   await control.end();
   assertNoComplaints(complaints);
 });
+
+test('a control that does not search through a program is offered no start in the middle, and one that does no place that it lacks', async () => {
+  await shop.startMachine('mill-8', { control: 'fanuc' });
+  await shop.startMachine('mill-10', { control: 'tnc155' });
+  const { page, complaints } = await visit('#/machine/mill-8');
+  await page.getByText('This control does not search through a program: a run begins at the beginning.').waitFor();
+  assert.equal(await page.getByLabel(/^From/).count(), 0);
+  await page.goto(`${shop.url}/#/machine/mill-10`);
+  const from = page.getByLabel(/^From/);
+  assert.equal(await from.getAttribute('placeholder'), 'N120 (block)');
+  await from.fill('T3');
+  await page.getByText('“T3” is no place that this machine goes to. It has: N120 (block).').waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  await from.fill('N400');
+  await page.getByText('The control searches the program up to the block, without motion.').waitFor();
+  assert.equal(await page.getByLabel('Pass').count(), 0);
+  assert.equal(await page.getByLabel('Memory for the skipped part').count(), 0);
+  assertNoComplaints(complaints);
+});

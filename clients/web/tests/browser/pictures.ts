@@ -2,6 +2,7 @@
 // what fits a screen, as those of deploy/docs do; with NARROW=1 as a telephone shows it.
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
+import type { Page } from 'playwright-core';
 import { exampleShop } from './example_shop';
 import { kThemes, kWidths, openBrowser, visit } from './page';
 
@@ -35,6 +36,10 @@ const kPlaces: Record<string, string> = {
   part: '#/measurements/parts/5',
   values: '#/measurements?characteristic=L&machine=lathe-3&rules=nelson',
   findings: '#/measurements/findings',
+  studies: '#/measurements?characteristic=DIA&machine=lathe-3&kind=histogram',
+  templates: '#/templates',
+  template: '#/templates/shaft',
+  archives: '#/administration/archives',
   corrections: '#/corrections',
   history: '#/corrections/lathe-3?target=T3.wear.Z',
   folders: '#/administration/folders',
@@ -51,6 +56,19 @@ const kPlaces: Record<string, string> = {
   signin: '#/floor',
 };
 
+/// What is opened before a picture is taken.
+const kPressed: Record<string, (page: Page) => Promise<void>> = {
+  template: (page) => page.getByRole('button', { name: 'Try it' }).click(),
+  archives: (page) => page.getByRole('button', { name: /^Read / }).first().click(),
+  history: (page) => page.getByRole('button', { name: /of \d+$/ }).last().click(),
+  report: (page) => page.locator('summary', { hasText: 'Tools and offsets' }).click(),
+  part: (page) => page.getByText('More formats').click(),
+  studies: async (page) => {
+    await page.getByText('Gauge study (R&R)').click();
+    await page.getByRole('button', { name: 'Compute' }).click();
+  },
+};
+
 async function main(): Promise<void> {
   const folder = path.resolve(process.argv[2]!);
   mkdirSync(folder, { recursive: true });
@@ -62,6 +80,7 @@ async function main(): Promise<void> {
       const measured = await shop.api<{ runs: Array<{ id: string }> }>('GET', 'runs?machine=lathe-2&limit=1');
       const { page, complaints } = await visit(browser, shop, place.replace('RUN', measured?.runs[0]?.id ?? ''), name === 'signin' ? { user: null } : {});
       await page.waitForLoadState('networkidle', { timeout: 2000 }).catch(() => {}); // the event stream stays open
+      await kPressed[name]?.(page);
       for (const theme of kThemes) {
         for (const width of process.env.NARROW ? [kNarrow] : kWidths) {
           await page.emulateMedia({ colorScheme: theme });

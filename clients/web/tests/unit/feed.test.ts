@@ -100,3 +100,20 @@ test('pending corrections are what was listed and has come since; a measured par
   await until(() => parts > 0);
   feed.end();
 });
+
+test('a change of a queue, and a run, are told to those of that machine alone', { timeout: 10_000 }, async () => {
+  const server = new FakeServer([machine(), machine({ name: 'mill-1' })], []);
+  const feed = new Feed();
+  const told: string[] = [];
+  for (const topic of ['jobs:lathe-1', 'jobs:mill-1', 'runs:lathe-1', 'runs:mill-1'] as const) feed.on(topic, () => told.push(topic));
+  feed.begin();
+  await server.isAsked();
+  server.answerAll();
+  await until(() => feed.link.state === 'live');
+  server.send('job', { machine: 'mill-1', change: 'held', job: null, hold: null });
+  await until(() => told.length === 1);
+  server.send('run', run());
+  await until(() => told.length === 2);
+  assert.deepEqual(told, ['jobs:mill-1', 'runs:lathe-1']);
+  feed.end();
+});

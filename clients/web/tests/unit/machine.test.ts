@@ -6,6 +6,7 @@ import { startBody } from '../../src/machine/commands';
 import { addRow, columnsOf, readTables, setCell } from '../../src/machine/setup/setup_tables';
 import { holds, numberLines, rangeAround, type TextWindow } from '../../src/machine/text_window';
 import { axisText, isDiameter, lengthText, sortAxes, unitOf } from '../../src/machine/units';
+import { canStartAt, placeOf } from '../../src/machine/start_places';
 import { diffLines, foldDiff } from '../../src/parts/diff';
 import { record } from './samples';
 
@@ -126,4 +127,11 @@ test('options of a start are sent with a place in the program alone', () => {
   assert.deepEqual(startBody({ ...request, from: '' }), { machine: 'mill-1', program: 'O0200' });
   assert.deepEqual(startBody({ ...request, from: 'N120' }), { machine: 'mill-1', program: 'O0200', from: 'N120', head: 'send', memory: 'now', pass: 2 });
   assert.deepEqual(startBody({ machine: 'mill-1', program: 'O0200', revision: 3, from: 'L7' }), { machine: 'mill-1', program: 'O0200', revision: 3, from: 'L7' });
+});
+
+test('a start can name what the machine\'s control goes to, and nothing else', () => {
+  assert.deepEqual(['N120', '120', 'l7', 'B4096', 'T3', '+25', 'X3', 'N', ''].map(placeOf), ['block', 'block', 'line', 'byte', 'tool', 'count', null, null, null]);
+  const tnc = { at: ['block' as const], head: false, memory: false, pass: false };
+  assert.deepEqual(['', ' N400 ', '400', 'L7', 'T3', 'soon'].map((typed) => canStartAt(typed, tnc)), [true, true, true, false, false, false]);
+  assert.equal(canStartAt('N1', { ...tnc, at: [] }), false);
 });

@@ -1,9 +1,11 @@
 // Values between their limits, and what is asked of the server for a list and for a chart.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { changeOf, stepLine, targetsOf, type PastValue } from '../../src/corrections/steps';
-import { chartOf, choicesOf, filterOf, placeOf, utcOf } from '../../src/measurements/tolerance';
-import { measurement } from './samples';
+import { changeOf, latestRuns, stepLine, targetsOf, type PastValue } from '../../src/corrections/steps';
+import { fileNameOf } from '../../src/measurements/exports';
+import { indexText, remarksOf, rowsOf } from '../../src/measurements/study';
+import { capabilityOf, chartOf, choicesOf, filterOf, gaugeOf, placeOf, utcOf } from '../../src/measurements/tolerance';
+import { capability, measurement } from './samples';
 
 test('the limits are at a quarter and three quarters, and a value on one is in', () => {
   assert.deepEqual(placeOf(measurement({ lower: 0, upper: 2, nominal: 1, actual: 2 })), { actual: 0.75, nominal: 0.5, isOut: false });
@@ -38,4 +40,43 @@ test('values are steps from the oldest to the newest', () => {
   assert.deepEqual(stepLine([2, 0], { width: 100, height: 10 }), { points: '0,10 50,10 50,0 100,0', lowest: 0, highest: 2 });
   assert.equal(stepLine([1, 1], { width: 100, height: 10 })?.points, '0,5 50,5 50,5 100,5');
   assert.equal(stepLine([1], { width: 100, height: 10 }), null);
+});
+
+test('a study is of the values of the chart: sigma within is that of its subgroups', () => {
+  const choices = choicesOf(new URLSearchParams('characteristic=D12&kind=histogram&machine=mill-1&verdict=scrap&shape=lognormal'));
+  assert.deepEqual(capabilityOf(choices), { characteristic: 'D12', machine: 'mill-1', run: '', since: '', until: '', shape: 'lognormal', subgroup: '' });
+  assert.equal(chartOf(choices).shape, 'lognormal');
+  assert.equal(chartOf({ ...choices, kind: 'individuals' }).shape, '');
+  assert.equal(capabilityOf({ ...choices, kind: 'xbar-s', subgroup: '' }).subgroup, '5');
+  assert.deepEqual(gaugeOf(choices, { method: 'ranges', tolerance: '0.04' }), { characteristic: 'D12', machine: 'mill-1', run: '', since: '', until: '', method: 'ranges', tolerance: '0.04' });
+});
+
+test('an index has its interval where there is one', () => {
+  assert.equal(indexText({ value: 1.333, low: 1.018, high: 1.649 }), '1.33 (1.02 to 1.65)');
+  assert.equal(indexText({ value: 1.333, low: null, high: null }), '1.33');
+  assert.equal(indexText(null), '–');
+});
+
+test('a study remarks what its numbers do not say', () => {
+  assert.deepEqual(remarksOf(capability()), []);
+  const unlikely = { statistic: 2, adjusted: 2, p_value: 0.001 };
+  assert.match(remarksOf(capability({ anderson_darling: unlikely }))[0]!, /p = 0\.001/);
+  assert.deepEqual(remarksOf(capability({ shape: 'lognormal', anderson_darling: unlikely })), []);
+  assert.equal(remarksOf(capability({ shape: 'empirical', percentiles_reached: false })).length, 1);
+  assert.equal(remarksOf(capability({ upper: null })).length, 1);
+});
+
+test('a study of another shape has percentiles and no sigma within', () => {
+  const names = (shape: 'normal' | 'empirical') => rowsOf(capability({ shape })).map(([name]) => name);
+  assert.ok(names('normal').includes('Sigma within') && !names('normal').some((name) => name.startsWith('Percentiles')));
+  assert.ok(!names('empirical').includes('Sigma within') && names('empirical').some((name) => name.startsWith('Percentiles')));
+});
+
+test('files of two formats that end alike have names of their own', () => {
+  assert.deepEqual((['csv', 'points', 'dfq', 'html'] as const).map((format) => fileNameOf('D12', format)), ['D12.csv', 'D12-points.csv', 'D12.dfq', 'D12.html']);
+});
+
+test('the latest runs under a value come first', () => {
+  assert.deepEqual(latestRuns(['a', 'b', 'c'], 2), ['c', 'b']);
+  assert.deepEqual(latestRuns(['a'], 10), ['a']);
 });

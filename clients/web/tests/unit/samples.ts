@@ -1,5 +1,5 @@
 // A machine, its status and a run with usual values, for tests that are about one of them.
-import type { Import, Job, Machine, Measurement, Offset, Record as ReportRecord, Run, Status } from '../../generated/api';
+import type { Capability, Import, Job, Machine, Measurement, Offset, Record as ReportRecord, Run, Status } from '../../generated/api';
 
 export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<Status> {
   return {
@@ -13,7 +13,8 @@ export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<
 export function machine(changed: Partial<Machine> = {}, changedStatus: Partial<NonNullable<Status>> = {}): Machine {
   return {
     name: 'lathe-1', control: 'centurion', description: null, gateway_version: '0.1.0', connected: true, clock_ahead_seconds: 0, notices: [],
-    first_seen: '2026-11-23T10:00:00Z', last_seen: '2026-11-23T12:00:00Z', display: { units: 'inch', x: 'diameter' }, status: status(changedStatus), ...changed,
+    first_seen: '2026-11-23T10:00:00Z', last_seen: '2026-11-23T12:00:00Z',
+    starts: { at: ['block', 'line', 'byte', 'tool', 'count'], head: false, memory: true, pass: true }, display: { units: 'inch', x: 'diameter' }, status: status(changedStatus), ...changed,
   };
 }
 
@@ -58,5 +59,13 @@ export function measurement(changed: Partial<Measurement> = {}): Measurement {
   return {
     id: 1, machine: 'lathe-1', run: 'run-1', program: 'O0100', revision: 1, block: 1, line: 1, part: 1, part_number: null, serial: null, tool: null, characteristic: 'D12',
     nominal: 12, lower: 11.9, upper: 12.1, unit: 'mm', decimals: 3, actual: 12, deviation: 0, time: '2026-11-23T12:00:00Z', epoch: 1, number: 1, item: 0, verdict: 'good', ...changed,
+  };
+}
+
+export function capability(changed: Partial<Capability> = {}): Capability {
+  return {
+    count: 50, mean: 12, standard_deviation: 0.02, minimum: 11.95, maximum: 12.05, lower: 11.9, upper: 12.1, shape: 'normal', sigma_within: 0.02, within_by: 'moving range',
+    confidence: 0.95, cp: { value: 1.67, low: 1.4, high: 2 }, cpk: { value: 1.6, low: 1.3, high: 1.9 }, pp: { value: 1.67, low: 1.4, high: 2 }, ppk: { value: 1.6, low: 1.3, high: 1.9 },
+    below: 0, above: 0, expected_outside_ppm: 0.6, percentiles: [11.94, 12, 12.06], percentiles_reached: true, anderson_darling: { statistic: 0.3, adjusted: 0.3, p_value: 0.5 }, ...changed,
   };
 }

@@ -58,7 +58,10 @@ class ApiTest : public ServerTest {
                                 .clock = clock_,
                                 .on_change = api::publish_offsets_to(events_)});
     jobs_ = std::make_unique<library::JobQueue>(
-        library::JobQueue::Parts{.store = *store_, .releases = *releases_, .clock = clock_});
+        library::JobQueue::Parts{.store = *store_,
+                                 .releases = *releases_,
+                                 .clock = clock_,
+                                 .on_change = api::publish_jobs_to(events_)});
     folders::FolderSettings folder;
     folder.name = "cam";
     folder.path = folder_.path() / "cam";

@@ -1,4 +1,5 @@
 // The real answers follow the schemas of the description, and every route gives one here.
+#include "clients/tools/studies/gauge_study_of.hpp"
 #include "tests/unit/server/api/openapi_programs.hpp"
 
 namespace dripline::server_test {
@@ -145,6 +146,10 @@ class OpenApiAnswers : public ProgramAnswers {
     expect_described("POST", "/api/v1/archives", made);
     EXPECT_FALSE(json(get("/api/v1/archives"))["archives"].empty());
     expect_described("GET", "/api/v1/archives", get("/api/v1/archives"));
+    const Json archive = json(get("/api/v1/archives"))["archives"][0];
+    const auto rows = get("/api/v1/archives/" + archive["id"].dump() + "/rows");
+    EXPECT_FALSE(json(rows)["rows"].empty()) << rows.body;
+    expect_described("GET", "/api/v1/archives/{id}/rows", rows);
   }
   void expect_offsets_described() {
     const std::string machine = "/api/v1/machines/{name}", lathe = "/api/v1/machines/lathe-1";
@@ -183,6 +188,21 @@ class OpenApiAnswers : public ProgramAnswers {
     expect_described("GET", machine + "/offset-history", history);
     expect_described("GET", "/api/v1/runs/{id}/offsets", get("/api/v1/runs/run-1/offsets"));
   }
+  static std::string gauge_study() {
+    std::vector<measurement::Measurement> all;
+    for (const std::string machine : {"gauge-1", "gauge-2"}) {
+      for (const std::string part : {"a", "b", "a", "b"}) {
+        measurement::Measurement one;
+        one.machine = machine;
+        one.serial = part;
+        one.actual = static_cast<double>(all.size() * all.size());
+        all.push_back(one);
+      }
+    }
+    const auto study = studies::study_gauge(all, studies::GaugeMethod::Ranges, 2.0);
+    EXPECT_TRUE(study) << study.error().what;
+    return studies::to_json(*study).dump();
+  }
   void expect_measurements_described() {
     const std::string one = "/api/v1/report-templates/{name}",
                       all = "/api/v1/report-template-assignments",
@@ -207,6 +227,16 @@ class OpenApiAnswers : public ProgramAnswers {
     EXPECT_NE(chart.find("<svg"), std::string::npos) << chart;
     expect_described("GET", "/api/v1/measurements/chart",
                      get("/api/v1/measurements/chart?characteristic=X"));
+    const auto capability =
+        get("/api/v1/measurements/capability?characteristic=X&lower=0&upper=10");
+    EXPECT_EQ(capability.status, 200) << capability.body;
+    expect_described("GET", "/api/v1/measurements/capability", capability);
+    expect_described("GET", "/api/v1/measurements/gauge",  // of one machine it is refused
+                     get("/api/v1/measurements/gauge?characteristic=X"));
+    expect_line_described("GaugeStudy", gauge_study());
+    const auto trial = call("POST", "/api/v1/runs/run-1/template-trial", text);
+    EXPECT_FALSE(json(trial)["shown"][0]["events"].empty()) << trial.body;
+    expect_described("POST", "/api/v1/runs/{id}/template-trial", trial);
     expect_described("GET", "/api/v1/parts/{id}", get("/api/v1/parts/1"));
     expect_described("GET", "/api/v1/report-findings", get("/api/v1/report-findings"));
     expect_described("GET", "/api/v1/runs/{id}", get("/api/v1/runs/run-1"));
@@ -216,7 +246,7 @@ class OpenApiAnswers : public ProgramAnswers {
 };
 
 TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
-  const std::string run = stored_run(3);
+  const std::string run = stored_run(6);
   dds::Status status;
   status.machine = "lathe-1";
   status.run = run;

@@ -100,6 +100,7 @@ class ProgramAnswers : public OpenApi {
   void expect_jobs_described() {
     const std::string machine = "/api/v1/machines/{name}", lathe = "/api/v1/machines/lathe-1";
     add_machine("lathe-1");
+    const auto events = events_.subscribe({"lathe-1"});
     const auto added = post(lathe + "/jobs", {{"program", "O4"}, {"comment", "steel"}});
     EXPECT_EQ(added.status, 201) << added.body;
     expect_described("POST", machine + "/jobs", added);
@@ -115,6 +116,14 @@ class ProgramAnswers : public OpenApi {
     expect_described("DELETE", machine + "/job-hold", call("DELETE", lathe + "/job-hold"));
     expect_described("DELETE", machine + "/jobs/{job}", call("DELETE", job));
     expect_described("GET", machine + "/jobs", get(lathe + "/jobs?state=closed"));
+    std::istringstream stream(events->take());
+    std::size_t changes = 0;
+    for (std::string line; std::getline(stream, line);) {
+      if (!line.starts_with("data: ")) continue;
+      expect_line_described("JobChange", line.substr(6));
+      ++changes;
+    }
+    EXPECT_EQ(changes, 6u);  // two added, moved, held, released, removed
   }
 
   void expect_folders_and_webhooks_described() {

@@ -11,34 +11,29 @@ const kMaxReason = 1024;
 interface Props {
   machine: string;
   hold: JobList['hold'];
-  onChanged: () => void;
 }
 
-function Held({ machine, hold, onChanged }: Props & { hold: NonNullable<JobList['hold']> }) {
+function Held({ machine, hold }: Props & { hold: NonNullable<JobList['hold']> }) {
   const t = texts().jobs;
   const command = useCommand();
-  const release = async () => {
-    if (await command.send(() => send('DELETE', pathOf('machines', machine, 'job-hold')))) onChanged();
-  };
+  const release = () => void command.send(() => send('DELETE', pathOf('machines', machine, 'job-hold')));
   return (
     <div class="notice warn held" role="status">
       <p><b>{t.held}</b> {hold.reason} <span class="muted">{hold.who}, {dateTimeText(hold.since)}</span></p>
-      <p class="buttons"><SureButton class="primary" label={t.release} question={t.releaseSure(machine)} disabled={command.isBusy} onSure={() => void release()} /></p>
+      <p class="buttons"><SureButton class="primary" label={t.release} question={t.releaseSure(machine)} disabled={command.isBusy} onSure={release} /></p>
       <CommandFault command={command} />
     </div>
   );
 }
 
 /// A hold stops work and needs one press, but a reason.
-function HoldForm({ machine, onChanged }: Omit<Props, 'hold'>) {
+function HoldForm({ machine }: Omit<Props, 'hold'>) {
   const t = texts().jobs;
   const command = useCommand();
   const [reason, setReason] = useState('');
   const hold = async (event: Event) => {
     event.preventDefault();
-    if (!(await command.send(() => send('PUT', pathOf('machines', machine, 'job-hold'), { json: { reason: reason.trim() } })))) return;
-    setReason('');
-    onChanged();
+    if (await command.send(() => send('PUT', pathOf('machines', machine, 'job-hold'), { json: { reason: reason.trim() } }))) setReason('');
   };
   return (
     <details>
@@ -55,6 +50,7 @@ function HoldForm({ machine, onChanged }: Omit<Props, 'hold'>) {
   );
 }
 
-export function Hold({ machine, hold, onChanged }: Props) {
-  return hold ? <Held machine={machine} hold={hold} onChanged={onChanged} /> : <HoldForm machine={machine} onChanged={onChanged} />;
+/// What is changed here comes back as an event of the queue.
+export function Hold({ machine, hold }: Props) {
+  return hold ? <Held machine={machine} hold={hold} /> : <HoldForm machine={machine} />;
 }

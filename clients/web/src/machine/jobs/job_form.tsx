@@ -18,7 +18,8 @@ interface Props {
   control?: string | null;
   /// This one and no other; absent: one is chosen.
   fixed?: { program: string; revision: number };
-  onAdded: (job: Job) => void;
+  /// Absent: the event of the queue is enough.
+  onAdded?: (job: Job) => void;
 }
 
 function ProgramField({ control, value, onChange }: { control: string | null; value: string; onChange: (name: string) => void }) {
@@ -41,7 +42,7 @@ export function JobForm({ machine, control = null, fixed, onAdded }: Props) {
     await command.send(async () => {
       const added = await send<Job>('POST', pathOf('machines', machine, 'jobs'), { json: requestOf(job) });
       setJob({ ...job, program: fixed?.program ?? '', comment: '', isFirst: false });
-      onAdded(added);
+      onAdded?.(added);
     });
   };
   return (

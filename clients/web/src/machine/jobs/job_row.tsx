@@ -37,18 +37,15 @@ interface Props {
   index: number;
   count: number;
   hold: JobList['hold'];
-  onChanged: () => void;
 }
 
-export function JobRow({ job, index, count, hold, onChanged }: Props) {
+/// What is changed here comes back as an event of the queue.
+export function JobRow({ job, index, count, hold }: Props) {
   const t = texts().jobs;
   const command = useCommand();
   const moves = movesOf(index, count);
   const path = pathOf('machines', job.machine, 'jobs', job.id);
-  const change = async (action: () => Promise<unknown>) => {
-    if (await command.send(action)) onChanged();
-  };
-  const move = (place: number | null) => () => void change(() => send('PUT', path, { json: { place } }));
+  const move = (place: number | null) => () => void command.send(() => send('PUT', path, { json: { place } }));
   return (
     <li class="panel job">
       <span class="place" aria-hidden="true">{index + 1}</span>
@@ -61,13 +58,13 @@ export function JobRow({ job, index, count, hold, onChanged }: Props) {
         </p>
         <JobFacts job={job} />
         <p class="buttons">
-          <StartJob class={index === 0 ? 'primary' : ''} job={job} hold={hold} label={index === 0 ? t.startNext : t.startThis} onStarted={onChanged} />
+          <StartJob class={index === 0 ? 'primary' : ''} job={job} hold={hold} label={index === 0 ? t.startNext : t.startThis} />
           {([['first', '⤒'], ['up', '↑'], ['down', '↓']] as const).map(([where, sign]) => (
             <button key={where} type="button" class="square" aria-label={t.moves[where](job.program)} title={t.moves[where](job.program)}
               disabled={moves[where] === null || command.isBusy} onClick={move(moves[where])}>{sign}</button>
           ))}
           <SureButton class="danger" label={t.remove} question={t.removeSure(job.program, numberText(job.quantity - Math.min(job.quantity, job.completed)))}
-            disabled={job.state === 'active' || command.isBusy} onSure={() => void change(() => send('DELETE', path))} />
+            disabled={job.state === 'active' || command.isBusy} onSure={() => void command.send(() => send('DELETE', path))} />
         </p>
         <CommandFault command={command} />
       </div>

@@ -50,15 +50,15 @@ export function MachineQueue({ name }: { name: string }) {
       <h2 id="queue">{t.title}</h2>
       <Loading of={queue} />
       <Allowed to="operate" machine={name}>
-        {queue.value && <Hold machine={name} hold={hold} onChanged={queue.reload} />}
+        {queue.value && <Hold machine={name} hold={hold} />}
         {jobs.length > 0 && fault !== null && !hold && <p class="hint" role="status">{fault}</p>}
         {queue.value && jobs.length === 0 && <p class="muted">{t.none}</p>}
         <ol class="list jobs" aria-labelledby="queue">
-          {jobs.map((job, i) => <JobRow key={job.id} job={job} index={i} count={jobs.length} hold={hold} onChanged={queue.reload} />)}
+          {jobs.map((job, i) => <JobRow key={job.id} job={job} index={i} count={jobs.length} hold={hold} />)}
         </ol>
         <section class="panel" aria-labelledby="add-job">
           <h3 id="add-job">{t.addTitle}</h3>
-          <JobForm machine={name} control={machine.control} onAdded={queue.reload} />
+          <JobForm machine={name} control={machine.control} />
         </section>
       </Allowed>
       <ClosedJobs machine={name} version={jobs.map((job) => job.id).join(' ')} />
@@ -80,7 +80,7 @@ export function NextJob({ name }: { name: string }) {
       {job.comment && <p class="message">{job.comment}</p>}
       <p>{t.completed(numberText(job.completed), numberText(job.quantity))}</p>
       {hold && <p class="notice warn">{t.isHeld(hold.who, hold.reason)}</p>}
-      <Allowed to="operate" machine={name}><p class="buttons"><StartJob class="big primary" job={job} hold={hold} label={t.startNext} onStarted={queue.reload} /></p></Allowed>
+      <Allowed to="operate" machine={name}><p class="buttons"><StartJob class="big primary" job={job} hold={hold} label={t.startNext} /></p></Allowed>
     </section>
   );
 }

@@ -27,20 +27,17 @@ interface Props {
   hold: JobList['hold'];
   label: string;
   class?: string;
-  onStarted: () => void;
 }
 
-export function StartJob({ job, hold, label, onStarted, ...more }: Props) {
+export function StartJob({ job, hold, label, ...more }: Props) {
   const t = texts().jobs;
   const machine = useFeed(`machine:${job.machine}`).machines.get(job.machine);
   const command = useCommand();
   const isOff = !machine || startFault(machine, hold) !== null || command.isBusy;
-  const start = async () => {
-    if (await command.send(() => send<Run>('POST', pathOf('machines', job.machine, 'start-job'), { json: { job: job.id } }))) onStarted();
-  };
+  const start = () => void command.send(() => send<Run>('POST', pathOf('machines', job.machine, 'start-job'), { json: { job: job.id } }));
   return (
     <>
-      <SureButton {...more} label={label} question={t.startSure(job.program, partsText(job), job.machine)} disabled={isOff} onSure={() => void start()} />
+      <SureButton {...more} label={label} question={t.startSure(job.program, partsText(job), job.machine)} disabled={isOff} onSure={start} />
       <CommandFault command={command} />
     </>
   );

@@ -1,17 +1,17 @@
-// The open jobs of a machine, in their order. A run of a job comes as an event; what others change in the queue does not, so that it is looked at again.
+// The open jobs of a machine, in their order: read again when its queue was changed, or a run of the machine has begun or ended.
 import { useEffect } from 'preact/hooks';
 import type { JobList } from '../../../generated/api';
 import { get, pathOf } from '../../api/request';
 import { feed } from '../../live/feed';
-import type { Loaded } from '../../parts/use_loaded';
-import { useRefreshed } from '../../parts/use_refreshed';
+import { useLoaded, type Loaded } from '../../parts/use_loaded';
 
-const kIntervalMs = 5000;
 const kMaxJobs = 1000;
 
-/// `machine` stays the same as long as the view does.
 export function useJobs(machine: string): Loaded<JobList> {
-  const jobs = useRefreshed((signal) => get<JobList>(pathOf('machines', machine, 'jobs'), { limit: kMaxJobs }, signal), () => kIntervalMs);
-  useEffect(() => feed.on('runs', jobs.reload), [machine]);
+  const jobs = useLoaded((signal) => get<JobList>(pathOf('machines', machine, 'jobs'), { limit: kMaxJobs }, signal), [machine]);
+  useEffect(() => {
+    const ends = [feed.on(`jobs:${machine}`, jobs.reload), feed.on(`runs:${machine}`, jobs.reload)];
+    return () => ends.forEach((end) => end());
+  }, [machine]);
   return jobs;
 }

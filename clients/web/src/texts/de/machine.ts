@@ -25,7 +25,6 @@ export const machine: typeof Shape = {
     latestReleased: 'neueste freigegebene',
     program: 'Programm',
     from: 'Ab (leer: vom Anfang)',
-    fromHint: 'N120, L7, T3 …',
     position: 'Position',
     axis: 'Achse',
     inProgram: 'Programm',
@@ -175,6 +174,13 @@ export const machine: typeof Shape = {
     memories: { ask: 'nachfragen: abgelehnt, wo es darauf ankommt', begin: 'wie zu Beginn des letzten Laufs dieser Revision', now: 'wie er jetzt ist: Änderungen wirken nochmals' },
     pass: 'Durchgang',
     passHint: 'eines mehrmals ausgeführten Satzes',
-    searchHint: 'Die Steuerung sucht das Programm bis zum Satz ab, ohne Bewegung. In einer Schleife oder einem Unterprogramm entscheidet der Durchgang, welches Mal gemeint ist.',
+    searchHint: 'Die Steuerung sucht das Programm bis zum Satz ab, ohne Bewegung.',
+    passNote: 'In einer Schleife oder einem Unterprogramm entscheidet der Durchgang, welches Mal gemeint ist.',
+    noSearch: 'Diese Steuerung sucht kein Programm ab: ein Lauf beginnt am Anfang.',
+    places: {
+      block: (example) => `${example} (Satz)`, line: (example) => `${example} (Zeile)`, byte: (example) => `${example} (Byte)`,
+      tool: (example) => `${example} (Werkzeug)`, count: (example) => `${example} (Sätze)`,
+    },
+    notThere: (typed, places) => `„${typed}“ ist keine Stelle, zu der diese Maschine geht. Sie hat: ${places}.`,
   },
 };

@@ -23,7 +23,6 @@ export const machine = {
     latestReleased: 'latest released',
     program: 'Program',
     from: 'From (empty: the beginning)',
-    fromHint: 'N120, L7, T3 …',
     position: 'Position',
     axis: 'Axis',
     inProgram: 'Program',
@@ -173,6 +172,13 @@ export const machine = {
     memories: { ask: 'ask: refused where it matters', begin: 'as when the last run of this revision began', now: 'as it is now: changes are applied again' },
     pass: 'Pass',
     passHint: 'of a block that is executed more than once',
-    searchHint: 'The control searches the program up to the block, without motion. In a loop or a subprogram the pass decides which time is meant.',
+    searchHint: 'The control searches the program up to the block, without motion.',
+    passNote: 'In a loop or a subprogram the pass decides which time is meant.',
+    noSearch: 'This control does not search through a program: a run begins at the beginning.',
+    places: {
+      block: (example: string) => `${example} (block)`, line: (example: string) => `${example} (line)`, byte: (example: string) => `${example} (byte)`,
+      tool: (example: string) => `${example} (tool)`, count: (example: string) => `${example} (blocks)`,
+    },
+    notThere: (typed: string, places: string) => `“${typed}” is no place that this machine goes to. It has: ${places}.`,
   },
 };

@@ -85,6 +85,46 @@ TEST_F(JobRoutes, AHeldQueueIsShownAndStartsNothing) {
   expect_error(call("DELETE", hold), 404, "not_found", "not held");
 }
 
+TEST_F(JobRoutes, PublishEveryChangeOfTheQueue) {
+  const auto events = events_.subscribe({"lathe-1"});
+  const auto of_another = events_.subscribe({"mill-3"});
+  const auto next = [&] {
+    const std::string text = events->take(), head = "event: job\ndata: ";
+    EXPECT_EQ(text.substr(0, head.size()), head);
+    return text.size() < head.size() ? Json() : Json::parse(text.substr(head.size()));
+  };
+  const auto id = add({{"program", "O1"}, {"quantity", 5}});
+  const Json added = next();
+  EXPECT_EQ(added["machine"], "lathe-1");
+  EXPECT_EQ(added["change"], "added");
+  EXPECT_EQ(added["job"]["quantity"], 5);
+  EXPECT_TRUE(added["hold"].is_null());
+  const std::string job = fmt::format("{}/{}", path_, id);
+  call("PUT", job, {.body = R"({"place":1})", .headers = {}});
+  EXPECT_EQ(next()["change"], "moved");
+  const std::string hold = "/api/v1/machines/lathe-1/job-hold";
+  call("PUT", hold, {.body = R"({"reason":"bore is wide"})", .headers = {}});
+  const Json held = next();
+  EXPECT_EQ(held["change"], "held");
+  EXPECT_EQ(held["hold"]["reason"], "bore is wide");
+  EXPECT_TRUE(held["job"].is_null());
+  call("DELETE", hold);
+  EXPECT_EQ(next()["change"], "released");
+  call("DELETE", job);
+  const Json removed = next();
+  EXPECT_EQ(removed["change"], "removed");
+  EXPECT_EQ(removed["job"]["state"], "removed");
+  EXPECT_EQ(of_another->take(), "");
+}
+
+TEST_F(JobRoutes, PublishNothingThatWasRefused) {
+  const auto events = events_.subscribe({});
+  expect_error(post(path_, {{"program", "O9"}}), 404, "not_found", "O9");
+  call("DELETE", path_ + "/99");
+  call("DELETE", "/api/v1/machines/lathe-1/job-hold");
+  EXPECT_EQ(events->take(), "");
+}
+
 TEST_F(JobRoutes, NoJobIsNotFound) {
   expect_error(post("/api/v1/machines/lathe-1/start-job", Json::object()), 404, "not_found",
                "no job waits");

@@ -14,7 +14,8 @@ class MeasurementRoutes : public ApiTest {
     return call("PUT", target, {.body = body, .headers = {}});
   }
   /// A run that has printed three values and a line that no template knows.
-  void measure() {
+  void measure() { measure({"D 40.001", "D 40.010", "LOAD 3", "D 40.100"}); }
+  void measure(const std::vector<std::string>& lines) {
     ASSERT_EQ(put("/api/v1/report-templates/bore", kTemplate).status, 200);
     ASSERT_EQ(put("/api/v1/report-template-assignments/program/O0100/bore").status, 204);
     const auto revision = push("O0100", "O0100\nM30\n");
@@ -23,7 +24,9 @@ class MeasurementRoutes : public ApiTest {
     storage::RecordBatch batch;
     batch.machine = "lathe-1";
     batch.epoch = 7;
-    for (const std::string text : {"D 40.001", "D 40.010", "LOAD 3", "D 40.100", ""}) {
+    std::vector<std::string> texts = lines;
+    texts.emplace_back();  // the run's end
+    for (const std::string& text : texts) {
       storage::Record record;
       record.machine = "lathe-1";
       record.epoch = 7;
@@ -137,6 +140,113 @@ TEST_F(MeasurementRoutes, RefuseWhatTheyDoNotKnow) {
   expect_error(put("/api/v1/report-template-assignments/machine/lathe-1/bore"), 404, "not_found",
                "bore");
   expect_error(call("DELETE", "/api/v1/report-templates/bore"), 404, "not_found", "bore");
+}
+
+TEST_F(MeasurementRoutes, StudyTheCapabilityOfACharacteristic) {
+  measure({"D 40.001", "D 40.003", "D 39.998", "D 40.002", "D 39.999", "D 40.000"});
+  const std::string path = "/api/v1/measurements/capability?characteristic=D,%20bore";
+  const Json study = json(get(path));
+  ASSERT_EQ(study["count"], 6) << study.dump();
+  EXPECT_EQ(study["lower"], 39.98);
+  EXPECT_EQ(study["upper"], 40.02);
+  EXPECT_NEAR(study["mean"], 40.0005, 1e-9);
+  EXPECT_NEAR(study["pp"]["value"], 0.04 / (6 * 0.0018708287), 1e-4);
+  EXPECT_LT(study["ppk"]["low"], study["ppk"]["value"]);
+  EXPECT_LT(study["ppk"]["value"], study["ppk"]["high"]);
+  EXPECT_TRUE(study["anderson_darling"].is_null());
+  const Json of_last = json(get(path + "&last=5&upper=40.01&confidence=0.9"));
+  EXPECT_EQ(of_last["count"], 5);
+  EXPECT_EQ(of_last["upper"], 40.01);
+  EXPECT_EQ(of_last["confidence"], 0.9);
+  EXPECT_TRUE(json(get(path + "&shape=empirical"))["cp"].is_null());
+  expect_error(get("/api/v1/measurements/capability"), 400, "syntax", "characteristic");
+  expect_error(get("/api/v1/measurements/capability?characteristic=E"), 404, "not_found", "E");
+  expect_error(get(path + "&lower=wide"), 400, "syntax", "wide");
+  expect_error(get(path + "&last=4"), 413, "limit_exceeded", "5");
+  expect_error(get(path + "&shape=round"), 400, "syntax", "round");
+}
+
+TEST_F(MeasurementRoutes, StudyAGauge) {
+  measure({"D 40.001"});
+  const std::string path = "/api/v1/measurements/gauge?characteristic=D,%20bore";
+  expect_error(get(path), 413, "limit_exceeded", "appraisers");
+  expect_error(get(path + "&tolerance=0"), 413, "limit_exceeded", "tolerance");
+  expect_error(get(path + "&method=guess"), 400, "syntax", "guess");
+}
+
+TEST_F(MeasurementRoutes, ExportFilesForOthers) {
+  measure();
+  const auto dfq = get("/api/v1/measurements?format=dfq");
+  EXPECT_EQ(dfq.status, 200);
+  EXPECT_EQ(header(dfq, "Content-Disposition"), "attachment");
+  EXPECT_EQ(body(dfq).substr(0, 6), "K0100 ");
+  EXPECT_NE(body(get("/api/v1/measurements?format=qif&part=1")).find("<QIFDocument"),
+            std::string::npos);
+  const auto page = get("/api/v1/measurements?format=html&part=1");
+  EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
+  EXPECT_NE(body(page).find("D, bore"), std::string::npos);
+  expect_error(get("/api/v1/measurements?format=points"), 404, "not_found", "X, Y or Z");
+  expect_error(get("/api/v1/measurements?format=qif&machine=none"), 413, "limit_exceeded",
+               "measurement");
+}
+
+TEST_F(MeasurementRoutes, TryATemplateOnARun) {
+  measure();
+  const std::string path = "/api/v1/runs/run-1/template-trial";
+  const auto try_it = [&](const std::string& query, const std::string& text = kTemplate) {
+    return call("POST", path + query, {.body = text, .headers = {}});
+  };
+  const Json trial = json(try_it(""));
+  EXPECT_EQ(trial["lines"], 4) << trial.dump();
+  EXPECT_EQ(trial["unmatched"], 1);
+  EXPECT_EQ(trial["measurements"], 3);
+  ASSERT_EQ(trial["shown"].size(), 4u);
+  EXPECT_EQ(trial["shown"][0]["fields"]["actual"], "40.001");
+  EXPECT_EQ(trial["shown"][0]["template_line"], 1);
+  EXPECT_EQ(trial["shown"][2]["understood"], false);
+  const Json page = json(try_it("?limit=1&offset=3"));
+  ASSERT_EQ(page["shown"].size(), 1u);
+  EXPECT_EQ(page["shown"][0]["line"], "D 40.100");
+  EXPECT_EQ(page["lines"], 4);
+  const Json unmatched = json(try_it("?unmatched=yes"));
+  ASSERT_EQ(unmatched["shown"].size(), 1u);
+  EXPECT_EQ(unmatched["shown"][0]["line"], "LOAD 3");
+  // Nothing was stored of it, whatever the text made of the run.
+  EXPECT_EQ(
+      json(try_it("", "[[line]]\nform='LOAD {actual}'\ncharacteristic='load'\n"))["measurements"],
+      1);
+  EXPECT_EQ(json(get("/api/v1/measurements"))["measurements"].size(), 3u);
+  expect_error(try_it("", "[[line]]\n"), 400, "syntax", "line 1: a line needs a form");
+  expect_error(
+      call("POST", "/api/v1/runs/run-9/template-trial", {.body = kTemplate, .headers = {}}), 404,
+      "not_found", "run-9");
+}
+
+TEST_F(MeasurementRoutes, ReadAnArchiveBack) {
+  measure();
+  measurements_->end();
+  expect_error(get("/api/v1/archives"), 404, "not_found", "--archives");
+  set_up_archives();
+  const Json before = json(get("/api/v1/archives"));
+  EXPECT_EQ(before["retention"]["records"]["days"], 1);
+  EXPECT_TRUE(before["retention"]["records"]["rows"].is_null());
+  clock_.advance(std::chrono::hours(48));
+  ASSERT_EQ(call("POST", "/api/v1/archives").status, 200);
+  const Json archives = json(get("/api/v1/archives"))["archives"];
+  const auto records = std::ranges::find_if(
+      archives, [](const Json& archive) { return archive["kind"] == "records"; });
+  ASSERT_NE(records, archives.end()) << archives.dump();
+  const std::string path = fmt::format("/api/v1/archives/{}/rows", (*records)["id"].dump());
+  const Json rows = json(get(path + "?contains=40.0&limit=1"));
+  EXPECT_EQ(rows["found"], 2);
+  ASSERT_EQ(rows["rows"].size(), 1u);
+  EXPECT_EQ(rows["rows"][0]["text"], "D 40.001");
+  expect_error(get("/api/v1/archives/99/rows"), 404, "not_found", "99");
+  const auto file = folder_.path() / (*records)["file"].get<std::string>();
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+  expect_error(get(path), 500, "corrupt", "");
+  const Call operator_call{.body = "", .headers = {}, .token = token_of("operator")};
+  EXPECT_EQ(call("GET", path, operator_call).status, 403);
 }
 
 TEST_F(MeasurementRoutes, NeedTheRightToChangeTemplates) {

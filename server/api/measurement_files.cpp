@@ -1,0 +1,114 @@
+#include "server/api/measurement_files.hpp"
+
+#include <array>
+
+#include "clients/tools/measurement_files/aqdef.hpp"
+#include "clients/tools/measurement_files/part_report.hpp"
+#include "clients/tools/measurement_files/points.hpp"
+#include "clients/tools/measurement_files/qif.hpp"
+#include "server/api/measurement_reading.hpp"
+
+namespace dripline::api {
+namespace {
+
+using measurement_files::MeasurementSource;
+using measurement_files::Sink;
+
+class ListSource final : public MeasurementSource {
+ public:
+  explicit ListSource(std::vector<measurement::Measurement> all) : all_(std::move(all)) {}
+  Result<void> each(const measurement_files::Visitor& visit) override {
+    for (const auto& one : all_) {
+      if (auto done = visit(one); !done) return done;
+    }
+    return {};
+  }
+
+ private:
+  const std::vector<measurement::Measurement> all_;
+};
+
+Result<std::vector<measurement_files::DigitizedPoint>> points(MeasurementSource& source) {
+  auto found = measurement_files::points_of(source);
+  if (found && found->empty()) {
+    return fail(Errc::NotFound,
+                "no measurement is a point: their characteristics end with X, Y or Z");
+  }
+  return found;
+}
+
+Result<void> write_dfq(MeasurementSource& source, const Sink& sink) {
+  return measurement_files::write_dfq(source, {}, sink);
+}
+Result<void> write_dfd(MeasurementSource& source, const Sink& sink) {
+  return measurement_files::write_dfd(source, {}, sink);
+}
+Result<void> write_dfx(MeasurementSource& source, const Sink& sink) {
+  return measurement_files::write_dfx(source, {}, sink);
+}
+Result<void> write_html(MeasurementSource& source, const Sink& sink) {
+  return measurement_files::write_part_report(source, {}, sink);
+}
+Result<void> write_points(MeasurementSource& source, const Sink& sink) {
+  const auto found = points(source);
+  return found ? measurement_files::write_points_csv(*found, sink) : fail(found.error());
+}
+Result<void> write_dxf(MeasurementSource& source, const Sink& sink) {
+  const auto found = points(source);
+  return found ? measurement_files::write_dxf(*found, 0, sink) : fail(found.error());
+}
+Result<void> write_stl(MeasurementSource& source, const Sink& sink) {
+  constexpr double kBase = 5;  // mm below the lowest point, as `dnc report export` has it
+  const auto found = points(source);
+  if (!found) return fail(found.error());
+  const auto grid = measurement_files::make_height_grid(*found, 0);
+  if (!grid) return fail(grid.error());
+  return measurement_files::write_stl(*grid, kBase, sink);
+}
+
+struct FileFormat {
+  std::string_view name, content_type;
+  Result<void> (*write)(MeasurementSource& source, const Sink& sink);
+};
+
+constexpr std::array kFormats{
+    FileFormat{"dfq", "text/plain; charset=windows-1252", write_dfq},
+    FileFormat{"dfd", "text/plain; charset=windows-1252", write_dfd},
+    FileFormat{"dfx", "application/octet-stream", write_dfx},
+    FileFormat{"qif", "application/xml", measurement_files::write_qif},
+    FileFormat{"html", "text/html; charset=utf-8", write_html},
+    FileFormat{"points", "text/csv; charset=utf-8", write_points},
+    FileFormat{"dxf", "application/dxf", write_dxf},
+    FileFormat{"stl", "model/stl", write_stl},
+};
+
+}  // namespace
+
+Response file_response(storage::MeasurementStore& store, const storage::MeasurementFilter& filter,
+                       const std::string& format) {
+  const FileFormat* found = nullptr;
+  for (const auto& one : kFormats) {
+    if (one.name == format) found = &one;
+  }
+  if (found == nullptr) {
+    return error_response(
+        {Errc::Unsupported,
+         fmt::format("format '{}' is none of json, csv, jsonl, dfq, dfd, dfx, qif, html, points, "
+                     "dxf, stl",
+                     format)});
+  }
+  auto all = all_measurements(store, filter, kMaxInFile);
+  if (!all) return error_response(all.error());
+  ListSource source(*std::move(all));
+  Response response;
+  response.content_type = found->content_type;
+  // What others have written is in it: a file to be saved, never a page of this server.
+  response.headers.emplace_back("Content-Disposition", "attachment");
+  const auto done = found->write(source, [&](std::string_view bytes) -> Result<void> {
+    response.body += bytes;
+    return {};
+  });
+  return done ? response : error_response(done.error());
+}
+
+}  // namespace dripline::api
