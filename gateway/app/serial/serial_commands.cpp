@@ -106,7 +106,7 @@ Reply SerialGateway::set_emergency_stop(bool is_pressed, bool is_at_panel) {
   if (is_pressed) consent_.set_enabled(false);  // after the stop the network may start nothing
   is_stopped_at_panel_ = is_pressed && (is_at_panel || is_stopped_at_panel_);
   if (is_pressed) run_.abort(std::string(kEmergencyStopReason));
-  publisher_.reset();
+  server_.want_status();
   return {};
 }
 
@@ -117,7 +117,7 @@ void SerialGateway::on(const PanelRequest& request, SteadyTime) {
   process::log_info("panel {}{}{} {}", reply.is_accepted ? "accepted" : "refused",
                     reply.reason.empty() ? "" : ": ", reply.reason, label());
   if (records_.fault().empty()) (void)records_.commit();
-  publisher_.reset();
+  server_.want_status();
   std::string answer = reply.is_accepted ? "ok" : "refused";
   if (!reply.reason.empty()) answer += " " + valid_text(reply.reason, kMaxReason);
   request.answer(std::move(answer));

@@ -55,11 +55,6 @@ SerialGateway::SerialGateway(Parts parts)
                 .uploads = parts_.uploads,
                 .inbound = inbound_,
                 .calls = calls_}),
-      sender_(
-          parts_.options.machine, parts_.outbox, {},
-          [this](const dds::Record& record) { return parts_.endpoint.write(record).has_value(); }),
-      publisher_(
-          [this](const dds::Status& status) { return parts_.endpoint.write(status).has_value(); }),
       tasks_(std::make_shared<TaskQueue>(parts_.wake)) {}
 
 SerialGateway::~SerialGateway() {
@@ -88,7 +83,7 @@ line::PortListener SerialGateway::listener() {
               },
           .on_sent = [this](const line::SendEnd& end) { run_.on_sent(end); },
           .on_request = [this](const wire::TransferRequest& request) { on_request(request); },
-          .on_change = [this] { publisher_.reset(); },
+          .on_change = [this] { server_.want_status(); },
           .on_progress = [this](const line::SendProgress& now) { run_.on_progress(now); }};
 }
 
@@ -115,7 +110,7 @@ void SerialGateway::receive(const Incoming& incoming, SteadyTime now) {
 }
 
 void SerialGateway::on(const dds::RecordAck& ack, SteadyTime now) {
-  sender_.on_ack(ack, now);
+  server_.on_ack(ack, now);
 }
 
 void SerialGateway::on(const dds::BlockData& data, SteadyTime now) {
@@ -124,14 +119,12 @@ void SerialGateway::on(const dds::BlockData& data, SteadyTime now) {
 
 void SerialGateway::on(const ServerSeen& server, SteadyTime) {
   server_.on_server(server.is_connected);
-  sender_.on_server(server.is_connected);
-  publisher_.reset();
   if (server.is_connected) run_.ask_again();
 }
 
 void SerialGateway::on(const dds::LineRequest& request, SteadyTime) {
   answers_.take(request, run_.is_active());
-  publisher_.reset();
+  server_.want_status();
 }
 
 void SerialGateway::add_call(line::RuleAction action, const std::string& argument) {
@@ -142,7 +135,7 @@ void SerialGateway::add_call(line::RuleAction action, const std::string& argumen
                      : action == line::RuleAction::NextJob   ? LineCallAction::NextJob
                                                              : LineCallAction::Restart;
   calls_.add(asked, argument, parts_.clock.steady_now());
-  publisher_.reset();
+  server_.want_status();
 }
 
 /// A program that the control is about to send is taken; what it asks for waits for the server's
@@ -153,7 +146,7 @@ void SerialGateway::on_request(const wire::TransferRequest& request) {
   const bool is_list = request.kind == Kind::Directory;
   calls_.add(is_list ? dds::LineCallAction::List : dds::LineCallAction::Program, request.name,
              parts_.clock.steady_now());
-  publisher_.reset();
+  server_.want_status();
 }
 
 void SerialGateway::on(const StopRequested& stop, SteadyTime) {
@@ -174,26 +167,14 @@ SteadyTime SerialGateway::turn(SteadyTime now) {
   records_.poll(now);
   tasks_->run();
   commands_.send();
-  const std::uint64_t unsent = parts_.outbox.unacknowledged();
-  if (const auto done = sender_.poll(now); !done) {
-    process::log_error("outbox of {} records machine={}: {}", unsent, parts_.options.machine,
-                       done.error().what);
-  }
-  if (sender_.take_epoch_change()) {
-    process::log_warning("record numbers begin again, epoch {} machine={}", parts_.outbox.epoch(),
-                         parts_.options.machine);
-    server_.want_announcement();
-  }
-  if (publisher_.is_due(now)) {
-    publisher_.offer(status(), now);
-    server_.log_rejected(now);
-  }
+  server_.send_records(now);
+  server_.send_status(now, [this] { return status(); });
   constexpr std::chrono::milliseconds kSoon{20};
   SteadyTime next = next_tick_;
   if (!server_.is_announced() || !commands_.is_sent()) next = std::min(next, now + kSoon);
   if (run_.is_active()) next = std::min(next, now + report::StatusPublisher::kMinInterval);
   if (run_.is_looking()) next = std::min(next, now + std::chrono::milliseconds(5));
-  for (const auto& due : {sender_.next_poll(), run_.next_poll()}) {
+  for (const auto& due : {server_.next_poll(), run_.next_poll()}) {
     if (due) next = std::min(next, *due);
   }
   return std::max(next, now + std::chrono::milliseconds(1));

@@ -15,8 +15,6 @@
 #include "gateway/app/serial/task_queue.hpp"
 #include "gateway/app/server_link.hpp"
 #include "gateway/line/port_line.hpp"
-#include "gateway/report/record_sender.hpp"
-#include "gateway/report/status_publisher.hpp"
 
 namespace dripline::gateway {
 
@@ -91,8 +89,6 @@ class SerialGateway final : public MachineGateway {
   LineCalls calls_;
   SerialInbound inbound_;
   LineAnswers answers_;
-  report::RecordSender sender_;
-  report::StatusPublisher publisher_;
   std::shared_ptr<TaskQueue> tasks_;
   std::shared_ptr<line::PortLine> port_;
   SteadyTime next_tick_{};
