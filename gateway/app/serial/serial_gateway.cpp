@@ -4,17 +4,13 @@
 #include <utility>
 
 #include "gateway/app/serial/serial_status.hpp"
+#include "gateway/line/port_transfer.hpp"
 #include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
 namespace {
 
 constexpr std::string_view kRecordDevice = "line";
-
-line::LineOpener default_opener() {
-  return
-      [](serial::LineDriver::Parts parts) { return serial::LineDriver::start(std::move(parts)); };
-}
 
 }  // namespace
 
@@ -50,11 +46,15 @@ SerialGateway::SerialGateway(Parts parts)
                 .run = [this] { return run_.last_run(); },
                 .on_request = [this](line::RuleAction action,
                                      const std::string& argument) { add_call(action, argument); }}),
+      transfer_({.clock = parts_.clock, .check_allowed = [this] { return check_transfer(); }}),
       answers_({.session = parts_.session,
                 .endpoint = parts_.endpoint,
                 .uploads = parts_.uploads,
                 .inbound = inbound_,
-                .calls = calls_}),
+                .calls = calls_,
+                .transfer = transfer_,
+                .rules = parts_.rules,
+                .extracts_programs = settings_.extracts_programs}),
       tasks_(std::make_shared<TaskQueue>(parts_.wake)) {}
 
 SerialGateway::~SerialGateway() {
@@ -69,7 +69,7 @@ std::shared_ptr<line::PortLine> SerialGateway::make_line() {
        .settings = settings_,
        .clock = parts_.clock,
        .post = [tasks = tasks_](line::Task task) { tasks->post(std::move(task)); },
-       .open = parts_.open ? parts_.open : default_opener(),
+       .open = parts_.open,
        .recording = {.port = options.machine, .folder = parts_.recordings},
        .on_traffic = [](const line::PortTraffic&) {},
        .listener = listener(),
@@ -81,10 +81,16 @@ line::PortListener SerialGateway::listener() {
               [this](const line::Incoming& incoming, std::function<void()> kept) {
                 inbound_.take(incoming, std::move(kept));
               },
-          .on_sent = [this](const line::SendEnd& end) { run_.on_sent(end); },
+          .on_sent = [this](const line::SendEnd& end) { on_sent(end); },
           .on_request = [this](const wire::TransferRequest& request) { on_request(request); },
           .on_change = [this] { server_.want_status(); },
           .on_progress = [this](const line::SendProgress& now) { run_.on_progress(now); }};
+}
+
+void SerialGateway::on_sent(const line::SendEnd& end) {
+  if (end.progress.kind == line::JobKind::Transfer) port_->note(line::transfer_words(end));
+  run_.on_sent(end);
+  server_.want_status();
 }
 
 /// The line is opened when the former run has its end: so the first request is not taken for one.
@@ -95,6 +101,7 @@ Result<void> SerialGateway::recover() {
   port_ = make_line();
   run_.use(*port_);
   inbound_.use(*port_);
+  transfer_.use(*port_);
   answers_.use(port_);
   port_->open();
   return done;
@@ -162,7 +169,7 @@ SteadyTime SerialGateway::turn(SteadyTime now) {
     port_->tick();
   }
   run_.poll(now);
-  if (run_.is_on_line()) calls_.clear();
+  if (run_.is_on_line() || is_sending_programs()) calls_.clear();
   calls_.poll(now);
   records_.poll(now);
   tasks_->run();
@@ -178,6 +185,11 @@ SteadyTime SerialGateway::turn(SteadyTime now) {
     if (due) next = std::min(next, *due);
   }
   return std::max(next, now + std::chrono::milliseconds(1));
+}
+
+bool SerialGateway::is_sending_programs() const {
+  const auto now = port_->progress();
+  return now && now->kind == line::JobKind::Transfer;
 }
 
 /// In the middle of a program the line is closed, so that nothing more of it leaves.
@@ -207,6 +219,7 @@ dds::Status SerialGateway::status() const {
   if (port_) {
     state.view = port_->view();
     state.progress = port_->progress();
+    state.recorded = port_->recorder().next_number();
   }
   return make_status(state);
 }

@@ -12,6 +12,7 @@
 #include "gateway/app/serial/line_calls.hpp"
 #include "gateway/app/serial/serial_inbound.hpp"
 #include "gateway/app/serial/serial_run.hpp"
+#include "gateway/app/serial/serial_transfer.hpp"
 #include "gateway/app/serial/task_queue.hpp"
 #include "gateway/app/server_link.hpp"
 #include "gateway/line/port_line.hpp"
@@ -64,6 +65,7 @@ class SerialGateway final : public MachineGateway {
   void on(const dds::LineRequest& request, SteadyTime now);
   void on_request(const wire::TransferRequest& request);
   void add_call(line::RuleAction action, const std::string& argument);
+  void on_sent(const line::SendEnd& end);
 
   // serial_commands.cpp
   Reply carry_out(const dds::Command& command, bool is_stop);
@@ -73,6 +75,9 @@ class SerialGateway final : public MachineGateway {
   Reply carry_out(const PanelCommand& command);
   Reply set_remote_enable(bool is_enabled);
   void note_at_panel(const std::string& text);
+  bool is_sending_programs() const;
+  Result<void> check_transfer() const;
+  bool end_transfer(const std::string& reason);
 
   std::shared_ptr<line::PortLine> make_line();
   line::PortListener listener();
@@ -88,6 +93,7 @@ class SerialGateway final : public MachineGateway {
   SerialRun run_;
   LineCalls calls_;
   SerialInbound inbound_;
+  SerialTransfer transfer_;
   LineAnswers answers_;
   std::shared_ptr<TaskQueue> tasks_;
   std::shared_ptr<line::PortLine> port_;
