@@ -7,7 +7,6 @@
 #include "gateway/line/line_words.hpp"
 #include "gateway/line/port_transfer.hpp"
 #include "protocol/process/log.hpp"
-#include "server/ports/line_transfer.hpp"
 #include "server/ports/port_settings.hpp"
 
 namespace dripline::ports {
