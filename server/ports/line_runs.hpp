@@ -1,6 +1,5 @@
 #pragma once
 
-
 #include "server/machines/machine_control.hpp"
 #include "server/machines/run_sources.hpp"
 #include "server/ports/line_records.hpp"
