@@ -88,15 +88,15 @@ enum class LineAction : std::uint8_t {
   Recording,  ///< entries of the recording from `number` on, as JSON lines
   Upload,     ///< bytes of the upload `name` from `number` on
   Stored,     ///< the upload `name` is on disk; `text` is for the operator at the control
-  Answer,     ///< send `text` as program `name` to the control: an answer to the call `number`
+  Answer,     ///< send the text `name` to answer the call `number`; `text`: line::TransferOrder
   Refuse,     ///< refuse the call `number`; `text` is the reason
   Done,       ///< the call `number` was carried out
   Test,       ///< examine the line; the answer has the findings, one a line
   Receive,    ///< have the control send a program
   Text,       ///< keep `bytes` from `number` on of the text `name`; from 0 on another one begins
-  Send,       ///< send the text `name`; `text` is a LineTransferOrder, `number` its bytes
+  Send,       ///< send the text `name`; `text` is a line::TransferOrder
   Stop,       ///< end a transfer that is no run; `text` is the reason
-  Judge,      ///< judge `text` by the rules; the answer has the verdict
+  Judge,      ///< judge `bytes` by the rules; the answer has the verdict
 };
 /// As line::TransferState.
 enum class LineTransferState : std::uint8_t { Sending, Completed, Aborted, Interrupted };

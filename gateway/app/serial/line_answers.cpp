@@ -176,16 +176,22 @@ void LineAnswers::carry_out(const dds::LineRequest& request, bool is_running) {
 void LineAnswers::give_answer(const dds::LineRequest& request, bool is_running) {
   parts_.calls.end(request.number);
   remember(request.id, {});
-  if (request.action == LineAction::Answer && is_running)
-    return remember(request.id, refused(kRunIsThere));
-  if (request.action == LineAction::Answer)
-    return parts_.inbound.send_answer(request.name, request.text);
+  if (request.action == LineAction::Answer) return send_answer(request, is_running);
   if (request.action == LineAction::Done) {
     if (!request.text.empty()) parts_.inbound.report(request.text);
     return;
   }
   port_->note("refused: " + request.text);
   port_->refuse(request.text);
+}
+
+void LineAnswers::send_answer(const dds::LineRequest& request, bool is_running) {
+  if (is_running) return remember(request.id, refused(kRunIsThere));
+  const auto order = line::decode_transfer_order(request.text);
+  auto text =
+      order ? parts_.transfer.take(request.name, *order) : Result<std::string>(fail(order.error()));
+  if (!text) return remember(request.id, refused(text.error().what));
+  parts_.inbound.send_answer(order->name, *std::move(text));
 }
 
 void LineAnswers::begin_transfer(const dds::LineRequest& request, bool is_running) {

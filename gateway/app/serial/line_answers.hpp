@@ -51,6 +51,7 @@ class LineAnswers {
   dds::LineData answer_once(const dds::LineRequest& request, bool is_running);
   void carry_out(const dds::LineRequest& request, bool is_running);
   void give_answer(const dds::LineRequest& request, bool is_running);
+  void send_answer(const dds::LineRequest& request, bool is_running);
   void begin_transfer(const dds::LineRequest& request, bool is_running);
   void begin_test(const std::string& id, bool is_running);
   void look_at_test();

@@ -1,7 +1,6 @@
 #include "gateway/app/serial/serial_transfer.hpp"
 
 #include <fmt/ranges.h>
-#include <algorithm>
 #include <utility>
 
 #include "gateway/line/port_transfer.hpp"
@@ -9,21 +8,6 @@
 #include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
-namespace {
-
-class KeptText final : public line::TextSource {
- public:
-  explicit KeptText(std::string text) : text_(std::move(text)) {}
-  Result<std::string> read(std::uint64_t offset, std::uint64_t length) override {
-    return text_.substr(std::min<std::uint64_t>(offset, text_.size()), length);
-  }
-
- private:
-  const std::string text_;
-};
-
-}  // namespace
-
 Result<void> SerialTransfer::add(const std::string& id, std::uint64_t offset,
                                  std::string_view piece) {
   const SteadyTime now = parts_.clock.steady_now();
@@ -45,22 +29,28 @@ Result<void> SerialTransfer::add(const std::string& id, std::uint64_t offset,
   return {};
 }
 
-void SerialTransfer::send(const std::string& id, const line::TransferOrder& order,
-                          const line::PortLine::Answer& answer) {
+Result<std::string> SerialTransfer::take(const std::string& id, const line::TransferOrder& order) {
   if (id != id_ || text_.empty())
-    return answer(fail(Errc::NotFound, "the text of this transfer is not here"));
+    return fail(Errc::NotFound, "the text of this transfer is not here");
   std::string text = std::exchange(text_, {});
   id_.clear();
   if (sha256(text).hex() != order.content)
-    return answer(fail(Errc::Corrupt, "the text is not what the server states"));
+    return fail(Errc::Corrupt, "the text is not what the server states");
+  return text;
+}
+
+void SerialTransfer::send(const std::string& id, const line::TransferOrder& order,
+                          const line::PortLine::Answer& answer) {
+  auto text = take(id, order);
+  if (!text) return answer(fail(text.error()));
   if (auto allowed = parts_.check_allowed(); !allowed) return answer(allowed);
   line::SendJob job;
   job.kind = line::JobKind::Transfer;
   job.id = id;
   job.name = order.name;
   job.programs = order.programs;
-  job.size = text.size();
-  job.source = std::make_shared<KeptText>(std::move(text));
+  job.size = text->size();
+  job.source = std::make_shared<line::KeptText>(*std::move(text));
   process::log_info("programs sent without a run id={} {}", id, fmt::join(order.programs, ", "));
   line::send_programs(*port_, std::move(job), answer);
 }

@@ -9,9 +9,9 @@
 
 namespace dripline::gateway {
 
-/// Programs for the control's memory: their text comes from the server piece by piece and is sent
-/// when all of it is here and is what the server states, so that nothing of the network is felt by
-/// the control. One thread.
+/// Texts for the control, programs for its memory and answers to its requests: each comes from the
+/// server piece by piece and is sent when all of it is here and is what the server states, so that
+/// nothing of the network is felt by the control. One thread.
 class SerialTransfer {
  public:
   static constexpr std::size_t kMaxBytes = 16 * 1024 * 1024;
@@ -29,8 +29,10 @@ class SerialTransfer {
   /// Bytes of the text `id` from `offset` on; pieces that are here already change nothing. Errors:
   /// Busy (another text is coming), Conflict (one in front of it is missing), LimitExceeded.
   Result<void> add(const std::string& id, std::uint64_t offset, std::string_view piece);
-  /// `answer` is called once, at last when the line has taken it. Errors: NotFound (no such text),
-  /// Corrupt, those of `check_allowed` and of line::send_programs.
+  /// The whole of it, which is here no more then. Errors: NotFound (no such text), Corrupt.
+  Result<std::string> take(const std::string& id, const line::TransferOrder& order);
+  /// `answer` is called once, at last when the line has taken it. Errors: those of `take`, of
+  /// `check_allowed` and of line::send_programs.
   void send(const std::string& id, const line::TransferOrder& order,
             const line::PortLine::Answer& answer);
 

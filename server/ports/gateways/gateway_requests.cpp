@@ -67,11 +67,11 @@ Result<void> receive_at_gateway(const AskLine& ask, const std::string& machine) 
   return ask_done(ask, request_of(machine, LineAction::Receive), kLineLimit);
 }
 
-Result<void> send_at_gateway(const AskLine& ask, const std::string& machine, const SendJob& job) {
+Result<std::string> push_text(const AskLine& ask, const std::string& machine, const SendJob& job) {
   if (job.size > kMaxGatewayTransfer) {
     return fail(Errc::LimitExceeded,
-                "{} bytes: a gateway keeps a whole transfer and takes at most {}; send fewer "
-                "programs at once, or start a run",
+                "{} bytes: a gateway keeps the whole and takes at most {}; send fewer programs at "
+                "once, or start a run",
                 job.size, kMaxGatewayTransfer);
   }
   Sha256 hash;
@@ -84,15 +84,21 @@ Result<void> send_at_gateway(const AskLine& ask, const std::string& machine, con
     request.name = job.id;
     request.number = at;
     request.bytes = bytes_of(*piece);
-    if (auto kept = ask_done(ask, std::move(request), kAnswerLimit); !kept) return kept;
+    if (auto kept = ask_done(ask, std::move(request), kAnswerLimit); !kept)
+      return fail(kept.error());
     at += piece->size();
   }
-  auto order = request_of(machine, LineAction::Send);
-  order.name = job.id;
-  order.number = job.size;
-  order.text = line::encode(line::TransferOrder{
+  return line::encode(line::TransferOrder{
       .content = hash.digest().hex(), .name = job.name, .programs = job.programs});
-  return ask_done(ask, std::move(order), kLineLimit);
+}
+
+Result<void> send_at_gateway(const AskLine& ask, const std::string& machine, const SendJob& job) {
+  auto order = push_text(ask, machine, job);
+  if (!order) return fail(order.error());
+  auto request = request_of(machine, LineAction::Send);
+  request.name = job.id;
+  request.text = *std::move(order);
+  return ask_done(ask, std::move(request), kLineLimit);
 }
 
 Result<void> stop_at_gateway(const AskLine& ask, const std::string& machine,

@@ -17,7 +17,10 @@ inline constexpr std::uint64_t kMaxGatewayTransfer = 16 * 1024 * 1024;
 
 Result<PortTest> test_gateway(const AskLine& ask, const std::string& machine);
 Result<void> receive_at_gateway(const AskLine& ask, const std::string& machine);
-/// Errors: LimitExceeded, those of the job's source.
+/// The text of a job, which the gateway keeps under its id; the order to send it. Errors:
+/// LimitExceeded, those of the job's source.
+Result<std::string> push_text(const AskLine& ask, const std::string& machine, const SendJob& job);
+/// Errors: those of push_text.
 Result<void> send_at_gateway(const AskLine& ask, const std::string& machine, const SendJob& job);
 Result<void> stop_at_gateway(const AskLine& ask, const std::string& machine,
                              const std::string& reason);
