@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+
 #include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
@@ -60,12 +61,7 @@ Gateway::Gateway(Parts parts)
                .outbox = parts_.outbox,
                .recorder = recorder_,
                .consent = consent_,
-               .run = run_}),
-      sender_(
-          parts_.options.machine, parts_.outbox, {},
-          [this](const dds::Record& record) { return parts_.endpoint.write(record).has_value(); }),
-      publisher_(
-          [this](const dds::Status& status) { return parts_.endpoint.write(status).has_value(); }) {
+               .run = run_}) {
   machine::OperatorPanel panel;
   panel.single_block = parts_.setup.switches.single_block;
   panel.optional_stop = parts_.setup.switches.optional_stop;
@@ -101,7 +97,7 @@ void Gateway::receive(const Incoming& incoming, SteadyTime now) {
 }
 
 void Gateway::on(const dds::RecordAck& ack, SteadyTime now) {
-  sender_.on_ack(ack, now);
+  server_.on_ack(ack, now);
 }
 
 void Gateway::on(const dds::BlockData& data, SteadyTime now) {
@@ -110,10 +106,7 @@ void Gateway::on(const dds::BlockData& data, SteadyTime now) {
 
 void Gateway::on(const ServerSeen& server, SteadyTime) {
   server_.on_server(server.is_connected);
-  sender_.on_server(server.is_connected);
-  if (!server.is_connected) return;
-  publisher_.reset();
-  if (run_.session) run_.session->feed().ask_again();
+  if (server.is_connected && run_.session) run_.session->feed().ask_again();
 }
 
 void Gateway::on(const StopRequested& stop, SteadyTime) {
@@ -126,21 +119,11 @@ SteadyTime Gateway::turn(SteadyTime now) {
   if (line_) line_->poll(now);
   loop_.step(now);
   commands_.send();
-  const std::uint64_t unsent = outbox_.unacknowledged();
-  if (const auto done = sender_.poll(now); !done) {
-    process::log_error("outbox of {} records machine={}: {}", unsent, parts_.options.machine,
-                       done.error().what);
-  }
-  if (sender_.take_epoch_change()) {
-    process::log_warning("record numbers begin again, epoch {} machine={}", outbox_.epoch(),
-                         parts_.options.machine);
-    server_.want_announcement();
-  }
-  if (publisher_.is_due(now)) {
+  server_.send_records(now);
+  server_.send_status(now, [this] {
     if (run_.session) run_.session->size_feed(parts_.options.speed.factor);
-    publisher_.offer(status(), now);
-    server_.log_rejected(now);
-  }
+    return status();
+  });
   return next_turn(now);
 }
 
@@ -157,7 +140,7 @@ SteadyTime Gateway::next_turn(SteadyTime now) const {
   const auto look_at = [&next](const std::optional<SteadyTime>& due) {
     if (due) next = std::min(next, *due);
   };
-  look_at(sender_.next_poll());
+  look_at(server_.next_poll());
   if (run_.session) look_at(run_.session->feed().next_poll());
   if (line_) look_at(line_->next_poll(now));
   return std::max(next, now + std::chrono::milliseconds(1));

@@ -13,8 +13,6 @@
 #include "gateway/app/run_loop.hpp"
 #include "gateway/app/server_link.hpp"
 #include "gateway/app/status_builder.hpp"
-#include "gateway/report/record_sender.hpp"
-#include "gateway/report/status_publisher.hpp"
 
 namespace dripline::gateway {
 
@@ -102,9 +100,6 @@ class Gateway final : public MachineGateway {
   RunLoop loop_;
   std::unique_ptr<LineOperator> line_;  ///< null: programs come from the server
   StatusBuilder status_;
-  report::RecordSender sender_;
-  report::StatusPublisher publisher_;
-
   bool stop_requested_ = false;
 };
 

@@ -172,7 +172,7 @@ void Gateway::on(const PanelRequest& request, SteadyTime) {
     if (const auto done = outbox_.commit(); !done)
       process::log_error("panel: not on record: {} {}", done.error().what, run_.label());
   }
-  publisher_.reset();
+  server_.want_status();
   std::string answer = reply.is_accepted ? "ok" : "refused";
   if (!reply.reason.empty()) answer += " " + valid_text(reply.reason, kMaxReason);
   request.answer(std::move(answer));

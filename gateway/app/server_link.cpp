@@ -6,12 +6,23 @@
 
 namespace dripline::gateway {
 
+ServerLink::ServerLink(const Parts& parts)
+    : parts_(parts),
+      sender_(
+          parts_.options.machine, parts_.outbox, {},
+          [this](const dds::Record& record) { return parts_.endpoint.write(record).has_value(); }),
+      publisher_([this](const dds::Status& status) {
+        return parts_.endpoint.write(status).has_value();
+      }) {}
+
 void ServerLink::on_server(bool is_connected) {
   process::log_info("server {} machine={}", is_connected ? "connected" : "gone",
                     parts_.options.machine);
   is_connected_ = is_connected;
   refused_.clear();
   if (is_connected_) is_due_ = true;
+  sender_.on_server(is_connected);
+  publisher_.reset();
 }
 
 void ServerLink::on_refusal(const dds::Command& command) {
@@ -35,6 +46,25 @@ void ServerLink::announce() {
   is_due_ = !parts_.endpoint.write(message).has_value();
 }
 
+void ServerLink::send_records(SteadyTime now) {
+  const std::uint64_t unsent = parts_.outbox.unacknowledged();
+  if (const auto done = sender_.poll(now); !done) {
+    process::log_error("outbox of {} records machine={}: {}", unsent, parts_.options.machine,
+                       done.error().what);
+  }
+  if (!sender_.take_epoch_change()) return;
+  process::log_warning("record numbers begin again, epoch {} machine={}", parts_.outbox.epoch(),
+                       parts_.options.machine);
+  is_due_ = true;
+}
+
+void ServerLink::send_status(SteadyTime now, const std::function<dds::Status()>& make) {
+  if (!publisher_.is_due(now)) return;
+  publisher_.offer(make(), now);
+  log_rejected(now);
+}
+
+/// Dropped messages are logged once a minute at most: their sender must not fill the log.
 void ServerLink::log_rejected(SteadyTime now) {
   constexpr std::chrono::minutes kInterval{1};
   const dds::Rejected dropped = parts_.endpoint.rejected();

@@ -1,34 +1,47 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "gateway/app/options.hpp"
 #include "gateway/report/outbox.hpp"
+#include "gateway/report/record_sender.hpp"
+#include "gateway/report/status_publisher.hpp"
 #include "protocol/base/clock.hpp"
 #include "protocol/dds/endpoint.hpp"
 
 namespace dripline::gateway {
 
-/// What every gateway keeps of its server: whether it is there and commands it, the announcement it
-/// is due, and what was dropped of its messages. One thread.
+/// Every gateway's way to its server: whether it is there and commands this gateway, the
+/// announcement it is due, the records that wait for it, the status, and what was dropped of its
+/// messages. One thread.
 class ServerLink {
  public:
   struct Parts {
     const GatewayOptions& options;
     dds::GatewayEndpoint& endpoint;
-    const report::Outbox& outbox;
+    report::Outbox& outbox;
     std::uint64_t session = 0;
   };
   /// All references must outlive it.
-  explicit ServerLink(const Parts& parts) : parts_(parts) {}
+  explicit ServerLink(const Parts& parts);
+  ServerLink(const ServerLink&) = delete;
+  ServerLink& operator=(const ServerLink&) = delete;
 
   void on_server(bool is_connected);
   void on_refusal(const dds::Command& command);
-  void want_announcement() { is_due_ = true; }
+  void on_ack(const dds::RecordAck& ack, SteadyTime now) { sender_.on_ack(ack, now); }
+  /// The next status goes out, whatever it is.
+  void want_status() { publisher_.reset(); }
+
   /// Announces this gateway, if that is due.
   void announce();
-  /// Dropped messages are logged once a minute at most: their sender must not fill the log.
-  void log_rejected(SteadyTime now);
+  /// Sends the committed records that are due.
+  void send_records(SteadyTime now);
+  /// Sends the status that `make` makes, if one is due.
+  void send_status(SteadyTime now, const std::function<dds::Status()>& make);
+  /// When `send_records` has something to do without anything else happening.
+  std::optional<SteadyTime> next_poll() const { return sender_.next_poll(); }
 
   bool is_connected() const { return is_connected_; }
   bool is_announced() const { return !is_due_; }
@@ -36,7 +49,11 @@ class ServerLink {
   const std::string& refused() const { return refused_; }
 
  private:
+  void log_rejected(SteadyTime now);
+
   Parts parts_;
+  report::RecordSender sender_;
+  report::StatusPublisher publisher_;
   bool is_due_ = true, is_connected_ = false;
   std::string refused_;
   SteadyTime next_log_{};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gateway/line/line_words.hpp"
+
 namespace dripline::line {
 namespace {
 
@@ -19,13 +21,9 @@ std::size_t ahead_of(const wire::LineSettings& settings) {
   return std::clamp(static_cast<std::size_t>(wanted), least, kMaxAhead);
 }
 
-/// The place an operator needs to continue from.
-std::string place_words(const SendProgress& progress) {
-  const auto& sent = progress.sent;
-  const char* what = progress.is_checked ? "accepted" : "sent";
-  if (sent.line == 0) return fmt::format("no whole block was {}", what);
-  if (sent.sequence < 0) return fmt::format("the last block {} is line {}", what, sent.line);
-  return fmt::format("the last block {} is line {}, N{}", what, sent.line, sent.sequence);
+std::string place_of(const SendProgress& progress) {
+  return place_words(progress.sent.line, progress.sent.sequence,
+                     progress.is_checked ? "accepted" : "sent");
 }
 
 }  // namespace
@@ -156,7 +154,7 @@ void LineSession::count(const wire::Discipline& line) {
 void LineSession::finish(SendOutcome outcome, std::string reason) {
   SendEnd end{.progress = *progress(), .outcome = outcome, .reason = std::move(reason)};
   sending_.reset();
-  if (outcome != SendOutcome::Completed) end.reason += "; " + place_words(end.progress);
+  if (outcome != SendOutcome::Completed) end.reason += "; " + place_of(end.progress);
   host_.on_sent(end);
 }
 

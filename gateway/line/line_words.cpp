@@ -27,6 +27,12 @@ std::string message_of(const LineView& port, const std::optional<SendProgress>& 
   return port.fault;
 }
 
+std::string place_words(std::uint64_t line, std::int64_t sequence, std::string_view done) {
+  if (line == 0) return fmt::format("no whole block was {}", done);
+  if (sequence < 0) return fmt::format("the last block {} is line {}", done, line);
+  return fmt::format("the last block {} is line {}, N{}", done, line, sequence);
+}
+
 std::string request_words(const PortRequest& request) {
   return fmt::format("the control asked for {}; {}",
                      request.program.empty() ? "a program" : "program " + request.program,

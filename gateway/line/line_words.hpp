@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "gateway/line/line_session.hpp"
 #include "gateway/line/port_view.hpp"
@@ -15,6 +16,11 @@ LineActivity activity_of(const LineView& port, const std::optional<SendProgress>
 /// What it waits for, or why it does nothing; empty: nothing is to be said.
 std::string message_of(const LineView& port, const std::optional<SendProgress>& progress);
 
+/// The place an operator needs to continue from; `done`: what is known of it, "sent" or "accepted".
+std::string place_words(std::uint64_t line, std::int64_t sequence, std::string_view done);
+/// How a run over a line ends well.
+inline constexpr std::string_view kSentToItsEnd =
+    "sent to its end; a line does not report what was executed";
 /// What a control asked for in vain, for people.
 std::string request_words(const PortRequest& request);
 /// Of a busy port: "receiving", "sending run ..." or which programs it sends.

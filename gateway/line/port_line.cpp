@@ -66,10 +66,12 @@ void PortLine::open() {
   // Held while the driver starts, so that its first calls find it here.
   const std::lock_guard lock(mutex_);
   if (is_closed_ || driver_) return;
-  auto driver = parts_.open({.address = parts_.names.address,
-                             .settings = parts_.settings,
-                             .role = wire::Role::Host,
-                             .listener = line_listener()});
+  serial::LineDriver::Parts parts{.address = parts_.names.address,
+                                  .settings = parts_.settings,
+                                  .role = wire::Role::Host,
+                                  .listener = line_listener()};
+  auto driver =
+      parts_.open ? parts_.open(std::move(parts)) : serial::LineDriver::start(std::move(parts));
   if (driver) {
     driver_ = *std::move(driver);
     if (parts_.is_program_broken)

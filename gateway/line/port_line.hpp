@@ -43,7 +43,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
     /// Runs tasks one after the other, in the order of posting, never inside of the call. What is
     /// posted when the owner has stopped is dropped.
     PostTask post;
-    LineOpener open;
+    LineOpener open;  ///< empty: serial::LineDriver::start
     FlightRecorder::Options recording;
     std::function<void(const PortTraffic&)> on_traffic;
     PortListener listener;

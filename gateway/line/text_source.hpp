@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "protocol/base/result.hpp"
 
@@ -16,6 +18,18 @@ class TextSource {
   /// end. Empty: they have not come yet, PortLine::on_text asks again. Errors: it cannot be had;
   /// the job ends.
   virtual Result<std::string> read(std::uint64_t offset, std::uint64_t length) = 0;
+};
+
+/// A text that is here as a whole.
+class KeptText final : public TextSource {
+ public:
+  explicit KeptText(std::string text) : text_(std::move(text)) {}
+  Result<std::string> read(std::uint64_t offset, std::uint64_t length) override {
+    return text_.substr(std::min<std::uint64_t>(offset, text_.size()), length);
+  }
+
+ private:
+  const std::string text_;
 };
 
 }  // namespace dripline::line

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "protocol/base/descriptor.hpp"
+#include "protocol/base/durable_file.hpp"
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::archive {
@@ -22,17 +23,6 @@ struct FreeStream {
 
 tl::unexpected<Error> refused(const char* what, const std::filesystem::path& file) {
   return fail(Errc::Io, "archive {}: {}: {}", file.string(), what, std::strerror(errno));
-}
-
-Result<void> write_all(int file, std::span<const std::byte> bytes,
-                       const std::filesystem::path& name) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return refused("write", name);
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-  return {};
 }
 
 }  // namespace
@@ -102,7 +92,7 @@ Result<void> ArchiveWriter::compress(std::string_view text, bool is_last) {
     const auto made = std::span(file_->buffer).first(out.pos);
     file_->of_file.update(made);
     file_->written.bytes += made.size();
-    if (auto done = write_all(file_->descriptor.get(), made, file_->name); !done) return done;
+    if (!write_all(file_->descriptor.get(), made)) return refused("write", file_->name);
     if (is_last ? left == 0 : in.pos == in.size) return {};
   }
 }
@@ -116,9 +106,7 @@ Result<WrittenFile> ArchiveWriter::end() {
   if (::rename(file_->temporary.c_str(), file_->name.c_str()) != 0)
     return refused("rename", file_->temporary);
   file_->is_done = true;
-  const Descriptor folder(
-      ::open(file_->name.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!folder || ::fsync(folder.get()) != 0) return refused("fsync of its folder", file_->name);
+  if (!sync_folder(file_->name.parent_path())) return refused("fsync of its folder", file_->name);
   file_->written.sha256 = file_->of_file.digest();
   return file_->written;
 }

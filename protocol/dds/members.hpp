@@ -159,6 +159,23 @@ void members(V&& v, Is<LineCall> auto& m) {
 }
 
 template <class V>
+void members(V&& v, Is<LineTransfer> auto& m) {
+  v(DRIPLINE_MEMBER(id), Identifier{});
+  v(DRIPLINE_MEMBER(programs), FreeText{});
+  v(DRIPLINE_MEMBER(size));
+  v(DRIPLINE_MEMBER(sent));
+  v(DRIPLINE_MEMBER(state));
+  v(DRIPLINE_MEMBER(reason), FreeText{});
+}
+
+template <class V>
+void members(V&& v, Is<LineAsked> auto& m) {
+  v(DRIPLINE_MEMBER_AS(since, since_us));
+  v(DRIPLINE_MEMBER(program), FreeText{});
+  v(DRIPLINE_MEMBER(answer), FreeText{});
+}
+
+template <class V>
 void members(V&& v, Is<LineStatus> auto& m) {
   v(DRIPLINE_MEMBER(address));
   v(DRIPLINE_MEMBER_AS(line_template, template_name));
@@ -175,6 +192,10 @@ void members(V&& v, Is<LineStatus> auto& m) {
   v(DRIPLINE_MEMBER(buffered_bytes));
   v(DRIPLINE_MEMBER(upload), PresentIf{DRIPLINE_FIELD(has_upload)});
   v(DRIPLINE_MEMBER(call), PresentIf{DRIPLINE_FIELD(has_call)});
+  v(DRIPLINE_MEMBER(transfer), PresentIf{DRIPLINE_FIELD(has_transfer)});
+  v(DRIPLINE_MEMBER(asked), PresentIf{DRIPLINE_FIELD(has_asked)});
+  v(DRIPLINE_MEMBER_AS(waiting_since, waiting_since_us), ExpiryTime{});
+  v(DRIPLINE_MEMBER(recorded));
 }
 
 template <class V>
@@ -297,6 +318,7 @@ void members(V&& v, Is<LineRequest> auto& m) {
   v(DRIPLINE_MEMBER(name));
   v(DRIPLINE_MEMBER(number));
   v(DRIPLINE_MEMBER(text), SetupText{});
+  v(DRIPLINE_MEMBER(bytes), CheckedBy{DRIPLINE_FIELD(crc)});
 }
 
 template <class V>

@@ -86,8 +86,15 @@ Words words_of(LineCallAction) {
 }
 
 Words words_of(LineAction) {
-  static constexpr std::array<std::string_view, 8> kWords{
-      "recording", "upload", "stored", "answer", "refuse", "done", "test", "receive"};
+  static constexpr std::array<std::string_view, 12> kWords{
+      "recording", "upload",  "stored", "answer", "refuse", "done",
+      "test",      "receive", "text",   "send",   "stop",   "judge"};
+  return kWords;
+}
+
+Words words_of(LineTransferState) {
+  static constexpr std::array<std::string_view, 4> kWords{"sending", "completed", "aborted",
+                                                          "interrupted"};
   return kWords;
 }
 

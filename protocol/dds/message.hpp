@@ -88,12 +88,18 @@ enum class LineAction : std::uint8_t {
   Recording,  ///< entries of the recording from `number` on, as JSON lines
   Upload,     ///< bytes of the upload `name` from `number` on
   Stored,     ///< the upload `name` is on disk; `text` is for the operator at the control
-  Answer,     ///< send `text` as program `name` to the control: an answer to the call `number`
+  Answer,     ///< send the text `name` to answer the call `number`; `text`: line::TransferOrder
   Refuse,     ///< refuse the call `number`; `text` is the reason
   Done,       ///< the call `number` was carried out
   Test,       ///< examine the line; the answer has the findings, one a line
   Receive,    ///< have the control send a program
+  Text,       ///< keep `bytes` from `number` on of the text `name`; from 0 on another one begins
+  Send,       ///< send the text `name`; `text` is a line::TransferOrder
+  Stop,       ///< end a transfer that is no run; `text` is the reason
+  Judge,      ///< judge `bytes` by the rules; the answer has the verdict
 };
+/// As line::TransferState.
+enum class LineTransferState : std::uint8_t { Sending, Completed, Aborted, Interrupted };
 enum class LineResult : std::uint8_t { Done, Refused, NotYet };
 
 /// The words of an enumeration, in the order of its enumerators; a value from the network is in
@@ -112,6 +118,7 @@ std::span<const std::string_view> words_of(WaitsFor);
 std::span<const std::string_view> words_of(LinePhase);
 std::span<const std::string_view> words_of(LineCallAction);
 std::span<const std::string_view> words_of(LineAction);
+std::span<const std::string_view> words_of(LineTransferState);
 std::span<const std::string_view> words_of(LineResult);
 
 template <class T>
@@ -189,6 +196,20 @@ struct LineCall {
   friend bool operator==(const LineCall&, const LineCall&) = default;
 };
 
+struct LineTransfer {
+  std::string id, programs;
+  std::uint64_t size = 0, sent = 0;
+  LineTransferState state = LineTransferState::Sending;
+  std::string reason;
+  friend bool operator==(const LineTransfer&, const LineTransfer&) = default;
+};
+
+struct LineAsked {
+  UtcTime since;
+  std::string program, answer;
+  friend bool operator==(const LineAsked&, const LineAsked&) = default;
+};
+
 struct LineStatus {
   std::string address, line_template, settings;
   bool is_open = false;
@@ -199,6 +220,10 @@ struct LineStatus {
   std::uint64_t characters_sent = 0, characters_received = 0, buffered_bytes = 0;
   std::optional<LineUpload> upload;
   std::optional<LineCall> call;
+  std::optional<LineTransfer> transfer;
+  std::optional<LineAsked> asked;
+  std::optional<UtcTime> waiting_since;
+  std::uint64_t recorded = 0;  ///< 0: from an older gateway
   friend bool operator==(const LineStatus&, const LineStatus&) = default;
 };
 
@@ -301,7 +326,8 @@ struct LineRequest {
   LineAction action = LineAction::Recording;
   std::string name = {};
   std::uint64_t number = 0;
-  std::string text = {};  ///< at most kMaxCommandSetup
+  std::string text = {};              ///< at most kMaxCommandSetup
+  std::vector<std::byte> bytes = {};  ///< a message with a wrong CRC was dropped
   friend bool operator==(const LineRequest&, const LineRequest&) = default;
 };
 

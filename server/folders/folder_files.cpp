@@ -13,6 +13,8 @@
 #include <cstring>
 #include <memory>
 
+#include "protocol/base/durable_file.hpp"
+
 namespace dripline::folders {
 namespace {
 
@@ -79,17 +81,6 @@ Result<Descriptor> open_spool(const std::filesystem::path& folder) {
   return named;
 }
 
-Result<void> write_all(int file, const char* bytes, std::size_t size) {
-  while (size > 0) {
-    const auto written = ::write(file, bytes, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return fail(system_error("a copy cannot be written", errno));
-    bytes += written;
-    size -= static_cast<std::size_t>(written);
-  }
-  return {};
-}
-
 Result<FileCopy> copy_bytes(int from, Descriptor to, const std::string& name,
                             std::uint64_t max_bytes) {
   std::vector<char> piece(kPiece);
@@ -104,9 +95,9 @@ Result<FileCopy> copy_bytes(int from, Descriptor to, const std::string& name,
     size += bytes;
     if (size > max_bytes)
       return fail(Errc::LimitExceeded, "it has more than {} bytes, the folder's limit", max_bytes);
-    digest.update(std::string_view(piece.data(), bytes));
-    if (auto written = write_all(to.get(), piece.data(), bytes); !written)
-      return fail(written.error());
+    const std::string_view text(piece.data(), bytes);
+    digest.update(text);
+    if (!write_all(to.get(), text)) return fail(system_error("a copy cannot be written", errno));
   }
 }
 
@@ -280,7 +271,7 @@ Result<void> FolderFiles::write_reason(const std::string& target, const std::str
                                    kReasonMode));
     if (!file) return fail(system_error(path, errno));
     const std::string line = reason + "\n";
-    if (auto written = write_all(file.get(), line.data(), line.size()); !written) return written;
+    if (!write_all(file.get(), line)) return fail(system_error("a copy cannot be written", errno));
   }
   if (::renameat(place.folder, part.c_str(), place.folder, path.c_str()) == 0) return {};
   return fail(system_error(path, errno));

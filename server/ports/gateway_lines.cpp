@@ -1,11 +1,12 @@
 #include "server/ports/gateway_lines.hpp"
 
-#include <sstream>
+#include <fmt/ranges.h>
 #include <utility>
 
-#include "gateway/line/recording/recording_file.hpp"
+#include "gateway/line/line_words.hpp"
 #include "protocol/process/log.hpp"
-#include "server/ports/port_settings.hpp"
+#include "server/ports/gateways/gateway_view.hpp"
+#include "server/ports/line_transfer.hpp"
 #include "server/ports/programs/uploaded_program.hpp"
 #include "server/ports/requests/remote_request_handler.hpp"
 
@@ -14,8 +15,6 @@ namespace {
 
 using dds::LineAction;
 using std::chrono::milliseconds;
-
-constexpr milliseconds kTestLimit{15'000};
 
 std::string text_of(const dds::LineData& data) {
   return {reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size()};
@@ -31,16 +30,18 @@ struct GatewayLines::Line {
   // Under the mutex of GatewayLines.
   std::string upload;  ///< being fetched, or fetched last
   std::uint64_t session = 0, call = 0;
+  std::optional<PortTransfer> sent;  ///< by this server, to this session
+  bool is_sent_shown = false;        ///< the gateway has reported it
   // On the strand.
   std::shared_ptr<GatewayAtControl> at_control;
   std::unique_ptr<RemoteRequestHandler> requests;
   wire::Offer offer = wire::Offer::None;
   std::string reply;
-  std::uint64_t monitored = 0, monitored_session = 0;  ///< the next entry of the recording
 };
 
-GatewayLines::GatewayLines(Parts parts) : parts_(std::move(parts)), pool_(parts_.workers) {
-  pool_.post_after(kMonitorInterval, [this] { monitor(); });
+GatewayLines::GatewayLines(Parts parts)
+    : parts_(std::move(parts)), monitor_(parts_.ask, parts_.clock, pool_), pool_(parts_.workers) {
+  monitor_.begin();
 }
 
 GatewayLines::~GatewayLines() {
@@ -60,6 +61,7 @@ std::shared_ptr<GatewayLines::Line> GatewayLines::line_of(const std::string& mac
 
 void GatewayLines::on_status(const dds::Status& status) {
   if (!status.serial_line) return;
+  monitor_.note(status.machine, status.session, status.serial_line->recorded);
   const auto line = line_of(status.machine);
   const auto& upload = status.serial_line->upload;
   const auto& call = status.serial_line->call;
@@ -70,7 +72,10 @@ void GatewayLines::on_status(const dds::Status& status) {
       line->session = status.session;
       line->upload.clear();
       line->call = 0;
+      line->sent.reset();
     }
+    const auto& transfer = status.serial_line->transfer;
+    if (transfer && line->sent && transfer->id == line->sent->id) line->is_sent_shown = true;
     has_upload = upload && line->upload.empty();
     if (has_upload) line->upload = upload->id;
     has_call = call && call->number > line->call;
@@ -187,45 +192,27 @@ void GatewayLines::handle_call(const std::shared_ptr<Line>& line, const dds::Lin
   }
 }
 
-namespace {
-
-/// As the gateway reports it, in the form of a port.
-PortView view_of(const machines::MachineView& machine, const dds::LineStatus& line) {
-  PortView view;
-  view.names = {machine.machine.name, machine.machine.name, line.address};
-  view.port.name = view.port.machine = machine.machine.name;
-  view.port.address = line.address;
-  view.port.line_template = line.line_template;
-  std::istringstream settings(line.settings);
-  for (std::string word; std::getline(settings, word);) {
-    const auto equals = word.find('=');
-    if (word.empty()) continue;
-    if (equals == std::string::npos) {
-      view.port.settings.emplace_back("line", word);
-    } else {
-      view.port.settings.emplace_back(word.substr(0, equals), word.substr(equals + 1));
-    }
+/// What this server has just sent is shown at once, and with all its names.
+PortView GatewayLines::show(const machines::MachineView& machine,
+                            const dds::LineStatus& status) const {
+  PortView view = view_of(machine, status);
+  const std::lock_guard lock(mutex_);
+  const auto line = lines_.find(view.port.name);
+  if (line == lines_.end() || !line->second->sent) return view;
+  const PortTransfer& sent = *line->second->sent;
+  if (view.transfer && view.transfer->id == sent.id) {
+    view.transfer->programs = sent.programs;
+  } else if (!line->second->is_sent_shown) {
+    view.transfer = sent;
   }
-  if (auto known = effective_settings(view.port)) view.settings = *std::move(known);
-  view.is_open = machine.is_connected && line.is_open;
-  view.fault = machine.is_connected ? line.fault : "its gateway is not connected";
-  view.line.phase = static_cast<wire::Phase>(line.phase);
-  view.line.is_stopped = line.is_stopped;
-  view.line.is_stopping = line.is_stopping;
-  view.line.may_wait_without_limit = line.waits_without_limit;
-  view.sent = line.characters_sent;
-  view.received = line.characters_received;
-  if (machine.status) view.run = machine.status->run;
   return view;
 }
-
-}  // namespace
 
 std::vector<PortView> GatewayLines::ports() const {
   std::vector<PortView> views;
   for (const auto& machine : parts_.machines.machines()) {
     if (machine.status && machine.status->serial_line)
-      views.push_back(view_of(machine, *machine.status->serial_line));
+      views.push_back(show(machine, *machine.status->serial_line));
   }
   return views;
 }
@@ -233,104 +220,68 @@ std::vector<PortView> GatewayLines::ports() const {
 Result<PortView> GatewayLines::port(const std::string& name) const {
   const auto machine = parts_.machines.machine(name);
   if (machine && machine->status && machine->status->serial_line)
-    return view_of(*machine, *machine->status->serial_line);
+    return show(*machine, *machine->status->serial_line);
   return fail(Errc::NotFound, "port '{}' is not known", name);
 }
 
 Result<PortTest> GatewayLines::test(const std::string& name) {
-  dds::LineRequest request;
-  request.machine = name;
-  request.action = LineAction::Test;
-  const auto data = parts_.ask(std::move(request), kTestLimit);
-  if (!data) return fail(data.error());
-  PortTest test;
-  std::istringstream lines(text_of(*data));
-  std::string verdict;
-  std::getline(lines, verdict);
-  test.is_passed = verdict == "passed";
-  for (std::string finding; std::getline(lines, finding);) test.findings.push_back(finding);
-  return test;
+  return test_gateway(parts_.ask, name);
+}
+
+/// A text is pushed to a gateway only if its line can take it.
+Result<PortTransfer> GatewayLines::send(const std::string& name,
+                                        const std::vector<ProgramChoice>& programs) {
+  const auto view = port(name);
+  if (!view) return fail(view.error());
+  if (!view->is_open) {
+    return fail(Errc::Timeout, "port {} is not open: {}", name,
+                view->fault.empty() ? "not yet" : view->fault);
+  }
+  const bool is_sending = view->transfer && view->transfer->state == TransferState::Sending;
+  if (!view->run.empty() || is_sending)
+    return fail(Errc::Busy, "port {} is busy: it is {}", name, line::what_it_does(*view));
+  const auto job = make_transfer(
+      {.store = parts_.store, .releases = parts_.releases, .clock = parts_.clock}, *view, programs);
+  if (!job) return fail(job.error());
+  if (auto begun = send_at_gateway(parts_.ask, name, *job); !begun) return fail(begun.error());
+  const PortTransfer sent{.id = job->id, .programs = job->programs, .size = job->size};
+  const auto line = line_of(name);
+  {
+    const std::lock_guard lock(mutex_);
+    line->sent = sent;
+    line->is_sent_shown = false;
+  }
+  process::log_info("programs sent without a run by the gateway port={} id={} {}", name, job->id,
+                    fmt::join(job->programs, ", "));
+  return sent;
 }
 
 Result<void> GatewayLines::receive(const std::string& name) {
-  dds::LineRequest request;
-  request.machine = name;
-  request.action = LineAction::Receive;
-  const auto done = parts_.ask(std::move(request), kAnswerLimit);
-  if (!done) return fail(done.error());
-  return {};
+  return receive_at_gateway(parts_.ask, name);
 }
 
-Result<void> GatewayLines::read_recording(const std::string& machine, std::uint64_t& number,
-                                          const std::function<void(const PortTraffic&)>& on_entry) {
-  for (bool ends = false; !ends;) {
-    dds::LineRequest request;
-    request.machine = machine;
-    request.action = LineAction::Recording;
-    request.number = number;
-    const auto data = parts_.ask(std::move(request), kAnswerLimit);
-    if (!data) return fail(data.error());
-    std::istringstream lines(text_of(*data));
-    for (std::string text; std::getline(lines, text);) {
-      auto entry = line::parse_recording_line(text);
-      if (!entry) return fail(entry.error());
-      entry->port = machine;
-      on_entry(*entry);
-    }
-    ends = data->ends || data->next == number;
-    number = data->next;
-  }
-  return {};
+Result<void> GatewayLines::stop_transfer(const std::string& name, const std::string& reason) {
+  return stop_at_gateway(parts_.ask, name, reason);
 }
 
-Result<std::vector<PortTraffic>> GatewayLines::recording(const std::string& name) {
+Result<RuleVerdict> GatewayLines::test_rules(const std::string& name,
+                                             const std::string& text) const {
+  return judge_at_gateway(parts_.ask, name, text);
+}
+
+Result<std::vector<PortTraffic>> GatewayLines::recording(const std::string& name) const {
   std::vector<PortTraffic> entries;
   std::uint64_t number = 0;
-  const auto read = read_recording(
-      name, number, [&entries](const PortTraffic& entry) { entries.push_back(entry); });
+  const auto read = read_recording(parts_.ask, name, number, [&](const RecordingPart& part) {
+    entries.insert(entries.end(), part.entries.begin(), part.entries.end());
+  });
   if (!read) return fail(read.error());
   return entries;
 }
 
 void GatewayLines::on_traffic(std::function<void(const PortTraffic&)> listener,
                               std::function<bool(const std::string& port)> has_listeners) {
-  const std::lock_guard lock(mutex_);
-  on_traffic_ = std::move(listener);
-  has_listeners_ = std::move(has_listeners);
-}
-
-/// Lines that are watched are asked for what is new; others cost nothing.
-void GatewayLines::monitor() {
-  std::vector<std::shared_ptr<Line>> watched;
-  {
-    const std::lock_guard lock(mutex_);
-    if (has_listeners_) {
-      for (const auto& [name, line] : lines_) {
-        if (has_listeners_(name)) {
-          watched.push_back(line);
-        } else {
-          line->monitored_session = 0;
-        }
-      }
-    }
-  }
-  for (const auto& line : watched) {
-    std::uint64_t session = 0;
-    std::function<void(const PortTraffic&)> publish;
-    {
-      const std::lock_guard lock(mutex_);
-      session = line->session;
-      publish = on_traffic_;
-    }
-    // What was before is in the recording; a monitor begins now.
-    const bool begins = std::exchange(line->monitored_session, session) != session;
-    if (begins) line->monitored = 0;
-    const auto read = read_recording(line->name, line->monitored, [&](const PortTraffic& entry) {
-      if (!begins) publish(entry);
-    });
-    if (!read) line->monitored_session = 0;
-  }
-  pool_.post_after(kMonitorInterval, [this] { monitor(); });
+  monitor_.listen(std::move(listener), std::move(has_listeners));
 }
 
 }  // namespace dripline::ports

@@ -11,6 +11,7 @@
 #include "server/machines/machine_control.hpp"
 #include "server/machines/run_sources.hpp"
 #include "server/machines/worker_pool.hpp"
+#include "server/ports/gateways/gateway_monitor.hpp"
 #include "server/ports/port_control.hpp"
 #include "server/ports/requests/gateway_at_control.hpp"
 #include "server/ports/strand.hpp"
@@ -24,7 +25,6 @@ class RemoteRequestHandler;
 /// fetched. Each is shown as a port with the machine's name. Any thread.
 class GatewayLines {
  public:
-  static constexpr std::chrono::milliseconds kMonitorInterval{300};
   struct Parts {
     const storage::Store& store;
     library::Releases& releases;
@@ -46,27 +46,27 @@ class GatewayLines {
   bool has(const std::string& name) const { return port(name).has_value(); }
   // Promises of these: PortControl.
   Result<PortTest> test(const std::string& name);
+  Result<PortTransfer> send(const std::string& name, const std::vector<ProgramChoice>& programs);
   Result<void> receive(const std::string& name);
-  Result<std::vector<PortTraffic>> recording(const std::string& name);
+  Result<void> stop_transfer(const std::string& name, const std::string& reason);
+  Result<RuleVerdict> test_rules(const std::string& name, const std::string& text) const;
+  Result<std::vector<PortTraffic>> recording(const std::string& name) const;
   void on_traffic(std::function<void(const PortTraffic&)> listener,
                   std::function<bool(const std::string& port)> has_listeners);
 
  private:
   struct Line;
   std::shared_ptr<Line> line_of(const std::string& machine);
+  PortView show(const machines::MachineView& machine, const dds::LineStatus& line) const;
   void fetch_upload(const std::shared_ptr<Line>& line, const dds::LineUpload& upload);
   Result<std::string> store_upload(const std::string& machine, const dds::LineUpload& upload);
   void handle_call(const std::shared_ptr<Line>& line, const dds::LineCall& call);
-  void monitor();
-  Result<void> read_recording(const std::string& machine, std::uint64_t& number,
-                              const std::function<void(const PortTraffic&)>& on_entry);
   std::string control_of(const std::string& machine) const;
 
   const Parts parts_;
   mutable std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Line>> lines_;
-  std::function<void(const PortTraffic&)> on_traffic_;
-  std::function<bool(const std::string&)> has_listeners_;
+  GatewayMonitor monitor_;
   machines::WorkerPool pool_;  // last: its tasks use the others
 };
 

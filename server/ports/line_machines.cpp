@@ -5,8 +5,8 @@
 
 #include "gateway/line/inbound/program_head.hpp"
 #include "gateway/line/line_words.hpp"
+#include "gateway/line/port_transfer.hpp"
 #include "protocol/process/log.hpp"
-#include "server/ports/line_transfer.hpp"
 #include "server/ports/port_settings.hpp"
 
 namespace dripline::ports {
@@ -125,7 +125,7 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line,
   if (!job->head.empty()) line->note("sent before the program: " + job->head);
   if (!wire_name.empty()) {
     job->name = wire_name;
-  } else if (has_numbered_programs(port.settings.flow)) {
+  } else if (line::has_numbered_programs(port.settings.flow)) {
     job->name = line::program_number(run->program);
   }
   line->begin(*std::move(job), [this, run = *run, started](const Result<void>& begun) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "gateway/line/line_words.hpp"
 #include "protocol/dds/record_text.hpp"
 #include "protocol/process/log.hpp"
 #include "server/library/control_catalog.hpp"
@@ -13,8 +14,6 @@
 
 namespace dripline::ports {
 namespace {
-
-constexpr std::string_view kCompleted = "sent to its end; a line does not report what was executed";
 
 storage::RunState to_state(SendOutcome outcome) {
   switch (outcome) {
@@ -162,7 +161,8 @@ void LineRuns::ended(const SendEnd& end, LineRecords& records) {
   ending.run = end.progress.id;
   ending.state = to_state(end.outcome);
   ending.counters = to_counters(end.progress);
-  ending.reason = end.outcome == SendOutcome::Completed ? std::string(kCompleted) : end.reason;
+  ending.reason =
+      end.outcome == SendOutcome::Completed ? std::string(line::kSentToItsEnd) : end.reason;
   ending.ended = clock_.now();
   process::log_info("run ended over a line run={} state={} sent={} accepted={}: {}", ending.run,
                     storage::to_string(ending.state), ending.counters.sent,

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-
 #include "server/machines/machine_control.hpp"
 #include "server/machines/run_sources.hpp"
 #include "server/ports/line_records.hpp"

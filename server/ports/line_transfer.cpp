@@ -4,7 +4,7 @@
 #include <future>
 
 #include "gateway/line/inbound/program_head.hpp"
-#include "gateway/line/line_words.hpp"
+#include "gateway/line/port_transfer.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
 #include "server/library/control_catalog.hpp"
@@ -16,6 +16,7 @@ namespace dripline::ports {
 
 using library::Refusal;
 using library::with_control_words;
+using line::has_numbered_programs;
 
 namespace {
 
@@ -32,17 +33,6 @@ Result<void> ask_on_strand(const std::shared_ptr<PortLine>& line, const Ask& ask
   if (answer.wait_for(kTransferAnswerLimit) == std::future_status::ready) return answer.get();
   return fail(Errc::Timeout, "port {}: the line did not answer within {} s; the outcome is unknown",
               line->names().name, kTransferAnswerLimit.count());
-}
-
-Result<void> check_ready(PortLine& line) {
-  const LineView port = line.view();
-  if (!port.is_open) {
-    return fail(Errc::Timeout, "port {} is not open: {}", port.names.name,
-                port.fault.empty() ? "not yet" : port.fault);
-  }
-  line.drop_answer();
-  if (!line.is_busy()) return {};
-  return fail(Errc::Busy, "port {} is busy: it is {}", port.names.name, what_it_does(port));
 }
 
 /// What of the library is meant. Errors: as PortControl::send.
@@ -129,15 +119,9 @@ Result<SendJob> job_of(storage::ProgramStore& store, const LineView& port,
 
 }  // namespace
 
-bool has_numbered_programs(wire::Flow flow) {
-  return flow == wire::Flow::Heidenhain || flow == wire::Flow::HeidenhainBcc;
-}
-
-Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
-                                   const machines::RunSources& sources,
-                                   const std::vector<ProgramChoice>& programs) {
+Result<SendJob> make_transfer(const machines::RunSources& sources, const LineView& port,
+                              const std::vector<ProgramChoice>& programs) {
   const storage::Store& store = sources.store;
-  const LineView port = line->view();
   storage::Machine machine;
   if (auto known = store.machines.find(port.names.machine)) machine = *std::move(known);
   if (auto good = check_count(port, machine, programs.size()); !good) return fail(good.error());
@@ -146,42 +130,31 @@ Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
   }
   const auto revisions = chosen(sources.releases, port, machine, programs);
   if (!revisions) return fail(revisions.error());
-  const auto job = job_of(store.programs, port, machine, *revisions);
+  return job_of(store.programs, port, machine, *revisions);
+}
+
+Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
+                                   const machines::RunSources& sources,
+                                   const std::vector<ProgramChoice>& programs) {
+  const auto job = make_transfer(sources, line->view(), programs);
   if (!job) return fail(job.error());
   const auto begun = ask_on_strand(line, [line, job = *job](const PortLine::Answer& answer) {
-    if (auto ready = check_ready(*line); !ready) return answer(ready);
-    line->begin(job, answer);
+    line::send_programs(*line, job, answer);
   });
   if (!begun) return fail(begun.error());
-  process::log_info("programs sent without a run port={} id={} {}", port.names.name, job->id,
+  process::log_info("programs sent without a run port={} id={} {}", line->names().name, job->id,
                     fmt::join(job->programs, ", "));
   return PortTransfer{.id = job->id, .programs = job->programs, .size = job->size};
 }
 
 Result<void> receive_program(const std::shared_ptr<PortLine>& line) {
-  const LineView port = line->view();
-  if (port.settings.flow != wire::Flow::Xmodem) {
-    return fail(Errc::Unsupported,
-                "port {} takes what its control sends at any time; only over XMODEM the receiver "
-                "begins",
-                port.names.name);
-  }
-  return ask_on_strand(line, [line](const PortLine::Answer& answer) {
-    if (auto ready = check_ready(*line); !ready) return answer(ready);
-    line->begin_receive(answer);
-  });
+  return ask_on_strand(
+      line, [line](const PortLine::Answer& answer) { line::receive_program(*line, answer); });
 }
 
 Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::string& reason) {
   return ask_on_strand(line, [line, reason](const PortLine::Answer& answer) {
-    const LineView port = line->view();
-    if (!port.run.empty()) {
-      return answer(fail(Errc::Conflict, "port {} sends run {}; dnc run abort ends it",
-                         port.names.name, port.run));
-    }
-    const bool is_sending = port.transfer && port.transfer->state == TransferState::Sending;
-    if (is_sending) return line->abort(port.transfer->id, reason, answer);
-    line->stop_receiving(reason, answer);
+    line::stop_transfer(*line, reason, answer);
   });
 }
 

@@ -14,14 +14,15 @@ namespace dripline::ports {
 
 inline constexpr std::chrono::seconds kTransferAnswerLimit{10};
 
+/// What is sent for these programs over this line. Errors: those of PortControl::send that the line
+/// itself has no part in.
+Result<SendJob> make_transfer(const machines::RunSources& sources, const LineView& port,
+                              const std::vector<ProgramChoice>& programs);
 /// Promises: PortControl.
 Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
                                    const machines::RunSources& sources,
                                    const std::vector<ProgramChoice>& programs);
 Result<void> receive_program(const std::shared_ptr<PortLine>& line);
 Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::string& reason);
-
-/// Whose transfers carry a program's number and nothing else of its name.
-bool has_numbered_programs(wire::Flow flow);
 
 }  // namespace dripline::ports

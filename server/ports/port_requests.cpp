@@ -1,5 +1,6 @@
 /// What one port is asked for besides runs: tests, its recording, programs to and fro.
 #include "gateway/line/line_examination.hpp"
+#include "gateway/line/port_transfer.hpp"
 #include "gateway/line/recording/recording_file.hpp"
 #include "server/ports/line_transfer.hpp"
 #include "server/ports/port_service.hpp"
@@ -58,9 +59,7 @@ Result<void> PortService::stop_transfer(const std::string& name, const std::stri
 void PortService::note_transfer(const std::string& machine, const SendEnd& end) {
   const auto line = line_of(machine);
   if (!line) return;
-  line->note(fmt::format("the transfer of programs {}: {} of {} bytes sent{}{}",
-                         to_string(end.outcome), end.progress.sent.bytes, end.progress.size,
-                         end.reason.empty() ? "" : ": ", end.reason));
+  line->note(line::transfer_words(end));
   line_machines_.on_change(machine);
 }
 

@@ -49,9 +49,7 @@ Result<PortTest> PortRouter::test(const std::string& name) {
 
 Result<PortTransfer> PortRouter::send(const std::string& name,
                                       const std::vector<ProgramChoice>& programs) {
-  if (!is_gateways(name)) return own_.send(name, programs);
-  return fail(Errc::Unsupported,
-              "line '{}' is its gateway's own: programs go there as runs (dnc run start)", name);
+  return is_gateways(name) ? gateways_.send(name, programs) : own_.send(name, programs);
 }
 
 Result<void> PortRouter::receive(const std::string& name) {
@@ -59,13 +57,12 @@ Result<void> PortRouter::receive(const std::string& name) {
 }
 
 Result<void> PortRouter::stop_transfer(const std::string& name, const std::string& reason) {
-  if (is_gateways(name)) return set_up_there(name);
-  return own_.stop_transfer(name, reason);
+  return is_gateways(name) ? gateways_.stop_transfer(name, reason)
+                           : own_.stop_transfer(name, reason);
 }
 
 Result<RuleVerdict> PortRouter::test_rules(const std::string& name, const std::string& text) const {
-  if (is_gateways(name)) return set_up_there(name);
-  return own_.test_rules(name, text);
+  return is_gateways(name) ? gateways_.test_rules(name, text) : own_.test_rules(name, text);
 }
 
 Result<std::vector<PortTraffic>> PortRouter::recording(const std::string& name) const {

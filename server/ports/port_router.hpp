@@ -8,8 +8,8 @@
 
 namespace dripline::ports {
 
-/// The ports of the server and the lines of gateways, as one list. A gateway's line is set up at
-/// the gateway: it can be looked at, tested and monitored from here, not changed.
+/// The ports of the server and the lines of gateways, as one list. Of a gateway's line everything
+/// can be had from here but its setup, which is made at the gateway.
 class PortRouter final : public PortControl {
  public:
   PortRouter(PortControl& own, GatewayLines& gateways) : own_(own), gateways_(gateways) {}

@@ -9,7 +9,6 @@
 #include "protocol/base/names.hpp"
 #include "protocol/process/log.hpp"
 #include "protocol/serial/channel.hpp"
-#include "server/ports/line_transfer.hpp"
 #include "server/ports/port_settings.hpp"
 
 namespace dripline::ports {

@@ -13,11 +13,6 @@ namespace {
 
 constexpr unsigned kTicksPerSave = 5;
 
-LineOpener default_opener() {
-  return
-      [](serial::LineDriver::Parts parts) { return serial::LineDriver::start(std::move(parts)); };
-}
-
 /// The port that the machine has at the time.
 class PortAtControl final : public RequestedLine {
  public:
@@ -166,7 +161,7 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
        .settings = entry.settings,
        .clock = clock_,
        .post = [strand](line::Task task) { strand.post(std::move(task)); },
-       .open = options_.open ? options_.open : default_opener(),
+       .open = options_.open,
        .recording = {.port = entry.port.name, .folder = options_.recordings},
        .on_traffic = [this](const PortTraffic& traffic) { tell_traffic(traffic); },
        .listener = std::move(listener),

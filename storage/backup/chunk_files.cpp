@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "protocol/base/descriptor.hpp"
+#include "protocol/base/durable_file.hpp"
 #include "storage/chunk_codec.hpp"
 
 namespace dripline::backup {
@@ -22,22 +23,6 @@ tl::unexpected<Error> errno_failure(const fs::path& path) {
               std::generic_category().message(errno));
 }
 
-Result<void> sync_folder(const fs::path& folder) {
-  const Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!open || ::fsync(open.get()) != 0) return errno_failure(folder);
-  return {};
-}
-
-Result<void> write_all(int file, const fs::path& path, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t taken = ::write(file, bytes.data(), bytes.size());
-    if (taken < 0 && errno == EINTR) continue;
-    if (taken < 0) return errno_failure(path);
-    bytes = bytes.subspan(static_cast<std::size_t>(taken));
-  }
-  return {};
-}
-
 Result<void> make_folder(const fs::path& folder) {
   if (::mkdir(folder.c_str(), S_IRWXU) == 0 || errno == EEXIST) return {};
   return errno_failure(folder);
@@ -51,11 +36,12 @@ Result<void> write_whole(const fs::path& path, std::span<const std::byte> bytes)
     const Descriptor file(
         ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, S_IRUSR | S_IWUSR));
     if (!file) return errno_failure(fresh);
-    if (auto written = write_all(file.get(), fresh, bytes); !written) return written;
+    if (!write_all(file.get(), bytes)) return errno_failure(fresh);
     if (::fsync(file.get()) != 0) return errno_failure(fresh);
   }
   if (::rename(fresh.c_str(), path.c_str()) != 0) return errno_failure(path);
-  return sync_folder(path.parent_path());
+  if (!sync_folder(path.parent_path())) return errno_failure(path.parent_path());
+  return {};
 }
 
 Result<std::vector<std::byte>> read_whole(const fs::path& path, std::uint64_t limit) {

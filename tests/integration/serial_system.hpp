@@ -23,9 +23,11 @@ class SerialSystem {
     std::string control_speed = "max";
     std::string line = "115200n81";
     std::vector<std::string> control_arguments = {};
+    std::string idle_end_ms = "300";  ///< silence that ends a text, at both ends
   };
   explicit SerialSystem(Options options) : options_(std::move(options)) {
-    options_.settings.insert(options_.settings.end(), {"line=" + options_.line, "idle_end_ms=300"});
+    options_.settings.insert(options_.settings.end(),
+                             {"line=" + options_.line, "idle_end_ms=" + options_.idle_end_ms});
     std::vector<std::string> arguments{"--motion", "line:" + cable.host(), "--line-template",
                                        "centurion"};
     for (const std::string& setting : options_.settings)

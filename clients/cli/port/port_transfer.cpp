@@ -55,7 +55,14 @@ int send(Context& context, const SendCommand& command) {
   while (wait_unless_interrupted(kLook)) {
     auto port = client->port(command.port);
     if (!port) return complain(port.error());
-    if (!port->transfer || port->transfer->id != begun->id) {
+    if (!port->transfer) {
+      return complain(client::Failure{
+          client::Failure::Kind::Refused, Errc::NotFound,
+          "what became of the transfer is not known: whoever has the line began again; see dnc "
+          "port recording " +
+              command.port});
+    }
+    if (port->transfer->id != begun->id) {
       return complain(client::Failure{client::Failure::Kind::Refused, Errc::NotFound,
                                       "the transfer is over, and another one began since"});
     }

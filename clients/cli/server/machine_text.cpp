@@ -139,6 +139,13 @@ std::string waits_for_text(const std::string& waits_for) {
   return waits_for;
 }
 
+/// How long the machine can do without the server: seconds of motion, minutes of a line.
+std::string buffered_text(double seconds) {
+  constexpr double kMinute = 60;
+  if (seconds < 2 * kMinute) return fmt::format("{:.1f} s", seconds);
+  return fmt::format("{:.1f} min", seconds / kMinute);
+}
+
 void add_program(Details& details, const client::MachineStatus& status) {
   details.add("run", status.run);
   details.add("program", status.program);
@@ -146,7 +153,7 @@ void add_program(Details& details, const client::MachineStatus& status) {
   details.add("accepted", fmt::format("{} blocks", status.accepted));
   details.add("sent",
               fmt::format("{} of {}", bytes_text(status.sent), bytes_text(status.total_bytes)));
-  details.add("buffered", fmt::format("{:.1f} s of motion", status.buffered_seconds));
+  details.add("buffered", buffered_text(status.buffered_seconds));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "protocol/base/descriptor.hpp"
+#include "protocol/base/durable_file.hpp"
 
 namespace dripline::authority {
 namespace {
@@ -24,9 +25,8 @@ fs::path draft_of(const fs::path& path) {
   return path.parent_path() / (".new-" + path.filename().string());
 }
 
-Result<void> sync_folder(const fs::path& folder) {
-  const Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!open || ::fsync(open.get()) != 0) return not_written(folder);
+Result<void> synced(const fs::path& folder) {
+  if (!sync_folder(folder)) return not_written(folder);
   return {};
 }
 
@@ -35,13 +35,7 @@ Result<void> write_new(const fs::path& path, const File& file) {
   const mode_t mode = file.secrecy == Secrecy::OwnerAlone ? kOwner : kOwner | S_IRGRP | S_IROTH;
   const Descriptor out(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (!out) return not_written(path);
-  std::string_view rest = file.content;
-  while (!rest.empty()) {
-    const auto written = ::write(out.get(), rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return not_written(path);
-    rest.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (!write_all(out.get(), file.content)) return not_written(path);
   if (::fsync(out.get()) != 0) return not_written(path);
   return {};
 }
@@ -76,7 +70,7 @@ Result<void> replace_file(const fs::path& path, const File& file) {
   ::unlink(draft.c_str());
   if (auto written = write_new(draft, file); !written) return written;
   if (::rename(draft.c_str(), path.c_str()) != 0) return not_written(path);
-  return sync_folder(path.parent_path());
+  return synced(path.parent_path());
 }
 
 Result<void> replace_folder(const fs::path& folder, const Files& files) {
@@ -86,9 +80,9 @@ Result<void> replace_folder(const fs::path& folder, const Files& files) {
   for (const auto& [name, file] : files) {
     if (auto written = write_new(draft / name, file); !written) return written;
   }
-  if (auto synced = sync_folder(draft); !synced) return synced;
+  if (auto done = synced(draft); !done) return done;
   if (auto exchanged = exchange(draft, folder); !exchanged) return exchanged;
-  if (auto synced = sync_folder(folder.parent_path()); !synced) return synced;
+  if (auto done = synced(folder.parent_path()); !done) return done;
   return remove_folder(draft);
 }
 

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "gateway/app/command_log.hpp"
 #include "gateway/app/panel/consent.hpp"

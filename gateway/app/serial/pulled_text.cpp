@@ -7,9 +7,11 @@ namespace {
 
 constexpr std::size_t kCacheMargin = 1024 * 1024;  ///< around the window
 
+/// Text is asked for in requests of some size: the window is larger by one, so that what is here
+/// does not fall below the buffer while the server is there.
 feed::PullFeedOptions options_of(const PulledText::Buffer& buffer) {
   feed::PullFeedOptions options;
-  options.max_window = buffer.bytes;
+  options.max_window = buffer.bytes + options.request_bytes;
   options.min_window = options.max_window;
   options.cache_bytes = options.max_window + kCacheMargin;
   return options;
@@ -35,26 +37,12 @@ Result<std::string> PulledText::read(std::uint64_t offset, std::uint64_t length)
   if (window.state != interpreter::TextWindow::State::Ready) return std::string();
   std::string piece(window.text.substr(0, length));
   read_to_ = offset + piece.size();
-  if (offset == 0) {  // a run that begins again, too
-    hash_ = Sha256();
-    hashed_ = 0;
-    is_hashed_ = true;
-  }
-  if (is_hashed_ && offset == hashed_) {
-    hash_.update(piece);
-    hashed_ += piece.size();
-  }
   return piece;
 }
 
 std::uint64_t PulledText::bytes_ahead() const {
   const std::uint64_t ahead = feed_.bytes_ahead();
   return ahead - std::min(ahead, read_to_ - read_at_);
-}
-
-std::optional<Digest> PulledText::digest() const {
-  if (!is_hashed_) return std::nullopt;
-  return hash_.digest();
 }
 
 }  // namespace dripline::gateway

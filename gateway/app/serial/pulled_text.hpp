@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "gateway/feed/pull_feed.hpp"
@@ -15,7 +14,7 @@ namespace dripline::gateway {
 class PulledText final : public line::TextSource {
  public:
   struct Buffer {
-    std::size_t bytes = 0;  ///< text to be kept ahead of the line
+    std::size_t bytes = 0;  ///< text that is at least kept ahead of the line, once it has come
   };
   static constexpr std::size_t kMinBuffer = 64 * 1024, kMaxBuffer = 64 * 1024 * 1024;
   /// For `ahead` of a line with so many characters a second, within these bounds.
@@ -31,17 +30,11 @@ class PulledText final : public line::TextSource {
   std::uint64_t bytes_ahead() const;
   /// The rest of the program is among them.
   bool is_complete() const { return read_to_ + bytes_ahead() >= size_; }
-  /// Of what was read from the first byte on; nothing after a beginning in the middle.
-  std::optional<Digest> digest() const;
-  std::uint64_t length() const { return hashed_; }
 
  private:
   const std::uint64_t size_;
   feed::PullFeed feed_;
   std::uint64_t read_at_ = 0, read_to_ = 0;
-  Sha256 hash_;
-  std::uint64_t hashed_ = 0;
-  bool is_hashed_ = false;
 };
 
 }  // namespace dripline::gateway

@@ -14,6 +14,7 @@ using dds::CommandAction;
 namespace {
 
 constexpr std::string_view kEmergencyStopReason = "EMERGENCY STOP";
+constexpr std::string_view kAbortedAtPanel = "aborted at the machine's panel";
 constexpr std::string_view kHasOwnPanel =
     "a control on a line has a panel of its own: it takes start, hold, resume and abort";
 
@@ -106,7 +107,8 @@ Reply SerialGateway::set_emergency_stop(bool is_pressed, bool is_at_panel) {
   if (is_pressed) consent_.set_enabled(false);  // after the stop the network may start nothing
   is_stopped_at_panel_ = is_pressed && (is_at_panel || is_stopped_at_panel_);
   if (is_pressed) run_.abort(std::string(kEmergencyStopReason));
-  publisher_.reset();
+  if (is_pressed) end_transfer(std::string(kEmergencyStopReason));
+  server_.want_status();
   return {};
 }
 
@@ -117,7 +119,7 @@ void SerialGateway::on(const PanelRequest& request, SteadyTime) {
   process::log_info("panel {}{}{} {}", reply.is_accepted ? "accepted" : "refused",
                     reply.reason.empty() ? "" : ": ", reply.reason, label());
   if (records_.fault().empty()) (void)records_.commit();
-  publisher_.reset();
+  server_.want_status();
   std::string answer = reply.is_accepted ? "ok" : "refused";
   if (!reply.reason.empty()) answer += " " + valid_text(reply.reason, kMaxReason);
   request.answer(std::move(answer));
@@ -140,11 +142,14 @@ Reply SerialGateway::carry_out(const PanelCommand& command) {
     default:
       return refuse(std::string(kHasOwnPanel));
   }
-  if (!run_.is_active() || run_.is_ending()) return refuse("no run is active");
+  const bool has_run = run_.is_active() && !run_.is_ending();
+  if (!has_run && command.verb == Verb::Abort && end_transfer(std::string(kAbortedAtPanel)))
+    return {};
+  if (!has_run) return refuse("no run is active");
   if (command.verb == Verb::Hold) return reply_of(run_.hold());
   if (command.verb == Verb::Abort) {
     note_at_panel("abort");
-    run_.abort("aborted at the machine's panel");
+    run_.abort(std::string(kAbortedAtPanel));
     return {};
   }
   if (is_emergency_stopped_) return refuse(std::string(kEmergencyStopIsPressed));
@@ -162,6 +167,32 @@ Reply SerialGateway::set_remote_enable(bool is_enabled) {
   consent_.set_enabled(is_enabled);
   note_at_panel(fmt::format("remote enable {}", is_enabled ? "on" : "off"));
   return {};
+}
+
+/// Whether programs may be sent without a run. A control that is not in the mode to store them
+/// executes them, so this needs the same consent as a run.
+Result<void> SerialGateway::check_transfer() const {
+  if (is_emergency_stopped_) return fail(Errc::Conflict, "{}", kEmergencyStopIsPressed);
+  if (!run_.must_wait_for_panel()) return {};
+  if (!is_begun_at_control(settings_)) {
+    return fail(Errc::Conflict,
+                "people may be at this machine, and its control does not ask for programs: give "
+                "the remote enable at its panel (dncgw panel --machine {} remote-enable on)",
+                parts_.options.machine);
+  }
+  return fail(Errc::Conflict,
+              "the control has asked before this, which is no consent to it: stop that at the "
+              "control, and ask again when it is sent; or give the remote enable (dncgw panel "
+              "--machine {} remote-enable on)",
+              parts_.options.machine);
+}
+
+/// Of programs without a run. False: there is none.
+bool SerialGateway::end_transfer(const std::string& reason) {
+  const auto now = port_->progress();
+  if (!now || now->kind != line::JobKind::Transfer) return false;
+  port_->abort(now->id, reason, [](const Result<void>&) {});
+  return true;
 }
 
 void SerialGateway::note_at_panel(const std::string& text) {

@@ -4,17 +4,13 @@
 #include <utility>
 
 #include "gateway/app/serial/serial_status.hpp"
+#include "gateway/line/port_transfer.hpp"
 #include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
 namespace {
 
 constexpr std::string_view kRecordDevice = "line";
-
-line::LineOpener default_opener() {
-  return
-      [](serial::LineDriver::Parts parts) { return serial::LineDriver::start(std::move(parts)); };
-}
 
 }  // namespace
 
@@ -50,16 +46,15 @@ SerialGateway::SerialGateway(Parts parts)
                 .run = [this] { return run_.last_run(); },
                 .on_request = [this](line::RuleAction action,
                                      const std::string& argument) { add_call(action, argument); }}),
+      transfer_({.clock = parts_.clock, .check_allowed = [this] { return check_transfer(); }}),
       answers_({.session = parts_.session,
                 .endpoint = parts_.endpoint,
                 .uploads = parts_.uploads,
                 .inbound = inbound_,
-                .calls = calls_}),
-      sender_(
-          parts_.options.machine, parts_.outbox, {},
-          [this](const dds::Record& record) { return parts_.endpoint.write(record).has_value(); }),
-      publisher_(
-          [this](const dds::Status& status) { return parts_.endpoint.write(status).has_value(); }),
+                .calls = calls_,
+                .transfer = transfer_,
+                .rules = parts_.rules,
+                .extracts_programs = settings_.extracts_programs}),
       tasks_(std::make_shared<TaskQueue>(parts_.wake)) {}
 
 SerialGateway::~SerialGateway() {
@@ -74,7 +69,7 @@ std::shared_ptr<line::PortLine> SerialGateway::make_line() {
        .settings = settings_,
        .clock = parts_.clock,
        .post = [tasks = tasks_](line::Task task) { tasks->post(std::move(task)); },
-       .open = parts_.open ? parts_.open : default_opener(),
+       .open = parts_.open,
        .recording = {.port = options.machine, .folder = parts_.recordings},
        .on_traffic = [](const line::PortTraffic&) {},
        .listener = listener(),
@@ -86,10 +81,16 @@ line::PortListener SerialGateway::listener() {
               [this](const line::Incoming& incoming, std::function<void()> kept) {
                 inbound_.take(incoming, std::move(kept));
               },
-          .on_sent = [this](const line::SendEnd& end) { run_.on_sent(end); },
+          .on_sent = [this](const line::SendEnd& end) { on_sent(end); },
           .on_request = [this](const wire::TransferRequest& request) { on_request(request); },
-          .on_change = [this] { publisher_.reset(); },
+          .on_change = [this] { server_.want_status(); },
           .on_progress = [this](const line::SendProgress& now) { run_.on_progress(now); }};
+}
+
+void SerialGateway::on_sent(const line::SendEnd& end) {
+  if (end.progress.kind == line::JobKind::Transfer) port_->note(line::transfer_words(end));
+  run_.on_sent(end);
+  server_.want_status();
 }
 
 /// The line is opened when the former run has its end: so the first request is not taken for one.
@@ -100,6 +101,7 @@ Result<void> SerialGateway::recover() {
   port_ = make_line();
   run_.use(*port_);
   inbound_.use(*port_);
+  transfer_.use(*port_);
   answers_.use(port_);
   port_->open();
   return done;
@@ -115,7 +117,7 @@ void SerialGateway::receive(const Incoming& incoming, SteadyTime now) {
 }
 
 void SerialGateway::on(const dds::RecordAck& ack, SteadyTime now) {
-  sender_.on_ack(ack, now);
+  server_.on_ack(ack, now);
 }
 
 void SerialGateway::on(const dds::BlockData& data, SteadyTime now) {
@@ -124,14 +126,12 @@ void SerialGateway::on(const dds::BlockData& data, SteadyTime now) {
 
 void SerialGateway::on(const ServerSeen& server, SteadyTime) {
   server_.on_server(server.is_connected);
-  sender_.on_server(server.is_connected);
-  publisher_.reset();
   if (server.is_connected) run_.ask_again();
 }
 
 void SerialGateway::on(const dds::LineRequest& request, SteadyTime) {
   answers_.take(request, run_.is_active());
-  publisher_.reset();
+  server_.want_status();
 }
 
 void SerialGateway::add_call(line::RuleAction action, const std::string& argument) {
@@ -142,7 +142,7 @@ void SerialGateway::add_call(line::RuleAction action, const std::string& argumen
                      : action == line::RuleAction::NextJob   ? LineCallAction::NextJob
                                                              : LineCallAction::Restart;
   calls_.add(asked, argument, parts_.clock.steady_now());
-  publisher_.reset();
+  server_.want_status();
 }
 
 /// A program that the control is about to send is taken; what it asks for waits for the server's
@@ -153,7 +153,7 @@ void SerialGateway::on_request(const wire::TransferRequest& request) {
   const bool is_list = request.kind == Kind::Directory;
   calls_.add(is_list ? dds::LineCallAction::List : dds::LineCallAction::Program, request.name,
              parts_.clock.steady_now());
-  publisher_.reset();
+  server_.want_status();
 }
 
 void SerialGateway::on(const StopRequested& stop, SteadyTime) {
@@ -169,34 +169,27 @@ SteadyTime SerialGateway::turn(SteadyTime now) {
     port_->tick();
   }
   run_.poll(now);
-  if (run_.is_on_line()) calls_.clear();
+  if (run_.is_on_line() || is_sending_programs()) calls_.clear();
   calls_.poll(now);
   records_.poll(now);
   tasks_->run();
   commands_.send();
-  const std::uint64_t unsent = parts_.outbox.unacknowledged();
-  if (const auto done = sender_.poll(now); !done) {
-    process::log_error("outbox of {} records machine={}: {}", unsent, parts_.options.machine,
-                       done.error().what);
-  }
-  if (sender_.take_epoch_change()) {
-    process::log_warning("record numbers begin again, epoch {} machine={}", parts_.outbox.epoch(),
-                         parts_.options.machine);
-    server_.want_announcement();
-  }
-  if (publisher_.is_due(now)) {
-    publisher_.offer(status(), now);
-    server_.log_rejected(now);
-  }
+  server_.send_records(now);
+  server_.send_status(now, [this] { return status(); });
   constexpr std::chrono::milliseconds kSoon{20};
   SteadyTime next = next_tick_;
   if (!server_.is_announced() || !commands_.is_sent()) next = std::min(next, now + kSoon);
   if (run_.is_active()) next = std::min(next, now + report::StatusPublisher::kMinInterval);
   if (run_.is_looking()) next = std::min(next, now + std::chrono::milliseconds(5));
-  for (const auto& due : {sender_.next_poll(), run_.next_poll()}) {
+  for (const auto& due : {server_.next_poll(), run_.next_poll()}) {
     if (due) next = std::min(next, *due);
   }
   return std::max(next, now + std::chrono::milliseconds(1));
+}
+
+bool SerialGateway::is_sending_programs() const {
+  const auto now = port_->progress();
+  return now && now->kind == line::JobKind::Transfer;
 }
 
 /// In the middle of a program the line is closed, so that nothing more of it leaves.
@@ -226,6 +219,7 @@ dds::Status SerialGateway::status() const {
   if (port_) {
     state.view = port_->view();
     state.progress = port_->progress();
+    state.recorded = port_->recorder().next_number();
   }
   return make_status(state);
 }

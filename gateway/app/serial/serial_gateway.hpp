@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "gateway/app/command_log.hpp"
@@ -12,11 +11,10 @@
 #include "gateway/app/serial/line_calls.hpp"
 #include "gateway/app/serial/serial_inbound.hpp"
 #include "gateway/app/serial/serial_run.hpp"
+#include "gateway/app/serial/serial_transfer.hpp"
 #include "gateway/app/serial/task_queue.hpp"
 #include "gateway/app/server_link.hpp"
 #include "gateway/line/port_line.hpp"
-#include "gateway/report/record_sender.hpp"
-#include "gateway/report/status_publisher.hpp"
 
 namespace dripline::gateway {
 
@@ -66,6 +64,7 @@ class SerialGateway final : public MachineGateway {
   void on(const dds::LineRequest& request, SteadyTime now);
   void on_request(const wire::TransferRequest& request);
   void add_call(line::RuleAction action, const std::string& argument);
+  void on_sent(const line::SendEnd& end);
 
   // serial_commands.cpp
   Reply carry_out(const dds::Command& command, bool is_stop);
@@ -75,6 +74,9 @@ class SerialGateway final : public MachineGateway {
   Reply carry_out(const PanelCommand& command);
   Reply set_remote_enable(bool is_enabled);
   void note_at_panel(const std::string& text);
+  bool is_sending_programs() const;
+  Result<void> check_transfer() const;
+  bool end_transfer(const std::string& reason);
 
   std::shared_ptr<line::PortLine> make_line();
   line::PortListener listener();
@@ -90,9 +92,8 @@ class SerialGateway final : public MachineGateway {
   SerialRun run_;
   LineCalls calls_;
   SerialInbound inbound_;
+  SerialTransfer transfer_;
   LineAnswers answers_;
-  report::RecordSender sender_;
-  report::StatusPublisher publisher_;
   std::shared_ptr<TaskQueue> tasks_;
   std::shared_ptr<line::PortLine> port_;
   SteadyTime next_tick_{};

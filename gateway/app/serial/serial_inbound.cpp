@@ -63,7 +63,7 @@ void SerialInbound::send_answer(std::string name, std::string text) {
   job.id = fmt::format("answer-{}", random_hex(4));
   job.name = std::move(name);
   job.size = text.size();
-  job.text = std::move(text);
+  job.source = std::make_shared<line::KeptText>(std::move(text));
   port_->begin(std::move(job), [](const Result<void>& begun) {
     if (!begun) process::log_warning("answer not sent: {}", begun.error().what);
   });

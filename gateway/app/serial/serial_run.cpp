@@ -5,6 +5,7 @@
 #include "gateway/app/run_texts.hpp"
 #include "gateway/line/inbound/program_head.hpp"
 #include "gateway/line/line_words.hpp"
+#include "gateway/line/port_transfer.hpp"
 #include "protocol/dds/record_text.hpp"
 #include "protocol/process/log.hpp"
 
@@ -12,18 +13,6 @@ namespace dripline::gateway {
 namespace {
 
 constexpr std::chrono::milliseconds kSyncInterval{1000};
-constexpr std::string_view kCompleted = "sent to its end; a line does not report what was executed";
-
-std::string place_text(const report::Progress& progress) {
-  if (progress.line == 0) return "no whole block was sent";
-  if (progress.sequence < 0) return fmt::format("the last block sent is line {}", progress.line);
-  return fmt::format("the last block sent is line {}, N{}", progress.line, progress.sequence);
-}
-
-bool has_numbered_programs(wire::Flow flow) {
-  return flow == wire::Flow::Heidenhain || flow == wire::Flow::HeidenhainBcc;
-}
-
 dds::RunOutcome to_outcome(line::SendOutcome outcome) {
   if (outcome == line::SendOutcome::Completed) return dds::RunOutcome::Completed;
   if (outcome == line::SendOutcome::Aborted) return dds::RunOutcome::Aborted;
@@ -64,7 +53,8 @@ Result<void> SerialRun::recover() {
   is_program_broken_ = progress.offset > 0;
   const std::string reason =
       fmt::format("the gateway was cut off; at least {} bytes were sent, at most {}; {}",
-                  progress.sent, std::max(progress.offset, progress.sent), place_text(progress));
+                  progress.sent, std::max(progress.offset, progress.sent),
+                  line::place_words(progress.line, progress.sequence, "sent"));
   process::log_warning("run interrupted: {} machine={} run={} program={}", reason,
                        parts_.options.machine, run->run, run->program);
   current_.emplace(Current{.run = *run, .text = nullptr});
@@ -158,7 +148,7 @@ void SerialRun::begin_on_line() {
   parts_.consent.end_wait();
   line::SendJob job;
   job.id = current_->run.run;
-  job.name = has_numbered_programs(parts_.settings.flow)
+  job.name = line::has_numbered_programs(parts_.settings.flow)
                  ? line::program_number(current_->run.program)
                  : current_->run.program;
   job.source = current_->text;
@@ -249,7 +239,7 @@ void SerialRun::interrupt(const std::string& reason) {
 void SerialRun::on_sent(const line::SendEnd& sent) {
   if (!current_ || sent.progress.id != current_->run.run) return;
   const bool is_completed = sent.outcome == line::SendOutcome::Completed;
-  end(to_outcome(sent.outcome), is_completed ? std::string(kCompleted) : sent.reason,
+  end(to_outcome(sent.outcome), is_completed ? std::string(line::kSentToItsEnd) : sent.reason,
       LineJournal::progress_of(sent.progress));
 }
 
@@ -262,11 +252,9 @@ void SerialRun::end(dds::RunOutcome outcome, const std::string& reason,
   text.accepted = progress.accepted;
   text.line = progress.line;
   text.sequence = progress.sequence;
-  if (current_->text) {
-    if (const auto digest = current_->text->digest(); digest && current_->text->length() > 0) {
-      text.content_sha256 = digest->hex();
-      text.content_length = current_->text->length();
-    }
+  if (current_->text && current_->text->feed().content_length() > 0) {
+    text.content_sha256 = current_->text->feed().content_digest().hex();
+    text.content_length = current_->text->feed().content_length();
   }
   const bool is_completed = outcome == dds::RunOutcome::Completed;
   last_execution_ = is_completed ? dds::Execution::ProgramCompleted : dds::Execution::Stopped;

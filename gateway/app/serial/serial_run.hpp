@@ -49,6 +49,10 @@ class SerialRun {
   void poll(SteadyTime now);
   std::optional<SteadyTime> next_poll() const;
 
+  /// What is sent needs cycle start at the panel, or cannot be sent: the control's request, which
+  /// came before it, is no consent.
+  bool must_wait_for_panel() const;
+
   // Errors of these: Busy, Conflict.
   Result<void> cycle_start();
   Result<void> hold();
@@ -91,7 +95,6 @@ class SerialRun {
     std::optional<SerialStart> start = {};
     bool is_on_line = false, is_ending = false;
   };
-  bool must_wait_for_panel() const;
   void look_for_beginning(SteadyTime now);
   void begin(SteadyTime now);
   Result<void> check_line() const;

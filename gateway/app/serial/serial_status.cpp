@@ -11,13 +11,20 @@ namespace {
 
 using dds::Execution;
 
+/// "45 s", "10 min 3 s".
+std::string duration_words(double seconds) {
+  constexpr std::uint64_t kMinute = 60;
+  const auto whole = static_cast<std::uint64_t>(seconds);
+  if (whole < 2 * kMinute) return fmt::format("{} s", whole);
+  return fmt::format("{} min {} s", whole / kMinute, whole % kMinute);
+}
+
 /// How long the line does without the network, known before that is needed.
 std::string buffer_text(const SerialState& state) {
-  if (state.has_all_text)
-    return fmt::format("the rest of the program is buffered: {} bytes, {:.0f} s of the line",
-                       state.buffered_bytes, state.buffered_seconds);
-  return fmt::format("buffered: {} bytes, {:.0f} s of the line{}", state.buffered_bytes,
-                     state.buffered_seconds, state.server.is_connected() ? "" : "; no server");
+  const std::string buffer = fmt::format("{} bytes, {} of the line", state.buffered_bytes,
+                                         duration_words(state.buffered_seconds));
+  if (state.has_all_text) return "the rest of the program is buffered: " + buffer;
+  return fmt::format("buffered: {}{}", buffer, state.server.is_connected() ? "" : "; no server");
 }
 
 Execution execution_of(const SerialState& state) {
@@ -68,6 +75,38 @@ dds::WaitsFor waits_for(const SerialState& state, Execution execution) {
 
 static_assert(static_cast<int>(dds::LinePhase::Requesting) ==
               static_cast<int>(wire::Phase::Requesting));
+static_assert(static_cast<int>(dds::LineTransferState::Interrupted) ==
+              static_cast<int>(line::TransferState::Interrupted));
+
+/// As many of the names as fit.
+std::string names_text(const std::vector<std::string>& programs) {
+  constexpr std::size_t kMaxNames = 1024, kMaxRest = 32;
+  std::string text;
+  std::size_t shown = 0;
+  for (const std::string& name : programs) {
+    if (text.size() + name.size() + kMaxRest > kMaxNames) break;
+    text += (text.empty() ? "" : "\n") + name;
+    ++shown;
+  }
+  if (shown < programs.size()) text += fmt::format("\nand {} more", programs.size() - shown);
+  return text;
+}
+
+dds::LineTransfer transfer_of(const line::PortTransfer& transfer) {
+  return {.id = transfer.id,
+          .programs = names_text(transfer.programs),
+          .size = transfer.size,
+          .sent = transfer.sent,
+          .state = static_cast<dds::LineTransferState>(transfer.state),
+          .reason = transfer.reason};
+}
+
+dds::LineAsked asked_of(const line::PortRequest& request) {
+  constexpr std::size_t kMaxProgram = 128;
+  return {.since = request.since,
+          .program = valid_text(request.program, kMaxProgram),
+          .answer = request.answer};
+}
 
 /// What is changed of the template, as the options have it.
 std::string settings_text(std::string changes) {
@@ -92,6 +131,10 @@ dds::LineStatus line_status(const SerialState& state) {
   status.characters_received = view.received;
   status.buffered_bytes = state.buffered_bytes;
   status.call = state.calls.call();
+  if (view.transfer) status.transfer = transfer_of(*view.transfer);
+  if (view.request) status.asked = asked_of(*view.request);
+  status.waiting_since = view.waiting_since;
+  status.recorded = state.recorded;
   if (state.uploads.waiting().empty()) return status;
   const Upload& upload = state.uploads.waiting().front();
   status.upload =

@@ -23,6 +23,7 @@ struct SerialState {
   const LineCalls& calls;
   line::LineView view = {};
   std::optional<line::SendProgress> progress = {};
+  std::uint64_t recorded = 0;  ///< FlightRecorder::next_number
   bool is_emergency_stopped = false;
   // Of one moment: the line goes on while a status is made, and counting walks the buffer.
   std::uint64_t buffered_bytes = 0;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "protocol/base/durable_file.hpp"
 #include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
@@ -20,21 +21,6 @@ Error io_error(const std::filesystem::path& path) {
   return {Errc::Io, fmt::format("{}: {}", path.string(), std::strerror(errno))};
 }
 
-Result<void> write_all(int file, std::string_view text, const std::filesystem::path& path) {
-  while (!text.empty()) {
-    const ssize_t done = ::write(file, text.data(), text.size());
-    if (done < 0) return fail(io_error(path));
-    text.remove_prefix(static_cast<std::size_t>(done));
-  }
-  return {};
-}
-
-Result<void> sync_folder(const std::filesystem::path& folder) {
-  const Descriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!file || ::fsync(file.get()) != 0) return fail(io_error(folder));
-  return {};
-}
-
 Descriptor create(const std::filesystem::path& path) {
   constexpr mode_t kOwner = 0600;
   return Descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kOwner));
@@ -43,7 +29,7 @@ Descriptor create(const std::filesystem::path& path) {
 Result<void> write_file(const std::filesystem::path& path, const std::string& text) {
   const Descriptor file = create(path);
   if (!file) return fail(io_error(path));
-  if (auto done = write_all(file.get(), text, path); !done) return done;
+  if (!write_all(file.get(), text)) return fail(io_error(path));
   if (::fsync(file.get()) != 0) return fail(io_error(path));
   return {};
 }
@@ -124,8 +110,8 @@ void UploadStore::append(const std::string& text) {
               fmt::format("more than {} bytes of programs wait for the server", kMaxBytes)};
     return;
   }
-  if (auto done = write_all(open_->file.get(), text, open_path()); !done) {
-    open_->error = done.error();
+  if (!write_all(open_->file.get(), text)) {
+    open_->error = io_error(open_path());
     return;
   }
   open_->hash.update(text);
@@ -164,7 +150,7 @@ Result<Upload> UploadStore::finish(const std::string& name) {
   if (!done) return fail(done.error());
   std::filesystem::rename(path, note_path(upload.id), error);
   if (error) return fail(Errc::Io, "{}: {}", note_path(upload.id).string(), error.message());
-  if (done = sync_folder(folder_); !done) return fail(done.error());
+  if (!sync_folder(folder_)) return fail(io_error(folder_));
   bytes_ += upload.size;
   waiting_.push_back(upload);
   return upload;

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "protocol/base/descriptor.hpp"
 #include "protocol/base/digest.hpp"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "gateway/line/block_ledger.hpp"
-
 namespace dripline::line {
 
 namespace {

@@ -25,6 +25,7 @@ FlightRecorder::FlightRecorder(Options options, const Clock& clock,
   file_.emplace(options_.folder, options_.port);
   for (auto& entry : file_->read()) append(std::move(entry));
   untold_ = 0;
+  first_ -= entries_.size();
   drop_old(clock_.now());
 }
 
@@ -76,7 +77,7 @@ void FlightRecorder::drop_old(UtcTime now) {
          (bytes_ > options_.max_bytes || now - entries_.front().time > options_.max_age)) {
     bytes_ -= cost(entries_.front());
     entries_.pop_front();
-    ++dropped_;
+    ++first_;
   }
   untold_ = std::min(untold_, entries_.size());
 }
@@ -114,12 +115,17 @@ std::vector<PortTraffic> FlightRecorder::entries() const {
 FlightRecorder::Part FlightRecorder::entries_from(std::uint64_t number,
                                                   std::size_t max_entries) const {
   const std::lock_guard lock(mutex_);
-  Part part{.first = std::clamp(number, dropped_, dropped_ + entries_.size()), .entries = {}};
-  const auto begin = entries_.begin() + static_cast<std::ptrdiff_t>(part.first - dropped_);
+  Part part{.first = std::clamp(number, first_, first_ + entries_.size()), .entries = {}};
+  const auto begin = entries_.begin() + static_cast<std::ptrdiff_t>(part.first - first_);
   const auto size =
       std::min<std::size_t>(max_entries, static_cast<std::size_t>(entries_.end() - begin));
   part.entries.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
   return part;
+}
+
+std::uint64_t FlightRecorder::next_number() const {
+  const std::lock_guard lock(mutex_);
+  return first_ + entries_.size();
 }
 
 std::uint64_t FlightRecorder::sent() const {

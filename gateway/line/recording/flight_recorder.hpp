@@ -41,13 +41,17 @@ class FlightRecorder {
   void on_opened();
   /// Oldest first.
   std::vector<PortTraffic> entries() const;
-  /// Those from the `number`th on that this object has seen and still has; the first of them has
-  /// the number `first`. Only complete ones, so that their number is final.
+  /// Entries are numbered from kFirst on; what an earlier life has left lies before that. Those
+  /// from `number` on that are still here; the first of them has the number `first`. Only complete
+  /// ones, so that their number is final.
+  static constexpr std::uint64_t kFirst = std::uint64_t{1} << 32U;
   struct Part {
     std::uint64_t first = 0;
     std::vector<PortTraffic> entries;
   };
   Part entries_from(std::uint64_t number, std::size_t max_entries = 512) const;
+  /// The number that the next complete entry gets.
+  std::uint64_t next_number() const;
   std::uint64_t sent() const;      ///< characters, since the line was opened
   std::uint64_t received() const;  ///< the same
   std::uint64_t faults() const;    ///< the same
@@ -65,7 +69,7 @@ class FlightRecorder {
   mutable std::mutex mutex_;
   std::deque<PortTraffic> entries_;
   std::optional<PortTraffic> open_;  ///< still growing
-  std::uint64_t dropped_ = 0;        ///< entries before the first one
+  std::uint64_t first_ = kFirst;     ///< number of the oldest entry, or of the next one
   std::size_t bytes_ = 0;
   std::size_t untold_ = 0;  ///< of the newest entries
   std::uint64_t sent_ = 0, received_ = 0, faults_ = 0;

@@ -274,11 +274,11 @@ void add_port_routes(Router& router, Services& services) {
   router.add("PUT", port, with_ports(services, save_port));
   router.add("DELETE", port, with_ports(services, remove_port));
   router.add("POST", port + "/test", with_ports(services, test_port), Waits::ForMachine);
-  router.add("POST", port + "/test-rules", with_ports(services, test_rules));
-  router.add("POST", port + "/transfers", with_ports(services, send_programs));
-  router.add("POST", port + "/receive", with_ports(services, receive_program));
-  router.add("DELETE", port + "/transfers", with_ports(services, stop_transfer));
-  router.add("GET", port + "/recording", with_ports(services, send_recording));
+  router.add("POST", port + "/test-rules", with_ports(services, test_rules), Waits::ForMachine);
+  router.add("POST", port + "/transfers", with_ports(services, send_programs), Waits::ForMachine);
+  router.add("POST", port + "/receive", with_ports(services, receive_program), Waits::ForMachine);
+  router.add("DELETE", port + "/transfers", with_ports(services, stop_transfer), Waits::ForMachine);
+  router.add("GET", port + "/recording", with_ports(services, send_recording), Waits::ForMachine);
   router.add("GET", port + "/traffic", with_ports(services, open_traffic));
   router.add("GET", "/api/v1/port-templates", list_templates);
 }

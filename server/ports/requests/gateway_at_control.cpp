@@ -2,37 +2,25 @@
 
 #include <utility>
 
+#include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
-#include "server/ports/programs/program_stream.hpp"
+#include "server/ports/gateways/gateway_requests.hpp"
 
 namespace dripline::ports {
-namespace {
-
-Result<std::string> read_all(const SendJob& job) {
-  if (job.size > dds::kMaxCommandSetup) {
-    return fail(Errc::LimitExceeded,
-                "{} bytes: a gateway's control is offered programs of at most {}; start a run",
-                job.size, dds::kMaxCommandSetup);
-  }
-  std::string text;
-  while (text.size() < job.size) {
-    const auto piece = job.source->read(text.size(), job.size - text.size());
-    if (!piece) return fail(piece.error());
-    text += *piece;
-  }
-  return text;
-}
-
-}  // namespace
 
 void GatewayAtControl::note(const std::string& words) {
   process::log_info("machine={}: {}", machine_, words);
 }
 
 void GatewayAtControl::send(SendJob job) {
-  auto text = job.text ? Result<std::string>(*std::move(job.text)) : read_all(job);
-  if (!text) return refuse(text.error().what);
-  tell(dds::LineAction::Answer, job.name, *text);
+  if (job.text) {
+    job.size = job.text->size();
+    job.source = std::make_shared<line::KeptText>(*std::exchange(job.text, std::nullopt));
+  }
+  job.id = fmt::format("answer-{}", random_hex(4));
+  const auto order = push_text(ask_, machine_, job);
+  if (!order) return refuse(order.error().what);
+  tell(dds::LineAction::Answer, job.id, *order);
 }
 
 /// The gateway needs the call no more: the run takes its place.

@@ -1,11 +1,9 @@
 #include "server/ports/requests/remote_request_handler.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <map>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "gateway/interpreter/core/called_program_names.hpp"
@@ -18,7 +16,6 @@
 #include "server/library/job_queue.hpp"
 #include "server/machines/start_point.hpp"
 #include "server/ports/line_runs.hpp"
-#include "server/ports/line_transfer.hpp"
 #include "server/ports/programs/program_stream.hpp"
 #include "storage/store.hpp"
 

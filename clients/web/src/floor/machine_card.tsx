@@ -5,7 +5,7 @@ import { questionOf } from '../live/machine_state';
 import { durationText, percentDigits, progressOf } from '../live/progress';
 import { useFeedNear } from '../live/use_feed';
 import { StatePill } from '../parts/state_pill';
-import { dateTimeText, numberText, texts } from '../texts/texts';
+import { bufferedText, dateTimeText, numberText, texts } from '../texts/texts';
 import { useNear } from './use_near';
 
 export const MachineCard = memo(function MachineCard({ name }: { name: string }) {
@@ -43,7 +43,7 @@ export const MachineCard = memo(function MachineCard({ name }: { name: string })
       {machine.notices.map((notice) => <p key={notice} class="message">{notice}</p>)}
       {machine.connected && status?.run && (
         <dl class="facts">
-          <dt>{t.buffered}</dt><dd>{t.seconds(numberText(status.buffered_seconds, 1))}</dd>
+          <dt>{t.buffered}</dt><dd>{bufferedText(status.buffered_seconds)}</dd>
           <dt>{t.feedOverride}</dt><dd>{numberText(status.feed_override * 100)} %</dd>
         </dl>
       )}

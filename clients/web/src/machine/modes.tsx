@@ -1,7 +1,7 @@
 // Feed, spindle, tool and the modal state, as a control's status window has them.
 import type { Display, Machine, Status } from '../../generated/api';
 import { Rows } from '../parts/rows';
-import { numberText, texts } from '../texts/texts';
+import { bufferedText, numberText, texts } from '../texts/texts';
 import { lengthText, unitOf } from './units';
 
 function rowsOf(status: NonNullable<Status>, display: Display): Array<[string, string]> {
@@ -12,7 +12,7 @@ function rowsOf(status: NonNullable<Status>, display: Display): Array<[string, s
     [t.feed, `${lengthText(status.feed_mm_per_min, { ...unit, digits: unit.name === 'mm' ? 0 : 2 })} ${unit.name}/min`],
     [t.spindle, `${numberText(status.spindle_rpm)} 1/min`],
     [t.blocks, t.blockCounts(numberText(status.executed), numberText(status.accepted))],
-    [t.buffered, `${numberText(status.buffered_seconds, 1)} s`],
+    [t.buffered, bufferedText(status.buffered_seconds)],
   ];
   const { modes } = status;
   if (!modes) return rows;

@@ -95,7 +95,6 @@ export const de: Texts = {
     progress: 'Fortschritt',
     timeLeft: (time) => `noch etwa ${time}`,
     buffered: 'Vorrat',
-    seconds: (seconds) => `${seconds} s`,
     feedOverride: 'Vorschub',
     open: (machine) => `Maschine ${machine} öffnen`,
     lastSeen: (time) => `zuletzt gesehen ${time}`,

@@ -97,7 +97,6 @@ export const en = {
     progress: 'Progress',
     timeLeft: (time: string) => `about ${time} left`,
     buffered: 'Buffered',
-    seconds: (seconds: string) => `${seconds} s`,
     feedOverride: 'Feed',
     open: (machine: string) => `Open machine ${machine}`,
     lastSeen: (time: string) => `last seen ${time}`,

@@ -44,6 +44,11 @@ export function relativeText(time: Date | string, now = Date.now()): string {
   return new Intl.RelativeTimeFormat(language, { numeric: 'always' }).format(Math.trunc(seconds / size), unit);
 }
 
+/// How long a machine can do without the server: "12.3 s", and minutes of a line beside a gateway, "10.1 min".
+export function bufferedText(seconds: number): string {
+  return seconds < 120 ? `${numberText(seconds, 1)} s` : `${numberText(seconds / 60, 1)} min`;
+}
+
 export function bytesText(bytes: number): string {
   const units = ['B', 'KiB', 'MiB', 'GiB', 'TiB'];
   let unit = 0;

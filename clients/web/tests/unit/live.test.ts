@@ -5,6 +5,7 @@ import { filterQuery, listFloor, readFilter } from '../../src/floor/filter';
 import { EventParser } from '../../src/live/event_parser';
 import { questionOf, stateOf } from '../../src/live/machine_state';
 import { durationText, percentDigits, progressOf } from '../../src/live/progress';
+import { bufferedText } from '../../src/texts/texts';
 import { machine, run, status } from './samples';
 
 test('an event stream may be cut anywhere', () => {
@@ -98,4 +99,10 @@ test('a filter survives its address, and a state that does not exist is none', (
   const filter = { text: 'a&b=<c>', tone: 'alarm' as const };
   assert.deepEqual(readFilter(new URLSearchParams(filterQuery(filter))), filter);
   assert.equal(readFilter(new URLSearchParams('state=broken')).tone, null);
+});
+
+test('what is buffered is seconds of motion, and minutes of a line', () => {
+  assert.equal(bufferedText(7.25), '7.3 s');
+  assert.equal(bufferedText(119.9), '119.9 s');
+  assert.equal(bufferedText(606), '10.1 min');
 });

@@ -153,11 +153,29 @@ TEST_F(RecorderTest, GivesPartsByNumber) {
   recorder.flush();
   const auto all = recorder.entries_from(0);
   ASSERT_FALSE(all.entries.empty());
-  EXPECT_GT(all.first, 0U) << "the oldest are gone, and so are their numbers";
-  EXPECT_EQ(all.first + all.entries.size(), 6U);
-  EXPECT_EQ(recorder.entries_from(5).entries.front().text, "six");
-  EXPECT_TRUE(recorder.entries_from(6).entries.empty());
-  EXPECT_EQ(recorder.entries_from(99).first, 6U);
+  constexpr auto kFirst = FlightRecorder::kFirst;
+  EXPECT_GT(all.first, kFirst) << "the oldest are gone, and so are their numbers";
+  EXPECT_EQ(all.first + all.entries.size(), kFirst + 6);
+  EXPECT_EQ(recorder.next_number(), kFirst + 6);
+  EXPECT_EQ(recorder.entries_from(kFirst + 5).entries.front().text, "six");
+  EXPECT_TRUE(recorder.entries_from(kFirst + 6).entries.empty());
+  EXPECT_EQ(recorder.entries_from(kFirst + 99).first, kFirst + 6);
+}
+
+/// A reader that has seen everything of an earlier life begins with what is new.
+TEST_F(RecorderTest, GivesWhatAnEarlierLifeHasLeftNumbersBeforeItsOwn) {
+  {
+    auto earlier = make({.port = {}, .folder = folder_.path()});
+    add(earlier, What::Note, "one");
+    add(earlier, What::Note, "two");
+    earlier.flush();
+  }
+  auto recorder = make({.port = {}, .folder = folder_.path()});
+  EXPECT_EQ(recorder.next_number(), FlightRecorder::kFirst);
+  EXPECT_EQ(recorder.entries_from(0).entries.size(), 2U);
+  add(recorder, What::Note, "three");
+  ASSERT_EQ(recorder.entries_from(FlightRecorder::kFirst).entries.size(), 1U);
+  EXPECT_EQ(recorder.entries_from(FlightRecorder::kFirst).entries.front().text, "three");
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ const std::map<std::string, Names> kOutsideTheLists{
     {"ActiveModes", {"is_present"}},
     {"Coordinates", {"is_present", "has_following_error", "has_program"}},
     {"BlockData", {"crc"}},
-    {"LineStatus", {"is_present", "has_upload", "has_call"}},
+    {"LineStatus", {"is_present", "has_upload", "has_call", "has_transfer", "has_asked"}},
+    {"LineRequest", {"crc"}},
     {"LineData", {"crc"}},
 };
 
@@ -80,6 +81,8 @@ TEST(Members, AreThoseOfTheIdlInItsOrder) {
   EXPECT_EQ(names_in_list<BlockData>(), names_in_idl("BlockData"));
   EXPECT_EQ(names_in_list<LineUpload>(), names_in_idl("LineUpload"));
   EXPECT_EQ(names_in_list<LineCall>(), names_in_idl("LineCall"));
+  EXPECT_EQ(names_in_list<LineTransfer>(), names_in_idl("LineTransfer"));
+  EXPECT_EQ(names_in_list<LineAsked>(), names_in_idl("LineAsked"));
   EXPECT_EQ(names_in_list<LineStatus>(), names_in_idl("LineStatus"));
   EXPECT_EQ(names_in_list<LineRequest>(), names_in_idl("LineRequest"));
   EXPECT_EQ(names_in_list<LineData>(), names_in_idl("LineData"));

@@ -87,9 +87,20 @@ TEST_F(PulledTextTest, StatesWhenAllOfTheRestIsHere) {
   std::uint64_t at = 0;
   while (at < text_.size()) at += pulled.read(at, 32 * 1024).value().size();
   EXPECT_EQ(pulled.bytes_ahead(), 0U);
-  ASSERT_TRUE(pulled.digest());
-  EXPECT_EQ(pulled.digest()->hex(), sha256(text_).hex());
-  EXPECT_EQ(pulled.length(), text_.size());
+  EXPECT_EQ(pulled.feed().content_digest().hex(), sha256(text_).hex());
+  EXPECT_EQ(pulled.feed().content_length(), text_.size());
+}
+
+/// Also at the moment before more is asked for.
+TEST_F(PulledTextTest, NeverHasLessThanItsBufferWhileTheServerIsThere) {
+  PulledText pulled = make(50'000);
+  ASSERT_EQ(pulled.read(0, 1).value(), "");
+  serve(pulled);
+  for (std::uint64_t at = 0; at < 150'000;) {
+    at += pulled.read(at, 1000).value().size();
+    serve(pulled);
+    ASSERT_GE(pulled.bytes_ahead(), 50'000U) << at;
+  }
 }
 
 TEST(PulledTextBuffer, IsMinutesOfTheLineWithinBounds) {

@@ -1,0 +1,238 @@
+#include <thread>
+
+#include "gateway/app/panel/panel_controller.hpp"
+#include "gateway/line/line_texts.hpp"
+#include "tests/unit/gateway/app/serial/serial_fixture.hpp"
+
+/// What the server wants of a gateway's line.
+namespace dripline::gateway {
+namespace {
+
+using namespace std::chrono_literals;
+using dds::LineAction;
+using dds::LineResult;
+
+class LineAnswersTest : public SerialGatewayTest {
+ protected:
+  static std::string text_of(const dds::LineData& data) {
+    return {reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size()};
+  }
+  static dds::LineRequest request(LineAction action, std::string id = {}) {
+    dds::LineRequest request;
+    request.machine = "mill-3";
+    request.session = kSession;
+    request.id = std::move(id);
+    request.action = action;
+    return request;
+  }
+  /// As the server does: the text in pieces, then the order.
+  dds::LineData send(const std::string& text, const std::string& content,
+                     const std::string& id = "transfer-1", std::size_t piece = 1000) {
+    for (std::size_t at = 0; at < text.size(); at += piece) {
+      auto part = request(LineAction::Text);
+      part.name = id;
+      part.number = at;
+      const auto bytes =
+          std::as_bytes(std::span(text).subspan(at, std::min(piece, text.size() - at)));
+      part.bytes = {bytes.begin(), bytes.end()};
+      if (const auto kept = ask(part); kept.status != LineResult::Done) return kept;
+    }
+    auto order = request(LineAction::Send);
+    order.name = id;
+    order.text = line::encode(
+        line::TransferOrder{.content = content, .name = "O0077", .programs = {"O0077 revision 1"}});
+    return ask(order);
+  }
+  dds::LineData send(const std::string& text) { return send(text, sha256(text).hex()); }
+  dds::LineData stop(const std::string& reason) {
+    auto stop = request(LineAction::Stop);
+    stop.text = reason;
+    return ask(stop);
+  }
+  dds::LineTransfer transfer() const {
+    return status().serial_line->transfer.value_or(dds::LineTransfer{});
+  }
+  /// Until the examination's own time is over.
+  static void let_time_pass() { std::this_thread::sleep_for(2s); }
+  const std::string program_ = [] {
+    std::string text = "O0077\n";
+    for (int i = 0; i < 400; ++i) text += "G1 X" + std::to_string(i) + ".\n";
+    return text + "M30\n";
+  }();
+  static constexpr const char* kPlain = "line=9600n81\neob=lf\nflow=none";
+};
+
+TEST_F(LineAnswersTest, TestsTheLineAgainAfterATestThatNobodyAskedForAgain) {
+  begin(kPlain);
+  EXPECT_EQ(ask_once(request(LineAction::Test, "first")).status, LineResult::NotYet);
+  let_time_pass();
+  EXPECT_EQ(ask_once(request(LineAction::Test, "second")).status, LineResult::NotYet);
+  let_time_pass();
+  const auto test = line::decode_port_test(text_of(ask_once(request(LineAction::Test, "second"))));
+  ASSERT_TRUE(test);
+  EXPECT_TRUE(test->is_passed) << testing::PrintToString(test->findings);
+}
+
+/// What is asked for between two questions for the same test does not begin it again.
+TEST_F(LineAnswersTest, KeepsATestAndWhatItFoundApartFromOtherRequests) {
+  begin(kPlain);
+  EXPECT_EQ(ask_once(request(LineAction::Test, "test")).status, LineResult::NotYet);
+  EXPECT_EQ(ask_once(request(LineAction::Test, "other")).reason, "the line is being tested");
+  EXPECT_EQ(ask_once(request(LineAction::Done, "done")).status, LineResult::Done);
+  EXPECT_EQ(ask_once(request(LineAction::Test, "test")).status, LineResult::NotYet);
+  let_time_pass();
+  EXPECT_EQ(ask_once(request(LineAction::Done, "done-2")).status, LineResult::Done);
+  for (int i = 0; i < 2; ++i) {
+    const auto answer = ask_once(request(LineAction::Test, "test"));
+    ASSERT_EQ(answer.status, LineResult::Done) << answer.reason;
+    EXPECT_TRUE(line::decode_port_test(text_of(answer)));
+  }
+}
+
+/// Requests of several callers come in between each other, and each more than once.
+TEST_F(LineAnswersTest, DoesEachOnceAlsoWhenAnotherCameInBetween) {
+  begin(kPlain);
+  ASSERT_EQ(send(program_).status, LineResult::Done);
+  auto order = request(LineAction::Send, "again");
+  order.name = "transfer-1";
+  order.text = line::encode(line::TransferOrder{});
+  EXPECT_EQ(ask_once(order).reason, "the text of this transfer is not here");
+  ASSERT_TRUE(
+      pass_until([&] { return transfer().state == dds::LineTransferState::Completed; }, 60s));
+  auto text = request(LineAction::Text, "text");
+  text.name = "transfer-2";
+  text.bytes = {std::byte{'M'}};
+  EXPECT_EQ(ask_once(text).status, LineResult::Done);
+  EXPECT_EQ(ask_once(order).reason, "the text of this transfer is not here") << "as before";
+  EXPECT_EQ(ask_once(text).status, LineResult::Done);
+}
+
+TEST_F(LineAnswersTest, SendsProgramsToTheControlWithoutARun) {
+  begin(kPlain);
+  const auto begun = send(program_);
+  ASSERT_EQ(begun.status, LineResult::Done) << begun.reason;
+  EXPECT_EQ(transfer().id, "transfer-1");
+  EXPECT_EQ(transfer().programs, "O0077 revision 1");
+  EXPECT_EQ(transfer().size, program_.size());
+  EXPECT_EQ(status().run, "");
+  connect(false);  // all of it is here
+  ASSERT_TRUE(
+      pass_until([&] { return transfer().state == dds::LineTransferState::Completed; }, 60s));
+  EXPECT_EQ(wire_.sent, program_);
+  EXPECT_EQ(transfer().sent, program_.size());
+  EXPECT_TRUE(records_.empty()) << "it is no run";
+  auto look = request(LineAction::Recording);
+  EXPECT_NE(text_of(ask(look)).find("the transfer of programs completed"), std::string::npos);
+}
+
+TEST_F(LineAnswersTest, StopsATransfer) {
+  begin(kPlain);
+  EXPECT_EQ(stop("by who").status, LineResult::Refused) << "there is nothing";
+  ASSERT_EQ(send(program_).status, LineResult::Done);
+  pass(1s);
+  EXPECT_EQ(stop("stopped by who").status, LineResult::Done);
+  ASSERT_TRUE(pass_until([&] { return transfer().state == dds::LineTransferState::Aborted; }, 5s));
+  EXPECT_NE(transfer().reason.find("stopped by who"), std::string::npos);
+  pass(2s);
+  EXPECT_LT(wire_.sent.size(), program_.size());
+}
+
+TEST_F(LineAnswersTest, SendsNoTextThatIsNotWhatTheServerHas) {
+  begin(kPlain);
+  const auto refused = send(program_, sha256("another").hex());
+  EXPECT_EQ(refused.reason, "the text is not what the server states");
+  pass(2s);
+  EXPECT_EQ(wire_.sent, "");
+  // A piece that is missing, and one of another text between.
+  auto part = request(LineAction::Text);
+  part.name = "transfer-2";
+  part.number = 1000;
+  part.bytes = {std::byte{'G'}};
+  EXPECT_EQ(ask(part).status, LineResult::Refused);
+  part.number = 0;
+  EXPECT_EQ(ask(part).status, LineResult::Done);
+  part.name = "transfer-3";
+  EXPECT_EQ(ask(part).reason, "the text of another transfer is just coming");
+  clock_.advance(SerialTransfer::kPatience);
+  EXPECT_EQ(ask(part).status, LineResult::Done);
+}
+
+TEST_F(LineAnswersTest, SendsNothingBesideARunOrWhileTheEmergencyStopIsPressed) {
+  begin(kPlain);
+  EXPECT_EQ(panel("emergency-stop on"), "ok");
+  EXPECT_EQ(send(program_).reason, kEmergencyStopIsPressed);
+  EXPECT_EQ(panel("emergency-stop off"), "ok");
+  start(program_);
+  EXPECT_EQ(send(program_).reason, "a run is on the line");
+  EXPECT_EQ(stop("by who").status, LineResult::Refused) << "a run is aborted as one";
+  ASSERT_TRUE(pass_until([&] { return ended().has_value(); }, 60s));
+  ASSERT_EQ(send(program_).status, LineResult::Done);
+  EXPECT_EQ(panel("emergency-stop on"), "ok");
+  ASSERT_TRUE(pass_until([&] { return transfer().state == dds::LineTransferState::Aborted; }, 5s));
+  EXPECT_NE(transfer().reason.find("EMERGENCY STOP"), std::string::npos);
+}
+
+/// A control that happens to be in its DNC mode executes what comes.
+TEST_F(LineAnswersTest, AtAnAttendedMachineATransferNeedsItsOperatorsConsent) {
+  options_.is_unattended = false;
+  begin(kPlain);
+  const auto refused = send(program_);
+  EXPECT_EQ(refused.status, LineResult::Refused);
+  EXPECT_NE(refused.reason.find("remote-enable on"), std::string::npos) << refused.reason;
+  pass(2s);
+  EXPECT_EQ(wire_.sent, "");
+  EXPECT_EQ(panel("remote-enable on"), "ok");
+  EXPECT_EQ(send(program_).status, LineResult::Done);
+  pass(1s);
+  EXPECT_EQ(panel("abort"), "ok");
+  ASSERT_TRUE(pass_until([&] { return transfer().state == dds::LineTransferState::Aborted; }, 5s));
+}
+
+TEST_F(LineAnswersTest, TheControlsRequestAfterItIsConsentAndBeforeItIsNone) {
+  options_.is_unattended = false;
+  begin("line=9600n81\neob=lf\nflow=dc_codes");
+  line_->receive("\x11");
+  pass(200ms);
+  EXPECT_NE(send(program_).reason.find("has asked before this"), std::string::npos);
+  line_->receive("\x13");
+  pass(200ms);
+  ASSERT_EQ(send(program_).status, LineResult::Done);
+  pass(2s);
+  EXPECT_EQ(wire_.sent, "") << "it waits for the control";
+  line_->receive("\x11");
+  ASSERT_TRUE(
+      pass_until([&] { return transfer().state == dds::LineTransferState::Completed; }, 60s));
+}
+
+TEST_F(LineAnswersTest, RefusesToAskForAProgramWhereTheControlSendsUnasked) {
+  begin(kPlain);
+  const auto refused = ask(request(LineAction::Receive));
+  EXPECT_NE(refused.reason.find("only over XMODEM"), std::string::npos) << refused.reason;
+}
+
+TEST_F(LineAnswersTest, JudgesATextByTheRules) {
+  begin(kPlain,
+        "[[rule]]\nname = \"send\"\nprogram = \"O9999\"\ntrigger = \"PRG\"\n"
+        "action = \"send\"\nargument = \"O{}\"\n");
+  auto judge = request(LineAction::Judge);
+  const std::string text = "O9999\n(PRG=0077)\nM30\n";
+  const auto bytes = std::as_bytes(std::span(text));
+  judge.bytes = {bytes.begin(), bytes.end()};
+  const auto verdict = line::decode_rule_verdict(text_of(ask(judge)));
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->action, "send");
+  EXPECT_EQ(verdict->argument, "O0077");
+}
+
+TEST_F(LineAnswersTest, ShowsSinceWhenTheControlWaitsAndWhatItAskedFor) {
+  begin("line=9600n81\neob=lf\nflow=dc_codes");
+  EXPECT_FALSE(status().serial_line->asked);
+  line_->receive("\x11");
+  pass(500ms);
+  ASSERT_TRUE(status().serial_line->asked);
+  EXPECT_EQ(status().serial_line->asked->answer, "");
+  EXPECT_LE(status().serial_line->asked->since, clock_.now());
+}
+
+}  // namespace
+}  // namespace dripline::gateway
