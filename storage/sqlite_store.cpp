@@ -14,6 +14,7 @@
 #include "storage/impl/measurement_repository.hpp"
 #include "storage/impl/offset_repository.hpp"
 #include "storage/impl/program_repository.hpp"
+#include "storage/impl/record_reader_repository.hpp"
 #include "storage/impl/release_repository.hpp"
 #include "storage/impl/report_template_repository.hpp"
 #include "storage/impl/repositories.hpp"
@@ -79,7 +80,8 @@ struct SqliteStore::Repositories {
         search(*connections),
         folders(*connections),
         jobs(*connections),
-        webhooks(*connections) {}
+        webhooks(*connections),
+        record_readers(*connections) {}
 
   std::unique_ptr<Connections> connections;
   ProgramRepository programs;
@@ -102,6 +104,7 @@ struct SqliteStore::Repositories {
   FolderRepository folders;
   JobRepository jobs;
   WebhookRepository webhooks;
+  RecordReaderRepository record_readers;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
@@ -119,7 +122,7 @@ SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
             repositories->releases,     repositories->imports,  repositories->report_templates,
             repositories->measurements, repositories->archives, repositories->offsets,
             repositories->attachments,  repositories->search,   repositories->folders,
-            repositories->jobs,         repositories->webhooks},
+            repositories->jobs,         repositories->webhooks, repositories->record_readers},
       repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 

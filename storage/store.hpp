@@ -12,6 +12,7 @@
 #include "storage/offset_store.hpp"
 #include "storage/port_store.hpp"
 #include "storage/program_store.hpp"
+#include "storage/record_reader_store.hpp"
 #include "storage/record_store.hpp"
 #include "storage/release_store.hpp"
 #include "storage/report_template_store.hpp"
@@ -23,10 +24,10 @@
 
 namespace dripline::storage {
 
-/// What the server keeps, in domain words: twenty interfaces, so that a service names the ones it
-/// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
-/// may be called from any thread; each is one transaction. When it has returned success, what it
-/// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
+/// What the server keeps, in domain words: twenty-one interfaces, so that a service names the ones
+/// it needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every
+/// function may be called from any thread; each is one transaction. When it has returned success,
+/// what it wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
 struct Store {
   ProgramStore& programs;
   UploadStore& uploads;
@@ -48,6 +49,7 @@ struct Store {
   FolderStore& folders;
   JobStore& jobs;
   WebhookStore& webhooks;
+  RecordReaderStore& record_readers;
 };
 
 }  // namespace dripline::storage

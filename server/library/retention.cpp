@@ -167,13 +167,29 @@ Result<void> Retention::keep(archive::ArchiveWriter& writer, Archive archive,
   return remove_rows(archive, stop);
 }
 
+/// Not what the reader has not got yet.
+Result<std::vector<storage::ArchivableRecords>> Retention::archivable_records() {
+  auto journals = parts_.store.archives.archivable_records();
+  if (!journals || parts_.reader.empty()) return journals;
+  const auto unread = parts_.store.record_readers.unread(parts_.reader);
+  if (!unread) return fail(unread.error());
+  for (auto& journal : *journals) {
+    for (const auto& [cursor, last] : *unread) {
+      if (cursor.machine != journal.machine || cursor.epoch != journal.epoch) continue;
+      journal.last = std::min(journal.last, cursor.number);
+    }
+  }
+  std::erase_if(*journals, [](const auto& journal) { return journal.first > journal.last; });
+  return journals;
+}
+
 Result<std::uint64_t> Retention::archive_records(const std::stop_token& stop) {
   const RetentionRule& rule = options_.records;
   std::uint64_t made = 0;
   if (!rule.is_there()) return made;
   const UtcTime cutoff = rule.age ? parts_.clock.now() - *rule.age : UtcTime{};
   for (;;) {
-    const auto journals = parts_.store.archives.archivable_records();
+    const auto journals = archivable_records();
     if (!journals) return fail(journals.error());
     const auto size =
         rule.rows ? parts_.store.archives.size(ArchiveKind::Records) : Result<std::uint64_t>(0);

@@ -35,6 +35,9 @@ class Retention {
     std::filesystem::path folder;  ///< of archives
     std::string database;          ///< identity
     std::string made_by;
+    /// Of the records (storage::RecordReaderStore): what it has not got stays. Empty: there is
+    /// none.
+    std::string reader = {};
   };
   struct Options {
     RetentionRule records, measurements;
@@ -68,6 +71,7 @@ class Retention {
   void work(const std::stop_token& stop);
   Result<void> finish(const std::stop_token& stop);
   Result<void> remove_rows(const storage::Archive& archive, const std::stop_token& stop);
+  Result<std::vector<storage::ArchivableRecords>> archivable_records();
   Result<std::uint64_t> archive_records(const std::stop_token& stop);
   Result<std::uint64_t> archive_measurements(const std::stop_token& stop);
   /// One file of a journal, of rows before `cutoff`, at most `rows`. False: there are none.

@@ -139,25 +139,29 @@ class RecordStoreDecorator : public storage::RecordStore {
 
 /// `store` with one of its parts replaced; the part must outlive it.
 inline storage::Store with(const storage::Store& store, storage::ProgramStore& programs) {
-  return {programs,           store.uploads,  store.machines, store.runs,
-          store.records,      store.ports,    store.setups,   store.audit,
-          store.accounts,     store.releases, store.imports,  store.report_templates,
-          store.measurements, store.archives, store.offsets,  store.attachments,
-          store.search,       store.folders,  store.jobs,     store.webhooks};
+  return {programs,           store.uploads,  store.machines,
+          store.runs,         store.records,  store.ports,
+          store.setups,       store.audit,    store.accounts,
+          store.releases,     store.imports,  store.report_templates,
+          store.measurements, store.archives, store.offsets,
+          store.attachments,  store.search,   store.folders,
+          store.jobs,         store.webhooks, store.record_readers};
 }
 inline storage::Store with(const storage::Store& store, storage::MachineStore& machines) {
-  return {store.programs,     store.uploads,  machines,      store.runs,
-          store.records,      store.ports,    store.setups,  store.audit,
-          store.accounts,     store.releases, store.imports, store.report_templates,
-          store.measurements, store.archives, store.offsets, store.attachments,
-          store.search,       store.folders,  store.jobs,    store.webhooks};
+  return {store.programs,      store.uploads,  machines,      store.runs,
+          store.records,       store.ports,    store.setups,  store.audit,
+          store.accounts,      store.releases, store.imports, store.report_templates,
+          store.measurements,  store.archives, store.offsets, store.attachments,
+          store.search,        store.folders,  store.jobs,    store.webhooks,
+          store.record_readers};
 }
 inline storage::Store with(const storage::Store& store, storage::RunStore& runs) {
-  return {store.programs,     store.uploads,  store.machines, runs,
-          store.records,      store.ports,    store.setups,   store.audit,
-          store.accounts,     store.releases, store.imports,  store.report_templates,
-          store.measurements, store.archives, store.offsets,  store.attachments,
-          store.search,       store.folders,  store.jobs,     store.webhooks};
+  return {store.programs,      store.uploads,  store.machines, runs,
+          store.records,       store.ports,    store.setups,   store.audit,
+          store.accounts,      store.releases, store.imports,  store.report_templates,
+          store.measurements,  store.archives, store.offsets,  store.attachments,
+          store.search,        store.folders,  store.jobs,     store.webhooks,
+          store.record_readers};
 }
 inline storage::Store with(const storage::Store& store, storage::RecordStore& records) {
   return {store.programs,     store.uploads,  store.machines,
@@ -166,7 +170,7 @@ inline storage::Store with(const storage::Store& store, storage::RecordStore& re
           store.releases,     store.imports,  store.report_templates,
           store.measurements, store.archives, store.offsets,
           store.attachments,  store.search,   store.folders,
-          store.jobs,         store.webhooks};
+          store.jobs,         store.webhooks, store.record_readers};
 }
 
 }  // namespace dripline::test_support

@@ -211,10 +211,19 @@ TEST_P(KeptFile, HasCallsOfRunsSinceVersion15) {
   EXPECT_EQ(calls->at(0).program, "p.nc");
 }
 
+TEST_P(KeptFile, HasReadersOfTheRecordsSinceVersion16) {
+  reopen();
+  const auto unread = store_->record_readers.unread("mqtt");
+  EXPECT_EQ(unread->size(), version() < 16 ? 0u : 1u);
+  if (version() < 16) return;
+  EXPECT_EQ(unread->at(0).cursor.number, 2u);
+  EXPECT_EQ(unread->at(0).last, 3u);
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
-                                         "v12.sql", "v13.sql", "v14.sql", "v15.sql"),
+                                         "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

@@ -80,6 +80,28 @@ class RetentionTest : public server_test::ServerTest {
   std::uint64_t last_ = 0;
 };
 
+TEST_F(RetentionTest, LeavesWhatAReaderHasNotGot) {
+  ASSERT_TRUE(store_->record_readers.begin("mqtt", clock_.now()));
+  print(25);
+  clock_.advance(std::chrono::hours(48));
+  Retention::Options options;
+  options.records = {.age = std::chrono::hours(24), .rows = {}};
+  Retention retention({.store = *store_,
+                       .clock = clock_,
+                       .folder = archives(),
+                       .database = "db",
+                       .made_by = "test",
+                       .reader = "mqtt"},
+                      options);
+  EXPECT_EQ(apply(retention), 0u);
+  ASSERT_TRUE(store_->record_readers.advance("mqtt", {{"lathe-1", 7, 11}}));
+  EXPECT_EQ(apply(retention), 1u);
+  EXPECT_EQ(stored().front(), 12u);
+  ASSERT_TRUE(store_->record_readers.advance("mqtt", {{"lathe-1", 7, 25}}));
+  EXPECT_EQ(apply(retention), 1u);
+  EXPECT_TRUE(stored().empty());
+}
+
 TEST_F(RetentionTest, MovesWhatIsOldIntoArchives) {
   print(25);
   clock_.advance(std::chrono::hours(23));
