@@ -109,6 +109,7 @@ enum class Function : std::uint8_t {
   Bin,
   Bcd,
   Pin,
+  Pow,  ///< of two arguments
 };
 
 /// The functions that mean the same on all controls; a dialect computes the others itself

@@ -37,11 +37,20 @@ struct ErrorCode {
   static constexpr DiagnosticRow HomeInCycle{"PS044", "G27-G30 NOT ALLOWED IN FIXED CYC"};
   static constexpr DiagnosticRow NoQ{"PS045", "ADDRESS Q NOT FOUND (G73/G83)"};
   static constexpr DiagnosticRow IllegalReference{"PS046", "ILLEGAL REFERENCE RETURN COMMAND"};
+  static constexpr DiagnosticRow CornerOfNoMove{"PS050", "CHF/CNR NOT ALLOWED IN 3RD BLK"};
+  static constexpr DiagnosticRow MissingAfterCorner{"PS051", "MISSING MOVE AFTER CHF/CNR"};
+  static constexpr DiagnosticRow NotStraightCorner{"PS052", "CODE IS NOT G01 AFTER CHF/CNR"};
+  static constexpr DiagnosticRow CornerTooLarge{"PS055", "MISSING MOVE VALUE IN CHF/CNR"};
   static constexpr DiagnosticRow SequenceNotFound{"PS060", "SEQUENCE NUMBER NOT FOUND"};
   static constexpr DiagnosticRow IllegalProgramNumber{"PS074", "ILLEGAL PROGRAM NUMBER"};
   static constexpr DiagnosticRow NoP{"PS076", "ADDRESS P NOT DEFINED"};
   static constexpr DiagnosticRow Nesting{"PS077", "SUB PROGRAM NESTING ERROR"};
   static constexpr DiagnosticRow NumberNotFound{"PS078", "NUMBER NOT FOUND"};
+  static constexpr DiagnosticRow NotMeasured{"PS080",
+                                             "G37 MEASURING POSITION REACHED SIGNAL NOT INPUT"};
+  static constexpr DiagnosticRow MeasuringAxis{"PS081", "OFFSET NUMBER NOT FOUND IN G37"};
+  static constexpr DiagnosticRow MeasuringWords{"PS082", "H-CODE NOT ALLOWED IN G37"};
+  static constexpr DiagnosticRow MeasuringFormat{"PS083", "ILLEGAL AXIS COMMAND IN G37"};
   static constexpr DiagnosticRow NotAtReference{"PS092", "AXES NOT ON THE REFERENCE POINT"};
   static constexpr DiagnosticRow Overflow{"PS111", "CALCULATED DATA OVERFLOW"};
   static constexpr DiagnosticRow DivisionByZero{"PS112", "DIVIDED BY ZERO"};
@@ -66,6 +75,8 @@ struct ErrorCode {
   static constexpr DiagnosticRow IllegalAxis{"PS190", "ILLEGAL AXIS SELECT"};
   static constexpr DiagnosticRow NoSpeed{"PS200", "ILLEGAL S CODE COMMAND"};
   static constexpr DiagnosticRow ExternalCall{"PS210", "CAN NOT COMMAND M198/M199"};
+  static constexpr DiagnosticRow ParameterNumber{"PS231", "ILLEGAL FORMAT IN G10 L50"};
+  static constexpr DiagnosticRow NoInverseFeed{"PS1202", "NO F COMMAND AT G93"};
   static constexpr DiagnosticRow EndOfRecord{"PS5010", "END OF RECORD"};
   // Ours.
   static constexpr DiagnosticRow OverTravel{"OT500", "OVER TRAVEL"};
@@ -116,6 +127,8 @@ struct WarningCode {
                                           "the tap pecks by the Q of an earlier cycle block"};
   static constexpr DiagnosticRow LookAhead{
       "look-ahead", "the codes of look-ahead are read and change nothing here"};
+  static constexpr DiagnosticRow ParameterOfRun{
+      "parameter-of-run", "a parameter is in force to the end of the run; the setup keeps its own"};
   static constexpr DiagnosticRow SameGroup{
       "same-group", "two G codes of one group in a block; the last one is in force"};
   static constexpr DiagnosticRow ArcAsLine{"arc-as-line",

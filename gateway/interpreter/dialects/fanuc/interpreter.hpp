@@ -41,6 +41,7 @@ class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public
   struct KnownMemory {
     decltype(ModalState::commons) commons{};
     decltype(ModalState::kept) kept{};
+    decltype(ModalState::extra) extra;
     decltype(ModalState::counters) counters{};
     decltype(Coordinates::work) work{};
     ToolOffsets tools;

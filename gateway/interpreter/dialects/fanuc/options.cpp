@@ -16,12 +16,23 @@ struct ModelRow {
   CallForm call;
   std::size_t call_depth;
   int last_common, last_kept;
+  bool has_pages = true;
+  bool has_later_functions = false;
+  bool has_long_variables = false;
+  int program_digits = 4;
+  std::uint32_t last_sequence = 99'999;
 };
-constexpr std::array<ModelRow, 4> kModels{
-    {{RepeatAddress::Both, CallForm::EightDigits, 4, 149, 531},
-     {RepeatAddress::L, CallForm::L, 2, 149, 531},
+constexpr ModelRow kSixteenI{RepeatAddress::K, CallForm::EightDigits, 4, 149, 531, true, true};
+constexpr std::array<ModelRow, 9> kModels{
+    {{RepeatAddress::Both, CallForm::EightDigits, 4, 149, 531, false, false, false, 4, 9999},
+     {RepeatAddress::L, CallForm::L, 2, 149, 531, false, false, false, 4, 9999},
      {RepeatAddress::L, CallForm::L, 4, 199, 599},
-     {RepeatAddress::K, CallForm::EightDigits, 4, 149, 531}}};
+     {RepeatAddress::K, CallForm::EightDigits, 4, 149, 531},
+     {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true},
+     kSixteenI,
+     kSixteenI,
+     kSixteenI,
+     {RepeatAddress::K, CallForm::Both, 10, 199, 999, true, true, true, 8, 99'999'999}}};
 
 AxisValues values_of(const Position& position) {
   AxisValues values{};
@@ -40,7 +51,20 @@ Result<void> read_model(const Options& options, const OptionKey& key, C& control
   control.max_call_depth = row.call_depth;
   control.last_common = row.last_common;
   control.last_kept = row.last_kept;
+  control.has_pages = row.has_pages;
+  control.has_later_functions = row.has_later_functions;
+  control.has_long_variables = row.has_long_variables;
+  control.program_digits = row.program_digits;
+  control.last_sequence = row.last_sequence;
+  if (row.call_depth > 8) control.max_nesting = 15;
   return {};
+}
+
+Result<void> read_program_digits(const Options& options, const OptionKey& key, C& control) {
+  if (auto done = read_value(options, key, control.program_digits); !done) return done;
+  if (control.program_digits == 4 || control.program_digits == 8) return {};
+  return fail(Errc::Syntax, "[control] program_digits: {} is neither 4 nor 8",
+              control.program_digits);
 }
 
 Result<void> read_increment(const Options& options, const OptionKey& key, C& control) {
@@ -168,8 +192,10 @@ Result<void> read_skip_levels(const Options& options, const OptionKey& key, C& c
 
 // A row that others depend on is above them: model, start_g.
 constexpr std::array kRows{
-    Row{{"model", "0M|6M|11M|16M",
-         "sets the defaults of repeat_address, m98_form, max_call_depth, last_common, last_kept",
+    Row{{"model", "0M|6M|11M|16M|0i|16i|18i|21i|30i",
+         "sets the defaults of repeat_address, m98_form, max_call_depth, last_common, last_kept, "
+         "program_digits; whether the control has G54.1, MOD and POW, and the long numbers of "
+         "system variables",
          "16M"},
         read_model},
     row<&C::calculator_point>(
@@ -230,6 +256,12 @@ constexpr std::array kRows{
     row<&C::reset_clears_locals>("reset_clears_locals", kFlag, "reset and M30 clear #1 to #33"),
     row<&C::reset_clears_commons>("reset_clears_commons", kFlag,
                                   "reset and M30 clear the variables from #100"),
+    row<&C::measuring_rapid_end>("g37_clearance", kLength,
+                                 "G37 feeds from so far before the position; 0: no G37",
+                                 kNotNegative),
+    row<&C::measuring_tolerance>("g37_tolerance", kLength,
+                                 "G37 expects the signal so close to the position", kNotNegative),
+    row<&C::measuring_feed>("g37_feed", kFeed, "feed of G37", kNotNegative),
     Row{{"stroke_limits", kAxisTables,
          "lowest and highest position of limit 1, then of the forbidden zone of limit 2"},
         read_limits},
@@ -263,6 +295,10 @@ constexpr std::array kRows{
     row<&C::max_blocks>("max_blocks", kWhole, "blocks without a move before an alarm", {1, 1e12}),
     row<&C::last_common>("last_common", kWhole, "last variable from #100", {149, 199}),
     row<&C::last_kept>("last_kept", kWhole, "last variable from #500", {531, 999}),
+    row<&C::has_extra_commons>("extra_commons", kFlag,
+                               "the variables #98000 to #98499, which are kept"),
+    Row{option("program_digits", kWhole, "digits of program numbers: 4 or 8", "4", {4, 8}),
+        read_program_digits},
     Row{{"length_axis", "A|B|C", "type of tool length compensation"}, read_length_axis},
     pins_row<&C::pins_at_one, &C::answers_pins>(),
 };

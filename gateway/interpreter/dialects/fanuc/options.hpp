@@ -10,7 +10,7 @@
 
 namespace dripline::interpreter::fanuc {
 
-enum class Model : std::uint8_t { M0, M6, M11, M16 };
+enum class Model : std::uint8_t { M0, M6, M11, M16, I0, I16, I18, I21, I30 };
 enum class RepeatAddress : std::uint8_t { K, L, Both };
 enum class CallForm : std::uint8_t { EightDigits, L, Both };
 enum class OffsetMemory : std::uint8_t { A, B, C };
@@ -19,6 +19,11 @@ enum class OffsetMemory : std::uint8_t { A, B, C };
 /// switches. Lengths in millimeters.
 struct ControlOptions {
   Model model = Model::M16;
+  bool has_pages = true;                 ///< G54.1
+  bool has_later_functions = false;      ///< MOD, POW
+  bool has_long_variables = false;       ///< #100001 and up, #14001, #4201
+  int program_digits = 4;                ///< of O numbers
+  std::uint32_t last_sequence = 99'999;  ///< of N
   bool calculator_point = false;
   bool has_tool_changer = true;  ///< false: M06 stops for the operator's hands
   int decimals_mm = 3;           ///< of the least increment; inches have one more
@@ -47,6 +52,9 @@ struct ControlOptions {
   bool atan_is_signed = false;
   bool reset_clears_locals = true;
   bool reset_clears_commons = true;
+  double measuring_rapid_end = 0;  ///< G37: feed begins so far before the position; 0: no G37
+  double measuring_tolerance = 0;  ///< G37: the signal comes so close to the position
+  double measuring_feed = 0;       ///< G37, millimeters a minute
   bool has_limits = false;
   std::array<double, 3> limit_low{};
   std::array<double, 3> limit_high{};
@@ -67,6 +75,7 @@ struct ControlOptions {
   std::uint64_t max_blocks = 10'000'000;
   int last_common = 149;
   int last_kept = 531;
+  bool has_extra_commons = false;  ///< #98000 to #98499
   char length_axis_type = 'A';
   bool optional_stop = false;
   bool answers_pins = false;

@@ -17,6 +17,11 @@ void Run::deliver_header() {
   if (locks) sink.on_override_inhibit(lock);
 }
 
+void Run::lead_stages() {
+  last = rotary.is_on() ? static_cast<EventSink*>(&rotary) : &sink;
+  compensator.lead_to(*last);
+}
+
 bool Run::ask(Question asked) {
   state.limits = {};
   pause = Pause::ForQuestion;
@@ -56,7 +61,7 @@ void Run::update_special() {
   state.g[kModalCallGroup] = state.modal_active >= 0 ? 66 : 67;
   state.is_special = state.is_cycle() || state.is_polar() || state.is_transformed ||
                      state.imaginary != 0 || state.modal_active >= 0 || state.zone.is_on ||
-                     options.has_limits || state.g[kMotionGroup] > 3;
+                     options.has_limits || state.is_inverse_time() || state.enters_parameters || rotary.is_on() || state.g[kMotionGroup] > 3;
 }
 
 double Run::angle(const Word& word) const {

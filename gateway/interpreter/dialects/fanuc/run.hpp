@@ -9,10 +9,12 @@
 #include "gateway/interpreter/core/language/word_ledger.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/errors.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/rotary_path.hpp"
 #include "gateway/interpreter/dialects/fanuc/options.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/block.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
 #include "gateway/interpreter/dialects/fanuc/state.hpp"
+#include "gateway/interpreter/stages/blending/corner_blender.hpp"
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -33,7 +35,9 @@ struct Run : BlockRun {
       : options(std::move(control_options)),
         source(program_source),
         sink(event_sink),
+        rotary(event_sink),
         compensator(policy_of(options), event_sink),
+        blender(corner_policy(), compensator),
         text(program_source, options.comment_over_eob) {}
 
   /// Where events go, after the header has been delivered.
@@ -41,9 +45,17 @@ struct Run : BlockRun {
     if (!state.has_header) [[unlikely]]
       deliver_header();
     if (state.uses_compensator) [[unlikely]]
-      return compensator;
-    return sink;
+      return path();
+    return *last;
   }
+  /// From the first G41, G42 or corner word on.
+  compensation::CompensationSink& path() {
+    if (state.uses_blender) return blender;
+    return compensator;
+  }
+
+  /// After a mode of `rotary` has begun or ended.
+  void lead_stages();
 
   /// Offset of `at` in the block, and its 1-based column.
   std::uint32_t offset(const char* at) const {
@@ -90,6 +102,8 @@ struct Run : BlockRun {
     return word.form == WordForm::Computed ? std::round(word.value) : word.value;
   }
   Feed active_feed() const {
+    if (state.is_inverse_time()) [[unlikely]]
+      return Feed::inverse_time(state.inverse_feed);
     const Length per = Length::mm(state.feed[state.is_per_revolution()]);
     return state.is_per_revolution() ? Feed::per_revolution(per) : Feed::per_minute(per);
   }
@@ -116,7 +130,10 @@ struct Run : BlockRun {
   const ControlOptions options;
   ProgramSource& source;
   EventSink& sink;
+  RotaryPath rotary;
+  EventSink* last = &sink;  ///< where the moves of the path go: the sink, or `rotary` in its modes
   compensation::Compensator compensator;
+  blending::CornerBlender blender;  ///< in front of it
   TextCursor text;
   ModalState state;
   Memory memory;

@@ -8,19 +8,20 @@ template <class Archive>
 void visit(Archive& archive, ModalState& state) {
   archive(state.phase, state.has_header, state.is_port_open, state.told_lower_case,
           state.speed_changed, state.blocks, state.at, state.position, state.origin, state.g,
-          state.is_transformed, state.uses_compensator, state.is_special, state.units, state.feed,
+          state.is_transformed, state.uses_compensator, state.uses_blender, state.is_special,
+          state.units, state.feed, state.inverse_feed,
           state.spindle, state.coolant, state.tool, state.h_number, state.d_number,
-          state.length_axis, state.length_offset, state.scaling, state.rotation, state.cycle,
+          state.length_axis, state.length_offset, state.rotary, state.parameters, state.enters_parameters, state.mirror, state.scaling, state.rotation, state.cycle,
           state.zone, state.intermediate, state.has_intermediate, state.imaginary, state.held,
           state.skip, state.last, state.polar_angle, state.is_rigid_tapping, state.locals,
-          state.commons, state.kept, state.counters, state.calls, state.loops, state.modals,
+          state.commons, state.kept, state.extra, state.counters, state.calls, state.loops, state.modals,
           state.modal_active, state.jump, state.limits);
 }
 
 namespace {
 
 constexpr std::string_view kDialect = "fanuc";
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 template <class Archive>
 void visit_memory(Archive& archive, Memory& memory) {
@@ -50,6 +51,7 @@ bool has_plausible_codes(const ModalState& state) {
 
 bool has_plausible_stacks(const ModalState& state) {
   if (state.calls.size() > kMaxFrames || state.loops.size() > kMaxLoops ||
+      (!state.extra.empty() && state.extra.size() != kExtraCount) ||
       state.modals.size() > kMaxModalCalls || state.locals.size() > kMaxMacroLevels) {
     return false;
   }
@@ -75,6 +77,8 @@ bool has_plausible_stacks(const ModalState& state) {
 
 /// Values that index tables must be in range, whatever the bytes say.
 bool is_plausible(const ModalState& state, const Memory& memory) {
+  if (state.rotary.kind > RotaryPlane::Kind::Cylinder) return false;
+  if (state.uses_blender && !state.uses_compensator) return false;
   return state.phase <= RunPhase::Alarmed && is_offset(state.h_number) &&
          is_offset(state.d_number) && memory.coordinates.more_work >= 1 &&
          memory.coordinates.more_work <= kMoreWorkCount && has_plausible_codes(state) &&
@@ -92,9 +96,12 @@ Snapshot take_snapshot(const Run& run) {
   bool is_settled = run.name_is_settled;
   std::vector<std::byte> path;
   if (state.uses_compensator) path = run.compensator.state();
+  RotaryPath::State rotary = run.rotary.state();
+  std::vector<std::byte> corners;
+  if (state.uses_blender) corners = run.blender.state();
   writer(state);
   visit_memory(writer, memory);
-  writer(origin, name, is_settled, path);
+  writer(origin, name, is_settled, rotary, path, corners);
   return {std::string(kDialect), kVersion, writer.take()};
 }
 
@@ -107,15 +114,27 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   std::string name;
   bool is_settled = false;
   std::vector<std::byte> path;
+  RotaryPath::State rotary;
+  std::vector<std::byte> corners;
   reader(state);
   visit_memory(reader, memory);
-  reader(origin, name, is_settled, path);
-  if (!reader.is_complete() || !is_plausible(state, memory)) return snapshot.damage();
+  reader(origin, name, is_settled, rotary, path, corners);
+  if (!reader.is_complete() || !is_plausible(state, memory) ||
+      rotary.plane.kind != state.rotary.kind) {
+    return snapshot.damage();
+  }
   if (!state.uses_compensator) {
     run.compensator.reset(state.position);
   } else if (auto restored = run.compensator.restore(path); !restored) {
     return restored;
   }
+  if (!state.uses_blender) {
+    run.blender.reset(state.position);
+  } else if (auto restored = run.blender.restore(corners); !restored) {
+    return restored;
+  }
+  run.rotary.restore(rotary);
+  run.lead_stages();
   run.state = std::move(state);
   run.memory = memory;
   run.origin = origin;

@@ -7,6 +7,8 @@
 
 #include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/dialects/fanuc/codes.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/rotary_path.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
 
 /// Everything that stays from one block to the next. Lengths are millimeters, angles degrees;
@@ -15,76 +17,12 @@
 
 namespace dripline::interpreter::fanuc {
 
-// The preparatory functions of this control and their modal groups, numbered as the control's own
-// list and #4001 and up number them. A code without a group is alarm 010.
-
-enum Group : std::uint8_t {
-  kOneShot = 0,
-  kMotionGroup = 1,
-  kPlaneGroup = 2,
-  kDistanceGroup = 3,
-  kStrokeGroup = 4,
-  kFeedGroup = 5,
-  kUnitsGroup = 6,
-  kCompensationGroup = 7,
-  kLengthGroup = 8,
-  kCycleGroup = 9,
-  kReturnGroup = 10,
-  kScalingGroup = 11,
-  kModalCallGroup = 12,
-  kSpindleGroup = 13,
-  kWorkGroup = 14,
-  kPathGroup = 15,
-  kRotationGroup = 16,
-  kPolarGroup = 17,
-};
-inline constexpr std::size_t kGroupCount = 18;
-inline constexpr std::uint8_t kNoGroup = 0xFF;
-/// G54.1 and G05.1 are kept as these; all others as the number written.
-inline constexpr std::uint8_t kMoreWorkSystems = 154;
-inline constexpr std::uint8_t kContourControl = 155;
-
-namespace detail {
-constexpr std::array<std::uint8_t, 100> groups_of_codes() {
-  std::array<std::uint8_t, 100> groups{};
-  for (auto& group : groups) group = kNoGroup;
-  const auto put = [&](std::uint8_t group, auto... codes) {
-    ((groups[static_cast<std::size_t>(codes)] = group), ...);
-  };
-  put(kOneShot, 4, 5, 7, 8, 9, 10, 11, 27, 28, 29, 30, 31, 39, 45, 46, 47, 48, 52, 53, 60, 65, 92);
-  put(kMotionGroup, 0, 1, 2, 3, 33);
-  put(kPlaneGroup, 17, 18, 19);
-  put(kDistanceGroup, 90, 91);
-  put(kStrokeGroup, 22, 23);
-  put(kFeedGroup, 94, 95);
-  put(kUnitsGroup, 20, 21);
-  put(kCompensationGroup, 40, 41, 42);
-  put(kLengthGroup, 43, 44, 49);
-  put(kCycleGroup, 73, 74, 76, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89);
-  put(kReturnGroup, 98, 99);
-  put(kScalingGroup, 50, 51);
-  put(kModalCallGroup, 66, 67);
-  put(kSpindleGroup, 96, 97);
-  put(kWorkGroup, 54, 55, 56, 57, 58, 59);
-  put(kPathGroup, 61, 62, 63, 64);
-  put(kRotationGroup, 68, 69);
-  put(kPolarGroup, 15, 16);
-  return groups;
-}
-}  // namespace detail
-
-inline constexpr std::array<std::uint8_t, 100> kGroupOfCode = detail::groups_of_codes();
-
-constexpr std::uint8_t group_of(std::uint8_t code) {
-  if (code == kMoreWorkSystems) return kWorkGroup;
-  if (code == kContourControl) return kOneShot;
-  return code < kGroupOfCode.size() ? kGroupOfCode[code] : kNoGroup;
-}
-
 /// One value for each axis of event.hpp, in its order.
 using AxisValues = std::array<double, kAxisCount>;
 
 inline constexpr int kLocalCount = 33;
+inline constexpr int kFirstExtra = 98'000;  ///< common variables beyond #999
+inline constexpr int kExtraCount = 500;
 inline constexpr std::size_t kMaxMacroLevels = 5;  ///< 0 is the main program's
 inline constexpr std::size_t kMaxFrames = 32;      ///< calls, whatever the options say
 inline constexpr std::size_t kMaxLoops = 3 * (kMaxFrames + 1);
@@ -110,10 +48,26 @@ struct ToolModes {
   int active = 0;
 };
 
+/// What G10 L50 can change of the setup's options.
+struct Parameters {
+  double arc_error = 0;
+  double peck_return = 0;
+  double peck_clearance = 0;
+  double rotate_default = 0;
+  double scale_default = 1;
+};
+
 /// G50, G51: point = center + factor * (point - center), in program coordinates.
 struct Scaling {
   std::array<double, 3> center{};
   std::array<double, 3> factor{1, 1, 1};
+};
+/// G50.1, G51.1: at - (point - at), in program coordinates, before scaling.
+struct Mirror {
+  std::array<bool, 3> is_on{};
+  std::array<double, 3> at{};
+
+  bool any() const { return is_on[0] || is_on[1] || is_on[2]; }
 };
 /// G68, G69: about the center, in the plane in force at G68.
 struct Rotation {
@@ -232,11 +186,13 @@ struct ModalState {
   Position position;    ///< marked are the axes that have moved
   AxisValues origin{};  ///< of the active coordinates: work + external + local + G92 shift
   std::array<std::uint8_t, kGroupCount> g{};
-  bool is_transformed = false;    ///< scaling or rotation
-  bool uses_compensator = false;  ///< from the first G41 or G42 on
+  bool is_transformed = false;    ///< mirror image, scaling or rotation
+  bool uses_compensator = false;  ///< from the first G41, G42 or corner word on
+  bool uses_blender = false;      ///< from the first corner word on
   bool is_special = false;        ///< a block of axis words is more than a straight move or an arc
   Units units = Units::Millimeter;
   std::array<double, 2> feed{};  ///< per minute, per revolution
+  double inverse_feed = 0;       ///< G93: moves per minute, of the block in hand
 
   SpindleModes spindle;
   Coolant coolant;
@@ -245,6 +201,10 @@ struct ModalState {
   int d_number = 0;
   Axis length_axis = Axis::Z;
   double length_offset = 0;  ///< in force, signed
+  Parameters parameters;
+  bool enters_parameters = false;  ///< G10 L50 to G11
+  RotaryPlane rotary;
+  Mirror mirror;
   Scaling scaling;
   Rotation rotation;
   CycleData cycle;
@@ -261,6 +221,7 @@ struct ModalState {
   std::vector<Locals> locals{Locals{}};
   std::array<double, 100> commons{};  ///< #100
   std::array<double, 500> kept{};     ///< #500
+  std::vector<double> extra;          ///< #98000 to #98499; empty: all null
   std::array<double, 7> counters{};   ///< #3001 base, #3002, #3003, #3004, #3005, #3901, #3902
   std::vector<CallFrame> calls;
   std::vector<LoopFrame> loops;
@@ -272,6 +233,7 @@ struct ModalState {
   double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetersPerInch : 1.0; }
   bool is_polar() const { return g[kPolarGroup] == 16; }
   bool is_incremental() const { return g[kDistanceGroup] == 91; }
+  bool is_inverse_time() const { return g[kFeedGroup] == 93; }
   bool is_per_revolution() const { return g[kFeedGroup] == 95; }
   bool is_cycle() const { return g[kCycleGroup] != 80; }
   bool is_compensating() const { return g[kCompensationGroup] != 40; }

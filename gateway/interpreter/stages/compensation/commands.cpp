@@ -51,6 +51,10 @@ bool Compensator::is_on() const {
   return state_.phase == Phase::Starting || state_.phase == Phase::On;
 }
 
+void Compensator::lead_to(EventSink& sink) {
+  sink_ = &sink;
+}
+
 void Compensator::on_compensation(const Command& command) {
   switch (command.kind) {
     case Command::Kind::TurnOn:

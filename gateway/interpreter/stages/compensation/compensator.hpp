@@ -51,6 +51,8 @@ class Compensator final : public look_ahead::LookAheadStage<Compensator, impl::S
   /// direction `along`, of length 1. No effect without an offset. False: no compensated move came
   /// before.
   bool round_outside_corner(const Origin& origin, Feed feed, std::optional<PlaneVector> along = {});
+  /// The sink from here on, also of a move that waits: flush before it.
+  void lead_to(EventSink& sink);
   /// Ends the waiting move on its own normal. Compensation stays on.
   void flush();
   /// Off, no move waiting, no fault, the machine at `start`: no event is given out.

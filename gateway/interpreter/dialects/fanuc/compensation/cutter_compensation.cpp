@@ -1,9 +1,12 @@
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
 
 #include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/rotary_plane.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
 
@@ -39,13 +42,33 @@ const DiagnosticRow& code_of(FaultKind kind) {
   }
 }
 
+const DiagnosticRow& code_of(blending::FaultKind kind) {
+  switch (kind) {
+    case blending::FaultKind::DoesNotFit:
+      return ErrorCode::CornerTooLarge;
+    case blending::FaultKind::ChamferAtArc:
+      return ErrorCode::NotStraightCorner;
+    case blending::FaultKind::OtherPlane:
+      return ErrorCode::IllegalPlane;
+    case blending::FaultKind::OffArc:
+      return ErrorCode::RadiusTolerance;
+    default:
+      return ErrorCode::MissingAfterCorner;
+  }
+}
+
+void begin_stages(Run& run) {
+  ModalState& state = run.state;
+  if (state.uses_compensator) return;
+  run.events();  // the header first
+  run.compensator.reset(state.position);
+  state.uses_compensator = true;
+}
+
 void turn_on(Run& run) {
   ModalState& state = run.state;
-  if (!state.uses_compensator) {
-    run.events();  // the header first
-    run.compensator.reset(state.position);
-    state.uses_compensator = true;
-  }
+  begin_stages(run);
+  run.blender.flush();
   // D0 cancels: the next move goes to its programmed end
   if (state.d_number == 0 && run.compensator.is_on()) return run.compensator.turn_off();
   run.compensator.turn_on(cutter_of(run));
@@ -106,6 +129,41 @@ compensation::Policy policy_of(const ControlOptions& options) {
   return policy;
 }
 
+blending::Policy corner_policy() {
+  return {.every_move_waits = false, .refuses_open_corner = true, .refuses_straight_corner = false};
+}
+
+bool end_waiting(Run& run) {
+  if (!run.state.uses_blender) return true;
+  run.blender.flush();
+  return check_compensation(run);
+}
+
+bool announce_corner(Run& run) {
+  ModalState& state = run.state;
+  const Block::Parts& parts = run.block.parts;
+  const bool is_scaled = state.g[kScalingGroup] == 51 &&
+                         !std::all_of(state.scaling.factor.begin(), state.scaling.factor.end(),
+                                      [](double factor) { return std::fabs(factor) == 1; });
+  if (is_scaled || state.imaginary != 0) {
+    return run.fail(ErrorCode::CornerOfNoMove, parts.corner_column,
+                    is_scaled ? "a corner under scaling" : "a corner with an imaginary axis");
+  }
+  begin_stages(run);
+  if (!state.uses_blender) {
+    run.blender.reset(state.position);
+    state.uses_blender = true;
+  }
+  run.blender.set_plane(state.plane());
+  const Length size = Length::mm(parts.corner_size);
+  if (parts.corner == CornerKind::Round) {
+    run.blender.round_next_corner(size);
+  } else {
+    run.blender.chamfer_next_corner(size);
+  }
+  return true;
+}
+
 bool apply_compensation(Run& run) {
   ModalState& state = run.state;
   const Block& block = run.block;
@@ -130,6 +188,7 @@ bool apply_compensation(Run& run) {
   if (code != 40) {
     if (changes) turn_on(run);
   } else if (was_on) {
+    run.blender.flush();
     run.compensator.turn_off();
   }
   return true;
@@ -142,6 +201,7 @@ bool round_corner(Run& run) {
   if (!check_feed(run)) return false;
   std::optional<PlaneVector> direction;
   if (words.has_any(kCenterWords) && !read_direction(run, direction.emplace())) return false;
+  if (!end_waiting(run)) return false;
   // D0: nothing to go round
   if (!run.compensator.is_on()) return true;
   if (run.compensator.round_outside_corner(run.origin, run.active_feed(), direction)) return true;
@@ -150,6 +210,7 @@ bool round_corner(Run& run) {
 
 void interrupt_compensation(Run& run, bool first_keeps_distance) {
   if (!run.state.uses_compensator || !run.state.is_compensating()) return;
+  run.blender.flush();
   if (first_keeps_distance) {
     run.compensator.cancel_in_parallel();
   } else {
@@ -164,15 +225,19 @@ void resume_compensation(Run& run) {
 
 void end_compensated_block(Run& run) {
   if (reaches_machine(run.block)) {
-    run.compensator.on_block_end(run.origin);
+    run.path().on_block_end(run.origin);
   } else {
-    run.compensator.on_uncounted_block_end(run.origin);
+    run.path().on_uncounted_block_end(run.origin);
   }
 }
 
 bool check_compensation(Run& run) {
+  if (const auto& fault = run.blender.fault()) {
+    run.origin.line = fault->origin.line;
+    return run.fail(code_of(fault->kind), 0, blending::describe(*fault));
+  }
   const auto& fault = run.compensator.fault();
-  if (!fault) return true;
+  if (!fault) return check_rotary_path(run);
   run.origin.line = fault->origin.line;
   return run.fail(code_of(fault->kind), 0, compensation::describe(*fault));
 }

@@ -1,12 +1,20 @@
 #pragma once
 
 #include "gateway/interpreter/dialects/fanuc/options.hpp"
+#include "gateway/interpreter/stages/blending/policy.hpp"
 #include "gateway/interpreter/stages/compensation/policy.hpp"
 
 /// Cutter compensation C: how G40, G41, G42 and D drive the shared stage that offsets the path.
 namespace dripline::interpreter::fanuc {
 
 struct Run;
+
+/// Which moves wait for their corner.
+blending::Policy corner_policy();
+/// The move of the block in hand ends in a corner that its word shapes. False: an alarm.
+bool announce_corner(Run& run);
+/// No move waits for its successor any more. False: an alarm, of a corner that has none.
+bool end_waiting(Run& run);
 
 compensation::Policy policy_of(const ControlOptions& options);
 

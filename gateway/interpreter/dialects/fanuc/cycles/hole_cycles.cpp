@@ -219,7 +219,8 @@ class Hole {
   bool peck(bool to_retract) {
     const double travel = data().bottom - data().retract;
     const double sign = travel < 0 ? -1 : 1;
-    const double back = to_retract ? run_.options.peck_clearance : run_.options.peck_return;
+    const double back = to_retract ? run_.state.parameters.peck_clearance
+                                   : run_.state.parameters.peck_return;
     const double count = std::ceil(std::fabs(travel) / data().depth - 1e-9);
     for (double n = 1; n < count; ++n) {
       const double depth = data().retract + sign * n * data().depth;
@@ -364,6 +365,9 @@ bool execute_cycle(Run& run) {
   const Words& words = run.block.words;
   ModalState& state = run.state;
   if (!words.has_any(kAxisWords | set_of(R))) return true;
+  if (state.is_inverse_time()) {
+    return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column, "a hole cycle in G93");
+  }
   run.ledger.take(kAxisWords | set_of(R, Q));  // Q stays, for a cycle that has a use for it
   const double present = program_position(run)[place(axes_of(state.plane()).normal)];
   double repeats = 1;

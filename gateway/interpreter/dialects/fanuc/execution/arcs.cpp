@@ -45,7 +45,7 @@ bool center_by_radius(Run& run, double radius, ArcWords& arc) {
   double size = std::fabs(radius);
   if (chord / 2 > size) {
     const double missing = chord / 2 - size;
-    if (missing > run.options.arc_error && !run.options.short_radius_is_semicircle) {
+    if (missing > run.state.parameters.arc_error && !run.options.short_radius_is_semicircle) {
       return run.fail(ErrorCode::IllegalRadius, run.block.words.column(R),
                       fmt::format("R{} does not span {}", run.in_units(Axis::X, radius),
                                   run.in_units(Axis::X, chord)));
@@ -86,7 +86,7 @@ bool center_by_offsets(Run& run, ArcWords& arc) {
     return run.fail(ErrorCode::NoRadius, words.first_column(kCenterWords),
                     "the center is the start");
   }
-  const double limit = run.options.arc_error;
+  const double limit = run.state.parameters.arc_error;
   if (limit <= 0 || surely_agree(arc, limit)) return true;
   const double error = std::fabs(length(arc.center - flat(arc, arc.start)) -
                                  length(arc.center - flat(arc, arc.end)));
@@ -95,6 +95,13 @@ bool center_by_offsets(Run& run, ArcWords& arc) {
                     fmt::format("the end is off by {:.6g}", run.in_units(Axis::X, error)));
   }
   return true;
+}
+
+/// In G93, F is the speed over the radius, not the number of moves per minute.
+Feed feed_on_arc(const Run& run, double radius) {
+  if (!run.state.is_inverse_time()) [[likely]]
+    return run.active_feed();
+  return Feed::per_minute(Length::mm(run.state.inverse_feed * radius));
 }
 
 /// An end that unequal factors have put off the circle is reached straight.
@@ -123,13 +130,13 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
           .plane = state.plane(),
           .turn = turn,
           .sweep = Angle::degrees(sweep_of(start, stop, middle, turn)),
-          .feed = run.active_feed(),
+          .feed = feed_on_arc(run, length(middle - start)),
           .rests = run.rests_at_end()};
   if (!state.is_transformed) return arc_to(run, arc);
   const double radius = length(middle - start);
   const double reach = length(middle - stop);
   const double error = std::fabs(radius - reach);
-  if (error <= std::fmax(run.options.arc_error, kSamePoint) || reach == 0) return arc_to(run, arc);
+  if (error <= std::fmax(state.parameters.arc_error, kSamePoint) || reach == 0) return arc_to(run, arc);
   arc.rests = false;  // the line to the end does
   arc.to.set_raw(words.axes.first, middle.first + (stop.first - middle.first) * radius / reach);
   arc.to.set_raw(words.axes.second, middle.second + (stop.second - middle.second) * radius / reach);
@@ -165,7 +172,7 @@ bool move_on_arc(Run& run) {
   const Words& words = run.block.words;
   const ModalState& state = run.state;
   if (!words.has_any(kAxisWords | kCenterWords)) return true;  // R alone: end and start are one
-  if (words.has_any(kAxisWords & ~set_of(X, Y, Z))) {
+  if (words.has_any(kAxisWords & ~set_of(X, Y, Z)) && !run.rotary.is_on()) {
     return run.fail(ErrorCode::IllegalPlaneAxis, words.first_column(kAxisWords & ~set_of(X, Y, Z)));
   }
   if (state.g[kRotationGroup] == 68 && state.rotation.plane != state.plane()) {

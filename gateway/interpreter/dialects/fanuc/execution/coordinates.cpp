@@ -8,6 +8,7 @@
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -26,7 +27,9 @@ void each_axis_word(const Run& run, Use use) {
 }
 
 bool refuse_transformed(Run& run, const DiagnosticRow& code) {
-  return run.fail(code, run.block.parts.g_column);
+  const bool is_mirror = run.state.mirror.any();
+  return run.fail(code, run.block.parts.g_column,
+                  is_mirror ? std::string_view("G51.1 is in force") : std::string_view{});
 }
 
 /// G10 L2 and L20: zero offsets.
@@ -65,7 +68,7 @@ bool has_other_user_of_p(const Block& block) {
 bool read_page(Run& run, std::uint8_t& code) {
   Block& block = run.block;
   const Words& words = block.words;
-  const bool has_pages = run.options.model >= Model::M11;
+  const bool has_pages = run.options.has_pages;
   if (code == kMoreWorkSystems && !has_pages) {
     return run.fail(ErrorCode::ImproperG, block.parts.g_column, "G54.1 on this model");
   }
@@ -139,9 +142,30 @@ bool set_position(Run& run) {
   return true;
 }
 
+bool preset_coordinates(Run& run) {
+  const Words& words = run.block.words;
+  run.ledger.take(kAxisWords);
+  if (run.state.is_transformed) return refuse_transformed(run, ErrorCode::PositionUnderTransform);
+  if (!words.has_any(kAxisWords)) {
+    return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column, "no axis is named");
+  }
+  std::uint32_t bad = 0;
+  each_axis_word(run, [&](std::size_t i, double value) {
+    if (value != 0 && bad == 0) bad = words.column(kWordOfAxis[i]);
+  });
+  if (bad != 0) return run.fail(ErrorCode::ImproperCommand, bad, "the axes are named with 0");
+  interrupt_compensation(run);
+  Coordinates& all = run.memory.coordinates;
+  each_axis_word(run, [&](std::size_t i, double) { all.shift[i] = all.local[i] = 0; });
+  run.update_origin();
+  resume_compensation(run);
+  return true;
+}
+
 bool set_data(Run& run) {
   const Words& words = run.block.words;
   const double list = words.has(L) ? run.whole(words[L]) : 1;
+  if (list == 50 || list == 52) return begin_parameters(run);
   if (list == 2 || list == 20) {
     if (run.state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
     run.ledger.take(kAxisWords | set_of(L));

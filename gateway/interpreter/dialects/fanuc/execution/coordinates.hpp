@@ -11,6 +11,8 @@ namespace dripline::interpreter::fanuc {
 bool select_work_system(Run& run);
 bool set_local_zero(Run& run);
 bool set_position(Run& run);
+/// G92.1: what G92 and G52 have shifted is undone.
+bool preset_coordinates(Run& run);
 /// G10 with its lists.
 bool set_data(Run& run);
 /// G22, G23.
@@ -37,6 +39,8 @@ CoordinateFrame frame_of(const Run& run);
 bool is_plane_mirrored(const ModalState& state, Plane plane);
 
 /// G50, G51, G68, G69. False: an alarm.
+/// G50.1, G51.1.
+bool apply_mirror(Run& run);
 bool apply_scaling(Run& run);
 bool apply_rotation(Run& run);
 

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 #include <bit>
 
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/flow.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/measuring.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/rotary_plane.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -55,6 +59,7 @@ bool apply_modes(Run& run) {
     const auto group = static_cast<std::size_t>(std::countr_zero(left));
     state.g[group] = block.g[group];
   }
+  if (block.names(kFeedGroup) && state.is_inverse_time()) state.feed = {};  // F of G94 is gone
   if (block.names(kUnitsGroup)) change_units(run);
   if (block.names(kPathGroup)) show_override_inhibit(run);
   if (block.names(kPolarGroup)) state.polar_angle = 0;
@@ -89,6 +94,7 @@ bool apply_frames(Run& run) {
   const Block& block = run.block;
   if (block.names(kWorkGroup) && !select_work_system(run)) return false;
   if (block.names(kStrokeGroup) && !set_stroke_zone(run)) return false;
+  if (block.names(kMirrorGroup) && !apply_mirror(run)) return false;
   if (block.names(kScalingGroup) && !apply_scaling(run)) return false;
   if (block.names(kRotationGroup) && !apply_rotation(run)) return false;
   if (!apply_length_offset(run)) return false;
@@ -102,7 +108,8 @@ bool apply_frames(Run& run) {
 bool words_are_data(const Block& block) {
   return (block.names(kStrokeGroup) && block.g[kStrokeGroup] == 22) ||
          (block.names(kScalingGroup) && block.g[kScalingGroup] == 51) ||
-         (block.names(kRotationGroup) && block.g[kRotationGroup] == 68);
+         (block.names(kRotationGroup) && block.g[kRotationGroup] == 68) ||
+         block.names(kMirrorGroup);
 }
 
 bool dwell(Run& run) {
@@ -186,6 +193,7 @@ bool execute_one_shot(Run& run) {
     case 10:
       return set_data(run);
     case 11:
+      run.state.enters_parameters = false;
       return true;
     case 27:
     case 28:
@@ -200,6 +208,13 @@ bool execute_one_shot(Run& run) {
       if (run.state.is_cycle())
         return run.fail(ErrorCode::HomeInCycle, block.parts.g_column, "G31");
       return start_skip(run);
+    case 37:
+      block.parts.has_motion = true;
+      return start_measuring(run);
+    case kCylinder:
+      return set_cylinder(run);
+    case kPresetCoordinates:
+      return preset_coordinates(run);
     case 39:
       run.ledger.take(kCenterWords);
       return round_corner(run);
@@ -222,8 +237,26 @@ bool is_data_code(std::uint8_t one_shot) {
          (one_shot < 45 || one_shot > 48);
 }
 
+/// Corner words shape the end of a feed move in the plane.
+bool check_corner(Run& run) {
+  const Block& block = run.block;
+  const std::uint8_t motion = run.state.g[kMotionGroup];
+  const std::uint8_t one_shot = block.parts.one_shot;
+  const PlaneAxes axes = axes_of(run.state.plane());
+  const AddressSet in_plane = set_of_axis(axes.first) | set_of_axis(axes.second);
+  const bool is_feed = motion >= 1 && motion <= 3 && !run.state.is_cycle() &&
+                       (one_shot == Block::kNoCode || one_shot == 9) && !words_are_data(block) &&
+                       block.words.has_any(in_plane | kCenterWords);
+  if (is_feed) return true;
+  return run.fail(ErrorCode::CornerOfNoMove, block.parts.corner_column,
+                  "a corner word needs a move by G01, G02 or G03 in the plane");
+}
+
 bool execute_motion(Run& run) {
   Block& block = run.block;
+  if (block.names(kInterpolationGroup)) return set_polar_plane(run);
+  if (block.parts.corner != CornerKind::None && (!check_corner(run) || !announce_corner(run)))
+    return false;
   if (is_data_code(block.parts.one_shot)) return execute_one_shot(run);
   if (words_are_data(block)) {
     run.ledger.take_all();
@@ -239,13 +272,20 @@ bool execute_motion(Run& run) {
 
 bool execute_nc(Run& run) {
   Block::Parts& parts = run.block.parts;
+  run.state.inverse_feed = 0;
   if (parts.stage == Stage::Execution) {
     if (const Answer* answer = run.next_answer()) {
-      finish_skip(run, std::get<ProbeResult>(*answer));
+      const auto& result = std::get<ProbeResult>(*answer);
+      const bool is_measuring = run.block.parts.one_shot == 37;
+      if (is_measuring && !finish_measuring(run, result)) return false;
+      if (!is_measuring) finish_skip(run, result);
+    } else if (run.state.enters_parameters && run.block.parts.one_shot != 11) {
+      if (!enter_parameter(run)) return false;
     } else {
+      if (run.rotary.is_on() && !check_rotary_block(run)) return false;
       apply_motion_groups(run);
       if (!apply_modes(run) || !apply_before_motion(run) || !apply_frames(run)) return false;
-      if (!execute_motion(run)) return false;
+      if (!execute_motion(run) || !check_rotary_path(run)) return false;
     }
     run.update_special();
     parts.stage = Stage::AfterMove;

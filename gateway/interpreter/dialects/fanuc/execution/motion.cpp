@@ -4,6 +4,8 @@
 #include <bit>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
+#include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/rotary_plane.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -107,6 +109,8 @@ bool read_target(Run& run, Position& to) {
   const ModalState& state = run.state;
   const Words& words = run.block.words;
   to = state.position;
+  if (run.rotary.is_on()) [[unlikely]]
+    return read_rotary_target(run, to);
   const bool is_incremental = state.is_incremental();
   AddressSet left = words.present() & kAxisWords;
   if (state.is_transformed || state.is_polar()) [[unlikely]] {
@@ -147,6 +151,21 @@ Position machine_point(const Run& run, const Point3& point) {
   return to;
 }
 
+namespace {
+
+/// G93: so many of these moves in a minute; a number of its own, in either unit.
+bool read_inverse_feed(Run& run, const Word& word) {
+  constexpr double kMaxMoves = 99'999;
+  if (!(word.value >= 0 && word.value <= kMaxMoves)) {
+    return run.fail(ErrorCode::TooManyDigits, word.column,
+                    fmt::format("F{} is not 0 to {}", word.value, kMaxMoves));
+  }
+  run.state.last.f = run.state.inverse_feed = word.value;
+  return true;
+}
+
+}  // namespace
+
 bool apply_feed(Run& run) {
   const Words& words = run.block.words;
   if (!words.has(F)) return true;
@@ -154,6 +173,8 @@ bool apply_feed(Run& run) {
   const Word& word = words[F];
   const bool is_inch = state.units == Units::Inch;
   double value = word.value;
+  if (state.is_inverse_time()) [[unlikely]]
+    return read_inverse_feed(run, word);
   if (word.form == WordForm::Whole && !run.options.calculator_point) {
     if (state.is_per_revolution()) {
       value *= is_inch ? 0.0001 : 0.01;
@@ -184,6 +205,11 @@ void apply_lead(Run& run) {
 }
 
 bool check_feed(Run& run) {
+  if (run.state.is_inverse_time()) [[unlikely]] {
+    if (run.state.inverse_feed > 0) return true;
+    return run.fail(ErrorCode::NoInverseFeed,
+                    run.block.words.first_column(kAxisWords | kCenterWords));
+  }
   if (run.state.feed[run.state.is_per_revolution()] > 0) [[likely]]
     return true;
   return run.fail(ErrorCode::NoFeed, run.block.words.first_column(kAxisWords | set_of(F)));
@@ -292,6 +318,10 @@ bool start_skip(Run& run) {
     note_skip(run);
     return true;
   }
+  if (run.state.is_inverse_time()) {
+    return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column, "G31 in G93");
+  }
+  if (!end_waiting(run)) return false;
   ProbeQuestion question;
   question.probe = {run.origin, run.state.position, to, ProbeUntil::Contact, run.active_feed(), {}};
   question.probe.from.mark_all_of(to);
@@ -299,7 +329,7 @@ bool start_skip(Run& run) {
   return run.ask(question);
 }
 
-void finish_skip(Run& run, const ProbeResult& result) {
+Position finish_probe(Run& run, const ProbeResult& result) {
   Probe probe = std::get<ProbeQuestion>(run.question).probe;
   probe.origin = run.origin;
   Position at = probe.to;
@@ -311,6 +341,11 @@ void finish_skip(Run& run, const ProbeResult& result) {
   probe.result = ProbeResult{result.tripped, at};
   run.events().on_probe(probe);
   arrive(run, at);
+  return at;
+}
+
+void finish_skip(Run& run, const ProbeResult& result) {
+  finish_probe(run, result);
   note_skip(run);
 }
 

@@ -27,6 +27,8 @@ bool offset_target(Run& run, Position& to);
 /// Asks; the answer comes to finish_skip.
 bool start_skip(Run& run);
 void finish_skip(Run& run, const ProbeResult& result);
+/// The answer to the open question takes the machine there.
+Position finish_probe(Run& run, const ProbeResult& result);
 
 /// F of the block, before anything else.
 bool apply_feed(Run& run);

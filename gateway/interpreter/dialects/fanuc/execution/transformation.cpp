@@ -20,6 +20,10 @@ void rotate(const Rotation& rotation, double sine, Point3& point) {
   point[place(axes.second)] = rotation.second + first * sine + second * rotation.cosine;
 }
 
+double mirrored(const Mirror& mirror, std::size_t i, double at) {
+  return mirror.is_on[i] ? 2 * mirror.at[i] - at : at;
+}
+
 double scaled(const Scaling& scaling, std::size_t i, double at) {
   return scaling.center[i] + scaling.factor[i] * (at - scaling.center[i]);
 }
@@ -36,7 +40,8 @@ bool read_factor(Run& run, Address address, double& factor) {
 
 void update_transformed(Run& run) {
   ModalState& state = run.state;
-  state.is_transformed = state.g[kScalingGroup] == 51 || state.g[kRotationGroup] == 68;
+  state.is_transformed =
+      state.g[kScalingGroup] == 51 || state.g[kRotationGroup] == 68 || state.mirror.any();
   ++run.frame_changes;
 }
 
@@ -49,12 +54,13 @@ bool begin_scaling(Run& run) {
   Scaling scaling;
   constexpr std::array<Address, 3> kCenter{X, Y, Z};
   constexpr std::array<Address, 3> kFactors{I, J, K};
-  double all = run.options.scale_default;
+  double all = state.parameters.scale_default;
   if (words.has(P) && !read_factor(run, P, all)) return false;
   for (std::size_t i = 0; i < 3; ++i) {
-    scaling.center[i] = words.has(kCenter[i]) ? run.length(words[kCenter[i]]) : present[i];
+    scaling.center[i] = mirrored(
+        state.mirror, i, words.has(kCenter[i]) ? run.length(words[kCenter[i]]) : present[i]);
     scaling.factor[i] = all;
-    if (words.has_any(kCenterWords)) scaling.factor[i] = run.options.scale_default;
+    if (words.has_any(kCenterWords)) scaling.factor[i] = state.parameters.scale_default;
     if (words.has(kFactors[i]) && !read_factor(run, kFactors[i], scaling.factor[i])) return false;
   }
   state.scaling = scaling;
@@ -75,14 +81,15 @@ bool begin_rotation(Run& run) {
   const auto center = [&](Axis axis) {
     const std::size_t i = place(axis);
     const Address address = kCenter[i];
-    const double at = words.has(address) ? run.length(words[address]) : present[i];
+    const double at =
+        mirrored(state.mirror, i, words.has(address) ? run.length(words[address]) : present[i]);
     return state.g[kScalingGroup] == 51 ? scaled(state.scaling, i, at) : at;
   };
   Rotation rotation;
   rotation.plane = state.plane();
   rotation.first = center(axes.first);
   rotation.second = center(axes.second);
-  rotation.degrees = words.has(R) ? run.angle(words[R]) : run.options.rotate_default;
+  rotation.degrees = words.has(R) ? run.angle(words[R]) : state.parameters.rotate_default;
   if (!(std::fabs(rotation.degrees) <= 360)) {
     return run.fail(ErrorCode::TooManyDigits, words.column(R), "R is beyond 360 degrees");
   }
@@ -99,6 +106,7 @@ bool begin_rotation(Run& run) {
 }  // namespace
 
 Point3 transform(const ModalState& state, Point3 point) {
+  for (std::size_t i = 0; i < 3; ++i) point[i] = mirrored(state.mirror, i, point[i]);
   if (state.g[kScalingGroup] == 51) {
     for (std::size_t i = 0; i < 3; ++i) point[i] = scaled(state.scaling, i, point[i]);
   }
@@ -114,6 +122,7 @@ Point3 transform_back(const ModalState& state, Point3 point) {
       point[i] = scaling.center[i] + (point[i] - scaling.center[i]) / scaling.factor[i];
     }
   }
+  for (std::size_t i = 0; i < 3; ++i) point[i] = mirrored(state.mirror, i, point[i]);
   return point;
 }
 
@@ -144,6 +153,7 @@ CoordinateFrame frame_of(const Run& run) {
     frame.scale[i] = std::fabs(state.scaling.factor[i]);
     frame.mirrored[i] = state.scaling.factor[i] < 0;
   }
+  for (std::size_t i = 0; i < 3; ++i) frame.mirrored[i] = frame.mirrored[i] != state.mirror.is_on[i];
   frame.learn([&state](CoordinateFrame::Values at) {
     for (std::size_t i = 0; i < kAxisCount; ++i) at[i] -= state.origin[i];
     const Point3 back = transform_back(state, {at[0], at[1], at[2]});
@@ -154,10 +164,36 @@ CoordinateFrame frame_of(const Run& run) {
 }
 
 bool is_plane_mirrored(const ModalState& state, Plane plane) {
-  if (state.g[kScalingGroup] != 51) return false;
   const PlaneAxes axes = axes_of(plane);
-  return (state.scaling.factor[place(axes.first)] < 0) !=
-         (state.scaling.factor[place(axes.second)] < 0);
+  const auto turns_round = [&state](Axis axis) {
+    const bool is_scaled = state.g[kScalingGroup] == 51 && state.scaling.factor[place(axis)] < 0;
+    return is_scaled != state.mirror.is_on[place(axis)];
+  };
+  return turns_round(axes.first) != turns_round(axes.second);
+}
+
+bool apply_mirror(Run& run) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  const std::uint32_t column = run.block.parts.g_column;
+  const bool begins = run.block.g[kMirrorGroup] == kMirrorOn;
+  run.ledger.take(set_of(X, Y, Z));
+  if (state.is_compensating()) return run.fail(ErrorCode::ScalingInCompensation, column, "G51.1");
+  if (state.g[kScalingGroup] == 51 || state.g[kRotationGroup] == 68) {
+    return run.fail(ErrorCode::PositionUnderTransform, column,
+                    "a mirror image begins and ends outside G51 and G68");
+  }
+  constexpr std::array<Address, 3> kMirrorAxes{X, Y, Z};
+  const bool names_none = !words.has_any(set_of(X, Y, Z));
+  if (begins && names_none) return run.fail(ErrorCode::ImproperCommand, column, "G51.1 without an axis");
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!words.has(kMirrorAxes[i]) && !(names_none && !begins)) continue;
+    state.mirror.is_on[i] = begins;
+    state.mirror.at[i] = begins ? run.length(words[kMirrorAxes[i]]) : 0;
+  }
+  state.g[kMirrorGroup] = state.mirror.any() ? kMirrorOn : kMirrorOff;
+  update_transformed(run);
+  return true;
 }
 
 bool apply_scaling(Run& run) {

@@ -35,6 +35,12 @@ bool FanucInterpreter::read_memory(std::vector<double>& values) {
   bool has_changed = values.empty();
   has_changed |= note(known_memory_.commons, run_.state.commons);
   has_changed |= note(known_memory_.kept, run_.state.kept);
+  if (!run_.state.extra.empty()) {
+    has_changed |= known_memory_.extra.size() != run_.state.extra.size() ||
+                   std::memcmp(known_memory_.extra.data(), run_.state.extra.data(),
+                               run_.state.extra.size() * sizeof(double)) != 0;
+    known_memory_.extra = run_.state.extra;
+  }
   has_changed |= note(known_memory_.counters, run_.state.counters);
   has_changed |= note(known_memory_.work, run_.memory.coordinates.work);
   has_changed |= note(known_memory_.tools, run_.memory.tools);
@@ -123,7 +129,7 @@ Result<void> load_variable(const VariableRecord& variable, const ControlOptions&
   if (is_offset_or_counter(name)) return {};
   const auto number = parse_decimal(name.substr(name.starts_with('#') ? 1 : 0));
   const bool is_number = name.starts_with('#') && number && number->scale == 0 &&
-                         number->digits >= 0 && number->digits <= options.last_kept;
+                         number->digits >= 0 && number->digits < kFirstExtra + kExtraCount;
   double* cell =
       is_number ? common_variable(state, options, static_cast<int>(number->digits)) : nullptr;
   if (cell == nullptr) return refuse_variable(name, options);
@@ -147,11 +153,19 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Moda
   for (const std::uint8_t code : options.start_g) {
     state.g[group_of(code)] = code;
   }
+  state.g[kMirrorGroup] = kMirrorOff;
+  state.g[kInterpolationGroup] = kPolarPlaneOff;
+  state.parameters = {.arc_error = options.arc_error,
+                      .peck_return = options.peck_return,
+                      .peck_clearance = options.peck_clearance,
+                      .rotate_default = options.rotate_default,
+                      .scale_default = options.scale_default};
   state.position = setup.start;
   state.position.unmark_all();
   state.locals.assign(1, null_locals());
   state.commons.fill(kNull);
   state.kept.fill(kNull);
+  if (options.has_extra_commons) state.extra.assign(kExtraCount, kNull);
   state.zone = options.zone;
   state.zone.is_on = state.g[kStrokeGroup] == 22 && state.zone.has_volume();
   for (const OffsetRecord& offset : setup.offsets) {

@@ -22,6 +22,10 @@ void for_each_variable(State& state, const ControlOptions& options, Visit visit)
     visit(CellName{"#", number, {}, Keeps::Always, true},
           state.kept[static_cast<std::size_t>(number - 500)]);
   }
+  for (std::size_t i = 0; i < state.extra.size(); ++i) {
+    visit(CellName{"#", kFirstExtra + static_cast<int>(i), {}, Keeps::Always, true},
+          state.extra[i]);
+  }
   visit(CellName{"#", 3002}, state.counters[kHours]);
   visit(CellName{"#", 3005}, state.counters[kSettings]);
   visit(CellName{"#", 3901}, state.counters[kMade]);

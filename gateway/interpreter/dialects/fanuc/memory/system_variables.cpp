@@ -98,9 +98,10 @@ bool read_control(Run& run, int number, std::uint32_t column, double& value) {
     case 3007: {
       int mirrored = 0;
       for (std::size_t i = 0; i < 3; ++i) {
-        mirrored |= run.state.scaling.factor[i] < 0 ? 1 << i : 0;
+        const bool is_scaled = run.state.g[kScalingGroup] == 51 && run.state.scaling.factor[i] < 0;
+        mirrored |= is_scaled != run.state.mirror.is_on[i] ? 1 << i : 0;
       }
-      value = run.state.g[kScalingGroup] == 51 ? mirrored : 0;
+      value = mirrored;
       return true;
     }
     case 3000:
@@ -115,7 +116,11 @@ bool read_control(Run& run, int number, std::uint32_t column, double& value) {
 
 bool read_modal(Run& run, int number, std::uint32_t column, double& value) {
   const ModalState& state = run.state;
-  if (number > 4000 && number < 4000 + static_cast<int>(kGroupCount)) {
+  if (number == 4022 && state.mirror.any()) {
+    value = 51.1;
+    return true;
+  }
+  if (number > 4000 && number <= 4000 + kPolarGroup) {
     const std::uint8_t code = state.g[static_cast<std::size_t>(number - 4000)];
     value = code == kMoreWorkSystems ? 54.1 : code;
     return true;
@@ -132,6 +137,30 @@ bool read_modal(Run& run, int number, std::uint32_t column, double& value) {
     return true;
   }
   return refuse_variable(run, number, column);
+}
+
+/// The short number of a variable that later controls have a long one for, or the number itself: 50
+/// places for the axes instead of 20, #42xx for the block in hand, #14001 and up for G54.1.
+int short_number(int number) {
+  constexpr int kShown = 8;  // axes that have a short number
+  const auto of_row = [](int base, int row_step, int from_first) {
+    const int axis = from_first % 50;
+    return axis < kShown ? base + row_step * (from_first / 50) + axis + 1 : -1;
+  };
+  if (number > 100'000 && number <= 100'300) return of_row(5000, 20, number - 100'001);
+  if (number > 100'300 && number <= 100'650) return of_row(5200, 20, number - 100'301);
+  if (number > 101'000 && number <= 101'000 + 50 * kMoreWorkCount)
+    return of_row(7000, 20, number - 101'001);
+  if (number > 14'000 && number <= 14'000 + 20 * kMoreWorkCount) return number - 7000;
+  if (number > 4200 && number < 4400) return number - 200;
+  return number;
+}
+
+/// As above, on a control that has them. A number that means nothing stays as it is.
+int known_number(const Run& run, int number) {
+  if (number < 4200 || !run.options.has_long_variables) return number;
+  const int known = short_number(number);
+  return known < 0 ? number : known;
 }
 
 /// Zero offsets: #2500 .. by axis and #5201 .. by system; nullptr when it is none.
@@ -270,7 +299,8 @@ bool write_control(Run& run, int number, std::uint32_t column, double value) {
 
 }  // namespace
 
-bool read_system_variable(Run& run, int number, std::uint32_t column, double& value) {
+bool read_system_variable(Run& run, int written, std::uint32_t column, double& value) {
+  const int number = known_number(run, written);
   if (number < 1100) return read_inputs(run, number, column, value);
   if (number < 1134) return run.fail(ErrorCode::WriteProtected, column, "outputs cannot be read");
   if (const OffsetRegister cell = offset_variable(run, number); cell.value != nullptr) {
@@ -288,7 +318,8 @@ bool read_system_variable(Run& run, int number, std::uint32_t column, double& va
   return refuse_variable(run, number, column);
 }
 
-bool write_system_variable(Run& run, int number, std::uint32_t column, double value) {
+bool write_system_variable(Run& run, int written, std::uint32_t column, double value) {
+  const int number = known_number(run, written);
   if (number < 1200) return write_outputs(run, number, column, value);
   const double stored = std::isnan(value) ? 0 : value;
   if (const OffsetRegister cell = offset_variable(run, number); cell.value != nullptr) {

@@ -31,6 +31,9 @@ double* common_variable(ModalState& state, const ControlOptions& options, int nu
   if (number >= kFirstKept && number <= options.last_kept) {
     return &state.kept[static_cast<std::size_t>(number - kFirstKept)];
   }
+  if (options.has_extra_commons && number >= kFirstExtra && number < kFirstExtra + kExtraCount) {
+    return &state.extra[static_cast<std::size_t>(number - kFirstExtra)];
+  }
   return nullptr;
 }
 

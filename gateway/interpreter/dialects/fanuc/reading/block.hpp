@@ -113,6 +113,9 @@ enum class StatementKind : std::uint8_t {
 /// What ends the block besides running on to the next one.
 enum class Ending : std::uint8_t { None, Return, EndOfProgram };
 
+/// A corner word: `,R` and `,C`.
+enum class CornerKind : std::uint8_t { None, Round, Chamfer };
+
 /// One argument of a macro call, in the order written.
 struct Argument {
   char letter = 'A';
@@ -147,6 +150,9 @@ struct Block {
     AddressSet points = 0;       ///< and with a decimal point
     std::uint32_t g_column = 0;  ///< of the one-shot code, or of the last G
     std::uint32_t end = 0;       ///< offset of what ends the block
+    CornerKind corner = CornerKind::None;
+    std::uint32_t corner_column = 0;
+    double corner_size = 0;  ///< millimeters
     // of a call
     CallKind call = CallKind::Macro;
     bool is_modal_call = false;

@@ -57,36 +57,50 @@ void warn_of_two(Block& block, std::uint32_t column, std::uint8_t first, std::ui
   if (!is_call) block.warn(WarningCode::SameGroup, column);
 }
 
+/// Codes with a point, and those of three digits that mean the same.
+std::uint8_t find_written(double value) {
+  const double tenths = std::round(value * 10);
+  if (std::fabs(value * 10 - tenths) > 1e-6) return Block::kNoCode;
+  const auto* at = std::find_if(kCodesWithPoint.begin(), kCodesWithPoint.end(),
+                                [tenths](const WrittenCode& row) { return row.tenths == tenths; });
+  return at == kCodesWithPoint.end() ? Block::kNoCode : at->code;
+}
+
+bool refuse_g(Run& run, const Word& word) {
+  const auto tenths = static_cast<int>(std::clamp(std::round(word.value * 10), 0.0, 1e6));
+  const bool is_five_axis = std::find(kFiveAxisCodes.begin(), kFiveAxisCodes.end(), tenths) !=
+                            kFiveAxisCodes.end();
+  return run.fail(ErrorCode::ImproperG, word.column,
+                  is_five_axis ? fmt::format("G{} needs the kinematics of a tilting machine, which "
+                                             "this control's setup does not have",
+                                             word.value)
+                               : fmt::format("G{}", word.value));
+}
+
 bool add_g(Run& run, const Word& word) {
   Block& block = run.block;
-  constexpr double kMaxG = 255;
   std::uint8_t code = Block::kNoCode;
-  if (word.form == WordForm::Point && std::fabs(word.value - 54.1) < 1e-9) {
-    code = kMoreWorkSystems;
-  } else if (word.form == WordForm::Point && std::fabs(word.value - 5.1) < 1e-9) {
-    code = kContourControl;
+  if (word.form == WordForm::Point && word.value != std::trunc(word.value)) {
+    code = find_written(word.value);
   } else {
-    double value = 0;
-    if (word.form == WordForm::Point && word.value != std::trunc(word.value)) {
-      return run.fail(ErrorCode::ImproperG, word.column, fmt::format("G{}", word.value));
-    }
     Word whole = word;
     if (whole.form == WordForm::Point) whole.form = WordForm::Whole;
     if (whole.is_negative && whole.form == WordForm::Whole) {
       return run.fail(ErrorCode::NegativeSign, word.column);
     }
-    value = run.whole(whole);
+    const double value = run.whole(whole);
     if (calls_macro_by_g(run, value)) [[unlikely]]
       return begin_code_call(run, CodeCall::G, value, word.column);
-    if (!(value >= 0 && value <= kMaxG) || value == kMoreWorkSystems || value == kContourControl) {
-      return run.fail(ErrorCode::ImproperG, word.column, fmt::format("G{}", value));
+    constexpr double kEnd = 100;
+    if (value >= 0 && value < kEnd) [[likely]] {
+      code = static_cast<std::uint8_t>(value);
+    } else {
+      code = find_written(value);
     }
-    code = static_cast<std::uint8_t>(value);
   }
   const std::uint8_t group = group_of(code);
-  if (group == kNoGroup) [[unlikely]] {
-    return run.fail(ErrorCode::ImproperG, word.column, fmt::format("G{}", code));
-  }
+  if (group == kNoGroup) [[unlikely]]
+    return refuse_g(run, word);
   block.parts.g_column = word.column;
   if (group == kOneShot) {
     if (block.parts.one_shot != Block::kNoCode && block.parts.one_shot != code) [[unlikely]]
@@ -120,8 +134,7 @@ bool add_m(Run& run, const Word& word) {
 bool set_sequence(Run& run, const Word& word) {
   if (word.form == WordForm::Computed) return run.fail(ErrorCode::MacroFormat, word.column);
   double value = 0;
-  const bool has_four_digits = run.options.model <= Model::M6;
-  if (!read_whole(run, word, has_four_digits ? 9999 : 99999, value)) return false;
+  if (!read_whole(run, word, run.options.last_sequence, value)) return false;
   run.origin.sequence = static_cast<std::int64_t>(value);
   return true;
 }
@@ -133,7 +146,8 @@ bool begin_program(Run& run, const Word& word) {
     return run.fail(ErrorCode::IllegalAddress, word.column, "O is first in its block");
   }
   double value = 0;
-  if (!read_whole(run, word, 9999, value)) return false;
+  const double most = run.options.program_digits == 8 ? 99'999'999 : 9999;
+  if (!read_whole(run, word, most, value)) return false;
   if (value == 0) return run.fail(ErrorCode::IllegalProgramNumber, word.column, "O0");
   run.state.last.o = static_cast<int>(value);
   if (run.state.at.program == kMainProgram && !run.name_is_settled) {
@@ -232,6 +246,44 @@ bool read_skip(Run& run, const char*& at) {
   return true;
 }
 
+/// `,R` or `,C`: what becomes of the corner at the end of the block's move.
+bool read_corner_word(Run& run, const char*& at) {
+  const char* start = at;
+  at = skip_blanks(at + 1);
+  const char letter = is_letter(*at) ? upper(*at) : *at;
+  if (letter != 'R' && letter != 'C') {
+    return run.fail(ErrorCode::IllegalAddress, run.column(start), "R or C is expected here");
+  }
+  Block::Parts& parts = run.block.parts;
+  if (parts.kind != BlockKind::Nc) return run.fail(ErrorCode::IllegalAddress, run.column(start));
+  if (parts.corner != CornerKind::None) {
+    return run.fail(ErrorCode::CornerOfNoMove, run.column(start), "two corners in one block");
+  }
+  const char* value = skip_blanks(at + 1);
+  Word word;
+  word.column = static_cast<std::uint16_t>(run.column(start));
+  if (*value == '#' || *value == '[') {
+    at = value;
+    word.form = WordForm::Computed;
+    if (!read_operand(run, at, 1 / run.increments.per_unit, word.value)) return false;
+    if (std::isnan(word.value)) return true;
+  } else {
+    NumberText number;
+    const char* after = read_number<NumberRules{.skip_blanks = true}>(value, nullptr, number);
+    if (number.fault != NumberFault::None) return refuse_number(run, value, number);
+    word.value = number.value;
+    word.decimals = number.trailing;
+    word.form = number.has_point ? WordForm::Point : WordForm::Whole;
+    at = after;
+  }
+  if (word.value < 0) return run.fail(ErrorCode::NegativeSign, word.column);
+  parts.corner = letter == 'R' ? CornerKind::Round : CornerKind::Chamfer;
+  parts.corner_size = run.length(word);
+  parts.corner_column = word.column;
+  parts.groups |= 1u << kCornerBit;
+  return true;
+}
+
 bool read_other_item(Run& run, const char*& at) {
   switch (*at) {
     case '(':
@@ -240,6 +292,9 @@ bool read_other_item(Run& run, const char*& at) {
     case '#':
       run.block.parts.has_code = true;
       return read_assignment_block(run, at);
+    case ',':
+      run.block.parts.has_code = true;
+      return read_corner_word(run, at);
     case '/':
       return read_skip(run, at);
     case ':': {

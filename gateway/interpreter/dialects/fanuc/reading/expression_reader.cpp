@@ -1,6 +1,7 @@
 #include "gateway/interpreter/dialects/fanuc/reading/expression_reader.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "gateway/interpreter/core/language/number.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
@@ -19,6 +20,7 @@ constexpr int kSumRank = 2;
 constexpr int kMaxBrackets = 5;
 /// Signs and # within one another; keeps a block from using up the stack.
 constexpr int kMaxDepth = 64;
+constexpr double kLastVariable = 199'999;
 
 double or_zero(double value) {
   return std::isnan(value) ? 0 : value;
@@ -62,7 +64,22 @@ Computed combine_bits(Operator op, double left, double right) {
       MathFault::None};
 }
 
+/// The remainder of whole numbers, with the sign of the first.
+Computed remainder_of(double left, double right) {
+  const double divisor = std::round(right);
+  if (divisor == 0) return {0, MathFault::DivisionByZero};
+  return {std::fmod(std::round(left), divisor), MathFault::None};
+}
+
+Computed power_of(double base, double exponent) {
+  if (base == 0 && exponent < 0) return {0, MathFault::DivisionByZero};
+  if (base < 0 && exponent != std::trunc(exponent)) return {0, MathFault::Undefined};
+  const double value = std::pow(base, exponent);
+  return {value, std::isfinite(value) ? MathFault::None : MathFault::Overflow};
+}
+
 Computed combine(Operator op, double left, double right) {
+  if (op == Operator::Modulo) return remainder_of(or_zero(left), or_zero(right));
   if (language::is_comparison(op)) return compare(op, left, right);
   const bool is_of_bits = op == Operator::And || op == Operator::Or || op == Operator::ExclusiveOr;
   if (is_of_bits) return combine_bits(op, or_zero(left), or_zero(right));
@@ -114,6 +131,8 @@ class Terms {
   Operator peek() {
     skip_gaps();
     const Operator op = operator_at(at_, after_);
+    if (op == Operator::Modulo && !run_.options.has_later_functions) [[unlikely]]
+      return Operator::None;  // what follows the expression is then refused
     return language::is_comparison(op) && !takes_conditions_ ? Operator::None : op;
   }
   void take() { at_ = after_; }
@@ -130,14 +149,19 @@ class Terms {
     return ok;
   }
 
-  /// `at` is on the opening bracket.
-  bool bracketed(double& value) {
+  /// `at` is on the opening bracket. With `second`, another value may follow a comma.
+  bool bracketed(double& value, std::optional<double>* second = nullptr) {
     if (brackets_ == kMaxBrackets) return here(ErrorCode::Brackets, "more than 5 levels");
     ++brackets_;
     ++at_;
     if (!language::evaluate(*this, takes_conditions_ ? kConditionRank : kSumRank, value))
       return false;
     skip_gaps();
+    if (*at_ == ',' && second != nullptr) {
+      ++at_;
+      if (!language::evaluate(*this, kSumRank, second->emplace(0))) return false;
+      skip_gaps();
+    }
     if (*at_ != ']') return here(*at_ == '\n' ? ErrorCode::Brackets : ErrorCode::MacroFormat, {});
     ++at_;
     --brackets_;
@@ -228,7 +252,7 @@ class Terms {
       return here(ErrorCode::MacroFormat, "# needs the number of a variable");
     }
     value = std::round(or_zero(value));
-    if (!(value >= 0 && value <= 99999)) {
+    if (!(value >= 0 && value <= kLastVariable)) {
       return run_.fail(ErrorCode::IllegalVariable, run_.column(start));
     }
     number = static_cast<int>(value);
@@ -237,14 +261,27 @@ class Terms {
 
  private:
   bool call(double& value) {
+    const char* start = at_;
     const Function function = take_function(at_);
+    if (function == Function::Pow && !run_.options.has_later_functions) {
+      at_ = start;
+      return here(ErrorCode::MacroFormat, "POW on this model");
+    }
     if (function == Function::None) return here(ErrorCode::MacroFormat, "unknown function");
     skip_gaps();
     if (*at_ != '[') return here(ErrorCode::MacroFormat, "[ is expected here");
     double argument = 0;
-    if (!bracketed(argument)) return false;
+    std::optional<double> second;
+    const bool takes_two = function == Function::Atan || function == Function::Pow;
+    if (!bracketed(argument, takes_two ? &second : nullptr)) return false;
     argument = or_zero(argument);
-    if (function == Function::Atan) return arc_tangent(argument, value);
+    if (function == Function::Atan) {
+      return second ? arc_tangent_of(argument, *second, value) : arc_tangent(argument, value);
+    }
+    if (function == Function::Pow) {
+      if (!second) return here(ErrorCode::MacroFormat, "POW[base, exponent]");
+      return finish(power_of(argument, or_zero(*second)), value);
+    }
     return finish(compute(function, argument), value);
   }
 
@@ -256,7 +293,9 @@ class Terms {
     if (*after != '[') return finish(degrees_of(std::atan(y), true), value);
     at_ = after;
     double x = 0;
-    if (!bracketed(x)) return false;
+    return bracketed(x) && arc_tangent_of(y, x, value);
+  }
+  bool arc_tangent_of(double y, double x, double& value) {
     Computed computed = language::arc_tangent(y, or_zero(x));
     if (!run_.options.atan_is_signed && computed.value < 0) computed.value += 360;
     return finish(computed, value);
@@ -305,7 +344,11 @@ bool check_range(Run& run, const char* at, double value) {
 
 bool read_expression(Run& run, const char*& at, double& value) {
   Terms terms(run, at, false, 1);
-  return language::evaluate(terms, kSumRank, value) && check_range(run, at, value);
+  if (!language::evaluate(terms, kSumRank, value)) return false;
+  if (const char* after = at; !run.options.has_later_functions && take_word(after, "MOD")) {
+    return run.fail(ErrorCode::MacroFormat, run.column(skip_blanks(at)), "MOD on this model");
+  }
+  return check_range(run, at, value);
 }
 
 bool read_condition(Run& run, const char*& at, bool& holds) {

@@ -25,12 +25,13 @@ constexpr std::array kFunctions{
     Spelling<Function>{"LN", Function::Ln},       Spelling<Function>{"EXP", Function::Exp},
     Spelling<Function>{"ROUND", Function::Round}, Spelling<Function>{"FIX", Function::Fix},
     Spelling<Function>{"FUP", Function::Fup},     Spelling<Function>{"BIN", Function::Bin},
-    Spelling<Function>{"BCD", Function::Bcd},
+    Spelling<Function>{"BCD", Function::Bcd},     Spelling<Function>{"POW", Function::Pow},
 };
 constexpr std::array kOperators{Spelling<Operator>{"*", Operator::Multiply},
                                 Spelling<Operator>{"/", Operator::Divide},
                                 Spelling<Operator>{"+", Operator::Add},
                                 Spelling<Operator>{"-", Operator::Subtract},
+                                Spelling<Operator>{"MOD", Operator::Modulo},
                                 Spelling<Operator>{"AND", Operator::And},
                                 Spelling<Operator>{"OR", Operator::Or},
                                 Spelling<Operator>{"XOR", Operator::ExclusiveOr},
@@ -41,12 +42,32 @@ constexpr std::array kOperators{Spelling<Operator>{"*", Operator::Multiply},
                                 Spelling<Operator>{"GE", Operator::GreaterOrEqual},
                                 Spelling<Operator>{"LE", Operator::LessOrEqual}};
 
+/// `word`, or its first letters, two or more, where no letter follows.
+bool take_cut_word(const char*& at, std::string_view word) {
+  constexpr std::size_t kLeast = 2;
+  const char* next = at;
+  const char* after = at;
+  std::size_t taken = 0;
+  for (; taken < word.size(); ++taken) {
+    next = skip_blanks(next);
+    if (language::capital<kCharKinds>(*next) != word[taken]) break;
+    after = ++next;
+  }
+  if (taken < word.size() && (taken < kLeast || is_letter(*next))) return false;
+  at = after;
+  return true;
+}
+
 template <class Table>
 auto take_from(const Table& table, const char*& at) {
   const char* next = skip_blanks(at);
-  const auto meaning = language::take_spelling<kCharKinds>(table, next);
-  if (meaning != decltype(table[0].meaning){}) at = next;
-  return meaning;
+  const char first = language::capital<kCharKinds>(*next);
+  for (const auto& spelling : table) {
+    if (spelling.text[0] != first || !take_cut_word(next, spelling.text)) continue;
+    at = next;
+    return spelling.meaning;
+  }
+  return decltype(table[0].meaning){};
 }
 
 }  // namespace
@@ -57,6 +78,7 @@ int rank(language::Operator op) {
       return 0;
     case Operator::Multiply:
     case Operator::Divide:
+    case Operator::Modulo:
     case Operator::And:
       return 3;
     case Operator::Add:
@@ -71,7 +93,7 @@ int rank(language::Operator op) {
 
 bool take_word(const char*& at, std::string_view word) {
   const char* next = skip_blanks(at);
-  if (!language::take_word<kCharKinds>(next, word)) return false;
+  if (!take_cut_word(next, word)) return false;
   at = next;
   return true;
 }
@@ -83,8 +105,10 @@ Function take_function(const char*& at) {
   return take_from(kFunctions, at);
 }
 language::Operator operator_at(const char* at, const char*& after) {
-  after = at;
-  return take_from(kOperators, after);
+  after = skip_blanks(at);
+  const Operator op = language::take_spelling<kCharKinds>(kOperators, after);
+  if (op == Operator::None) after = at;
+  return op;
 }
 
 }  // namespace dripline::interpreter::fanuc

@@ -27,6 +27,9 @@ using language::Function;
 /// 3 products and AND, 2 sums, OR and XOR, 1 comparisons, 0 none.
 int rank(language::Operator op);
 
+// Control words and functions may be cut to their first two letters or more where no letter
+// follows: WH[..]DO1, GO9.
+
 /// Moves `at` past `word` when the text continues with it.
 bool take_word(const char*& at, std::string_view word);
 Keyword take_keyword(const char*& at);
