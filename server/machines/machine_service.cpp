@@ -32,7 +32,9 @@ MachineService::Parts::Parts(MachineService& service, dds::ServerEndpoint& endpo
                [&service](const dds::Command& command) { service.on_late_start(command); }),
       lines(endpoint,
             [&service](const std::string& machine) {
-              return service.registry_.gateway(machine).session;
+              const auto view = service.registry_.view(machine);
+              const bool is_there = view && view->is_connected;
+              return is_there ? service.registry_.gateway(machine).session : std::uint64_t{0};
             }),
       reconciler({.runs = service.store_.runs,
                   .clock = service.clock_,
