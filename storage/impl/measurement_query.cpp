@@ -119,6 +119,11 @@ Result<std::vector<Key>> find_keys(sqlite::Database& database, const Measurement
   const auto micros = [](const std::optional<UtcTime>& time, std::int64_t otherwise) {
     return time ? time->time_since_epoch().count() : otherwise;
   };
+  // Where the page begins limits the time too: SQLite takes one bound of each side to the index,
+  // and would read from `since` on for every page.
+  std::int64_t since = micros(filter.since, kFirst), until = micros(filter.until, kLast);
+  if (order.from && order.is_newest_first) until = std::min(until, from.time + 1);
+  if (order.from && !order.is_newest_first) since = std::max(since, from.time);
   std::vector<Key> keys;
   for (const std::int64_t owner : search->owners) {
     const auto found = sqlite::all_rows(
@@ -126,8 +131,8 @@ Result<std::vector<Key>> find_keys(sqlite::Database& database, const Measurement
         [](const sqlite::Statement& row) {
           return Key{row.integer(0), row.integer(1)};
         },
-        owner, search->name, micros(filter.since, kFirst), micros(filter.until, kLast), from.time,
-        from.id, filter.with_superseded ? 1 : 0, verdict, limit);
+        owner, search->name, since, until, from.time, from.id, filter.with_superseded ? 1 : 0,
+        verdict, limit);
     if (!found) return fail(found.error());
     keys.insert(keys.end(), found->begin(), found->end());
   }
