@@ -45,9 +45,10 @@ server/paths: protocol/base storage gateway/interpreter clients/tools/comparison
 server/imports: protocol/base protocol/process storage server/library server/paths server/imports
 server/measurements: protocol/base protocol/measurement protocol/process storage clients/tools/report_template server/measurements
 server/offsets: protocol/base protocol/measurement protocol/process storage gateway/interpreter clients/tools/statistics server/library server/offsets
-server/api: protocol storage gateway/interpreter gateway/line clients/tools/charts server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/offsets server/folders server/webhooks server/api
+server/api: protocol storage gateway/interpreter gateway/line clients/tools/charts server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/offsets server/folders server/webhooks server/mqtt server/api
 server/folders: protocol/base protocol/process storage server/library server/machines server/paths server/folders
 server/webhooks: protocol/base protocol/process storage server/webhooks
+server/mqtt: protocol/base protocol/process storage server/machines server/mqtt
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
@@ -98,6 +99,7 @@ only 'boost/(asio|beast|system)' server/api
 only 'boost/math' clients/tools/statistics
 only 'httplib' 'clients/lib|server/webhooks'  # the server is a client where it delivers events
 only 'sodium' server/identity
+only 'mosquitto|mqtt_protocol' server/mqtt
 only 'libxml/' server/mtconnect
 
 echo "$checked includes checked"

@@ -1,0 +1,313 @@
+#include "server/mqtt/publisher.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "protocol/process/log.hpp"
+#include "server/mqtt/topics.hpp"
+
+namespace dripline::mqtt {
+namespace {
+
+using Json = nlohmann::json;
+using std::chrono::milliseconds;
+
+/// What a machine sent may hold bytes that are no text.
+std::string payload_of(const Json& value) {
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+Publisher::Publisher(Parts parts, MqttSettings settings, Options options)
+    : parts_(std::move(parts)),
+      settings_(std::move(settings)),
+      options_(options),
+      queue_(settings_.status_interval),
+      feed_(parts_.store, kReader, {.window = options.window, .kinds = settings_.kinds}) {
+  state_.broker = settings_.broker;
+}
+
+Publisher::~Publisher() {
+  end();
+}
+
+void Publisher::begin() {
+  // At once: what is stored from now on is published. After an error the thread tries again.
+  (void)begin_reading();
+  worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+}
+
+void Publisher::end() {
+  worker_.request_stop();
+  parts_.link.wake();
+  if (worker_.joinable()) worker_.join();
+}
+
+void Publisher::note(const machines::MachineView& view) {
+  if (settings_.has_status && queue_.note(view)) parts_.link.wake();
+}
+
+void Publisher::note_record() {
+  if (settings_.has_records && !is_record_noted_.exchange(true)) parts_.link.wake();
+}
+
+Result<Publisher::State> Publisher::state() const {
+  State now = [&] {
+    const std::lock_guard lock(mutex_);
+    return state_;
+  }();
+  if (!settings_.has_records) return now;
+  const auto unread = parts_.store.record_readers.unread(kReader);
+  if (!unread) return fail(unread.error());
+  for (const auto& [cursor, last] : *unread) now.waiting += last - cursor.number;
+  return now;
+}
+
+void Publisher::set_connected() {
+  connected_at_ = parts_.clock.steady_now();
+  const std::lock_guard lock(mutex_);
+  state_.is_connected = true;
+  state_.since = parts_.clock.now();
+  if (++state_.connections == 1) process::log_info("mqtt: connected to {}", settings_.broker);
+}
+
+/// The log has the first fault of an outage.
+void Publisher::set_lost(const std::string& fault) {
+  const UtcTime now = parts_.clock.now();
+  {
+    const std::lock_guard lock(mutex_);
+    if (state_.is_connected || !state_.since) state_.since = now;
+    state_.is_connected = false;
+    state_.fault = fault;
+  }
+  if (!failing_since_) {
+    failing_since_ = now;
+    process::log_warning("mqtt: not published: {}", fault);
+  }
+  if (now - *failing_since_ >= options_.long_fault && parts_.on_fault)
+    parts_.on_fault(settings_.broker, fault);
+}
+
+/// A connection alone does not end a fault: a broker that refuses a message accepts connections.
+void Publisher::settle() {
+  if (!failing_since_) return;
+  const bool has_caught_up = under_way() == 0 && !is_more_;
+  const bool has_lasted = parts_.clock.steady_now() - connected_at_ >= options_.settle_after;
+  if (!has_caught_up && !has_lasted) return;
+  failing_since_.reset();
+  failures_ = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    state_.fault.clear();
+  }
+  process::log_info("mqtt: {} is reached again", settings_.broker);
+  if (parts_.on_fault) parts_.on_fault(settings_.broker, "");
+}
+
+void Publisher::pause(const std::stop_token& stop) {
+  constexpr unsigned kMaxDoublings = 16;
+  const auto doubled = options_.first_retry * (1LL << std::min(failures_++, kMaxDoublings));
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, stop, std::min(milliseconds(doubled), options_.longest_retry),
+                    [] { return false; });
+}
+
+void Publisher::work(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    const auto served = serve(stop);
+    if (auto stored = commit(true); !stored)
+      process::log_warning("mqtt: what was published is not noted: {}", stored.error().what);
+    if (served || stop.stop_requested()) continue;
+    set_lost(served.error().what);
+    pause(stop);
+  }
+}
+
+Result<void> Publisher::begin_reading() {
+  if (!settings_.has_records) return {};
+  return parts_.store.record_readers.begin(kReader, parts_.clock.now());
+}
+
+Result<void> Publisher::serve(const std::stop_token& stop) {
+  if (auto begun = begin_reading(); !begun) return begun;
+  auto served = connect(stop);
+  if (served && !stop.stop_requested()) {
+    greet();
+    served = publish_loop(stop);
+  }
+  if (!served) {
+    parts_.link.drop();
+    return served;
+  }
+  take_leave();
+  parts_.link.close();
+  return {};
+}
+
+Result<void> Publisher::connect(const std::stop_token& stop) {
+  feed_.restart();
+  states_.clear();
+  if (auto opened = parts_.link.open(online_message(false)); !opened) return opened;
+  const SteadyTime limit = parts_.clock.steady_now() + options_.connect_limit;
+  while (!stop.stop_requested()) {
+    const auto progress = parts_.link.wait(options_.look);
+    if (progress.is_lost) return fail(Errc::Io, "{}", progress.fault);
+    if (progress.is_connected) return {};
+    if (parts_.clock.steady_now() >= limit)
+      return fail(Errc::Timeout, "{}: no answer in time", settings_.broker);
+  }
+  return {};
+}
+
+/// A broker that was away has old states, or none.
+void Publisher::greet() {
+  answered_ = looked_ = committed_ = parts_.clock.steady_now();
+  is_more_ = true;  // perhaps
+  if (settings_.has_status) {
+    for (const auto& view : parts_.machines()) queue_.add(view);
+  }
+  set_connected();
+}
+
+Result<void> Publisher::publish_loop(const std::stop_token& stop) {
+  if (auto published = publish_online(); !published) return published;
+  while (!stop.stop_requested()) {
+    if (auto published = publish_states(); !published) return published;
+    if (auto published = publish_records(); !published) return published;
+    if (auto received = receive(next_wait()); !received) return received;
+    if (auto stored = commit(false); !stored) return stored;
+    if (auto good = check_answers(); !good) return good;
+    settle();
+  }
+  return {};
+}
+
+Message Publisher::online_message(bool is_online) const {
+  return {.topic = online_topic(settings_.prefix),
+          .payload = payload_of(
+              {{"online", is_online}, {"server", parts_.server}, {"version", parts_.version}}),
+          .qos = 1,
+          .is_retained = true};
+}
+
+Result<void> Publisher::publish_online() {
+  const auto message = parts_.link.publish(online_message(true));
+  if (!message) return fail(message.error());
+  states_[*message] = online_topic(settings_.prefix);
+  return {};
+}
+
+Result<void> Publisher::publish_states() {
+  while (states_.size() < options_.window) {
+    const auto view = queue_.take(parts_.clock.steady_now());
+    if (!view) return {};
+    const auto message =
+        parts_.link.publish({.topic = status_topic(settings_.prefix, view->machine.name),
+                             .payload = payload_of(parts_.status_json(*view)),
+                             .qos = 1,
+                             .is_retained = settings_.is_status_retained});
+    if (!message) return fail(message.error());
+    states_[*message] = status_topic(settings_.prefix, view->machine.name);
+  }
+  return {};
+}
+
+Result<void> Publisher::publish_records() {
+  if (!settings_.has_records || feed_.under_way() >= options_.window) return {};
+  const SteadyTime now = parts_.clock.steady_now();
+  const auto since = now - looked_;
+  const bool is_noted = is_record_noted_ && since >= options_.gather;
+  if (!is_more_ && !is_noted && since < options_.look) return {};
+  looked_ = now;
+  is_record_noted_ = false;  // before the look: what comes during it is looked for again
+  const auto more = feed_.fill([this](const storage::Record& record) {
+    auto body = parts_.record_json(record);
+    body["id"] = record_id(record);
+    return parts_.link.publish({.topic = record_topic(settings_.prefix, record),
+                                .payload = payload_of(body),
+                                .qos = settings_.qos});
+  });
+  if (!more) return fail(more.error());
+  is_more_ = *more;
+  return {};
+}
+
+milliseconds Publisher::next_wait() const {
+  const SteadyTime now = parts_.clock.steady_now();
+  const auto until = [now](SteadyTime time) {
+    return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(time - now));
+  };
+  milliseconds wait = options_.look;
+  const bool has_room = feed_.under_way() < options_.window;
+  if (is_more_ && has_room) return milliseconds(0);
+  if (is_record_noted_ && has_room) wait = std::min(wait, until(looked_ + options_.gather));
+  if (feed_.has_uncommitted()) wait = std::min(wait, until(committed_ + options_.commit_after));
+  if (const auto next = queue_.next_due(); next && states_.size() < options_.window)
+    wait = std::min(wait, *next <= now ? milliseconds(0) : until(*next));
+  return wait;
+}
+
+Result<void> Publisher::receive(milliseconds limit) {
+  const bool was_idle = under_way() == 0;
+  const auto progress = parts_.link.wait(limit);
+  if (was_idle || !progress.acknowledged.empty()) answered_ = parts_.clock.steady_now();
+  for (const auto& acknowledged : progress.acknowledged) {
+    if (auto taken = take(acknowledged); !taken) return taken;
+  }
+  if (progress.is_lost) return fail(Errc::Io, "{}", progress.fault);
+  return {};
+}
+
+/// What is refused is not passed over: the administrator of the broker is to know.
+Result<void> Publisher::take(const BrokerLink::Acknowledgment& acknowledged) {
+  std::string what;
+  if (const auto state = states_.find(acknowledged.message); state != states_.end()) {
+    what = state->second;
+    if (acknowledged.refusal.empty()) {
+      states_.erase(state);
+      const std::lock_guard lock(mutex_);
+      ++state_.states;
+    }
+  } else if (acknowledged.refusal.empty()) {
+    if (!feed_.acknowledge(acknowledged.message)) return {};
+    const std::lock_guard lock(mutex_);
+    ++state_.records;
+    state_.missing = feed_.missing();
+  } else {
+    what = settings_.prefix + "/+/records";
+  }
+  if (acknowledged.refusal.empty()) return {};
+  return fail(Errc::Denied, "{} refuses a message for {}: {}", settings_.broker, what,
+              acknowledged.refusal);
+}
+
+Result<void> Publisher::commit(bool is_due_now) {
+  const SteadyTime now = parts_.clock.steady_now();
+  if (!feed_.has_uncommitted()) {
+    committed_ = now;
+    return {};
+  }
+  if (!is_due_now && now - committed_ < options_.commit_after) return {};
+  committed_ = now;
+  return feed_.commit();
+}
+
+Result<void> Publisher::check_answers() {
+  if (under_way() == 0 || parts_.clock.steady_now() - answered_ < options_.answer_limit) return {};
+  return fail(Errc::Timeout, "{}: nothing acknowledged in {} s", settings_.broker,
+              std::chrono::duration_cast<std::chrono::seconds>(options_.answer_limit).count());
+}
+
+/// Ends what is under way, says that the server is gone, and notes how far it has got.
+void Publisher::take_leave() {
+  if (!state_.is_connected) return;
+  const auto gone = parts_.link.publish(online_message(false));
+  if (gone) states_[*gone] = online_topic(settings_.prefix);
+  const SteadyTime limit = parts_.clock.steady_now() + options_.farewell;
+  while (under_way() > 0 && parts_.clock.steady_now() < limit) {
+    if (!receive(milliseconds(20))) return;
+  }
+}
+
+}  // namespace dripline::mqtt
