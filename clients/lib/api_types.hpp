@@ -29,6 +29,14 @@ struct ServerInfo {
   struct Dds {
     std::uint64_t domain = 0, rejected = 0;
   } dds;
+  struct Mqtt {
+    std::string broker;
+    bool connected = false;
+    std::string since, fault;
+    std::uint64_t records_waiting = 0, records_published = 0, states_published = 0;
+    std::uint64_t records_missing = 0;
+  };
+  std::optional<Mqtt> mqtt;  ///< absent: there is no broker
 };
 
 /// The server's backups, newest first, and what it does with them now.

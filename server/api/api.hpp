@@ -29,6 +29,7 @@
 #include "server/library/setups.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/measurements/measurements.hpp"
+#include "server/mqtt/publisher.hpp"
 #include "server/offsets/offsets.hpp"
 #include "server/paths/program_paths.hpp"
 #include "server/ports/port_control.hpp"
@@ -72,6 +73,7 @@ struct Services {
   offsets::Offsets* offsets = nullptr;                 ///< null: a server without offset proposals
   folders::Folders* folders = nullptr;                 ///< null: a server without hot folders
   webhooks::Webhooks* webhooks = nullptr;              ///< null: a server without webhooks
+  mqtt::Publisher* publisher = nullptr;                ///< null: a server without a broker
   bool has_tls = false;                                ///< the sockets in front of it do
 };
 

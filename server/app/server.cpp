@@ -36,6 +36,7 @@ Server::~Server() {
   parts_->measurements.end();  // it may hold a machine
   if (parts_->retention) parts_->retention->end();
   parts_->offsets.end();
+  if (parts_->publisher) parts_->publisher->end();
   parts_->events.close();
   parts_->http.reset();
   parts_->mtconnect_http.reset();
@@ -51,6 +52,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!agent) return fail(agent.error());
   const auto network = dds_network(settings, clock.now());
   if (!network) return fail(network.error());
+  if (auto safe = mqtt::check_exposure(settings.mqtt); !safe) return fail(safe.error());
   const auto policy = library::ReleasePolicy::read(settings.policy);
   if (!policy) return fail(policy.error());
   auto folder = StateFolder::open(settings.state);
@@ -117,6 +119,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (*agent) {
     if (auto opened = parts.open_mtconnect(**agent); !opened) return fail(opened.error());
   }
+  if (parts.publisher) parts.publisher->begin();
   auto http = api::HttpServer::start(*options, http_handlers(parts.api, parts.page));
   if (!http) return fail(http.error());
   parts.http = *std::move(http);

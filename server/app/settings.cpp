@@ -231,6 +231,7 @@ constexpr std::array kRows{
 
 constexpr const char* kPorts = "port";      ///< the tables [[port]] are read here, not by the rows
 constexpr const char* kFolders = "folder";  ///< likewise [[folder]], by server/folders
+constexpr const char* kMqtt = "mqtt";       ///< likewise [mqtt], by server/mqtt
 
 Result<void> apply_ports(Settings& settings, std::string_view text, const std::string& folder) {
   const toml::table table = toml::parse(text);  // the rows were read from it before
@@ -264,10 +265,13 @@ CommandLine wrong_use(const Error& error) {
 
 Result<void> apply_toml(Settings& settings, std::string_view text, const std::string& folder) {
   const process::SettingsReader reader(std::span<const Row>(kRows), settings);
-  if (auto read = reader.read_toml(text, {kPorts, kFolders}); !read) return read;
+  if (auto read = reader.read_toml(text, {kPorts, kFolders, kMqtt}); !read) return read;
   auto folders = folders::read_folders(text);
   if (!folders) return fail(folders.error());
   settings.folders = *std::move(folders);
+  auto broker = mqtt::read_mqtt(text);
+  if (!broker) return fail(broker.error());
+  settings.mqtt = *std::move(broker);
   return apply_ports(settings, text, folder);
 }
 

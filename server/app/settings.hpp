@@ -7,6 +7,7 @@
 
 #include "protocol/base/result.hpp"
 #include "server/folders/folder_settings.hpp"
+#include "server/mqtt/mqtt_settings.hpp"
 #include "storage/port_store.hpp"
 
 namespace dripline::app {
@@ -49,13 +50,14 @@ struct Settings {
   bool recover_admin = false;        ///< likewise
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
   std::vector<folders::FolderSettings> folders;
+  mqtt::MqttSettings mqtt;  ///< without a broker: none
 };
 
 inline constexpr const char* kNewestBackup = "newest";
 
-/// Sets what a TOML file holds: the settings of dncd, its hot folders, and its serial ports, whose
-/// files are looked for in `folder`. Errors: Syntax (also an unknown key, a wrong type),
-/// LimitExceeded, NotFound; they name key and line.
+/// Sets what a TOML file holds: the settings of dncd, its hot folders, its broker, and its serial
+/// ports, whose files are looked for in `folder`. Errors: Syntax (also an unknown key, a wrong
+/// type), LimitExceeded, NotFound; they name key and line.
 Result<void> apply_toml(Settings& settings, std::string_view toml, const std::string& folder = "");
 
 /// What the command line asks for: run, or print something and end.

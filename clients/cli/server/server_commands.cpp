@@ -17,6 +17,19 @@ void add_health(Details& details, const client::ServerInfo::Health& health) {
   }
 }
 
+void add_broker(Details& details, const client::ServerInfo::Mqtt& mqtt) {
+  details.add("MQTT",
+              fmt::format("{}, {}{}", mqtt.broker, mqtt.connected ? "connected" : "not connected",
+                          mqtt.since.empty() ? "" : " since " + time_text(mqtt.since)));
+  if (!mqtt.fault.empty()) details.add("", printable(mqtt.fault));
+  details.add("", fmt::format("{} records wait, {} published", mqtt.records_waiting,
+                              mqtt.records_published));
+  if (mqtt.records_missing > 0) {
+    details.add("", fmt::format("{} records went into archives before they were published",
+                                mqtt.records_missing));
+  }
+}
+
 int show_status(Context& context, client::Client& client) {
   auto server = client.server();
   if (const auto status = finished(context, server)) return *status;
@@ -34,6 +47,7 @@ int show_status(Context& context, client::Client& client) {
   details.add("runs active", std::to_string(server->runs_active));
   details.add("DDS", fmt::format("domain {}, {} messages rejected", server->dds.domain,
                                  server->dds.rejected));
+  if (server->mqtt) add_broker(details, *server->mqtt);
   context.print(details);
   return kExitOk;
 }

@@ -36,10 +36,17 @@ void members(V& v, Is<ServerInfo::Health> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<ServerInfo::Mqtt> auto& x) {
+  DRIPLINE_MEMBERS(broker, connected, since, fault, records_waiting, records_published,
+                   states_published, records_missing);
+}
+
+template <class V>
 void members(V& v, Is<ServerInfo> auto& x) {
   DRIPLINE_MEMBERS(name, version, started, uptime_s, data_dir, machines, machines_connected,
                    programs, runs_active);
   v.later("health", x.health);
+  v.later("mqtt", x.mqtt);
   DRIPLINE_MEMBERS(dds);
 }
 

@@ -103,6 +103,24 @@ void add_webhooks(MetricsText& out, webhooks::Webhooks& all) {
        [](const storage::Webhook& webhook) { return webhook.lost; });
 }
 
+void add_publisher(MetricsText& out, const mqtt::Publisher& publisher) {
+  const auto state = publisher.state();
+  if (!state) return;
+  out.gauge("dripline_mqtt_connected", "1: records and states reach the broker.",
+            number(state->is_connected));
+  out.gauge("dripline_mqtt_records_waiting", "Records that the broker has not acknowledged.",
+            static_cast<double>(state->waiting));
+  out.counter("dripline_mqtt_records_total", "Records that the broker has acknowledged.",
+              static_cast<double>(state->records));
+  out.counter("dripline_mqtt_states_total", "States of machines that the broker has acknowledged.",
+              static_cast<double>(state->states));
+  out.counter("dripline_mqtt_connections_total", "Connections to the broker.",
+              static_cast<double>(state->connections));
+  out.counter("dripline_mqtt_records_missing_total",
+              "Records that went into archives before they were published.",
+              static_cast<double>(state->missing));
+}
+
 void add_folders(MetricsText& out, const folders::Folders& all) {
   const auto states = all.states();
   if (states.empty()) return;
@@ -216,6 +234,7 @@ Response list_metrics(Services& services, const RequestTimes& times, const Reque
   if (services.backups != nullptr) add_backups(out, services.backups->state());
   add_audit(out, services.chain.state());
   if (services.webhooks != nullptr) add_webhooks(out, *services.webhooks);
+  if (services.publisher != nullptr) add_publisher(out, *services.publisher);
   if (services.folders != nullptr) add_folders(out, *services.folders);
   add_disk(out, services.facts.data_dir);
   add_process(out);

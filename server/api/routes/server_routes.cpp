@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
@@ -33,6 +34,21 @@ bool is_ready(const library::Health::State& state) {
                               [](const auto& finding) { return finding.subject == "store"; });
 }
 
+/// Null: a server without a broker.
+nlohmann::json mqtt_json(const Services& services) {
+  if (services.publisher == nullptr) return nullptr;
+  const auto state = services.publisher->state();
+  if (!state) return nullptr;
+  return {{"broker", state->broker},
+          {"connected", state->is_connected},
+          {"since", time_or_null(state->since)},
+          {"fault", text_or_null(state->fault)},
+          {"records_waiting", state->waiting},
+          {"records_published", state->records},
+          {"states_published", state->states},
+          {"records_missing", state->missing}};
+}
+
 Response describe_server(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
@@ -58,6 +74,7 @@ Response describe_server(Services& services, const Request& request) {
             {"programs", *programs},
             {"runs_active", *active},
             {"health", health_json(health_of(services), Audience::TokenHolder)},
+            {"mqtt", mqtt_json(services)},
             {"dds", {{"domain", facts.dds_domain}, {"rejected", services.dds_rejected()}}}});
 }
 

@@ -92,6 +92,7 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
                 .on_fault = watch_faults("webhooks", "webhook",
                                          "a webhook has not been delivered for long")},
                {}),
+      publisher(make_publisher(settings, loaded)),
       mtconnect(make_mtconnect(settings, loaded)),
       offsets({.store = *store,
                .setups = setups,
@@ -144,6 +145,7 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
            .offsets = &offsets,
            .folders = &folders,
            .webhooks = &webhooks,
+           .publisher = publisher.get(),
            .has_tls = !settings.tls_key.empty()}),
       tidied(clock.steady_now()) {}
 
@@ -188,6 +190,7 @@ std::unique_ptr<library::Retention> ServerParts::make_retention(const Settings& 
     if (thousands > 0) made.rows = thousands * kThousand;
     return made;
   };
+  const bool is_published = settings.mqtt.is_on() && settings.mqtt.has_records;
   library::Retention::Options options;
   options.records = rule(settings.archive_records_days, settings.archive_records_rows);
   options.measurements =
@@ -197,7 +200,8 @@ std::unique_ptr<library::Retention> ServerParts::make_retention(const Settings& 
                                 .clock = clock,
                                 .folder = settings.archives,
                                 .database = loaded.identity,
-                                .made_by = fmt::format("dncd {}", DRIPLINE_VERSION)},
+                                .made_by = fmt::format("dncd {}", DRIPLINE_VERSION),
+                                .reader = is_published ? mqtt::Publisher::kReader : ""},
       options);
 }
 
@@ -241,8 +245,15 @@ machines::MachineListener ServerParts::published() {
   machines::MachineListener listener = api::publish_to(events);
   listener.on_record = [this, publish = listener.on_record](const auto& record) {
     measurements.note();
+    if (publisher) publisher->note_record();
     publish(record);
   };
+  if (publisher) {
+    listener.on_machine = [this, publish = listener.on_machine](const auto& view) {
+      publisher->note(view);
+      publish(view);
+    };
+  }
   if (!mtconnect) return listener;
   auto& observer = mtconnect->observer();
   listener.on_machine = [&observer, publish = listener.on_machine](const auto& view) {

@@ -29,6 +29,7 @@
 #include "server/library/retention.hpp"
 #include "server/machines/machine_service.hpp"
 #include "server/measurements/measurements.hpp"
+#include "server/mqtt/publisher.hpp"
 #include "server/mtconnect/agent.hpp"
 #include "server/offsets/offsets.hpp"
 #include "server/ports/gateway_lines.hpp"
@@ -67,10 +68,12 @@ struct ServerParts {
   FaultWatch records_watch();
   /// Makes a finding of `subject` of each fault; `of`: what has the name.
   FaultWatch watch_faults(const char* subject, const char* of, const char* what);
+  /// Null: there is no broker.
+  std::unique_ptr<mqtt::Publisher> make_publisher(const Settings& settings, const Loaded& loaded);
   std::unique_ptr<mtconnect::Agent> make_mtconnect(const Settings& settings, const Loaded& loaded);
   /// Of the machine's last run, if it ended with an alarm.
   std::vector<storage::Record> last_alarms(const std::string& machine) const;
-  /// To the listeners of events and to the MTConnect agent.
+  /// To the listeners of events, to the broker and to the MTConnect agent.
   machines::MachineListener published();
   /// The verdict of a report template on a part: nothing of the job queue starts.
   Result<void> hold_queue(const storage::MeasuredPart& part, const std::string& reason);
@@ -117,6 +120,8 @@ struct ServerParts {
   library::Setups setups;
   std::unique_ptr<webhooks::Sender> webhook_sender;
   webhooks::Webhooks webhooks;
+  std::unique_ptr<mqtt::BrokerLink> broker;     ///< null: there is none
+  std::unique_ptr<mqtt::Publisher> publisher;   ///< likewise
   std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
   offsets::Offsets offsets;
   machines::MachineService machine_service;

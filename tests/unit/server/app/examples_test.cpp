@@ -51,6 +51,17 @@ TEST(Examples, HotFoldersAreTakenByTheServersSettings) {
   EXPECT_NE(broken.error().what.find("line 3"), std::string::npos) << broken.error().what;
 }
 
+TEST(Examples, TheBrokerIsTakenByTheServersSettings) {
+  app::Settings settings;
+  const auto taken = app::apply_toml(settings, read("deploy/examples/mqtt.toml"));
+  ASSERT_TRUE(taken) << taken.error().what;
+  EXPECT_EQ(settings.mqtt.broker, "mqtts://broker.example:8883");
+  EXPECT_EQ(settings.mqtt.prefix, "plant/hall-2");
+  const auto broken = app::apply_toml(settings, "[mqtt]\nbroker='mqtt://a'\nqso=1\n");
+  ASSERT_FALSE(broken);
+  EXPECT_NE(broken.error().what.find("line 3"), std::string::npos) << broken.error().what;
+}
+
 TEST(Examples, BaudOfAPortOverridesItsLine) {
   app::Settings settings;
   const auto taken = app::apply_toml(
