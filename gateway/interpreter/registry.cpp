@@ -16,9 +16,9 @@ constexpr int kClearLead = 30;
 
 /// One line for each dialect.
 const std::vector<Dialect>& table() {
-  static const std::vector<Dialect> kTable{kCenturionDialect,     kFanucDialect,
-                                           kProtoTrakDialect,     kRs274NgcDialect,
-                                           kTektronix1704Dialect, kTnc155Dialect};
+  static const std::vector<Dialect> kTable{
+      kCenturionDialect, kFanucDialect,         kFanucLatheDialect, kProtoTrakDialect,
+      kRs274NgcDialect,  kTektronix1704Dialect, kTnc155Dialect};
   return kTable;
 }
 
@@ -46,6 +46,7 @@ Result<const Dialect*> find_dialect(std::string_view name) {
 
 CallReader call_reader(std::string_view name) {
   if (name == kFanucDialect.name) return &fanuc::program_calls;
+  if (name == kFanucLatheDialect.name) return &fanuc::lathe_program_calls;
   if (name == kCenturionDialect.name) return &centurion::program_calls;
   if (name == kRs274NgcDialect.name) return &rs274ngc::program_calls;
   if (name == kTnc155Dialect.name) return &tnc155::program_calls;

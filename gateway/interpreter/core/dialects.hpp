@@ -10,6 +10,8 @@ namespace dripline::interpreter {
 extern const Dialect kCenturionDialect;
 /// Fanuc-class machining centers (0-M, 6M, 11M, 16/18/21-M) with custom macro B.
 extern const Dialect kFanucDialect;
+/// The lathes of that class (T series).
+extern const Dialect kFanucLatheDialect;
 /// ProtoTRAK Plus: a two-axis mill that stores events.
 extern const Dialect kProtoTrakDialect;
 /// RS274/NGC: the NIST language, version 3, and what LinuxCNC made of it.

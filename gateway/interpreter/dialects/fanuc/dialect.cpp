@@ -11,9 +11,9 @@ namespace {
 
 using namespace fanuc;
 
-Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
-                                          EventSink& sink) {
-  auto options = read_options(setup);
+Result<std::unique_ptr<Interpreter>> make_control(const Setup& setup, bool is_lathe,
+                                                  ProgramSource& source, EventSink& sink) {
+  auto options = read_options(setup, is_lathe);
   if (!options) return fail(options.error());
   ModalState state;
   Memory memory;
@@ -22,6 +22,15 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   }
   return std::unique_ptr<Interpreter>(std::make_unique<FanucInterpreter>(
       *std::move(options), std::move(state), memory, source, sink));
+}
+
+Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
+                                          EventSink& sink) {
+  return make_control(setup, false, source, sink);
+}
+Result<std::unique_ptr<Interpreter>> make_lathe(const Setup& setup, ProgramSource& source,
+                                                EventSink& sink) {
+  return make_control(setup, true, source, sink);
 }
 
 /// The text without blanks and comments, in capitals, line ends kept: marks are looked for in this.
@@ -70,15 +79,30 @@ int likelihood(std::string_view head, std::string_view) {
   return std::min(points, 90);
 }
 
+/// What no machining center has: two blocks of a turning cycle, T with an offset.
+int lathe_likelihood(std::string_view head, std::string_view file_name) {
+  const std::string text = squeeze(head);
+  if (!begins_line(text, 'O') && !begins_line(text, ':')) return 0;
+  const bool is_lathe = contains_any(text, {"G70P", "G71U", "G71P", "G72W", "G72P", "G76P"});
+  return is_lathe ? likelihood(head, file_name) : 0;
+}
+
 }  // namespace
 
 const Dialect kFanucDialect{.name = "fanuc",
-                            .title = "Fanuc 0-M, 6M, 11M, 16/18/21-M (machining center)",
+                            .title = "Fanuc 0-M, 6M, 11M, 16/18/21-M, 0i to 30i (machining center)",
                             .likelihood = &likelihood,
                             .make = &make,
                             // T selects and M06 exchanges, as the machine's builder has it: only a
                             // machine without `tool_changer` stops for a tool change.
                             .waits_at_tool_change = true,
                             .options = &list_options};
+
+const Dialect kFanucLatheDialect{.name = "fanuc-t",
+                                 .title = "Fanuc 0-T, 16/18/21-T, 0i-T, 30i-T (lathe)",
+                                 .likelihood = &lathe_likelihood,
+                                 .make = &make_lathe,
+                                 .machine = MachineKind::Lathe,
+                                 .options = &list_lathe_options};
 
 }  // namespace dripline::interpreter

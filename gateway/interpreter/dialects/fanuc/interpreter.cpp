@@ -17,6 +17,7 @@ FanucInterpreter::FanucInterpreter(ControlOptions options, ModalState state, con
   run_.update_increments();
   run_.update_origin();
   run_.update_special();
+  run_.lead_stages();
 }
 
 BlockOutcome FanucInterpreter::run_block() {
@@ -136,7 +137,11 @@ void FanucInterpreter::determine_name() {
 bool FanucInterpreter::finish_block() {
   if (run_.state.uses_compensator) [[unlikely]] {
     if (!check_compensation(run_) || !leave_block(run_)) return false;
-    end_compensated_block(run_);
+    if (run_.is_recording()) {
+      run_.sink.on_block_end(run_.origin);
+    } else {
+      end_compensated_block(run_);
+    }
     if (!check_compensation(run_)) return false;
   } else {
     if (!leave_block(run_)) return false;

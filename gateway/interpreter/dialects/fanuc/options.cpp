@@ -32,7 +32,7 @@ constexpr std::array<ModelRow, 9> kModels{
      kSixteenI,
      kSixteenI,
      kSixteenI,
-     {RepeatAddress::K, CallForm::Both, 10, 199, 999, true, true, true, 8, 99'999'999}}};
+     {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true, true, 4, 99'999'999}}};
 
 AxisValues values_of(const Position& position) {
   AxisValues values{};
@@ -86,9 +86,14 @@ bool is_start_code(std::int64_t code) {
 
 Result<void> read_start_codes(const Options& options, const OptionKey& key, C& control) {
   std::vector<std::int64_t> codes{0, 17, 90, 94, 40, 49, 50, 54, 64, 67, 69, 80, 97, 98, 22, 15};
+  if (control.is_lathe) codes.insert(codes.end(), {18, 95});
   const auto given = options.integers(key.key);
   if (!given) return fail(given.error());
-  codes.insert(codes.end(), given->begin(), given->end());
+  const auto& table = kCodeTables[static_cast<std::size_t>(control.code_system)];
+  for (const std::int64_t code : *given) {
+    const bool is_translated = control.is_lathe && code >= 0 && code < 100;
+    codes.push_back(is_translated ? table[static_cast<std::size_t>(code)] : code);
+  }
   for (const std::int64_t code : codes) {
     if (!is_start_code(code)) {
       return fail(Errc::Syntax, "[control] start_g: G{} is not a state this control can start in",
@@ -191,7 +196,7 @@ Result<void> read_skip_levels(const Options& options, const OptionKey& key, C& c
 }
 
 // A row that others depend on is above them: model, start_g.
-constexpr std::array kRows{
+constexpr std::array kSharedRows{
     Row{{"model", "0M|6M|11M|16M|0i|16i|18i|21i|30i",
          "sets the defaults of repeat_address, m98_form, max_call_depth, last_common, last_kept, "
          "program_digits; whether the control has G54.1, MOD and POW, and the long numbers of "
@@ -201,38 +206,17 @@ constexpr std::array kRows{
     row<&C::calculator_point>(
         "calculator_point", kFlag,
         "a number without a point is in millimeters or inches, not increments"),
-    row<&C::has_tool_changer>(
-        "tool_changer", kFlag,
-        "false: M06 stops the spindle and waits until the operator has changed"),
     Row{{"increment", "IS-A|IS-B|IS-C", "least increment: 0.01, 0.001, 0.0001 mm", "IS-B"},
         read_increment},
     row<&C::start_units>("start_units", "in|mm", "units in force at power on"),
     Row{{"start_g", kWholes, "G codes in force at power on besides the usual ones"},
         read_start_codes},
-    row<&C::repeat_address>("repeat_address", "K|L|both",
-                            "address of the repeats of a canned cycle"),
     row<&C::call_form>("m98_form", "P8|L|both",
                        "repeats of M98: in P of up to 8 digits, or in a word L"),
-    row<&C::offset_memory>("offset_memory", "A|B|C",
-                           "tool offsets: one, geometry and wear, or these for H and D each"),
     row<&C::start_up_b>("startup", "A|B", "start and cancel of cutter compensation"),
     Row{{"reference", kAxisTables, "first to fourth reference point, in machine coordinates",
          "0 on every axis"},
         read_reference},
-    row<&C::peck_return>("g73_return", kLength, "retraction of a peck of G73", kNotNegative, "",
-                         "0.1 mm, 0.004 in"),
-    row<&C::peck_clearance>("g83_clearance", kLength,
-                            "where G83 goes from rapid to feed, above the last depth", kNotNegative,
-                            "", "1 mm, 0.04 in"),
-    row<&C::peck_tap_leaves>("peck_tapping", "high-speed|standard",
-                             "a peck of rigid tapping goes back a little, or out to R"),
-    row<&C::peck_tap_return>("peck_tapping_return", kLength,
-                             "retraction of a peck of rigid tapping", kNotNegative, "",
-                             "0.1 mm, 0.004 in"),
-    Row{{"shift_direction", "+X|-X|+Y|-Y", "direction of the shift of G76 and G87"},
-        read_shift_direction},
-    Row{{"single_direction", kAxisTable, "overrun of G60, with its sign", "0 on every axis"},
-        read_single_direction},
     row<&C::arc_error>(
         "arc_error", kLength,
         "allowed difference of the radii at start and end of an arc; 0: not checked"),
@@ -240,10 +224,6 @@ constexpr std::array kRows{
                               "what an arc without I, J, K and R is"),
     row<&C::short_radius_is_semicircle>("short_radius", "alarm|semicircle",
                                         "what R is that is too short to reach the end"),
-    row<&C::scale_default>("scale_default", kNumber, "factor of G51 without P"),
-    row<&C::rotate_default>("rotate_default", kNumber, "angle of G68 without R", {}, "degree"),
-    row<&C::rotate_incremental>("rotate_incremental", kFlag,
-                                "R of G68 in G91 is added to the angle in force"),
     row<&C::leading_zero_print>("leading_zero_print", kFlag,
                                 "DPRNT prints blanks for leading zeros"),
     Row{{"print_newline", "LF|CRLF|LFCRCR",
@@ -256,12 +236,6 @@ constexpr std::array kRows{
     row<&C::reset_clears_locals>("reset_clears_locals", kFlag, "reset and M30 clear #1 to #33"),
     row<&C::reset_clears_commons>("reset_clears_commons", kFlag,
                                   "reset and M30 clear the variables from #100"),
-    row<&C::measuring_rapid_end>("g37_clearance", kLength,
-                                 "G37 feeds from so far before the position; 0: no G37",
-                                 kNotNegative),
-    row<&C::measuring_tolerance>("g37_tolerance", kLength,
-                                 "G37 expects the signal so close to the position", kNotNegative),
-    row<&C::measuring_feed>("g37_feed", kFeed, "feed of G37", kNotNegative),
     Row{{"stroke_limits", kAxisTables,
          "lowest and highest position of limit 1, then of the forbidden zone of limit 2"},
         read_limits},
@@ -278,8 +252,6 @@ constexpr std::array kRows{
     row<&C::comment_over_eob>("comment_over_eob", kFlag, "a comment may go over ends of blocks"),
     row<&C::feed_unit_inch>("feed_unit_inch", kNumber, "unit of F without a point in inch",
                             kPositive, "inch/min"),
-    row<&C::diameter_offset>("diameter_offset", kFlag,
-                             "offsets of cutter compensation are diameters"),
     row<&C::before_m>("before_m", kWholes,
                       "M codes that act before the move of their block; none: all do"),
     row<&C::is_dnc>("dnc", kFlag,
@@ -299,19 +271,84 @@ constexpr std::array kRows{
                                "the variables #98000 to #98499, which are kept"),
     Row{option("program_digits", kWhole, "digits of program numbers: 4 or 8", "4", {4, 8}),
         read_program_digits},
-    Row{{"length_axis", "A|B|C", "type of tool length compensation"}, read_length_axis},
-    pins_row<&C::pins_at_one, &C::answers_pins>(),
+    pins_row<&C::pins_at_one, &C::answers_pins>()};
+
+constexpr std::array kMillRows{
+    row<&C::has_tool_changer>(
+        "tool_changer", kFlag,
+        "false: M06 stops the spindle and waits until the operator has changed"),
+    row<&C::repeat_address>("repeat_address", "K|L|both",
+                            "address of the repeats of a canned cycle"),
+    row<&C::offset_memory>("offset_memory", "A|B|C",
+                           "tool offsets: one, geometry and wear, or these for H and D each"),
+    row<&C::peck_return>("g73_return", kLength, "retraction of a peck of G73", kNotNegative, "",
+                         "0.1 mm, 0.004 in"),
+    row<&C::peck_clearance>("g83_clearance", kLength,
+                            "where G83 goes from rapid to feed, above the last depth", kNotNegative,
+                            "", "1 mm, 0.04 in"),
+    row<&C::peck_tap_leaves>("peck_tapping", "high-speed|standard",
+                             "a peck of rigid tapping goes back a little, or out to R"),
+    row<&C::peck_tap_return>("peck_tapping_return", kLength,
+                             "retraction of a peck of rigid tapping", kNotNegative, "",
+                             "0.1 mm, 0.004 in"),
+    Row{{"shift_direction", "+X|-X|+Y|-Y", "direction of the shift of G76 and G87"},
+        read_shift_direction},
+    Row{{"single_direction", kAxisTable, "overrun of G60, with its sign", "0 on every axis"},
+        read_single_direction},
+    row<&C::scale_default>("scale_default", kNumber, "factor of G51 without P"),
+    row<&C::rotate_default>("rotate_default", kNumber, "angle of G68 without R", {}, "degree"),
+    row<&C::rotate_incremental>("rotate_incremental", kFlag,
+                                "R of G68 in G91 is added to the angle in force"),
+    row<&C::measuring_rapid_end>("g37_clearance", kLength,
+                                 "G37 feeds from so far before the position; 0: no G37",
+                                 kNotNegative),
+    row<&C::measuring_tolerance>("g37_tolerance", kLength,
+                                 "G37 expects the signal so close to the position", kNotNegative),
+    row<&C::measuring_feed>("g37_feed", kFeed, "feed of G37", kNotNegative),
+    row<&C::diameter_offset>("diameter_offset", kFlag,
+                             "offsets of cutter compensation are diameters"),
+    Row{{"length_axis", "A|B|C", "type of tool length compensation"}, read_length_axis}};
+
+constexpr std::array kLatheRows{
+    row<&C::code_system>("code_system", "A|B|C", "which set of G codes the lathe has"),
+    row<&C::x_is_diameter>("x_is_diameter", kFlag, "X and U are diameters", {}, "", "true"),
+    row<&C::has_c_axis>("c_axis", kFlag, "the lathe has an axis C; without it C is an alarm"),
+    row<&C::turret_digits>("turret_digits", kWhole, "last digits of T that are the offset's number",
+                           {1, 2}),
+    row<&C::feed_unit_turn>("feed_unit_revolution", kNumber,
+                            "unit of F without a point in feed per revolution; 0: an alarm",
+                            kNotNegative, "", "0"),
+    row<&C::thread_chamfer>("thread_chamfer", kNumber, "pull-out of the thread cycle, in leads",
+                            kNotNegative),
 };
+
+template <std::size_t kFirst, std::size_t kSecond>
+constexpr auto joined(const std::array<Row, kFirst>& first,
+                      const std::array<Row, kSecond>& second) {
+  std::array<Row, kFirst + kSecond> rows{};
+  std::copy(first.begin(), first.end(), rows.begin());
+  std::copy(second.begin(), second.end(), rows.begin() + kFirst);
+  return rows;
+}
+constexpr auto kMillOptions = joined(kSharedRows, kMillRows);
+/// code_system decides what start_g means.
+constexpr auto kLatheOptions = joined(kLatheRows, kSharedRows);
 
 }  // namespace
 
 std::vector<ListedOption> list_options() {
-  return list_rows(kRows);
+  return list_rows(kMillOptions);
+}
+std::vector<ListedOption> list_lathe_options() {
+  return list_rows(kLatheOptions);
 }
 
-Result<ControlOptions> read_options(const Setup& setup) {
+Result<ControlOptions> read_options(const Setup& setup, bool is_lathe) {
   ControlOptions control;
-  if (auto done = read_rows(kRows, setup.control, control); !done) return fail(done.error());
+  control.is_lathe = control.x_is_diameter = is_lathe;
+  auto done = is_lathe ? read_rows(kLatheOptions, setup.control, control)
+                       : read_rows(kMillOptions, setup.control, control);
+  if (!done) return fail(done.error());
   if (!setup.switches.mirror.empty()) {
     return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G51");
   }

@@ -18,6 +18,13 @@ enum class OffsetMemory : std::uint8_t { A, B, C };
 /// What a machine's builder and operator have set: the `[control]` options and the panel's
 /// switches. Lengths in millimeters.
 struct ControlOptions {
+  bool is_lathe = false;
+  CodeSystem code_system = CodeSystem::A;  ///< of a lathe
+  bool x_is_diameter = false;
+  bool has_c_axis = false;    ///< of a lathe
+  int turret_digits = 2;      ///< of the offset number in T
+  double feed_unit_turn = 0;  ///< of F without a point, per revolution; 0: an alarm
+  double thread_chamfer = 0;  ///< of G92, in leads
   Model model = Model::M16;
   bool has_pages = true;                 ///< G54.1
   bool has_later_functions = false;      ///< MOD, POW
@@ -84,7 +91,7 @@ struct ControlOptions {
 
 /// Reads the options. Errors: Syntax, Unsupported (an option or switch this control does not
 /// have).
-Result<ControlOptions> read_options(const Setup& setup);
+Result<ControlOptions> read_options(const Setup& setup, bool is_lathe = false);
 
 /// The control's memory at the start of a run. Errors: Unsupported, naming the record of the setup
 /// that this control does not have.
@@ -96,5 +103,6 @@ void apply_start_codes(const ControlOptions& options, ModalState& state);
 
 /// The rows of its options, for people.
 std::vector<ListedOption> list_options();
+std::vector<ListedOption> list_lathe_options();
 
 }  // namespace dripline::interpreter::fanuc

@@ -7,7 +7,8 @@ namespace dripline::interpreter::fanuc {
 void Run::deliver_header() {
   state.has_header = true;
   ProgramHeader header;
-  header.control = "fanuc";
+  header.control = options.is_lathe ? "fanuc-t" : "fanuc";
+  header.x_is_diameter = options.x_is_diameter;
   if (!name.empty()) header.name = name;
   header.units = state.units;
   sink.on_program(header);
@@ -20,6 +21,13 @@ void Run::deliver_header() {
 void Run::lead_stages() {
   last = rotary.is_on() ? static_cast<EventSink*>(&rotary) : &sink;
   compensator.lead_to(*last);
+  if (is_recording()) {
+    blender.lead_to(recorder);
+    front = state.uses_blender ? static_cast<EventSink*>(&blender) : &recorder;
+    return;
+  }
+  blender.lead_to(compensator);
+  front = state.uses_compensator ? static_cast<EventSink*>(&path()) : last;
 }
 
 bool Run::ask(Question asked) {
@@ -35,6 +43,7 @@ void Run::warn(const DiagnosticRow& row, std::uint32_t at_column, std::string_vi
 
 void Run::update_increments() {
   const bool is_inch = state.units == Units::Inch;
+  increments.x_factor = options.x_is_diameter ? 0.5 : 1;
   increments.mm_per_unit = state.mm_per_unit();
   increments.angle_decimals = options.decimals_mm;
   increments.decimals = options.decimals_mm + (is_inch ? 1 : 0);
@@ -61,7 +70,8 @@ void Run::update_special() {
   state.g[kModalCallGroup] = state.modal_active >= 0 ? 66 : 67;
   state.is_special = state.is_cycle() || state.is_polar() || state.is_transformed ||
                      state.imaginary != 0 || state.modal_active >= 0 || state.zone.is_on ||
-                     options.has_limits || state.is_inverse_time() || state.enters_parameters || rotary.is_on() || state.g[kMotionGroup] > 3;
+                     options.has_limits || state.is_inverse_time() || state.enters_parameters ||
+                     rotary.is_on() || state.contour.code != 0 || state.g[kMotionGroup] > 3;
 }
 
 double Run::angle(const Word& word) const {

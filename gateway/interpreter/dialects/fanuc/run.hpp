@@ -26,6 +26,7 @@ struct Increments {
   double per_degree = 1000;
   int decimals = 3;
   int angle_decimals = 3;
+  double x_factor = 1;  ///< 0.5 where X is a diameter
 };
 
 /// One run: what the files of this folder work on. Functions that cannot go on give false and
@@ -44,17 +45,17 @@ struct Run : BlockRun {
   EventSink& events() {
     if (!state.has_header) [[unlikely]]
       deliver_header();
-    if (state.uses_compensator) [[unlikely]]
-      return path();
-    return *last;
+    return *front;
   }
+  /// The contour of a cycle is being recorded.
+  bool is_recording() const { return state.contour.code > kTurningCycles; }
   /// From the first G41, G42 or corner word on.
   compensation::CompensationSink& path() {
     if (state.uses_blender) return blender;
     return compensator;
   }
 
-  /// After a mode of `rotary` has begun or ended.
+  /// After the state has another stage: `rotary`, the compensator, the blender, the recorder.
   void lead_stages();
 
   /// Offset of `at` in the block, and its 1-based column.
@@ -95,7 +96,9 @@ struct Run : BlockRun {
   double angle(const Word& word) const;
   /// Of a coordinate: millimeters or degrees.
   double coordinate(Axis axis, const Word& word) const {
-    return is_rotary(axis) ? angle(word) : length(word);
+    if (is_rotary(axis)) return angle(word);
+    const double value = length(word);
+    return axis == Axis::X ? value * increments.x_factor : value;
   }
   /// As a whole number, computed values rounded.
   double whole(const Word& word) const {
@@ -111,10 +114,15 @@ struct Run : BlockRun {
   bool rests_at_end() const { return block.parts.one_shot == 9 || state.g[kPathGroup] == 61; }
   /// Millimeters to program units, for macro variables.
   double in_units(Axis axis, double raw) const {
-    return is_rotary(axis) ? raw : raw / increments.mm_per_unit;
+    if (is_rotary(axis)) return raw;
+    const double value = raw / increments.mm_per_unit;
+    return axis == Axis::X ? value / increments.x_factor : value;
   }
+  double in_length_units(double raw) const { return raw / increments.mm_per_unit; }
   double from_units(Axis axis, double value) const {
-    return is_rotary(axis) ? value : value * increments.mm_per_unit;
+    if (is_rotary(axis)) return value;
+    const double raw = value * increments.mm_per_unit;
+    return axis == Axis::X ? raw * increments.x_factor : raw;
   }
   /// The present place in program coordinates before scaling and rotation; motion.cpp.
   double work_position(Axis axis) const {
@@ -136,6 +144,8 @@ struct Run : BlockRun {
   blending::CornerBlender blender;  ///< in front of it
   TextCursor text;
   ModalState state;
+  ContourRecorder recorder{state.contour.moves, sink};
+  EventSink* front = &sink;  ///< the first stage that the state has, or the sink
   Memory memory;
   Increments increments;
   std::string name;  ///< as the program calls itself; empty when it does not

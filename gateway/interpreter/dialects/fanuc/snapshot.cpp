@@ -9,18 +9,21 @@ void visit(Archive& archive, ModalState& state) {
   archive(state.phase, state.has_header, state.is_port_open, state.told_lower_case,
           state.speed_changed, state.blocks, state.at, state.position, state.origin, state.g,
           state.is_transformed, state.uses_compensator, state.uses_blender, state.is_special,
-          state.units, state.feed, state.inverse_feed,
-          state.spindle, state.coolant, state.tool, state.h_number, state.d_number,
-          state.length_axis, state.length_offset, state.rotary, state.parameters, state.enters_parameters, state.mirror, state.scaling, state.rotation, state.cycle,
+          state.units, state.feed, state.inverse_feed, state.spindle, state.coolant, state.tool,
+          state.h_number, state.d_number, state.length_axis, state.length_offset, state.turning,
+          state.box, state.contour, state.modes_before, state.rotary, state.parameters,
+          state.enters_parameters, state.mirror, state.scaling, state.rotation, state.cycle,
           state.zone, state.intermediate, state.has_intermediate, state.imaginary, state.held,
           state.skip, state.last, state.polar_angle, state.is_rigid_tapping, state.locals,
-          state.commons, state.kept, state.extra, state.counters, state.calls, state.loops, state.modals,
-          state.modal_active, state.jump, state.limits);
+          state.commons, state.kept, state.extra, state.counters, state.calls, state.loops,
+          state.modals, state.modal_active, state.jump, state.limits);
 }
 
 namespace {
 
-constexpr std::string_view kDialect = "fanuc";
+std::string_view dialect_of(const Run& run) {
+  return run.options.is_lathe ? "fanuc-t" : "fanuc";
+}
 constexpr std::uint32_t kVersion = 7;
 
 template <class Archive>
@@ -33,6 +36,9 @@ void visit_memory(Archive& archive, Memory& memory) {
   visit_sparse(memory.tools.length_wear);
   visit_sparse(memory.tools.radius_geometry);
   visit_sparse(memory.tools.radius_wear);
+  visit_sparse(memory.tools.x_geometry);
+  visit_sparse(memory.tools.x_wear);
+  visit_sparse(memory.tools.tip);
   for (AxisValues& system : memory.coordinates.work) visit_sparse(system);
   archive(memory.coordinates.shift, memory.coordinates.local, memory.coordinates.more_work);
 }
@@ -78,6 +84,9 @@ bool has_plausible_stacks(const ModalState& state) {
 /// Values that index tables must be in range, whatever the bytes say.
 bool is_plausible(const ModalState& state, const Memory& memory) {
   if (state.rotary.kind > RotaryPlane::Kind::Cylinder) return false;
+  if (state.contour.code != 0 && (state.contour.code < 170 || state.contour.code > 173)) {
+    return false;
+  }
   if (state.uses_blender && !state.uses_compensator) return false;
   return state.phase <= RunPhase::Alarmed && is_offset(state.h_number) &&
          is_offset(state.d_number) && memory.coordinates.more_work >= 1 &&
@@ -102,11 +111,11 @@ Snapshot take_snapshot(const Run& run) {
   writer(state);
   visit_memory(writer, memory);
   writer(origin, name, is_settled, rotary, path, corners);
-  return {std::string(kDialect), kVersion, writer.take()};
+  return {std::string(dialect_of(run)), kVersion, writer.take()};
 }
 
 Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
-  if (auto kind = snapshot.check_kind(kDialect, kVersion); !kind) return kind;
+  if (auto kind = snapshot.check_kind(dialect_of(run), kVersion); !kind) return kind;
   language::StateReader reader(snapshot.bytes);
   ModalState state;
   Memory memory;
@@ -134,13 +143,13 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
     return restored;
   }
   run.rotary.restore(rotary);
-  run.lead_stages();
   run.state = std::move(state);
   run.memory = memory;
   run.origin = origin;
   run.name = std::move(name);
   run.name_is_settled = is_settled;
   run.update_increments();
+  run.lead_stages();
   return {};
 }
 

@@ -10,6 +10,7 @@
 #include "gateway/interpreter/dialects/fanuc/codes.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/rotary_path.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
+#include "gateway/interpreter/dialects/fanuc/turning/contour.hpp"
 
 /// Everything that stays from one block to the next. Lengths are millimeters, angles degrees;
 /// positions are machine coordinates of the programmed point, the tool's length left out, unless
@@ -97,6 +98,32 @@ struct ToolOffsets {
   std::array<double, kMaxOffsets + 1> length_wear{};
   std::array<double, kMaxOffsets + 1> radius_geometry{};
   std::array<double, kMaxOffsets + 1> radius_wear{};
+  // of a lathe, whose lengths are those along Z
+  std::array<double, kMaxOffsets + 1> x_geometry{};
+  std::array<double, kMaxOffsets + 1> x_wear{};
+  std::array<double, kMaxOffsets + 1> tip{};  ///< 0 to 9
+};
+
+/// The modes that a contour of G71 to G73 leaves as they were.
+struct ModesBefore {
+  std::array<std::uint8_t, kGroupCount> g{};
+  std::array<double, 2> feed{};
+  Position position;
+  SpindleModes spindle;
+  Coolant coolant;
+  ToolModes tool;
+  int h_number = 0;
+  int d_number = 0;
+};
+
+/// The modal cycles of one cut on a lathe: X and Z of the work system, X a radius.
+struct BoxCycle {
+  std::uint8_t code = 0;
+  bool has_x = false;
+  bool has_z = false;
+  double x = 0;
+  double z = 0;
+  double taper = 0;  ///< R, a radius
 };
 
 struct Coordinates {
@@ -203,6 +230,10 @@ struct ModalState {
   double length_offset = 0;  ///< in force, signed
   Parameters parameters;
   bool enters_parameters = false;  ///< G10 L50 to G11
+  TurningData turning;
+  BoxCycle box;
+  ContourCycle contour;
+  ModesBefore modes_before;  ///< of `contour`
   RotaryPlane rotary;
   Mirror mirror;
   Scaling scaling;

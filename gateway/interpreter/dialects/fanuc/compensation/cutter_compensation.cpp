@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
@@ -15,12 +16,29 @@ namespace {
 
 using compensation::FaultKind;
 
+/// From the center of a nose to its imaginary tip, in radii along X and Z: 1 to 9, and 0.
+struct TipDirection {
+  int x, z;
+};
+constexpr std::array<TipDirection, 10> kTips{
+    {{0, 0}, {1, 1}, {1, -1}, {-1, -1}, {-1, 1}, {0, 1}, {1, 0}, {0, -1}, {-1, 0}, {0, 0}}};
+
+void place_tip(const Run& run, compensation::Cutter& cutter) {
+  const double number = run.memory.tools.tip[static_cast<std::size_t>(run.state.d_number)];
+  const TipDirection tip = kTips[number >= 0 && number <= 9 ? static_cast<std::size_t>(number) : 0];
+  const double radius = cutter.radius.mm();
+  if (cutter.plane != Plane::ZX) return;  // in other planes a milling tool cuts
+  cutter.tip_first = Length::mm(tip.z * radius);
+  cutter.tip_second = Length::mm(tip.x * radius);
+}
+
 compensation::Cutter cutter_of(const Run& run) {
   compensation::Cutter cutter;
   cutter.plane = run.state.plane();
   cutter.side =
       run.state.g[kCompensationGroup] == 41 ? compensation::Side::Left : compensation::Side::Right;
   cutter.radius = Length::mm(radius_of_offset(run, run.state.d_number));
+  if (run.options.is_lathe) place_tip(run, cutter);
   if (run.state.is_transformed && is_plane_mirrored(run.state, run.state.plane())) {
     cutter.side = cutter.side == compensation::Side::Left ? compensation::Side::Right
                                                           : compensation::Side::Left;
@@ -63,6 +81,7 @@ void begin_stages(Run& run) {
   run.events();  // the header first
   run.compensator.reset(state.position);
   state.uses_compensator = true;
+  run.lead_stages();
 }
 
 void turn_on(Run& run) {
@@ -153,6 +172,7 @@ bool announce_corner(Run& run) {
   if (!state.uses_blender) {
     run.blender.reset(state.position);
     state.uses_blender = true;
+    run.lead_stages();
   }
   run.blender.set_plane(state.plane());
   const Length size = Length::mm(parts.corner_size);
@@ -171,9 +191,11 @@ bool apply_compensation(Run& run) {
   if (was_on && block.names(kPlaneGroup) && block.g[kPlaneGroup] != state.g[kPlaneGroup]) {
     return run.fail(ErrorCode::PlaneInCompensation, block.parts.g_column);
   }
-  if (block.words.has(D) && !read_offset_number(run, D, state.d_number)) return false;
+  const bool is_lathe = run.options.is_lathe;
+  if (!is_lathe && block.words.has(D) && !read_offset_number(run, D, state.d_number)) return false;
+  const bool has_number = block.words.has(is_lathe ? T : D);
   if (!block.names(kCompensationGroup)) {
-    if (was_on && block.words.has(D)) turn_on(run);
+    if (was_on && has_number && !run.is_recording()) turn_on(run);
     return true;
   }
   const std::uint8_t code = block.g[kCompensationGroup];
@@ -183,7 +205,11 @@ bool apply_compensation(Run& run) {
     return run.fail(ErrorCode::ImproperCommand, block.words.first_column(kCenterWords),
                     fmt::format("I, J, K beside G{}: a vector is not supported", code));
   }
-  const bool changes = code != state.g[kCompensationGroup] || block.words.has(D);
+  if (run.is_recording()) {  // the finishing cut goes along the compensated contour
+    state.g[kCompensationGroup] = code;
+    return true;
+  }
+  const bool changes = code != state.g[kCompensationGroup] || has_number;
   state.g[kCompensationGroup] = code;
   if (code != 40) {
     if (changes) turn_on(run);

@@ -219,8 +219,8 @@ class Hole {
   bool peck(bool to_retract) {
     const double travel = data().bottom - data().retract;
     const double sign = travel < 0 ? -1 : 1;
-    const double back = to_retract ? run_.state.parameters.peck_clearance
-                                   : run_.state.parameters.peck_return;
+    const double back =
+        to_retract ? run_.state.parameters.peck_clearance : run_.state.parameters.peck_return;
     const double count = std::ceil(std::fabs(travel) / data().depth - 1e-9);
     for (double n = 1; n < count; ++n) {
       const double depth = data().retract + sign * n * data().depth;

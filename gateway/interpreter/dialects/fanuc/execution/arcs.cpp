@@ -47,8 +47,8 @@ bool center_by_radius(Run& run, double radius, ArcWords& arc) {
     const double missing = chord / 2 - size;
     if (missing > run.state.parameters.arc_error && !run.options.short_radius_is_semicircle) {
       return run.fail(ErrorCode::IllegalRadius, run.block.words.column(R),
-                      fmt::format("R{} does not span {}", run.in_units(Axis::X, radius),
-                                  run.in_units(Axis::X, chord)));
+                      fmt::format("R{} does not span {}", run.in_length_units(radius),
+                                  run.in_length_units(chord)));
     }
     size = chord / 2;
   }
@@ -92,7 +92,7 @@ bool center_by_offsets(Run& run, ArcWords& arc) {
                                  length(arc.center - flat(arc, arc.end)));
   if (error > limit) {
     return run.fail(ErrorCode::RadiusTolerance, words.first_column(kCenterWords),
-                    fmt::format("the end is off by {:.6g}", run.in_units(Axis::X, error)));
+                    fmt::format("the end is off by {:.6g}", run.in_length_units(error)));
   }
   return true;
 }
@@ -136,7 +136,8 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
   const double radius = length(middle - start);
   const double reach = length(middle - stop);
   const double error = std::fabs(radius - reach);
-  if (error <= std::fmax(state.parameters.arc_error, kSamePoint) || reach == 0) return arc_to(run, arc);
+  if (error <= std::fmax(state.parameters.arc_error, kSamePoint) || reach == 0)
+    return arc_to(run, arc);
   arc.rests = false;  // the line to the end does
   arc.to.set_raw(words.axes.first, middle.first + (stop.first - middle.first) * radius / reach);
   arc.to.set_raw(words.axes.second, middle.second + (stop.second - middle.second) * radius / reach);

@@ -37,13 +37,21 @@ bool plan_subprogram(Run& run, int code) {
   }
   const double value = run.whole(words[P]);
   const bool takes_l = form != CallForm::EightDigits && words.has(L);
-  const bool splits = form != CallForm::L && !takes_l;
-  if (!(value >= 1 && value <= (splits ? 99'999'999 : 9999)) || value != std::trunc(value)) {
+  const bool has_long_numbers = run.options.program_digits == 8;
+  const bool splits = form != CallForm::L && !takes_l && !has_long_numbers;
+  const double most = splits || has_long_numbers ? 99'999'999 : 9999;
+  if (!(value >= 1 && value <= most) || value != std::trunc(value)) {
     return run.fail(ErrorCode::NumberNotFound, words.column(P), fmt::format("P{}", value));
+  }
+  if (has_long_numbers && form == CallForm::EightDigits && value > 9999) {
+    return run.fail(ErrorCode::ImproperCommand, words.column(P),
+                    fmt::format("P{:.0f} is a program, or repeats of one of four digits: m98_form "
+                                "decides it with program_digits = 8",
+                                value));
   }
   auto program = static_cast<std::uint32_t>(value);
   std::uint32_t passes = 1;
-  if (program > 9999) {
+  if (splits && program > 9999) {
     passes = program / 10000;
     program %= 10000;
   }
@@ -73,7 +81,7 @@ bool plan_return(Run& run) {
   }
   if (!words.has(P)) return true;
   const double value = run.whole(words[P]);
-  if (!(value >= 1 && value <= 99999)) {
+  if (!(value >= 1 && value <= std::max(run.options.last_sequence, 99'999u))) {
     return run.fail(ErrorCode::SequenceNotFound, words.column(P), fmt::format("P{}", value));
   }
   run.block.parts.ending_number = static_cast<std::uint32_t>(value);

@@ -10,6 +10,7 @@
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
 
 namespace dripline::interpreter::fanuc {
 
@@ -40,6 +41,11 @@ bool set_work_offset(Run& run, bool more) {
   const double most = more ? kMoreWorkCount : 6;
   if (!(number >= (more ? 1 : 0) && number <= most)) {
     return run.fail(ErrorCode::IllegalPInG10, words.column(P), fmt::format("P{}", number));
+  }
+  constexpr AddressSet kIncrements = set_of(U, V, W, H);
+  if (run.options.is_lathe && words.has_any(kIncrements)) {
+    return run.fail(ErrorCode::ImproperCommand, words.first_column(kIncrements),
+                    "zero offsets are written with X, Y, Z and C");
   }
   const auto system = static_cast<std::size_t>(number) + (more ? 6 : 0);
   AxisValues& offset = run.memory.coordinates.work[system];
@@ -171,6 +177,7 @@ bool set_data(Run& run) {
     run.ledger.take(kAxisWords | set_of(L));
     return set_work_offset(run, list == 20);
   }
+  if (run.options.is_lathe && list == 1) return set_turret_offset(run);
   run.ledger.take(set_of(L, R));
   if (list == 1 || (list >= 10 && list <= 13)) return set_offset_data(run, static_cast<int>(list));
   return run.fail(ErrorCode::IllegalPInG10, words.column(L), fmt::format("G10 L{}", list));
@@ -187,8 +194,10 @@ bool set_stroke_zone(Run& run) {
   constexpr std::array<Address, 3> kOther{I, J, K};
   for (std::size_t i = 0; i < 3; ++i) {
     const Words& words = run.block.words;
-    if (words.has(kOneCorner[i])) state.zone.high[i] = run.length(words[kOneCorner[i]]);
-    if (words.has(kOther[i])) state.zone.low[i] = run.length(words[kOther[i]]);
+    if (words.has(kOneCorner[i]))
+      state.zone.high[i] = run.coordinate(static_cast<Axis>(i), words[kOneCorner[i]]);
+    if (words.has(kOther[i]))
+      state.zone.low[i] = run.coordinate(static_cast<Axis>(i), words[kOther[i]]);
     if (state.zone.low[i] > state.zone.high[i]) std::swap(state.zone.low[i], state.zone.high[i]);
   }
   state.zone.is_on = state.zone.has_volume();

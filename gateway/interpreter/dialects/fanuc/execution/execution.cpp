@@ -14,6 +14,7 @@
 #include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -39,6 +40,7 @@ void apply_motion_groups(Run& run) {
     state.g[kMotionGroup] = block.g[kMotionGroup];
     state.g[kCycleGroup] = 80;
     state.is_rigid_tapping = false;
+    if (state.box.code != state.g[kMotionGroup]) state.box.code = 0;
     return;
   }
   if (!names_cycle) return;
@@ -79,10 +81,12 @@ bool apply_modes(Run& run) {
     }
     state.g[kPlaneGroup] = block.g[kPlaneGroup];
   }
-  const bool is_thread =
-      block.names(kMotionGroup) ? block.g[kMotionGroup] == 33 : state.g[kMotionGroup] == 33;
+  const std::uint8_t motion =
+      block.names(kMotionGroup) ? block.g[kMotionGroup] : state.g[kMotionGroup];
+  const bool is_thread = motion == 33 || motion == kVariableThread || motion == kBoxThread ||
+                         block.parts.one_shot == kTurningCycles + 6;
   if (is_thread) {
-    apply_lead(run);
+    if (!apply_lead(run)) return false;
   } else if (!apply_feed(run)) {
     return false;
   }
@@ -211,6 +215,14 @@ bool execute_one_shot(Run& run) {
     case 37:
       block.parts.has_motion = true;
       return start_measuring(run);
+    case kTurningCycles:
+    case kTurningCycles + 1:
+    case kTurningCycles + 2:
+    case kTurningCycles + 3:
+    case kTurningCycles + 4:
+    case kTurningCycles + 5:
+    case kTurningCycles + 6:
+      return execute_turning_cycle(run);
     case kCylinder:
       return set_cylinder(run);
     case kPresetCoordinates:
@@ -252,9 +264,33 @@ bool check_corner(Run& run) {
                   "a corner word needs a move by G01, G02 or G03 in the plane");
 }
 
+/// Whether U, V, W and H lead somewhere; elsewhere they are data.
+bool has_increments(const Block& block) {
+  const std::uint8_t one_shot = block.parts.one_shot;
+  const bool is_cycle = one_shot >= kTurningCycles && one_shot <= kTurningCycles + 6;
+  return one_shot != 4 && one_shot != 10 && !is_cycle;
+}
+
+/// I, K and R beside G00 and G01 are corners of older lathes: without them the tool goes elsewhere.
+bool check_old_corners(Run& run) {
+  const Block& block = run.block;
+  constexpr AddressSet kOldCorners = kCenterWords | set_of(R);
+  const bool is_line = run.state.g[kMotionGroup] <= 1 && !run.state.is_cycle();
+  if (!is_line || block.parts.one_shot != Block::kNoCode || words_are_data(block) ||
+      !block.words.has_any(kOldCorners)) {
+    return true;
+  }
+  return run.fail(ErrorCode::ImproperCommand, block.words.first_column(kOldCorners),
+                  "corners are written ,R and ,C");
+}
+
 bool execute_motion(Run& run) {
   Block& block = run.block;
   if (block.names(kInterpolationGroup)) return set_polar_plane(run);
+  if (run.options.is_lathe) {
+    if (has_increments(block) && !resolve_increments(run)) return false;
+    if (!check_old_corners(run)) return false;
+  }
   if (block.parts.corner != CornerKind::None && (!check_corner(run) || !announce_corner(run)))
     return false;
   if (is_data_code(block.parts.one_shot)) return execute_one_shot(run);

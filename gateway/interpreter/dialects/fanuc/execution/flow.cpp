@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -220,6 +221,10 @@ bool leave_block(Run& run) {
   if (parts.has_code) state.at.code_seen = state.at.head_seen = true;
   const std::uint64_t offset = run.text.offset();
   run.text.advance(state.at, run.text.begin() + parts.end);
+  if (state.contour.code != 0) [[unlikely]] {
+    if (!follow_contour(run)) return false;
+    if (state.contour.code == 0) return true;
+  }
   if (parts.ending != Ending::None) [[unlikely]] {
     if (parts.ending == Ending::Return) return return_from_call(run, parts.ending_number);
     end_program(run, state.blocks + 1, parts.rewinds);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
+
 namespace dripline::interpreter::fanuc {
 namespace {
 
@@ -187,7 +189,9 @@ bool apply_speed(Run& run) {
 }
 
 bool apply_before_motion(Run& run) {
-  if (run.block.words.has(T) && !select_tool(run)) return false;
+  if (run.block.words.has(T)) {
+    if (!(run.options.is_lathe ? select_turret(run) : select_tool(run))) return false;
+  }
   perform_all(run, false);
   // A new speed of a spindle that is already running.
   if (run.state.speed_changed && is_turning(run.state.spindle.state)) {

@@ -7,6 +7,7 @@
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/rotary_plane.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -57,7 +58,7 @@ bool read_transformed_target(Run& run, Position& to) {
   const double most = run.state.units == Units::Inch ? kMaxInches : kMaxMillimeters;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!words.has(kWordOfAxis[i]) || is_polar_word(run.state, i)) continue;
-    const double value = run.length(words[kWordOfAxis[i]]);
+    const double value = run.coordinate(static_cast<Axis>(i), words[kWordOfAxis[i]]);
     if (!(std::fabs(value) <= most)) return refuse_range(run, static_cast<Axis>(i), value);
     point[i] = run.state.is_incremental() ? before[i] + value : value;
   }
@@ -153,6 +154,17 @@ Position machine_point(const Run& run, const Point3& point) {
 
 namespace {
 
+/// What F without a point counts per revolution. Lathes differ in it by powers of ten.
+bool read_turn_unit(Run& run, const Word& word, double& unit) {
+  if (!run.options.is_lathe || word.value == 0) return true;
+  unit = run.options.feed_unit_turn;
+  if (unit > 0) return true;
+  return run.fail(ErrorCode::DecimalPoint, word.column,
+                  fmt::format("F{} per revolution has no point, and the setup no "
+                              "feed_unit_revolution",
+                              word.value));
+}
+
 /// G93: so many of these moves in a minute; a number of its own, in either unit.
 bool read_inverse_feed(Run& run, const Word& word) {
   constexpr double kMaxMoves = 99'999;
@@ -177,7 +189,9 @@ bool apply_feed(Run& run) {
     return read_inverse_feed(run, word);
   if (word.form == WordForm::Whole && !run.options.calculator_point) {
     if (state.is_per_revolution()) {
-      value *= is_inch ? 0.0001 : 0.01;
+      double unit = is_inch ? 0.0001 : 0.01;
+      if (!read_turn_unit(run, word, unit)) return false;
+      value *= unit;
     } else if (is_inch) {
       value *= run.options.feed_unit_inch;
     }
@@ -195,13 +209,15 @@ bool apply_feed(Run& run) {
   return true;
 }
 
-void apply_lead(Run& run) {
+bool apply_lead(Run& run) {
   const Words& words = run.block.words;
-  if (!words.has(F)) return;
+  if (!words.has(F)) return true;
   const Word& word = words[F];
-  const double unit = run.state.units == Units::Inch ? 0.0001 : 0.01;
+  double unit = run.state.units == Units::Inch ? 0.0001 : 0.01;
   const bool is_plain = word.form == WordForm::Whole && !run.options.calculator_point;
+  if (is_plain && !read_turn_unit(run, word, unit)) return false;
   run.state.feed[1] = word.value * (is_plain ? unit : 1) * run.increments.mm_per_unit;
+  return true;
 }
 
 bool check_feed(Run& run) {
@@ -216,8 +232,13 @@ bool check_feed(Run& run) {
 }
 
 bool execute_plain(Run& run) {
+  if (run.options.is_lathe && !resolve_increments(run)) [[unlikely]]
+    return false;
   const Words& words = run.block.words;
-  if (run.block.names(kMotionGroup)) run.state.g[kMotionGroup] = run.block.g[kMotionGroup];
+  if (run.block.names(kMotionGroup)) {
+    run.state.g[kMotionGroup] = run.block.g[kMotionGroup];
+    run.state.box.code = 0;
+  }
   if (words.has(F) && !apply_feed(run)) return false;
   if (run.state.g[kMotionGroup] > 1) {
     if (!words.has_any(kAxisWords | kCenterWords) && words.has(R)) [[unlikely]]
@@ -281,12 +302,16 @@ bool move(Run& run) {
   const std::uint8_t mode = state.g[kMotionGroup];
   if (run.block.parts.one_shot != 60 && (mode == 2 || mode == 3)) return move_on_arc(run);
   if (!words.has_any(kAxisWords)) return true;
+  if (mode >= kBoxTurning && mode <= kBoxFacing) return cut_box(run);
   run.ledger.take(kAxisWords);
   Position to;
   if (!read_target(run, to)) return false;
   const std::uint8_t one_shot = run.block.parts.one_shot;
   if (one_shot >= 45 && one_shot <= 48 && !offset_target(run, to)) return false;
   if (mode == 0 || one_shot == 60) return position_to(run, to);
+  if (run.options.is_lathe && (mode == 33 || mode == kVariableThread)) {
+    return cut_turned_thread(run, to);
+  }
   if (mode == 33) return cut_thread(run, to);
   return check_feed(run) && line_to(run, to, run.active_feed());
 }

@@ -33,7 +33,7 @@ Position finish_probe(Run& run, const ProbeResult& result);
 /// F of the block, before anything else.
 bool apply_feed(Run& run);
 /// F of a block in G33: the lead, a length whatever the feed mode.
-void apply_lead(Run& run);
+bool apply_lead(Run& run);
 bool check_feed(Run& run);
 
 /// G02, G03; arcs.cpp.

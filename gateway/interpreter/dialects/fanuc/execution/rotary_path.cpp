@@ -87,10 +87,12 @@ int RotaryPath::pieces_of_line(const Position& to) const {
   const double closest_at = std::clamp(-dot(from, along) / (size * size), 0.0, 1.0);
   const double closest = dripline::interpreter::length(from + closest_at * along);
   if (closest < kClosestToCenter) return kMaxPieces;
-  const double far = std::max(dripline::interpreter::length(from), dripline::interpreter::length(end));
+  const double far =
+      std::max(dripline::interpreter::length(from), dripline::interpreter::length(end));
   const double piece = closest * piece_degrees(far) / kDegreesPerRadian;
   const double turn = std::acos(std::clamp(
-      dot(from, end) / (dripline::interpreter::length(from) * dripline::interpreter::length(end)), -1.0, 1.0));
+      dot(from, end) / (dripline::interpreter::length(from) * dripline::interpreter::length(end)),
+      -1.0, 1.0));
   if (turn * kDegreesPerRadian < 1e-9) return 1;
   return std::clamp(static_cast<int>(std::ceil(size / piece)), 1, kMaxPieces);
 }
@@ -131,9 +133,8 @@ void RotaryPath::on_arc(const Arc& event) {
   const double length = std::hypot(radius * event.sweep.radians(), height);
   int pieces = pieces_for(event.sweep.degrees(), piece_degrees(radius));
   if (state_.plane.kind == RotaryPlane::Kind::Polar) pieces *= 2;
-  deliver({event.origin, event.to, event.feed, event.rests}, length, pieces, [&](double part) {
-    return point_on_arc(event, from, event.sweep.degrees() * part);
-  });
+  deliver({event.origin, event.to, event.feed, event.rests}, length, pieces,
+          [&](double part) { return point_on_arc(event, from, event.sweep.degrees() * part); });
 }
 
 }  // namespace dripline::interpreter::fanuc

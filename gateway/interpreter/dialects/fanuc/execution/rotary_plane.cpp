@@ -118,7 +118,8 @@ bool set_cylinder(Run& run) {
   if (!check_state(run)) return false;
   if (radius == 0) {
     if (state.rotary.kind != Kind::Cylinder) return true;
-    if (state.rotary.rotary != rotary) return refuse_mode(run, "G07.1 ends with the axis it began with");
+    if (state.rotary.rotary != rotary)
+      return refuse_mode(run, "G07.1 ends with the axis it began with");
     end_mode(run);
     return true;
   }
@@ -127,8 +128,8 @@ bool set_cylinder(Run& run) {
   const Axis along = rotary == Axis::A ? Axis::X : rotary == Axis::B ? Axis::Y : Axis::Z;
   const PlaneAxes plane = axes_of(state.plane());
   if (plane.normal == along) {
-    return refuse_mode(run, fmt::format("the plane of G07.1 {} needs {} in it", letter(rotary),
-                                        letter(along)));
+    return refuse_mode(
+        run, fmt::format("the plane of G07.1 {} needs {} in it", letter(rotary), letter(along)));
   }
   begin_mode(run, {.kind = Kind::Cylinder,
                    .rotary = rotary,
@@ -144,10 +145,9 @@ bool check_rotary_block(Run& run) {
   const std::uint8_t one_shot = block.parts.one_shot;
   const bool is_allowed_shot = one_shot == Block::kNoCode || one_shot == 4 || one_shot == 9 ||
                                one_shot == 39 || one_shot == kCylinder;
-  constexpr std::uint32_t kExcluded =
-      1u << kPlaneGroup | 1u << kCycleGroup | 1u << kScalingGroup | 1u << kMirrorGroup |
-      1u << kRotationGroup | 1u << kWorkGroup | 1u << kPolarGroup | 1u << kUnitsGroup |
-      1u << kStrokeGroup;
+  constexpr std::uint32_t kExcluded = 1u << kPlaneGroup | 1u << kCycleGroup | 1u << kScalingGroup |
+                                      1u << kMirrorGroup | 1u << kRotationGroup | 1u << kWorkGroup |
+                                      1u << kPolarGroup | 1u << kUnitsGroup | 1u << kStrokeGroup;
   if (is_allowed_shot && (block.parts.groups & kExcluded) == 0) {
     const bool is_move = one_shot == Block::kNoCode || one_shot == 9;
     if (!is_move || !block.words.has_any(kAxisWords)) return true;
@@ -167,10 +167,10 @@ bool read_rotary_target(Run& run, Position& to) {
   const auto take = [&](Axis axis, Address address) {
     if (!words.has(address)) return;
     taken |= set_of(address);
-    const double value = address == rotary ? run.length(words[address])
-                                           : run.coordinate(axis, words[address]);
-    const double base = is_incremental ? to.raw(axis)
-                                       : run.state.origin[static_cast<std::size_t>(axis)];
+    const double value =
+        address == rotary ? run.length(words[address]) : run.coordinate(axis, words[address]);
+    const double base =
+        is_incremental ? to.raw(axis) : run.state.origin[static_cast<std::size_t>(axis)];
     to.set_raw(axis, base + value);
   };
   const bool is_cylinder = plane.kind == Kind::Cylinder;

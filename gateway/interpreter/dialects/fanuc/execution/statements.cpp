@@ -69,7 +69,7 @@ bool read_goto(Run& run, const char* start, const char*& at) {
   if (is_from_line(run)) return refuse_in_dnc(run, start);
   double number = 0;
   if (!read_count(run, at, number)) return false;
-  if (!(number >= 1 && number <= 99999)) {
+  if (!(number >= 1 && number <= std::max(run.options.last_sequence, 99'999u))) {
     return run.fail(ErrorCode::MacroSequence, run.column(start), fmt::format("{}", number));
   }
   run.block.parts.statement = StatementKind::Goto;

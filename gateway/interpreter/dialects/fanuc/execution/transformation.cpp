@@ -153,7 +153,8 @@ CoordinateFrame frame_of(const Run& run) {
     frame.scale[i] = std::fabs(state.scaling.factor[i]);
     frame.mirrored[i] = state.scaling.factor[i] < 0;
   }
-  for (std::size_t i = 0; i < 3; ++i) frame.mirrored[i] = frame.mirrored[i] != state.mirror.is_on[i];
+  for (std::size_t i = 0; i < 3; ++i)
+    frame.mirrored[i] = frame.mirrored[i] != state.mirror.is_on[i];
   frame.learn([&state](CoordinateFrame::Values at) {
     for (std::size_t i = 0; i < kAxisCount; ++i) at[i] -= state.origin[i];
     const Point3 back = transform_back(state, {at[0], at[1], at[2]});
@@ -185,11 +186,18 @@ bool apply_mirror(Run& run) {
   }
   constexpr std::array<Address, 3> kMirrorAxes{X, Y, Z};
   const bool names_none = !words.has_any(set_of(X, Y, Z));
-  if (begins && names_none) return run.fail(ErrorCode::ImproperCommand, column, "G51.1 without an axis");
+  if (begins && names_none)
+    return run.fail(ErrorCode::ImproperCommand, column, "G51.1 without an axis");
   for (std::size_t i = 0; i < 3; ++i) {
     if (!words.has(kMirrorAxes[i]) && !(names_none && !begins)) continue;
+    const Word& word = words[kMirrorAxes[i]];
+    if (!begins && !names_none && word.value != 0 &&
+        run.coordinate(static_cast<Axis>(i), word) != state.mirror.at[i]) {
+      return run.fail(ErrorCode::ImproperCommand, word.column,
+                      "G50.1 names its axes with 0, or with the place of the mirror");
+    }
     state.mirror.is_on[i] = begins;
-    state.mirror.at[i] = begins ? run.length(words[kMirrorAxes[i]]) : 0;
+    state.mirror.at[i] = begins ? run.coordinate(static_cast<Axis>(i), words[kMirrorAxes[i]]) : 0;
   }
   state.g[kMirrorGroup] = state.mirror.any() ? kMirrorOn : kMirrorOff;
   update_transformed(run);

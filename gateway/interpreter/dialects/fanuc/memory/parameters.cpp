@@ -61,17 +61,16 @@ bool enter_parameter(Run& run) {
   }
   run.ledger.take(set_of(R));
   const auto* row =
-      std::find_if(kParameters.begin(), kParameters.end(), [&run](const ParameterRow& each) {
-        return each.number == run.origin.sequence;
-      });
+      std::find_if(kParameters.begin(), kParameters.end(),
+                   [&run](const ParameterRow& each) { return each.number == run.origin.sequence; });
   if (row == kParameters.end()) {
     return run.fail(ErrorCode::ParameterNumber, 0,
                     fmt::format("parameter {} is not one of 3410, 5114, 5115, 5410, 5411",
                                 run.origin.sequence));
   }
   const double value = value_of(run, words[R], row->unit);
-  const bool is_good = row->unit == Unit::Angle || value > 0 ||
-                       (row->unit == Unit::Length && value == 0);
+  const bool is_good =
+      row->unit == Unit::Angle || value > 0 || (row->unit == Unit::Length && value == 0);
   if (!is_good) {
     return run.fail(ErrorCode::ParameterNumber, words.column(R),
                     fmt::format("parameter {} cannot be {}", row->number, value));

@@ -27,7 +27,7 @@ bool note(Values& known, const Values& now) {
 std::vector<MemoryCell> FanucInterpreter::memory_cells() const {
   return cells_of([this](auto visit) {
     for_each_variable(run_.state, run_.options, visit);
-    for_each_offset(run_.memory, visit);
+    for_each_offset(run_.memory, run_.options.is_lathe, visit);
   });
 }
 
@@ -47,7 +47,7 @@ bool FanucInterpreter::read_memory(std::vector<double>& values) {
   if (!has_changed) return false;
   read_cells(values, [this](auto visit) {
     for_each_variable(run_.state, run_.options, visit);
-    for_each_offset(run_.memory, visit);
+    for_each_offset(run_.memory, run_.options.is_lathe, visit);
   });
   return true;
 }
@@ -94,6 +94,9 @@ Result<void> load_tool(const ToolRecord& tool, ToolOffsets& tools) {
   tools.length_wear[n] = tool.wear.raw(Axis::Z);
   tools.radius_geometry[n] = tool.radius.mm();
   tools.radius_wear[n] = tool.radius_wear.mm();
+  tools.x_geometry[n] = tool.length.raw(Axis::X);
+  tools.x_wear[n] = tool.wear.raw(Axis::X);
+  tools.tip[n] = std::clamp(tool.tip, 0, 9);
   return {};
 }
 
@@ -117,7 +120,7 @@ Result<void> load_cells(const Setup& setup, const ControlOptions& options, Modal
   }
   const auto unknown = write_cells(std::move(cells), [&](auto visit) {
     for_each_variable(state, options, visit);
-    for_each_offset(memory, visit);
+    for_each_offset(memory, options.is_lathe, visit);
   });
   if (unknown.empty()) return {};
   return refuse_variable(unknown.begin()->first, options);
@@ -160,6 +163,7 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Moda
                       .peck_clearance = options.peck_clearance,
                       .rotate_default = options.rotate_default,
                       .scale_default = options.scale_default};
+  state.turning.thread_chamfer = options.thread_chamfer;
   state.position = setup.start;
   state.position.unmark_all();
   state.locals.assign(1, null_locals());
@@ -173,6 +177,9 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Moda
   }
   for (const ToolRecord& tool : setup.tools) {
     if (auto done = load_tool(tool, memory.tools); !done) return done;
+    if (options.is_lathe && (tool.tip < 0 || tool.tip > 9)) {
+      return fail(Errc::LimitExceeded, "tool {}: tip {} is not 0 to 9", tool.number, tool.tip);
+    }
   }
   for (const VariableRecord& variable : setup.variables) {
     if (auto done = load_variable(variable, options, state); !done) return done;

@@ -34,7 +34,7 @@ void for_each_variable(State& state, const ControlOptions& options, Visit visit)
 
 /// In millimeters and degrees.
 template <class AnyMemory, class Visit>
-void for_each_offset(AnyMemory& memory, Visit visit) {
+void for_each_offset(AnyMemory& memory, bool is_lathe, Visit visit) {
   for (std::size_t system = 0; system < kWorkCount; ++system) {
     const int number = static_cast<int>(system);
     const std::string_view prefix = system == 0 ? "EXT" : system <= 6 ? "G" : "G54.1P";
@@ -49,6 +49,10 @@ void for_each_offset(AnyMemory& memory, Visit visit) {
     visit(CellName{"tool.", tool, ".length_wear"}, memory.tools.length_wear[n]);
     visit(CellName{"tool.", tool, ".radius"}, memory.tools.radius_geometry[n]);
     visit(CellName{"tool.", tool, ".radius_wear"}, memory.tools.radius_wear[n]);
+    if (!is_lathe) continue;
+    visit(CellName{"tool.", tool, ".x"}, memory.tools.x_geometry[n]);
+    visit(CellName{"tool.", tool, ".x_wear"}, memory.tools.x_wear[n]);
+    visit(CellName{"tool.", tool, ".tip"}, memory.tools.tip[n]);
   }
 }
 

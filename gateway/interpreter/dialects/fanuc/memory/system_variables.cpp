@@ -18,10 +18,15 @@ bool refuse_write(Run& run, int number, std::uint32_t column) {
   return run.fail(ErrorCode::WriteProtected, column, fmt::format("#{}", number));
 }
 
+/// A lathe counts X, Z, C, Y.
+constexpr std::array<Axis, 8> kLatheVariableAxes{Axis::X, Axis::Z, Axis::C, Axis::Y,
+                                                 Axis::A, Axis::B, Axis::U, Axis::V};
+
 /// Axis of the last digit of #5001 and the like; nullptr beyond the eighth.
-const Axis* axis_at(int number, int base) {
+const Axis* axis_at(const Run& run, int number, int base) {
   const int place = number - base - 1;
-  return place >= 0 && place < 8 ? &kVariableAxes[static_cast<std::size_t>(place)] : nullptr;
+  const auto& axes = run.options.is_lathe ? kLatheVariableAxes : kVariableAxes;
+  return place >= 0 && place < 8 ? &axes[static_cast<std::size_t>(place)] : nullptr;
 }
 
 bool read_pin(Run& run, int pin, double& value) {
@@ -166,7 +171,7 @@ int known_number(const Run& run, int number) {
 /// Zero offsets: #2500 .. by axis and #5201 .. by system; nullptr when it is none.
 double* work_variable(Run& run, int number, Axis& axis) {
   Coordinates& all = run.memory.coordinates;
-  if (number >= 2500 && number < 2900 && number % 100 <= 6) {
+  if (!run.options.is_lathe && number >= 2500 && number < 2900 && number % 100 <= 6) {
     axis = kVariableAxes[static_cast<std::size_t>((number - 2500) / 100)];
     return &all.work[static_cast<std::size_t>(number % 100)][static_cast<std::size_t>(axis)];
   }
@@ -175,7 +180,7 @@ double* work_variable(Run& run, int number, Axis& axis) {
   if (!is_basic && !is_more) return nullptr;
   const int base = is_basic ? 5200 : 7000;
   const auto system = static_cast<std::size_t>((number - base) / 20) + (is_basic ? 0u : 7u);
-  const Axis* at = axis_at(number, base + 20 * ((number - base) / 20));
+  const Axis* at = axis_at(run, number, base + 20 * ((number - base) / 20));
   if (at == nullptr || system >= all.work.size()) return nullptr;
   axis = *at;
   return &all.work[system][static_cast<std::size_t>(axis)];
@@ -184,7 +189,7 @@ double* work_variable(Run& run, int number, Axis& axis) {
 bool read_position(Run& run, int number, std::uint32_t column, double& value) {
   const ModalState& state = run.state;
   const int base = number / 20 * 20;
-  const Axis* axis = axis_at(number, base);
+  const Axis* axis = axis_at(run, number, base);
   if (axis == nullptr) return refuse_variable(run, number, column);
   const double length = *axis == state.length_axis ? state.length_offset : 0;
   double raw = 0;
@@ -304,7 +309,9 @@ bool read_system_variable(Run& run, int written, std::uint32_t column, double& v
   if (number < 1100) return read_inputs(run, number, column, value);
   if (number < 1134) return run.fail(ErrorCode::WriteProtected, column, "outputs cannot be read");
   if (const OffsetRegister cell = offset_variable(run, number); cell.value != nullptr) {
-    value = run.in_units(Axis::X, read_register(cell));
+    value = read_register(cell);
+    if (!cell.is_number)
+      value = cell.is_x ? run.in_units(Axis::X, value) : run.in_length_units(value);
     return true;
   }
   Axis axis{};
@@ -323,7 +330,11 @@ bool write_system_variable(Run& run, int written, std::uint32_t column, double v
   if (number < 1200) return write_outputs(run, number, column, value);
   const double stored = std::isnan(value) ? 0 : value;
   if (const OffsetRegister cell = offset_variable(run, number); cell.value != nullptr) {
-    write_register(run, cell, run.from_units(Axis::X, stored), column);
+    if (cell.is_number && !(stored >= 0 && stored <= 9 && stored == std::trunc(stored))) {
+      return run.fail(ErrorCode::IllegalVariable, column, fmt::format("#{} = {}", number, stored));
+    }
+    const Axis as = cell.is_x ? Axis::X : Axis::Z;
+    write_register(run, cell, cell.is_number ? stored : run.from_units(as, stored), column);
     return true;
   }
   Axis axis{};

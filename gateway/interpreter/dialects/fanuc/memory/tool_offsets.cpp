@@ -37,7 +37,47 @@ OffsetRegister register_of(Run& run, Kind kind, int number) {
 
 }  // namespace
 
+namespace {
+
+/// The variables of a lathe's offsets, by number from 1.
+OffsetRegister lathe_variable(Run& run, int number, bool& is_x) {
+  struct Row {
+    int base, count;
+    std::array<double, kMaxOffsets + 1> ToolOffsets::*values;
+  };
+  using Tools = ToolOffsets;
+  constexpr std::array kRows{Row{2000, 64, &Tools::x_wear},
+                             Row{2100, 64, &Tools::length_wear},
+                             Row{2200, 64, &Tools::radius_wear},
+                             Row{2300, 64, &Tools::tip},
+                             Row{2700, 49, &Tools::x_geometry},
+                             Row{2800, 49, &Tools::length_geometry},
+                             Row{2900, 64, &Tools::radius_geometry},
+                             Row{10000, 400, &Tools::x_wear},
+                             Row{11000, 400, &Tools::length_wear},
+                             Row{12000, 400, &Tools::radius_wear},
+                             Row{13000, 400, &Tools::tip},
+                             Row{15000, 400, &Tools::x_geometry},
+                             Row{16000, 400, &Tools::length_geometry},
+                             Row{17000, 400, &Tools::radius_geometry}};
+  for (const Row& row : kRows) {
+    if (number <= row.base || number > row.base + row.count) continue;
+    is_x = row.values == &Tools::x_wear || row.values == &Tools::x_geometry;
+    return {&(run.memory.tools.*row.values)[static_cast<std::size_t>(number - row.base)], nullptr};
+  }
+  return {};
+}
+
+}  // namespace
+
 OffsetRegister offset_variable(Run& run, int number) {
+  if (run.options.is_lathe) {
+    bool is_x = false;
+    OffsetRegister cell = lathe_variable(run, number, is_x);
+    cell.is_x = is_x;
+    cell.is_number = (number > 2300 && number <= 2364) || (number > 13000 && number <= 13400);
+    return cell;
+  }
   struct Row {
     int base, last;
     Kind kind;
@@ -127,6 +167,7 @@ bool set_offset_data(Run& run, int list) {
 bool apply_length_offset(Run& run) {
   ModalState& state = run.state;
   const Block& block = run.block;
+  if (run.options.is_lathe) return true;  // with T
   if (block.words.has(H)) {
     if (!read_offset_number(run, H, state.h_number)) return false;
     state.last.h = state.h_number;

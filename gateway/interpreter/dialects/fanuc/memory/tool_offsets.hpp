@@ -11,6 +11,8 @@ namespace dripline::interpreter::fanuc {
 struct OffsetRegister {
   double* value = nullptr;
   double* also = nullptr;
+  bool is_x = false;       ///< of a lathe: a diameter to programs
+  bool is_number = false;  ///< the direction of a nose's tip
 };
 
 /// Of the variables #2001 to #2400 and #10001 to #13400; `value` is null for any other.

@@ -71,6 +71,11 @@ class Words {
     present_ |= set_of(address);
     word_[static_cast<std::size_t>(address)] = word;
   }
+  /// `word`, of another address, stands for that of `old`.
+  void replace(Address old, Address address, const Word& word) {
+    present_ &= ~set_of(old);
+    set(address, word);
+  }
   /// 0 when there is no such word.
   std::uint32_t column(Address address) const { return has(address) ? (*this)[address].column : 0; }
   /// Of the first word written that is in `set`; 0 when there is none.

@@ -8,6 +8,7 @@
 #include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/call_arguments.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/expression_reader.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/g_words.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/keywords.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -48,72 +49,6 @@ bool read_whole(Run& run, const Word& word, double most, double& value) {
   if (value >= 0 && value <= most) return true;
   return run.fail(ErrorCode::TooManyDigits, word.column,
                   fmt::format("{} is above {}", value, most));
-}
-
-/// Of two codes of one group the last one is in force. With a call in the block, what follows are
-/// its arguments.
-void warn_of_two(Block& block, std::uint32_t column, std::uint8_t first, std::uint8_t last) {
-  const bool is_call = first == 65 || last == 65 || first == 66 || last == 66;
-  if (!is_call) block.warn(WarningCode::SameGroup, column);
-}
-
-/// Codes with a point, and those of three digits that mean the same.
-std::uint8_t find_written(double value) {
-  const double tenths = std::round(value * 10);
-  if (std::fabs(value * 10 - tenths) > 1e-6) return Block::kNoCode;
-  const auto* at = std::find_if(kCodesWithPoint.begin(), kCodesWithPoint.end(),
-                                [tenths](const WrittenCode& row) { return row.tenths == tenths; });
-  return at == kCodesWithPoint.end() ? Block::kNoCode : at->code;
-}
-
-bool refuse_g(Run& run, const Word& word) {
-  const auto tenths = static_cast<int>(std::clamp(std::round(word.value * 10), 0.0, 1e6));
-  const bool is_five_axis = std::find(kFiveAxisCodes.begin(), kFiveAxisCodes.end(), tenths) !=
-                            kFiveAxisCodes.end();
-  return run.fail(ErrorCode::ImproperG, word.column,
-                  is_five_axis ? fmt::format("G{} needs the kinematics of a tilting machine, which "
-                                             "this control's setup does not have",
-                                             word.value)
-                               : fmt::format("G{}", word.value));
-}
-
-bool add_g(Run& run, const Word& word) {
-  Block& block = run.block;
-  std::uint8_t code = Block::kNoCode;
-  if (word.form == WordForm::Point && word.value != std::trunc(word.value)) {
-    code = find_written(word.value);
-  } else {
-    Word whole = word;
-    if (whole.form == WordForm::Point) whole.form = WordForm::Whole;
-    if (whole.is_negative && whole.form == WordForm::Whole) {
-      return run.fail(ErrorCode::NegativeSign, word.column);
-    }
-    const double value = run.whole(whole);
-    if (calls_macro_by_g(run, value)) [[unlikely]]
-      return begin_code_call(run, CodeCall::G, value, word.column);
-    constexpr double kEnd = 100;
-    if (value >= 0 && value < kEnd) [[likely]] {
-      code = static_cast<std::uint8_t>(value);
-    } else {
-      code = find_written(value);
-    }
-  }
-  const std::uint8_t group = group_of(code);
-  if (group == kNoGroup) [[unlikely]]
-    return refuse_g(run, word);
-  block.parts.g_column = word.column;
-  if (group == kOneShot) {
-    if (block.parts.one_shot != Block::kNoCode && block.parts.one_shot != code) [[unlikely]]
-      warn_of_two(block, word.column, block.parts.one_shot, code);
-    block.parts.one_shot = code;
-    return code != 65 || begin_call(run, false, word.column);
-  }
-  if (block.names(static_cast<Group>(group)) && block.g[group] != code) [[unlikely]]
-    warn_of_two(block, word.column, block.g[group], code);
-  block.parts.groups |= 1u << group;
-  block.g[group] = code;
-  if (group == kMotionGroup || group == kCycleGroup) block.parts.last_motion_group = group;
-  return code != 66 || begin_call(run, true, word.column);
 }
 
 bool add_m(Run& run, const Word& word) {
@@ -332,10 +267,12 @@ bool check_forms(Run& run) {
   const bool is_scaling = run.block.names(kScalingGroup) && run.block.g[kScalingGroup] == 51;
   const AddressSet scale = is_scaling ? set_of(P) : 0;
   const Words& words = run.block.words;
-  if (const AddressSet bad = parts.negatives & kNoMinus & ~scale & words.present(); bad != 0) {
+  const AddressSet axis = run.options.is_lathe ? set_of(H) : 0;  // an increment of C
+  if (const AddressSet bad = parts.negatives & kNoMinus & ~axis & ~scale & words.present();
+      bad != 0) {
     return run.fail(ErrorCode::NegativeSign, words.first_column(bad));
   }
-  if (const AddressSet bad = parts.points & kNoPoint & ~scale & words.present(); bad != 0) {
+  if (const AddressSet bad = parts.points & kNoPoint & ~axis & ~scale & words.present(); bad != 0) {
     return run.fail(ErrorCode::DecimalPoint, words.first_column(bad));
   }
   return true;

@@ -100,7 +100,9 @@ bool add_argument(Run& run, char letter, const Word& word) {
     if (run.options.model == Model::M0 && word.form == WordForm::Computed) {
       return run.fail(ErrorCode::ImproperG, word.column, "MACRO A");
     }
-    if (!read_call_number(run, word, 9999, ErrorCode::IllegalProgramNumber, value)) return false;
+    if (!read_call_number(run, word, run.options.program_digits == 8 ? 99'999'999 : 9999,
+                          ErrorCode::IllegalProgramNumber, value))
+      return false;
     block.parts.call_program = static_cast<std::uint32_t>(value);
     block.parts.has_call_program = true;
     return true;

@@ -114,9 +114,12 @@ class BlockCall {
     if (p_.is_computed || has_computed_m_) return add_computed();
     std::uint64_t program = static_cast<std::uint64_t>(std::clamp(p_.value, 0.0, 99'999'999.0));
     const bool takes_l = options_.call_form != CallForm::EightDigits && has_l_;
-    const bool has_passes = is_subprogram_ && options_.call_form != CallForm::L && !takes_l;
+    const bool has_long_numbers = options_.program_digits == 8;
+    const bool has_passes =
+        is_subprogram_ && options_.call_form != CallForm::L && !takes_l && !has_long_numbers;
     if (has_passes && program > 9999) program %= 10000;
-    if (program >= 1 && program <= 9999) add(program);  // else the run alarms
+    if (program >= 1 && program <= (has_long_numbers ? 99'999'999u : 9999u))
+      add(program);  // else the run alarms
   }
 
  private:
@@ -182,11 +185,9 @@ void read_calls(const ControlOptions& options, const CallLines& lines, CallColle
   }
 }
 
-}  // namespace
-
-Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source,
-                                   ProgramIndex program) {
-  const auto options = read_options(setup);
+Result<ProgramCalls> calls_of(const Setup& setup, bool is_lathe, ProgramSource& source,
+                              ProgramIndex program) {
+  const auto options = read_options(setup, is_lathe);
   if (!options) return fail(options.error());
   CallCollector calls;
   CallLines lines(source, program);
@@ -211,6 +212,17 @@ Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source,
     read_calls(*options, lines, calls);
   }
   return calls.take();
+}
+
+}  // namespace
+
+Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source,
+                                   ProgramIndex program) {
+  return calls_of(setup, false, source, program);
+}
+Result<ProgramCalls> lathe_program_calls(const Setup& setup, ProgramSource& source,
+                                         ProgramIndex program) {
+  return calls_of(setup, true, source, program);
 }
 
 }  // namespace dripline::interpreter::fanuc

@@ -6,9 +6,9 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-/// Up to 99999; larger numbers are no label that anyone looks for.
+/// Up to eight digits; larger numbers are no label that anyone looks for.
 bool read_number_of(const char*& at, std::uint32_t& number) {
-  constexpr std::uint32_t kMax = 99999;
+  constexpr std::uint32_t kMax = 99'999'999;
   at = skip_blanks(at);
   if (!is_digit(*at)) return false;
   number = 0;

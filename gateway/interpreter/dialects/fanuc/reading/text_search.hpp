@@ -91,7 +91,7 @@ class TextSearch {
   std::array<LoopFrame, kKnown> loops_{};
   LabelSearch label_search_;
   EndSearch end_search_;
-  std::unordered_map<std::uint32_t, Place> programs_;  ///< numbers go up to 9999
+  std::unordered_map<std::uint32_t, Place> programs_;  ///< by number
   TextPosition programs_next_;
   bool programs_complete_ = false;
 };

@@ -49,5 +49,38 @@ TEST(FanucQuestions, ASkipMoveWhoseTargetNeededAnInputAsksForBoth) {
   EXPECT_EQ(run.events("probe").size(), 1U);
 }
 
+/// FAN-094
+TEST(FanucQuestions, AMeasurementAsksOnceAndCorrectsTheOffsetByTheAnswer) {
+  const auto setup = parse_setup(
+      "[control]\ng37_clearance = 10\ng37_tolerance = 5\ng37_feed = 50\n"
+      "[[tool]]\nnumber = 3\nlength = 100\n");
+  ASSERT_TRUE(setup) << setup.error().what;
+  ProgramRun run("G43 H3 G00 Z50.\nG37 Z0\nPOPEN\nDPRNT[#2003[41]]\nM30\n", *setup);
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  const Probe probe = std::get<ProbeQuestion>(run.interpreter().question()).probe;
+  EXPECT_DOUBLE_EQ(probe.from.linear(Axis::Z).mm(), 10);
+  EXPECT_DOUBLE_EQ(probe.to.linear(Axis::Z).mm(), -5);
+  EXPECT_EQ(probe.feed, Feed::per_minute(Length::mm(50)));
+  ProbeResult result{true, probe.from};
+  result.at.set(Axis::Z, Length::mm(-2.5));
+  ASSERT_TRUE(run.interpreter().answer(result));
+  EXPECT_EQ(run.step(), StepState::Ended);
+  EXPECT_EQ(run.events("probe").size(), 1U);
+  ASSERT_EQ(run.printed().size(), 1U);
+  EXPECT_NE(run.printed()[0].find("97.5"), std::string::npos) << run.printed()[0];
+}
+
+TEST(FanucQuestions, AMeasurementWithoutASignalIsAnAlarm) {
+  const auto setup =
+      parse_setup("[control]\ng37_clearance = 10\ng37_tolerance = 5\ng37_feed = 50\n");
+  ASSERT_TRUE(setup) << setup.error().what;
+  ProgramRun run("G43 H3 G00 Z50.\nG37 Z0\nM30\n", *setup);
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  const Probe probe = std::get<ProbeQuestion>(run.interpreter().question()).probe;
+  ASSERT_TRUE(run.interpreter().answer(ProbeResult{false, probe.to}));
+  EXPECT_EQ(run.step(), StepState::Alarmed);
+  EXPECT_TRUE(run.alarm().starts_with("PS080")) << run.alarm();
+}
+
 }  // namespace
 }  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,107 @@
+#include "gateway/interpreter/dialects/fanuc/turning/contour.hpp"
+
+#include <fmt/core.h>
+
+#include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
+
+namespace dripline::interpreter::fanuc {
+
+void ContourRecorder::add(const ContourMove& move) {
+  if (!is_full()) moves_.push_back(move);
+}
+
+void ContourRecorder::on_rapid(const Rapid& event) {
+  add({.x = event.to.raw(Axis::X), .z = event.to.raw(Axis::Z), .is_rapid = true});
+}
+
+void ContourRecorder::on_line(const Line& event) {
+  add({.x = event.to.raw(Axis::X), .z = event.to.raw(Axis::Z)});
+}
+
+void ContourRecorder::on_arc(const Arc& event) {
+  add({.x = event.to.raw(Axis::X),
+       .z = event.to.raw(Axis::Z),
+       .is_arc = true,
+       .is_clockwise = event.turn == Turn::Clockwise,
+       .center_x = event.center_second.mm(),
+       .center_z = event.center_first.mm(),
+       .sweep = event.sweep.degrees()});
+}
+
+namespace {
+
+bool refuse_contour(Run& run, std::string_view why) {
+  return run.fail(ErrorCode::IllegalContour, 0, why);
+}
+
+/// The modes that the blocks of a recorded contour must not leave behind.
+void take_back_modes(Run& run) {
+  ModalState& state = run.state;
+  const ModesBefore& before = state.modes_before;
+  state.g = before.g;
+  state.feed = before.feed;
+  state.position = before.position;
+  state.spindle = before.spindle;
+  state.coolant = before.coolant;
+  state.tool = before.tool;
+  state.h_number = before.h_number;
+  state.d_number = before.d_number;
+}
+
+bool end_contour(Run& run) {
+  ModalState& state = run.state;
+  ContourCycle& cycle = state.contour;
+  const bool is_finishing = cycle.code == 170;
+  if (!end_waiting(run)) return false;
+  const Position start = state.modes_before.position;
+  if (!is_finishing) take_back_modes(run);
+  const std::uint8_t code = cycle.code;
+  cycle.code = 0;
+  run.lead_stages();
+  if (state.uses_compensator && !is_finishing) {
+    run.compensator.place(state.position);
+    run.blender.place(state.position);
+  }
+  cycle.code = code;
+  const bool is_done = is_finishing ? rapid_to(run, start) : make_passes(run);
+  cycle.code = 0;
+  cycle.moves.clear();
+  run.lead_stages();
+  if (!is_done) return false;
+  // The program goes on after a contour that follows its cycle; another one is left again.
+  const bool continues = !is_finishing && state.at.offset > cycle.back.offset;
+  if (!continues) state.at = cycle.back;
+  run.update_special();
+  return true;
+}
+
+}  // namespace
+
+bool follow_contour(Run& run) {
+  ModalState& state = run.state;
+  ContourCycle& cycle = state.contour;
+  if (!cycle.has_place) {
+    cycle.back = state.at;
+    cycle.has_place = true;
+    return true;
+  }
+  if (state.at.program != cycle.back.program) {
+    return refuse_contour(run, "the blocks from P to Q call a program");
+  }
+  if (run.block.parts.ending != Ending::None || state.jump.kind == JumpKind::Call) {
+    return refuse_contour(run, fmt::format("the program ends or calls before N{}", cycle.last));
+  }
+  if (run.recorder.is_full()) {
+    return refuse_contour(
+        run, fmt::format("more than {} moves from P to Q", ContourRecorder::kMaxMoves));
+  }
+  if (run.origin.sequence != static_cast<std::int64_t>(cycle.last)) return true;
+  if (state.jump.kind != JumpKind::None) {
+    return refuse_contour(run, fmt::format("N{} jumps", cycle.last));
+  }
+  return end_contour(run);
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,204 @@
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
+
+/// G71, G72 and G73: the passes along a recorded contour, which G70 then finishes.
+namespace dripline::interpreter::fanuc {
+namespace {
+
+constexpr double kClose = 1e-6;
+constexpr double kMaxPasses = 5000;
+
+/// `depth` is the axis that the cuts of G71 and G72 step along, `along` the one they run along.
+struct Place {
+  double depth = 0;
+  double along = 0;
+};
+
+class Passes {
+ public:
+  explicit Passes(Run& run)
+      : run_(run),
+        cycle_(run.state.contour),
+        is_facing_(cycle_.code == 172),
+        start_(place_of(run.state.position.raw(Axis::X), run.state.position.raw(Axis::Z))) {}
+
+  bool rough() {
+    if (!check_contour()) return false;
+    const Place shift = place_of(cycle_.allowance_x, cycle_.allowance_z);
+    const Place begin{start_.depth + shift.depth, start_.along + shift.along};
+    const double bottom = first_.depth + shift.depth;
+    const double depth = run_.state.turning.depth;
+    if (!(std::fabs(begin.depth - bottom) / depth <= kMaxPasses)) {
+      return refuse(fmt::format("more than {} cuts", kMaxPasses));
+    }
+    if (!rapid(begin)) return false;
+    for (int cut = 1;; ++cut) {
+      const double level = begin.depth - out_ * depth * cut;
+      if (out_ * (level - bottom) <= kClose) break;
+      if (!cut_level(level, begin, shift)) return false;
+    }
+    if (!approach({bottom, begin.along}) || !follow(1, cycle_.allowance_x, cycle_.allowance_z)) {
+      return false;
+    }
+    return rapid({begin.depth, here().along}) && rapid(start_);
+  }
+
+  bool repeat() {
+    const TurningData& data = run_.state.turning;
+    const int passes = static_cast<int>(data.repeats);
+    for (int pass = 0; pass < passes; ++pass) {
+      const double part = passes == 1 ? 0 : static_cast<double>(passes - 1 - pass) / (passes - 1);
+      const double x = cycle_.allowance_x + data.relief_x * part;
+      const double z = cycle_.allowance_z + data.relief_z * part;
+      const Position& at = run_.state.modes_before.position;
+      if (!rapid(place_of(at.raw(Axis::X) + x, at.raw(Axis::Z) + z)) || !follow(0, x, z))
+        return false;
+    }
+    return rapid(start_);
+  }
+
+ private:
+  Place place_of(double x, double z) const { return is_facing_ ? Place{z, x} : Place{x, z}; }
+  Place here() const {
+    return place_of(run_.state.position.raw(Axis::X), run_.state.position.raw(Axis::Z));
+  }
+  Position on_machine(Place at) const {
+    Position to = run_.state.position;
+    const double x = is_facing_ ? at.along : at.depth;
+    const double z = is_facing_ ? at.depth : at.along;
+    if (x != to.raw(Axis::X)) to.set_raw(Axis::X, x);
+    if (z != to.raw(Axis::Z)) to.set_raw(Axis::Z, z);
+    return to;
+  }
+  bool rapid(Place to) { return rapid_to(run_, on_machine(to)); }
+  bool feed(Place to) { return line_to(run_, on_machine(to), run_.active_feed()); }
+  bool approach(Place to) { return cycle_.moves.front().is_rapid ? rapid(to) : feed(to); }
+  bool refuse(std::string_view why) { return run_.fail(ErrorCode::IllegalContour, 0, why); }
+
+  /// The first move goes down to the contour, along the depth alone; the rest is monotonic in both
+  /// axes.
+  bool check_contour() {
+    const auto& moves = cycle_.moves;
+    if (moves.size() < 2) return refuse("there is no contour from P to Q");
+    first_ = place_of(moves[0].x, moves[0].z);
+    if (std::fabs(first_.along - start_.along) > kClose || moves[0].is_arc) {
+      return refuse(is_facing_ ? "the first block of the contour moves Z alone"
+                               : "the first block of the contour moves X alone");
+    }
+    out_ = start_.depth > first_.depth ? 1 : -1;
+    const Place last = place_of(moves.back().x, moves.back().z);
+    forward_ = last.along < first_.along ? -1 : 1;
+    const Place shift = place_of(cycle_.allowance_x, cycle_.allowance_z);
+    if (out_ * shift.depth < 0) {
+      return refuse("the finish allowance leads into the part");
+    }
+    Place from = first_;
+    for (std::size_t i = 1; i < moves.size(); ++i) {
+      const Place to = place_of(moves[i].x, moves[i].z);
+      if (moves[i].is_rapid) return refuse("G00 within the contour");
+      const bool is_monotonic = out_ * (to.depth - from.depth) >= -kClose &&
+                                forward_ * (to.along - from.along) >= -kClose &&
+                                (!moves[i].is_arc || is_monotonic_arc(moves[i], from, to));
+      if (!is_monotonic) {
+        return run_.fail(ErrorCode::NotMonotonic, 0,
+                         fmt::format("move {} of the contour turns back", i + 1));
+      }
+      from = to;
+    }
+    return true;
+  }
+
+  /// Within a quarter of its circle.
+  bool is_monotonic_arc(const ContourMove& arc, Place from, Place to) const {
+    const Place center = place_of(arc.center_x, arc.center_z);
+    const auto same_side = [](double a, double b) { return a * b >= -kClose; };
+    return arc.sweep <= 90 + 1e-6 &&
+           same_side(from.depth - center.depth, to.depth - center.depth) &&
+           same_side(from.along - center.along, to.along - center.along);
+  }
+
+  /// Where the contour, shifted, comes up through the level.
+  double along_at(double level, Place shift) const {
+    Place from = first_;
+    for (std::size_t i = 1; i < cycle_.moves.size(); ++i) {
+      const ContourMove& move = cycle_.moves[i];
+      const Place to = place_of(move.x, move.z);
+      if (out_ * (to.depth + shift.depth - level) >= 0 &&
+          std::fabs(to.depth - from.depth) > kClose) {
+        return along_on(move, from, to, level - shift.depth) + shift.along;
+      }
+      from = to;
+    }
+    return from.along + shift.along;
+  }
+
+  double along_on(const ContourMove& move, Place from, Place to, double depth) const {
+    if (!move.is_arc) {
+      const double part = (depth - from.depth) / (to.depth - from.depth);
+      return from.along + part * (to.along - from.along);
+    }
+    const Place center = place_of(move.center_x, move.center_z);
+    const double radius = std::hypot(from.depth - center.depth, from.along - center.along);
+    const double across = depth - center.depth;
+    const double reach = std::sqrt(std::max(0.0, radius * radius - across * across));
+    const double middle = (from.along + to.along) / 2;
+    return center.along + (middle >= center.along ? reach : -reach);
+  }
+
+  bool cut_level(double level, Place begin, Place shift) {
+    const double end = along_at(level, shift);
+    if (forward_ * (end - begin.along) <= kClose) return true;  // nothing is left at this level
+    const double escape = run_.state.turning.escape;
+    return approach({level, begin.along}) && feed({level, end}) &&
+           rapid({level + out_ * escape, end - forward_ * escape}) &&
+           rapid({level + out_ * escape, begin.along});
+  }
+
+  /// The moves from `first` on, shifted.
+  bool follow(std::size_t first, double x, double z) {
+    for (std::size_t i = first; i < cycle_.moves.size(); ++i) {
+      const ContourMove& move = cycle_.moves[i];
+      const Position to = on_machine(place_of(move.x + x, move.z + z));
+      if (i == 0 && move.is_rapid) {
+        if (!rapid_to(run_, to)) return false;
+      } else if (!move.is_arc) {
+        if (!line_to(run_, to, run_.active_feed())) return false;
+      } else if (!arc_to(run_, arc_of_move(move, to, x, z))) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  Arc arc_of_move(const ContourMove& move, const Position& to, double x, double z) const {
+    return {.origin = run_.origin,
+            .to = to,
+            .center_first = Length::mm(move.center_z + z),
+            .center_second = Length::mm(move.center_x + x),
+            .plane = Plane::ZX,
+            .turn = move.is_clockwise ? Turn::Clockwise : Turn::Counterclockwise,
+            .sweep = Angle::degrees(move.sweep),
+            .feed = run_.active_feed()};
+  }
+
+  Run& run_;
+  const ContourCycle& cycle_;
+  bool is_facing_;
+  Place start_;
+  Place first_;
+  double out_ = 1;      ///< from the contour to the start
+  double forward_ = 1;  ///< of the cuts
+};
+
+}  // namespace
+
+bool make_passes(Run& run) {
+  Passes passes(run);
+  return run.state.contour.code == 173 ? passes.repeat() : passes.rough();
+}
+
+}  // namespace dripline::interpreter::fanuc
