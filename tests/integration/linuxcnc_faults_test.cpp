@@ -50,6 +50,7 @@ class LinuxCncFaults : public LinuxCncTest {
     program->end();
     EXPECT_TRUE(wait_over());
     EXPECT_EQ(machine->state(), MachineState::Completed) << alarm();
+    EXPECT_TRUE(rests()) << "the witness has written what it saw";
     EXPECT_NEAR(x(), at - 5, 0.001);
   }
 };

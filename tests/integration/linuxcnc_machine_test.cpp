@@ -33,6 +33,7 @@ TEST_F(LinuxCncTest, HoldsResumesAndAborts) {
   program->end();
   ASSERT_TRUE(wait_over());
   EXPECT_EQ(machine->state(), MachineState::Completed) << alarm();
+  ASSERT_TRUE(rests()) << "the witness has written what it saw";
   EXPECT_NEAR(x(), 10, 0.001);
 }
 
@@ -149,6 +150,7 @@ TEST_F(LinuxCncTest, RefusesAStartWhereSetupAndMachineDisagree) {
   EXPECT_NE(alarm().find("MCH0001 X 500.000 is outside the machine's travel of -400 to 400"),
             std::string::npos)
       << alarm();
+  ASSERT_TRUE(rests());
   EXPECT_NEAR(x(), 5, 0.001) << "everything before it is executed";
 }
 
