@@ -193,6 +193,12 @@ bool apply_compensation(Run& run) {
   }
   const bool is_lathe = run.options.is_lathe;
   if (!is_lathe && block.words.has(D) && !read_offset_number(run, D, state.d_number)) return false;
+  const bool is_cycle =
+      block.parts.one_shot >= kTurningCycles && block.parts.one_shot != Block::kNoCode;
+  if (is_lathe && block.words.has(D) && !is_cycle) {
+    return run.fail(ErrorCode::ImproperCommand, block.words.column(D),
+                    "a lathe takes the offset of G41 and G42 from T");
+  }
   const bool has_number = block.words.has(is_lathe ? T : D);
   if (!block.names(kCompensationGroup)) {
     if (was_on && has_number && !run.is_recording()) turn_on(run);

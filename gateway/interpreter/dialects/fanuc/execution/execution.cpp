@@ -358,6 +358,9 @@ bool report_left_words(Run& run) {
   });
   const std::uint32_t column = run.block.words.first_column(left);
   if ((left & kAxisWords) != 0) return run.fail(ErrorCode::UnusedAxis, column, text);
+  if (run.options.is_lathe) {  // most of these shape a cut on one lathe or another
+    return run.fail(ErrorCode::ImproperCommand, column, fmt::format("{} has no use here", text));
+  }
   run.warn(WarningCode::UnusedWord, column, text);
   return true;
 }

@@ -95,6 +95,13 @@ bool cut_box(Run& run) {
   ModalState& state = run.state;
   const Words& words = run.block.words;
   if (state.is_compensating()) return refuse_compensated(run);
+  constexpr AddressSet kOldTaper = kCenterWords | set_of(Q);
+  const AddressSet unknown =
+      words.present() & (state.g[kMotionGroup] == kBoxThread ? kCenterWords : kOldTaper);
+  if (unknown != 0) {
+    return run.fail(ErrorCode::ImproperCommand, words.first_column(unknown),
+                    "the taper of a cycle is written with R");
+  }
   BoxCycle& box = state.box;
   const std::uint8_t code = state.g[kMotionGroup];
   if (box.code != code) box = {.code = code};
