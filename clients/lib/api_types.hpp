@@ -272,6 +272,12 @@ struct Display {
   std::string x = "radius";  ///< or diameter
 };
 
+/// How a run can begin on a machine's control.
+struct Starts {
+  std::vector<std::string> at;  ///< what a start can name: block, line, byte, tool, count
+  bool head = false, memory = false, pass = false;
+};
+
 struct Machine {
   std::string name, control, description, gateway_version;
   bool connected = false;
@@ -281,6 +287,7 @@ struct Machine {
   std::vector<std::string> notices;
   std::string first_seen, last_seen;
   std::optional<Display> display = {};  ///< absent: the control is not known
+  std::optional<Starts> starts = {};    ///< absent: an older server
   std::optional<MachineStatus> status;
 };
 

@@ -172,11 +172,17 @@ void members(V& v, Is<Display> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Starts> auto& x) {
+  DRIPLINE_MEMBERS(at, head, memory, pass);
+}
+
+template <class V>
 void members(V& v, Is<Machine> auto& x) {
   DRIPLINE_MEMBERS(name, control, description, gateway_version, connected, clock_ahead_seconds);
   v.later("notices", x.notices);
   DRIPLINE_MEMBERS(first_seen, last_seen);
   v.later("display", x.display);
+  v.later("starts", x.starts);
   DRIPLINE_MEMBERS(status);
 }
 
