@@ -77,6 +77,15 @@ Result<std::string> tool_store_of(std::string_view toml) {
   if (!data) return fail(data.error());
   const auto sign = interpreter::tnc155::decimal_sign_of(data->control);
   if (!sign) return fail(sign.error());
+  for (const auto& tool : data->tools) {
+    const bool has_wear =
+        tool.wear != interpreter::Position{} || tool.radius_wear != Length{};
+    if (!has_wear) continue;
+    return fail(
+        Errc::Unsupported,
+        "tool {} has a wear, and a TNC's tool store has none: put it into length and radius",
+        tool.number);
+  }
   return interpreter::tnc155::write_tool_store(
       data->tools, data->units.value_or(interpreter::Units::Millimeter), *sign);
 }
@@ -86,7 +95,12 @@ Result<std::string> control_form_of(std::string_view toml, std::string_view cont
   if (control == "tnc155") {
     if (auto has = check_tool_store(toml); !has) return fail(has.error());
   }
-  if (control != "centurion") return tool_store_of(toml);
+  if (control == "tnc155") return tool_store_of(toml);
+  if (control != "centurion") {
+    return fail(Errc::Unsupported,
+                "there is no form of a setup that control {} takes; tnc155 and centurion have one",
+                control);
+  }
   const auto data = interpreter::parse_control_data(toml, interpreter::Units::Inch);
   if (!data) return fail(data.error());
   if (map.empty()) return interpreter::centurion::write_parameter_text(*data);

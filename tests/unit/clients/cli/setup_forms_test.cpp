@@ -88,4 +88,19 @@ TEST(SetupForms, GiveACenturionOnlyNumbersThatAreKnown) {
 
 }  // namespace
 
+TEST(SetupForms, AreNotMadeForAControlThatHasNone) {
+  const auto refused = control_form_of("[[tool]]\nnumber = 1\nlength = 2.0\n", "fanuc");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Unsupported);
+  EXPECT_NE(refused.error().what.find("control fanuc"), std::string::npos) << refused.error().what;
+}
+
+TEST(SetupForms, OfATncDoNotLeaveAWearOutUnseen) {
+  const auto refused =
+      control_form_of("[[tool]]\nnumber = 3\nlength = 2.0\nwear = { Z = -0.1 }\n", "tnc155");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("tool 3 has a wear"), std::string::npos)
+      << refused.error().what;
+}
+
 }  // namespace dripline::cli
