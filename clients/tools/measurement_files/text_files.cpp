@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -62,6 +63,21 @@ class Fields {
   virtual bool has(const char* name) const = 0;
   virtual Result<std::string> text(const char* name) const = 0;
   virtual Result<std::optional<double>> number(const char* name) const = 0;
+  /// Whole, and exact: an epoch has more digits than a double.
+  virtual Result<std::uint64_t> count(const char* name) const {
+    const auto digits = text(name);
+    if (!digits) return fail(digits.error());
+    if (digits->empty()) return 0;
+    std::uint64_t whole = 0;
+    const char* const end = digits->data() + digits->size();
+    const auto read = std::from_chars(digits->data(), end, whole);
+    if (read.ec == std::errc() && read.ptr == end) return whole;
+    constexpr double kExact = 9007199254740992.0;  // 3.0 of a table of others
+    const auto value = number(name);
+    if (value && *value && **value >= 0 && **value < kExact && **value == std::floor(**value))
+      return static_cast<std::uint64_t>(**value);
+    return fail(Errc::Syntax, "{} {} is no count", name, *digits);
+  }
 };
 
 class JsonFields final : public Fields {
@@ -128,10 +144,9 @@ class FieldReader {
     return std::nullopt;
   }
   std::uint64_t count(const char* name) {
-    const double value = number(name).value_or(0);
-    if (value >= 0 && value < 9007199254740992.0 && value == std::floor(value))
-      return static_cast<std::uint64_t>(value);
-    note({Errc::Syntax, fmt::format("{} {} is no count", name, value)});
+    const auto value = fields_.count(name);
+    if (value) return *value;
+    note(value.error());
     return 0;
   }
   void note(const Error& error) {

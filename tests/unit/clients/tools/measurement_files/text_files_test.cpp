@@ -104,6 +104,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"count", "actual,block\n1,-3\n", "line 2: block -3 is no count"}),
     [](const auto& i) { return std::string{i.param.name}; });
 
+TEST(Measurements, KeepEachDigitOfAnEpoch) {
+  for (const char* text : {"actual,epoch,number,block\n1,2350215653993889616,3,4.0\n",
+                           "{\"actual\": 1, \"epoch\": 2350215653993889616, \"number\": 3, "
+                           "\"block\": 4.0}\n"}) {
+    const auto all = read(text);
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].record.epoch, 2350215653993889616U);
+    EXPECT_EQ(all[0].record.number, 3u);
+    EXPECT_EQ(all[0].block, 4u);
+  }
+}
+
 TEST(DecimalText, IsAsShortAsItCanBe) {
   EXPECT_EQ(decimal_text(40, 3), "40.000");
   EXPECT_EQ(decimal_text(40.0125, 3), "40.0125");
