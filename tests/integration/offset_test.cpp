@@ -155,5 +155,32 @@ TEST_F(DriftingLathe, AnApprovedCorrectionBringsTheMeanBack) {
   EXPECT_NE(chart.body.find("7 values"), std::string::npos);
 }
 
+/// The report is the last thing of the program, so the run is over when the verdict is there: what
+/// can be held is the next job.
+TEST_F(DriftingLathe, AScrapPartLetsNoJobFollowAlthoughItsRunIsOver) {
+  set_up();
+  put("report-templates/length", std::string(kTemplate) + "[verdict]\nscrap = \"hold_machine\"\n");
+  system_.push("O0900", program(0.5));
+  for (int job = 0; job < 2; ++job) {
+    const auto added = system_.rest().post("/api/v1/machines/lathe-1/jobs", {{"program", "O0900"}});
+    ASSERT_EQ(added.status, 201) << added.body;
+  }
+  const auto start = [&] {
+    return system_.rest().post("/api/v1/machines/lathe-1/start-job", json::object());
+  };
+  const auto first = start();
+  ASSERT_EQ(first.status, 201) << first.body;
+  EXPECT_EQ(system_.wait_ended(first.json().value("id", "")).value("state", ""), "completed");
+  std::string refusal;
+  ASSERT_TRUE(eventually([&] {
+    const auto jobs = system_.rest().get("/api/v1/machines/lathe-1/jobs").json();
+    refusal = jobs.dump();
+    return refusal.find("is scrap") != std::string::npos;
+  })) << refusal;
+  const auto second = start();
+  EXPECT_EQ(second.status, 409) << second.body;
+  EXPECT_NE(second.body.find("is scrap"), std::string::npos) << second.body;
+}
+
 }  // namespace
 }  // namespace dripline::integration
