@@ -34,6 +34,10 @@ Result<CapabilityStudy> study_capability(std::span<const measurement::Measuremen
       return fail(Errc::Conflict, "capability of {} and {}: choose one characteristic",
                   all.front().characteristic.name, one.characteristic.name);
     }
+    if (one.characteristic.unit != all.front().characteristic.unit) {
+      return fail(Errc::Conflict, "capability of values in {} and in {}: choose those of one unit",
+                  all.front().characteristic.unit, one.characteristic.unit);
+    }
     values.push_back(one.actual);
   }
   const auto& of = all.back().characteristic;

@@ -23,7 +23,7 @@ struct CapabilityStudy {
   std::optional<statistics::AndersonDarling> normality;  ///< absent: too few values
 };
 
-/// Oldest first. Errors: NotFound (none), Conflict (two characteristics), those of
+/// Oldest first. Errors: NotFound (none), Conflict (two characteristics or units), those of
 /// statistics::capability.
 Result<CapabilityStudy> study_capability(std::span<const measurement::Measurement> all,
                                          const CapabilityRequest& request);

@@ -50,6 +50,12 @@ TEST(CapabilityStudy, ReportsWhetherTheValuesMayBeNormal) {
   EXPECT_GT(to_json(*study)["anderson_darling"]["p_value"], 0.05);
 }
 
+TEST(CapabilityStudy, MixesNoUnits) {
+  auto all = bores({40.01, 40.02, 39.99, 40.00, 39.98});
+  all[2].characteristic.unit = "inch";
+  EXPECT_EQ(study_capability(all, {}).error().code, Errc::Conflict);
+}
+
 TEST(CapabilityStudy, RefusesWhatItCannotStudy) {
   EXPECT_EQ(study_capability({}, {}).error().code, Errc::NotFound);
   auto mixed = bores({40, 40, 40, 40, 40});
