@@ -140,6 +140,9 @@ std::optional<std::string> AccessControl::machine_of(const Request& request,
       const auto port = parts_.ports->port(request.parameter("name"));
       return port ? std::optional(port->port.machine) : std::nullopt;
     }
+    case MachineIn::Subject:
+      if (request.parameter("scope") != "machine") return std::nullopt;
+      return request.parameter("subject");
   }
   return std::nullopt;
 }

@@ -142,9 +142,9 @@ constexpr std::array kRoutes{
     RoutePermission{"DELETE", "/api/v1/report-templates/{name}", Program},
     RoutePermission{"GET", "/api/v1/report-template-assignments", View},
     RoutePermission{"PUT", "/api/v1/report-template-assignments/{scope}/{subject}/{template}",
-                    Program},
+                    Program, Subject},
     RoutePermission{"DELETE", "/api/v1/report-template-assignments/{scope}/{subject}/{template}",
-                    Program},
+                    Program, Subject},
 
     RoutePermission{"GET", "/api/v1/ports", View},
     RoutePermission{"GET", "/api/v1/ports/{name}", View},

@@ -15,6 +15,7 @@ enum class MachineIn : std::uint8_t {
   Run,      ///< the machine of the run `{id}`
   Start,    ///< `machine` of the body that starts a run
   Port,     ///< the machine at the end of the port `{name}`
+  Subject,  ///< `{subject}` where `{scope}` is machine
 };
 
 struct RoutePermission {

@@ -155,6 +155,8 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
       {"POST", "/api/v1/machines/lathe-1/start-job", "{}"},
       {"PUT", "/api/v1/machines/lathe-1/job-hold", R"({"reason":"wide"})"},
       {"DELETE", "/api/v1/machines/lathe-1/job-hold", ""},
+      {"PUT", "/api/v1/report-template-assignments/machine/lathe-1/bore", ""},
+      {"DELETE", "/api/v1/report-template-assignments/machine/lathe-1/bore", ""},
   };
   std::size_t guarded = 0;
   for (const auto& row : api::route_permissions())
