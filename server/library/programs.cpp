@@ -279,6 +279,18 @@ Result<void> Programs::determine_control(storage::Upload& upload) {
   if (!head) return fail(head.error());
   const std::string_view text(reinterpret_cast<const char*>(head->data()), head->size());
   auto control = detect_control(catalog_, text, upload.program);
+  // What a program is for does not change by a text that looks otherwise.
+  const auto latest = store_.revision(upload.program, std::nullopt);
+  if (latest && !latest->control.empty()) {
+    if (control && *control != latest->control) {
+      return drop(upload,
+                  {Errc::Unsupported,
+                   fmt::format("its revision {} is for control {}, this text looks like one "
+                               "for {}: name the control",
+                               latest->number, latest->control, *control)});
+    }
+    control = latest->control;
+  }
   if (!control) return drop(upload, control.error());
   if (auto set = uploads_.set_control(upload.id, *control); !set) return set;
   upload.control = *std::move(control);

@@ -119,6 +119,8 @@ Result<std::optional<Revision>> find_same(sqlite::Database& database, const Uplo
     // one.
     if (!*known || (*known)->named != (*known)->revision.content) continue;
     if ((*known)->revision.state == RevisionState::Withdrawn) continue;
+    // The same text for another control is another program.
+    if (!upload.control.empty() && (*known)->revision.control != upload.control) continue;
     const auto row = find_content(database, (*known)->revision.content);
     if (!row) return fail(row.error());
     if (*row && (*row)->id == content) return std::optional(std::move((*known)->revision));

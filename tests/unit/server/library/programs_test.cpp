@@ -145,5 +145,21 @@ TEST(DialectCatalog, KnowsTheMarksOfProtectedPrograms) {
   EXPECT_FALSE(catalog.is_protected("", ""));
 }
 
+TEST_F(ProgramsTest, StayForTheirControlUnlessItIsNamed) {
+  push("P", "%C 1\n", "tnc155");
+  EXPECT_EQ(push("P", "nothing shows it\n", "").control, "tnc155");
+  const std::string id = begin("P", "");
+  ASSERT_TRUE(programs_->append(id, 0, bytes_of("%C 2\n")));
+  const auto refused = programs_->commit(id, std::nullopt, "cam");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("is for control tnc155, this text looks like one for "
+                                      "centurion"),
+            std::string::npos)
+      << refused.error().what;
+  const auto other = push("P", "nothing shows it\n", "centurion");
+  EXPECT_EQ(other.number, 3u) << "the same text for another control is no repetition";
+  EXPECT_EQ(other.control, "centurion");
+}
+
 }  // namespace
 }  // namespace dripline::server_test
