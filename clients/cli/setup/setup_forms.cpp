@@ -78,8 +78,7 @@ Result<std::string> tool_store_of(std::string_view toml) {
   const auto sign = interpreter::tnc155::decimal_sign_of(data->control);
   if (!sign) return fail(sign.error());
   for (const auto& tool : data->tools) {
-    const bool has_wear =
-        tool.wear != interpreter::Position{} || tool.radius_wear != Length{};
+    const bool has_wear = tool.wear != interpreter::Position{} || tool.radius_wear != Length{};
     if (!has_wear) continue;
     return fail(
         Errc::Unsupported,
