@@ -119,7 +119,7 @@ Derivation::Sources Measurements::sources() {
             const auto run = parts_.store.runs.find(id);
             if (!run && run.error().code == Errc::NotFound) return std::optional<RunFacts>();
             if (!run) return fail(run.error());
-            return std::optional(RunFacts{run->machine, run->program, run->revision});
+            return std::optional(RunFacts{run->machine, run->program, run->revision, run->state});
           },
           .templates =
               [this](const std::string& name, const std::string& program) {
@@ -323,7 +323,7 @@ Result<std::vector<storage::MeasuredPart>> Measurements::derive(
   }
   if (derivation.state().sessions.empty())
     return fail(Errc::Conflict, "no report template applies to run {}", id);
-  derivation.end_parts(last);
+  if (auto ended = derivation.end_parts(last); !ended) return fail(ended.error());
   if (auto replaced = parts_.store.measurements.replace(id, derivation.batch()); !replaced)
     return fail(replaced.error());
   return derivation.batch().parts;

@@ -162,7 +162,7 @@ void ReportInterpreter::apply(std::size_t index, const std::vector<FieldText>& t
     taken.fields.emplace_back(field->of.empty() ? field->name : field->name + "." + field->of,
                               trimmed(text));
   }
-  if (rule.starts_part) close_part(events);
+  if (rule.starts_part) break_part("the next part began", events);
   const Fields fields = read_fields(texts, events);
   if (keep_texts(rule, fields, events)) {
     ++state_.ordinals[index];
@@ -178,12 +178,12 @@ bool ReportInterpreter::keep_texts(const LineRule& rule, const Fields& fields,
   const auto serial = fields.texts.find("serial");
   if (serial != fields.texts.end() && !state_.part.serial.empty() &&
       serial->second != state_.part.serial) {
-    close_part(events);
+    break_part(fmt::format("serial number {} came", serial->second), events);
   }
   const bool restarts = fields.count == template_->first_count && state_.highest &&
                         *state_.highest > template_->first_count &&
                         std::ranges::none_of(template_->rules, &LineRule::starts_part);
-  if (restarts) close_part(events);
+  if (restarts) break_part(fmt::format("line {} came again", *fields.count), events);
   if (rule.starts_part || serial != fields.texts.end() || fields.texts.contains("part") ||
       fields.count || fields.expected) {
     open_part(events);
@@ -210,9 +210,8 @@ bool ReportInterpreter::take_count(std::int64_t count, std::vector<ReportEvent>&
   if (count < template_->first_count || count < next) return take_earlier(count, events);
   if (count > next) {
     if (state_.missing.size() >= kMaxGaps) {
-      state_.is_incomplete = true;
       const auto [from, to] = state_.missing.front();
-      add_finding(FindingKind::Missing, counts_text(from, to), events);
+      add_fault(FindingKind::Missing, counts_text(from, to), events);
       state_.missing.erase(state_.missing.begin());
     }
     state_.missing.emplace_back(next, count - 1);
@@ -284,8 +283,7 @@ void ReportInterpreter::take_values(const LineRule& rule, const Fields& fields,
       }
       add_value(*std::move(value), events);
     } else {
-      state_.is_incomplete = true;
-      add_finding(FindingKind::BadValue, value.error().what, events);
+      add_fault(FindingKind::BadValue, value.error().what, events);
     }
   }
   if (has_values) ++state_.lines;
@@ -309,6 +307,12 @@ void ReportInterpreter::add_finding(FindingKind kind, std::string text,
   events.emplace_back(Finding{kind, std::move(text)});
 }
 
+void ReportInterpreter::add_fault(FindingKind kind, std::string text,
+                                  std::vector<ReportEvent>& events) {
+  state_.is_incomplete = true;
+  add_finding(kind, std::move(text), events);
+}
+
 void ReportInterpreter::update_verdict() {
   state_.part.verdict = state_.is_judged ? state_.worst : Verdict::Unknown;
   if (state_.is_incomplete) state_.part.verdict = worse(state_.part.verdict, Verdict::Unknown);
@@ -316,28 +320,28 @@ void ReportInterpreter::update_verdict() {
 
 /// At the end of a part: what did not come.
 void ReportInterpreter::find_missing(std::vector<ReportEvent>& events) {
-  const auto miss = [&](FindingKind kind, std::string text) {
-    state_.is_incomplete = true;
-    add_finding(kind, std::move(text), events);
-  };
   if (const LineForm* form = next_of_partial()) {
-    miss(FindingKind::Incomplete,
-         fmt::format("'{}' did not come after '{}'", form->text(), state_.partial->texts.back()));
+    add_fault(
+        FindingKind::Incomplete,
+        fmt::format("'{}' did not come after '{}'", form->text(), state_.partial->texts.back()),
+        events);
   }
-  for (const auto& [from, to] : state_.missing) miss(FindingKind::Missing, counts_text(from, to));
+  for (const auto& [from, to] : state_.missing)
+    add_fault(FindingKind::Missing, counts_text(from, to), events);
   if (state_.expected) {
     const auto expected = static_cast<std::int64_t>(*state_.expected);
     const auto last = template_->first_count + expected - 1;
     if (state_.highest && *state_.highest < last) {
-      miss(FindingKind::Missing, counts_text(*state_.highest + 1, last));
+      add_fault(FindingKind::Missing, counts_text(*state_.highest + 1, last), events);
     } else if (!state_.highest && state_.lines != *state_.expected) {
-      miss(state_.lines < *state_.expected ? FindingKind::Missing : FindingKind::Doubled,
-           fmt::format("{} lines with values came, {} were expected", state_.lines, expected));
+      add_fault(state_.lines < *state_.expected ? FindingKind::Missing : FindingKind::Doubled,
+                fmt::format("{} lines with values came, {} were expected", state_.lines, expected),
+                events);
     }
   }
   for (const auto& [name, definition] : template_->characteristics) {
     if (definition.is_required && !state_.seen.contains(name))
-      miss(FindingKind::Incomplete, fmt::format("{} was not measured", name));
+      add_fault(FindingKind::Incomplete, fmt::format("{} was not measured", name), events);
   }
 }
 
@@ -348,9 +352,24 @@ void ReportInterpreter::close_part(std::vector<ReportEvent>& events) {
   state_ = {};
 }
 
-std::vector<ReportEvent> ReportInterpreter::end() {
-  std::vector<ReportEvent> events;
+void ReportInterpreter::break_part(std::string_view why, std::vector<ReportEvent>& events) {
+  const bool has_end = std::ranges::any_of(
+      template_->rules, [](const LineRule& rule) { return rule.ends_part && !rule.is_ignored; });
+  if (state_.is_open && has_end) {
+    add_fault(FindingKind::Incomplete, fmt::format("the part's end did not come: {}", why), events);
+  }
   close_part(events);
+}
+
+std::vector<ReportEvent> ReportInterpreter::end(std::string_view cut) {
+  std::vector<ReportEvent> events;
+  if (state_.is_open && !cut.empty()) {
+    add_fault(FindingKind::Incomplete, fmt::format("the part's end did not come: its run {}", cut),
+              events);
+    close_part(events);
+  } else {
+    break_part("the report ended", events);
+  }
   state_ = {};
   return events;
 }

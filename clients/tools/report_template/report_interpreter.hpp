@@ -65,8 +65,9 @@ class ReportInterpreter {
   bool is_for(const ReportLine& line) const;
   /// A line that is not understood has no finding here: another template may know it.
   Taken take(const ReportLine& line);
-  /// The run is over: so is its part.
-  std::vector<ReportEvent> end();
+  /// The lines are over: so is the part. `cut`: how a run ended that did not complete; then nothing
+  /// says that the part is whole.
+  std::vector<ReportEvent> end(std::string_view cut = {});
 
   const ReportState& state() const { return state_; }
   const ReportTemplate& report_template() const { return *template_; }
@@ -85,6 +86,8 @@ class ReportInterpreter {
   Fields read_fields(const std::vector<FieldText>& texts, std::vector<ReportEvent>& events);
   void open_part(std::vector<ReportEvent>& events);
   void close_part(std::vector<ReportEvent>& events);
+  /// Something else than its own end is what ends it.
+  void break_part(std::string_view why, std::vector<ReportEvent>& events);
   bool keep_texts(const LineRule& rule, const Fields& fields, std::vector<ReportEvent>& events);
   /// False: the line came before.
   bool take_count(std::int64_t count, std::vector<ReportEvent>& events);
@@ -92,6 +95,8 @@ class ReportInterpreter {
   void take_values(const LineRule& rule, const Fields& fields, std::vector<ReportEvent>& events);
   void add_value(Value value, std::vector<ReportEvent>& events);
   void add_finding(FindingKind kind, std::string text, std::vector<ReportEvent>& events);
+  /// A finding that leaves the part unknown.
+  void add_fault(FindingKind kind, std::string text, std::vector<ReportEvent>& events);
   void find_missing(std::vector<ReportEvent>& events);
   void update_verdict();
 

@@ -177,6 +177,30 @@ TEST(CountedReport, HasBoundedMemoryOfGaps) {
             600);
 }
 
+TEST(CountedReport, IsUnknownWithoutItsEnd) {
+  Reading next(kCounted);
+  next.take("BEGIN").take("1 D 1").take("BEGIN").take("1 D 1").take("END 1");
+  EXPECT_EQ(next.brought, (Brought{"[", "D1=1 good",
+                                   "incomplete: the part's end did not come: the next part began",
+                                   "] unknown", "[", "D1=1 good", "] good"}));
+  Reading over(kCounted);
+  over.take("BEGIN").take("1 D 1").end();
+  EXPECT_EQ(over.brought,
+            (Brought{"[", "D1=1 good", "incomplete: the part's end did not come: the report ended",
+                     "] unknown"}));
+}
+
+TEST(ReportInterpreter, MissesTheEndWhenTheSerialNumberChanges) {
+  Reading reading(
+      "[[line]]\nform = '{serial} D {actual}'\ncharacteristic = 'D'\nlower = 0\n[[line]]\n"
+      "form = 'END'\nends_part = true\n");
+  reading.take("1 D 1").take("2 D 1").take("END");
+  EXPECT_EQ(
+      reading.brought,
+      (Brought{"[", "D=1 good", "incomplete: the part's end did not come: serial number 2 came",
+               "] unknown", "[", "D=1 good", "] good"}));
+}
+
 TEST(ReportInterpreter, CountsLinesWithoutNumbers) {
   const std::string counted =
       "expected = 3\n[[line]]\nform = '{characteristic} {actual}'\nlower = 0\n";
