@@ -10,7 +10,6 @@ namespace {
 
 using measurement::Verdict;
 
-constexpr std::size_t kMaxGaps = 256;  ///< of counts, in a part; more are reported at once
 constexpr std::array<std::string_view, 6> kFindings{"unmatched", "bad_value", "missing",
                                                     "doubled",   "reordered", "incomplete"};
 
@@ -24,11 +23,6 @@ void add_missing(LineNumbers& line, const LineNumbers& before) {
 
 bool is_whole(double value) {
   return value >= -1e9 && value <= 1e9 && value == static_cast<double>(std::int64_t(value));
-}
-
-std::string counts_text(std::int64_t from, std::int64_t to) {
-  return from == to ? fmt::format("line {} did not come", from)
-                    : fmt::format("lines {} to {} did not come", from, to);
 }
 
 }  // namespace
@@ -74,7 +68,7 @@ bool ReportInterpreter::take_partial(std::string_view line, Taken& taken) {
       const auto found = rule.steps[i].match(whole.texts[i]);
       if (found) fields.insert(fields.end(), found->begin(), found->end());
     }
-    apply(whole.rule, fields, taken);
+    apply(whole.rule, fields, fmt::format("{}", fmt::join(whole.texts, " / ")), taken);
     return true;
   }
   for (std::size_t i = 0; i < template_->rules.size(); ++i) {
@@ -111,7 +105,7 @@ void ReportInterpreter::take_rule(std::string_view line, Taken& taken) {
       state_.partial =
           ReportState::Partial{.rule = i, .step = 1, .texts = {std::string(trimmed(line))}};
     } else {
-      apply(i, *fields, taken);
+      apply(i, *fields, trimmed(line), taken);
     }
     return;
   }
@@ -155,7 +149,7 @@ ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<Field
 }
 
 void ReportInterpreter::apply(std::size_t index, const std::vector<FieldText>& texts,
-                              Taken& taken) {
+                              std::string_view line, Taken& taken) {
   const LineRule& rule = template_->rules[index];
   auto& events = taken.events;
   for (const auto& [field, text] : texts) {
@@ -163,7 +157,8 @@ void ReportInterpreter::apply(std::size_t index, const std::vector<FieldText>& t
                               trimmed(text));
   }
   if (rule.starts_part) break_part("the next part began", events);
-  const Fields fields = read_fields(texts, events);
+  Fields fields = read_fields(texts, events);
+  fields.line = line;
   if (keep_texts(rule, fields, events)) {
     ++state_.ordinals[index];
     state_.context["ordinal"] = fmt::to_string(state_.ordinals[index]);
@@ -195,7 +190,7 @@ bool ReportInterpreter::keep_texts(const LineRule& rule, const Fields& fields,
     state_.part.number = part->second;
   if (fields.expected && *fields.expected >= 0)
     state_.expected = static_cast<std::uint64_t>(*fields.expected);
-  return !fields.count || take_count(*fields.count, events);
+  return !fields.count || take_count(*fields.count, fields.line, events);
 }
 
 void ReportInterpreter::open_part(std::vector<ReportEvent>& events) {
@@ -203,40 +198,6 @@ void ReportInterpreter::open_part(std::vector<ReportEvent>& events) {
   state_.is_open = true;
   state_.expected = template_->expected;
   events.emplace_back(PartBegun{});
-}
-
-bool ReportInterpreter::take_count(std::int64_t count, std::vector<ReportEvent>& events) {
-  const std::int64_t next = state_.highest ? *state_.highest + 1 : template_->first_count;
-  if (count < template_->first_count || count < next) return take_earlier(count, events);
-  if (count > next) {
-    if (state_.missing.size() >= kMaxGaps) {
-      const auto [from, to] = state_.missing.front();
-      add_fault(FindingKind::Missing, counts_text(from, to), events);
-      state_.missing.erase(state_.missing.begin());
-    }
-    state_.missing.emplace_back(next, count - 1);
-  }
-  state_.highest = count;
-  return true;
-}
-
-bool ReportInterpreter::take_earlier(std::int64_t count, std::vector<ReportEvent>& events) {
-  const auto gap = std::ranges::find_if(state_.missing, [&](const auto& missing) {
-    return missing.first <= count && count <= missing.second;
-  });
-  if (gap == state_.missing.end()) {
-    add_finding(FindingKind::Doubled, fmt::format("line {} came again", count), events);
-    return false;
-  }
-  add_finding(FindingKind::Reordered,
-              fmt::format("line {} came after line {}", count, *state_.highest), events);
-  const auto [from, to] = *gap;
-  const auto at = state_.missing.erase(gap);
-  std::vector<std::pair<std::int64_t, std::int64_t>> rest;
-  if (from < count) rest.emplace_back(from, count - 1);
-  if (count < to) rest.emplace_back(count + 1, to);
-  state_.missing.insert(at, rest.begin(), rest.end());
-  return true;
 }
 
 void ReportInterpreter::take_values(const LineRule& rule, const Fields& fields,
@@ -316,33 +277,6 @@ void ReportInterpreter::add_fault(FindingKind kind, std::string text,
 void ReportInterpreter::update_verdict() {
   state_.part.verdict = state_.is_judged ? state_.worst : Verdict::Unknown;
   if (state_.is_incomplete) state_.part.verdict = worse(state_.part.verdict, Verdict::Unknown);
-}
-
-/// At the end of a part: what did not come.
-void ReportInterpreter::find_missing(std::vector<ReportEvent>& events) {
-  if (const LineForm* form = next_of_partial()) {
-    add_fault(
-        FindingKind::Incomplete,
-        fmt::format("'{}' did not come after '{}'", form->text(), state_.partial->texts.back()),
-        events);
-  }
-  for (const auto& [from, to] : state_.missing)
-    add_fault(FindingKind::Missing, counts_text(from, to), events);
-  if (state_.expected) {
-    const auto expected = static_cast<std::int64_t>(*state_.expected);
-    const auto last = template_->first_count + expected - 1;
-    if (state_.highest && *state_.highest < last) {
-      add_fault(FindingKind::Missing, counts_text(*state_.highest + 1, last), events);
-    } else if (!state_.highest && state_.lines != *state_.expected) {
-      add_fault(state_.lines < *state_.expected ? FindingKind::Missing : FindingKind::Doubled,
-                fmt::format("{} lines with values came, {} were expected", state_.lines, expected),
-                events);
-    }
-  }
-  for (const auto& [name, definition] : template_->characteristics) {
-    if (definition.is_required && !state_.seen.contains(name))
-      add_fault(FindingKind::Incomplete, fmt::format("{} was not measured", name), events);
-  }
 }
 
 void ReportInterpreter::close_part(std::vector<ReportEvent>& events) {

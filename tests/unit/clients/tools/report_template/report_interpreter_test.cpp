@@ -149,6 +149,49 @@ TEST(CountedReport, TakesADoubledLineOnce) {
   EXPECT_EQ(reading.brought, (Brought{"[", "D1=1 good", "doubled: line 1 came again", "] good"}));
 }
 
+TEST(CountedReport, IsUnknownWhereALineCameWithTwoValues) {
+  Reading reading(kCounted);
+  reading.take("BEGIN").take("1 D 20.000").take("1 D 29.000").take("2 D 20.000").take("END 2");
+  EXPECT_EQ(reading.brought,
+            (Brought{"[", "D1=20.000 good",
+                     "doubled: line 1 came again as '1 D 29.000', first as '1 D 20.000'",
+                     "D2=20.000 good", "] unknown"}));
+  Reading late(kCounted);
+  late.take("BEGIN").take("2 D 1").take("1 D 1").take("1  D \t1").take("1 D 2").take("END 2");
+  EXPECT_EQ(late.brought.at(4), "doubled: line 1 came again") << "blanks do not matter";
+  EXPECT_EQ(late.brought.at(5), "doubled: line 1 came again as '1 D 2', first as '1 D 1'");
+  EXPECT_EQ(late.brought.back(), "] unknown");
+}
+
+TEST(CountedReport, ComparesLongLinesToTheirEnds) {
+  Reading reading(
+      "[[line]]\nform = '{count} D {actual} {note:text}'\ncharacteristic = 'D'\nlower = 0\n");
+  const std::string line = "1 D 1 " + std::string(300, 'x');
+  reading.take(line + "\xc3\xa4").take(line + "\xc3\xa4");
+  EXPECT_EQ(reading.brought.back(), "doubled: line 1 came again");
+  reading.take(line + "\xc3\xb6").end();
+  EXPECT_EQ(reading.brought.back(), "] unknown");
+}
+
+TEST(CountedReport, IsUnknownWithMoreLinesThanExpected) {
+  Reading reading(kCounted);
+  reading.take("BEGIN").take("1 D 1").take("2 D 1").take("3 D 1").take("END 2");
+  EXPECT_EQ(reading.brought, (Brought{"[", "D1=1 good", "D2=1 good", "D3=1 good",
+                                      "doubled: line 3 came, 2 were expected", "] unknown"}));
+}
+
+TEST(CountedReport, KeepsSomeLinesToCompare) {
+  Reading reading(kCounted);
+  reading.take("BEGIN");
+  for (int i = 1; i <= 600; ++i) reading.take(fmt::format("{} D 1", i));
+  EXPECT_EQ(reading.interpreter().state().kept.size(), 256u);
+  reading.take("600 D 1").take("1 D 1").take("END 600");
+  EXPECT_EQ(reading.brought.at(601), "doubled: line 600 came again");
+  EXPECT_EQ(reading.brought.at(602),
+            "doubled: line 1 came again as '1 D 1', too late to be compared with the first");
+  EXPECT_EQ(reading.brought.back(), "] unknown");
+}
+
 TEST(CountedReport, TakesALateLine) {
   Reading reading(kCounted);
   reading.take("BEGIN").take("1 D 1").take("4 D 1").take("3 D 1").take("2 D 1").take("3 D 1");
@@ -255,6 +298,13 @@ TEST(ReportState, IsTheSameOverARestart) {
     state = *read;
   }
   EXPECT_EQ(parse_state("{}").error().code, Errc::Corrupt);
+  state.kept[1] = "1 D 1";
+  const std::string text = to_json(state), kept = R"("kept":[[1,"1 D 1"]],)";
+  const auto at = text.find(kept);
+  ASSERT_NE(at, std::string::npos) << text;
+  const auto older = parse_state(std::string(text).erase(at, kept.size()));
+  ASSERT_TRUE(older) << "states of older versions have none: " << older.error().what;
+  EXPECT_TRUE(older->kept.empty());
   state.highest.reset();
   state.missing = {{1, 2}};
   EXPECT_EQ(parse_state(to_json(state)).error().code, Errc::Corrupt);
