@@ -38,7 +38,7 @@ std::string kept_line(std::string_view line) {
 bool ReportInterpreter::take_count(std::int64_t count, std::string_view line,
                                    std::vector<ReportEvent>& events) {
   const std::int64_t next = state_.highest ? *state_.highest + 1 : template_->first_count;
-  if (count < template_->first_count || count < next) return take_earlier(count, line, events);
+  if (count < next) return take_earlier(count, line, events);
   if (count > next) {
     if (state_.missing.size() >= kMaxGaps) {
       const auto [from, to] = state_.missing.front();

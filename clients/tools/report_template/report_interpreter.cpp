@@ -111,17 +111,15 @@ void ReportInterpreter::take_rule(std::string_view line, Taken& taken) {
   }
 }
 
-ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<FieldText>& texts,
-                                                         std::vector<ReportEvent>& events) {
+ReportInterpreter::Fields ReportInterpreter::read_fields(
+    const std::vector<FieldText>& texts) const {
   Fields made;
   for (const auto& [field, text] : texts) {
     const std::string_view shown = trimmed(text);
     if (!is_number(field->kind)) {
       if (shown.size() > kMaxName) {
-        add_finding(
-            FindingKind::BadValue,
-            fmt::format("{} of {} characters: at most {}", field->name, shown.size(), kMaxName),
-            events);
+        made.unusable[field->name] =
+            fmt::format("{} of {} characters: at most {}", field->name, shown.size(), kMaxName);
         continue;
       }
       made.texts[field->name] = shown;
@@ -129,15 +127,23 @@ ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<Field
     }
     const auto number = read_number(text);
     const bool is_count = field->kind == FieldKind::Count || field->kind == FieldKind::Expected;
-    if (!number || (is_count && !is_whole(number->value))) {
-      add_finding(FindingKind::BadValue,
-                  fmt::format("{} '{}': {}", field->name, shown.substr(0, 40),
-                              number ? "no whole number" : number.error().what),
-                  events);
+    const bool is_of_count = field->kind == FieldKind::Count;
+    const std::int64_t least = is_of_count ? template_->first_count : 0;
+    std::string why;
+    if (!number) {
+      why = number.error().what;
+    } else if (is_count && !is_whole(number->value)) {
+      why = "no whole number, or too large";
+    } else if (is_count && number->value < static_cast<double>(least)) {
+      why = fmt::format("at least {}", least);
+    }
+    if (!why.empty()) {
+      const std::string name = field->of.empty() ? field->name : field->name + "." + field->of;
+      made.unusable[name] = fmt::format("{} '{}': {}", name, shown.substr(0, 40), why);
       continue;
     }
     if (is_count) {
-      (field->kind == FieldKind::Count ? made.count : made.expected) = std::int64_t(number->value);
+      (is_of_count ? made.count : made.expected) = std::int64_t(number->value);
       continue;
     }
     LineNumbers& numbers = made.numbers[field->of];
@@ -157,7 +163,7 @@ void ReportInterpreter::apply(std::size_t index, const std::vector<FieldText>& t
                               trimmed(text));
   }
   if (rule.starts_part) break_part("the next part began", events);
-  Fields fields = read_fields(texts, events);
+  Fields fields = read_fields(texts);
   fields.line = line;
   if (keep_texts(rule, fields, events)) {
     ++state_.ordinals[index];
@@ -167,7 +173,7 @@ void ReportInterpreter::apply(std::size_t index, const std::vector<FieldText>& t
   if (rule.ends_part) close_part(events);
 }
 
-/// Texts and counts. False: the line came before, and gives no values.
+/// Texts and counts. False: the line came before, or its count is none, and it gives no values.
 bool ReportInterpreter::keep_texts(const LineRule& rule, const Fields& fields,
                                    std::vector<ReportEvent>& events) {
   const auto serial = fields.texts.find("serial");
@@ -180,16 +186,21 @@ bool ReportInterpreter::keep_texts(const LineRule& rule, const Fields& fields,
                         std::ranges::none_of(template_->rules, &LineRule::starts_part);
   if (restarts) break_part(fmt::format("line {} came again", *fields.count), events);
   if (rule.starts_part || serial != fields.texts.end() || fields.texts.contains("part") ||
-      fields.count || fields.expected) {
+      fields.count || fields.expected || fields.unusable.contains("count")) {
     open_part(events);
+  }
+  // A value must not get the name that an earlier line had.
+  for (const auto& [name, why] : fields.unusable) {
+    state_.context.erase(name);
+    add_fault(FindingKind::BadValue, why, events);
   }
   for (const auto& [name, text] : fields.texts) state_.context[name] = text;
   if (fields.count) state_.context["count"] = fmt::to_string(*fields.count);
   if (serial != fields.texts.end()) state_.part.serial = serial->second;
   if (const auto part = fields.texts.find("part"); part != fields.texts.end())
     state_.part.number = part->second;
-  if (fields.expected && *fields.expected >= 0)
-    state_.expected = static_cast<std::uint64_t>(*fields.expected);
+  if (fields.expected) state_.expected = static_cast<std::uint64_t>(*fields.expected);
+  if (fields.unusable.contains("count")) return false;
   return !fields.count || take_count(*fields.count, fields.line, events);
 }
 

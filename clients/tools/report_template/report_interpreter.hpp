@@ -78,6 +78,7 @@ class ReportInterpreter {
     std::map<std::string, std::string> texts;
     std::map<std::string, LineNumbers> numbers;  ///< by the characteristic in the field's name
     std::optional<std::int64_t> count, expected;
+    std::map<std::string, std::string> unusable;  ///< why, by the field's name
     std::string_view line;
   };
   bool take_partial(std::string_view line, Taken& taken);
@@ -85,7 +86,7 @@ class ReportInterpreter {
   void take_rule(std::string_view line, Taken& taken);
   void apply(std::size_t rule, const std::vector<FieldText>& texts, std::string_view line,
              Taken& taken);
-  Fields read_fields(const std::vector<FieldText>& texts, std::vector<ReportEvent>& events);
+  Fields read_fields(const std::vector<FieldText>& texts) const;
   void open_part(std::vector<ReportEvent>& events);
   void close_part(std::vector<ReportEvent>& events);
   /// Something else than its own end is what ends it.

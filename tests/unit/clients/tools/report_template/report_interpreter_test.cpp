@@ -202,6 +202,66 @@ TEST(CountedReport, TakesALateLine) {
                      "doubled: line 3 came again", "] good"}));
 }
 
+/// A count that is none, or cannot be read: its value is no other line's.
+TEST(CountedReport, TakesNothingOfALineWithABadCount) {
+  for (const auto& [count, why] :
+       {std::pair("0", "at least 1"), std::pair("-1", "at least 1"),
+        std::pair("99999999999", "no whole number, or too large"),
+        std::pair("9999999999999999999", "'9999999999999999999' has more than 18 digits")}) {
+    Reading reading(kCounted);
+    reading.take("BEGIN").take("1 D 1").take(fmt::format("{} D 7", count)).take("2 D 1");
+    reading.take("END 2");
+    EXPECT_EQ(reading.brought,
+              (Brought{"[", "D1=1 good", fmt::format("bad_value: count '{}': {}", count, why),
+                       "D2=1 good", "] unknown"}));
+  }
+}
+
+TEST(CountedReport, IsUnknownWithAnEndThatCountsNothing) {
+  Reading negative(kCounted);
+  negative.take("BEGIN").take("1 D 1").take("END -1");
+  EXPECT_EQ(negative.brought,
+            (Brought{"[", "D1=1 good", "bad_value: expected '-1': at least 0", "] unknown"}));
+  Reading large(kCounted);
+  large.take("BEGIN").take("1 D 1").take("END 99999999999");
+  EXPECT_EQ(large.brought.back(), "] unknown");
+}
+
+TEST(CountedReport, GivesTheValueOfABadCountNoName) {
+  Reading reading(R"([[line]]
+form = "LINE {count}"
+[[line]]
+form = "D {actual}"
+characteristic = "D{count}"
+lower = 0
+)");
+  reading.take("LINE 1").take("D 1").take("LINE 0").take("D 7").end();
+  EXPECT_EQ(reading.brought,
+            (Brought{"[", "D1=1 good", "bad_value: count '0': at least 1",
+                     "bad_value: field count of 'D{count}' did not come", "] unknown"}));
+}
+
+TEST(ReportInterpreter, GivesAValueNoOtherNameWhereItsOwnIsTooLong) {
+  Reading reading("[[line]]\nform = '{characteristic} {actual}'\nlower = 0\n");
+  reading.take("A 1").take(std::string(129, 'B') + " 7").end();
+  EXPECT_EQ(reading.brought,
+            (Brought{"[", "A=1 good", "bad_value: characteristic of 129 characters: at most 128",
+                     "bad_value: a value without a characteristic", "] unknown"}));
+}
+
+TEST(ReportInterpreter, NamesEachValueThatCannotBeRead) {
+  const std::string digits(20, '9');
+  Reading reading(
+      "[[line]]\nform = 'X{actual.X} Y{actual.Y} Z{actual.Z}'\ncharacteristic = "
+      "'{characteristic}'\nlower = 0\n");
+  reading.take(fmt::format("X{} Y{} Z1", digits, digits)).end();
+  EXPECT_EQ(
+      reading.brought,
+      (Brought{fmt::format("bad_value: actual.X '{0}': '{0}' has more than 18 digits", digits),
+               fmt::format("bad_value: actual.Y '{0}': '{0}' has more than 18 digits", digits), "[",
+               "Z=1 good", "] unknown"}));
+}
+
 TEST(CountedReport, BeginsAgainWithItsFirstNumber) {
   Reading reading("[[line]]\nform = '{count} D {actual}'\ncharacteristic = 'D'\n");
   reading.take("1 D 1").take("2 D 2").take("1 D 3").end();
