@@ -76,6 +76,11 @@ Result<void> Derivation::begin() {
   for (Session& session : state_.sessions) {
     if (session.part.id == 0) continue;
     session.part.ended = session.part.begun;
+    for (const auto& event : session.interpreter.end()) {
+      // No record is at hand that a finding could name.
+      if (const auto* ended = std::get_if<PartEnded>(&event))
+        session.part.verdict = ended->part.verdict;
+    }
     save_part(session.part);
   }
   state_.sessions = std::move(sessions);
@@ -86,15 +91,12 @@ Result<void> Derivation::take(const storage::Record& record) {
   const bool is_end = record.kind == "run_ended";
   if (!is_report(record) && !is_end && record.kind != "run_started") return {};
   if (record.run != state_.run) {
-    end_parts(record);
+    if (auto ended = end_parts(record); !ended) return ended;
     if (auto entered = enter_run(record); !entered) return entered;
   }
   item_ = 0;
-  if (is_end) {
-    end_parts(record);
-  } else if (is_report(record)) {
-    take_line(record);
-  }
+  if (is_end) return end_parts(record);
+  if (is_report(record)) take_line(record);
   return {};
 }
 
@@ -119,8 +121,24 @@ Result<void> Derivation::enter_run(const storage::Record& record) {
   return {};
 }
 
-void Derivation::end_parts(const storage::Record& record) {
-  for (Session& session : state_.sessions) apply(session, record, session.interpreter.end());
+Result<std::string> Derivation::cut_of_run() const {
+  if (state_.run.empty()) return std::string();
+  const auto run = sources_.run(state_.run);
+  if (!run) return fail(run.error());
+  if (!*run || (*run)->state == storage::RunState::Completed) return std::string();
+  if (!storage::is_finished((*run)->state)) return std::string("has not ended");
+  return fmt::format("ended {}", storage::to_string((*run)->state));
+}
+
+Result<void> Derivation::end_parts(const storage::Record& record) {
+  std::string cut;
+  if (std::ranges::any_of(state_.sessions, [](const Session& one) { return one.part.id != 0; })) {
+    auto known = cut_of_run();
+    if (!known) return fail(known.error());
+    cut = *std::move(known);
+  }
+  for (Session& session : state_.sessions) apply(session, record, session.interpreter.end(cut));
+  return {};
 }
 
 void Derivation::take_line(const storage::Record& record) {

@@ -55,6 +55,7 @@ struct Judged {
 struct RunFacts {
   std::string machine, program;
   std::uint64_t revision = 0;
+  storage::RunState state = storage::RunState::Active;
 };
 
 /// Records of one machine, in their order, to what is stored of them. Deterministic.
@@ -74,8 +75,8 @@ class Derivation {
   /// further.
   Result<void> begin();
   Result<void> take(const storage::Record& record);
-  /// The run's parts are over.
-  void end_parts(const storage::Record& record);
+  /// The run's parts are over: whole only if it completed. Errors: those of the sources.
+  Result<void> end_parts(const storage::Record& record);
 
   const MachineState& state() const { return state_; }
   std::uint64_t next_part_id() const { return next_part_id_; }
@@ -85,6 +86,8 @@ class Derivation {
 
  private:
   Result<void> enter_run(const storage::Record& record);
+  /// How the run ended; empty: it completed, or the lines are of no run that the server knows.
+  Result<std::string> cut_of_run() const;
   Result<std::vector<UsedTemplate>> templates();
   void take_line(const storage::Record& record);
   void apply(Session& session, const storage::Record& record,

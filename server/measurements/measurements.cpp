@@ -7,9 +7,8 @@
 namespace dripline::measurements {
 namespace {
 
-constexpr std::uint64_t kPiece = 1000;     ///< records of a transaction
-constexpr std::size_t kMaxDue = 1024;      ///< actions that wait
-constexpr std::uint64_t kRunPiece = 4000;  ///< records read at a time, of a whole run
+constexpr std::uint64_t kPiece = 1000;  ///< records of a transaction
+constexpr std::size_t kMaxDue = 1024;   ///< actions that wait
 
 /// Another time it may go well.
 bool is_passing(const Error& error) {
@@ -119,7 +118,7 @@ Derivation::Sources Measurements::sources() {
             const auto run = parts_.store.runs.find(id);
             if (!run && run.error().code == Errc::NotFound) return std::optional<RunFacts>();
             if (!run) return fail(run.error());
-            return std::optional(RunFacts{run->machine, run->program, run->revision});
+            return std::optional(RunFacts{run->machine, run->program, run->revision, run->state});
           },
           .templates =
               [this](const std::string& name, const std::string& program) {
@@ -284,49 +283,6 @@ Result<void> Measurements::unassign(storage::TemplateAssignment assignment,
   auto done = parts_.store.report_templates.unassign(assignment, who);
   cache_.drop();
   return done;
-}
-
-Result<std::vector<storage::MeasuredPart>> Measurements::derive(
-    const std::string& id, const std::optional<std::string>& name,
-    std::optional<std::uint64_t> version) {
-  const auto run = parts_.store.runs.find(id);
-  if (!run) return fail(run.error());
-  if (!storage::is_finished(run->state))
-    return fail(Errc::Conflict, "run {} has not ended: its report is derived as it comes", id);
-  const std::lock_guard lock(derive_mutex_);
-  Derivation::Sources from = sources();
-  if (name) {
-    auto used = cache_.find(*name, version);
-    if (!used) return fail(used.error());
-    from.templates = [used = *std::move(used)](const std::string&, const std::string&) {
-      return Result<std::vector<UsedTemplate>>(std::vector{used});
-    };
-  }
-  const auto next = parts_.store.measurements.next_part_id();
-  if (!next) return fail(next.error());
-  Derivation derivation(run->machine, {}, std::move(from), *next);
-  storage::RecordPlace place;
-  storage::Record last;
-  for (std::uint64_t count = 0;;) {
-    const auto piece = parts_.store.records.of_run_after(id, "", place, kRunPiece);
-    if (!piece) return fail(piece.error());
-    for (const storage::Record& record : *piece) {
-      if (auto taken = derivation.take(record); !taken) return fail(taken.error());
-    }
-    count += piece->size();
-    if (count > kMaxRunRecords) {
-      return fail(Errc::LimitExceeded, "run {} has more than {} records", id, kMaxRunRecords);
-    }
-    if (!piece->empty()) last = piece->back();
-    if (piece->size() < kRunPiece) break;
-    place = {piece->back().epoch, piece->back().number};
-  }
-  if (derivation.state().sessions.empty())
-    return fail(Errc::Conflict, "no report template applies to run {}", id);
-  derivation.end_parts(last);
-  if (auto replaced = parts_.store.measurements.replace(id, derivation.batch()); !replaced)
-    return fail(replaced.error());
-  return derivation.batch().parts;
 }
 
 }  // namespace dripline::measurements

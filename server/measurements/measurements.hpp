@@ -60,7 +60,8 @@ class Measurements {
 
   /// Derives a run again: with `name`, by this template alone, otherwise by those that apply now.
   /// What was derived before is kept and marked. Returns the parts. Errors: NotFound, Conflict (the
-  /// run has not ended, or no template applies), LimitExceeded (more than kMaxRunRecords).
+  /// run has not ended, records of it are in an archive, or no template applies), LimitExceeded
+  /// (more than kMaxRunRecords).
   Result<std::vector<storage::MeasuredPart>> derive(const std::string& run,
                                                     const std::optional<std::string>& name,
                                                     std::optional<std::uint64_t> version);
@@ -70,6 +71,8 @@ class Measurements {
 
  private:
   Derivation::Sources sources();
+  /// Errors: Conflict (records of the run are, or may be, in an archive; it is named).
+  Result<void> check_is_whole(const storage::Run& run);
   void work(const std::stop_token& stop);
   /// False: the store refuses, or a machine's records cannot be derived now.
   bool derive_all(const std::stop_token& stop);

@@ -137,7 +137,8 @@ void add_measurement_commands(Command report, Context& context) {
   add_json_flag(again, context);
   again.footer(
       "What was derived before is kept, with the version it was derived by, and no longer "
-      "listed.\n\nExample:\n  dnc report derive latest --template bore");
+      "listed. A run of which an archive has records is refused.\n\nExample:\n  dnc report derive "
+      "latest --template bore");
   run_at_server(again, context, derived, derive);
 }
 

@@ -132,9 +132,10 @@ class Trial {
         taken.is_understood ? &interpreter_.report_template().rules.at(taken.rule) : nullptr;
     print(line.text, rule, taken);
   }
-  int end() {
+  /// `cut`: how a run ended that did not complete.
+  int end(std::string_view cut = {}) {
     report_template::Taken last;
-    last.events = interpreter_.end();
+    last.events = interpreter_.end(cut);
     if (!context_.wants_json) {
       for (const auto& event : last.events) context_.print(event_text(event));
       context_.print(fmt::format("\n{} lines, {} not understood\n", lines_, unmatched_));
@@ -173,13 +174,15 @@ int try_on_run(Trial& trial, Context& context, const std::string& reference) {
   if (!client) return context.status;
   const auto run = find_run(*client, reference);
   if (!run) return complain(run.error());
+  const std::string cut =
+      run->state == "completed" || run->ended.empty() ? "" : "ended " + run->state;
   constexpr std::uint64_t kPage = 1000;
   for (std::uint64_t offset = 0;; offset += kPage) {
     const auto records = client->records(run->id, "", {.limit = kPage, .offset = offset});
     if (!records) return complain(records.error());
     for (const auto& record : *records)
       trial.take({.text = record.text, .kind = record.kind, .device = record.device});
-    if (records->size() < kPage) return trial.end();
+    if (records->size() < kPage) return trial.end(cut);
   }
 }
 

@@ -10,7 +10,6 @@ namespace {
 
 using measurement::Verdict;
 
-constexpr std::size_t kMaxGaps = 256;  ///< of counts, in a part; more are reported at once
 constexpr std::array<std::string_view, 6> kFindings{"unmatched", "bad_value", "missing",
                                                     "doubled",   "reordered", "incomplete"};
 
@@ -24,11 +23,6 @@ void add_missing(LineNumbers& line, const LineNumbers& before) {
 
 bool is_whole(double value) {
   return value >= -1e9 && value <= 1e9 && value == static_cast<double>(std::int64_t(value));
-}
-
-std::string counts_text(std::int64_t from, std::int64_t to) {
-  return from == to ? fmt::format("line {} did not come", from)
-                    : fmt::format("lines {} to {} did not come", from, to);
 }
 
 }  // namespace
@@ -74,7 +68,7 @@ bool ReportInterpreter::take_partial(std::string_view line, Taken& taken) {
       const auto found = rule.steps[i].match(whole.texts[i]);
       if (found) fields.insert(fields.end(), found->begin(), found->end());
     }
-    apply(whole.rule, fields, taken);
+    apply(whole.rule, fields, fmt::format("{}", fmt::join(whole.texts, " / ")), taken);
     return true;
   }
   for (std::size_t i = 0; i < template_->rules.size(); ++i) {
@@ -111,23 +105,21 @@ void ReportInterpreter::take_rule(std::string_view line, Taken& taken) {
       state_.partial =
           ReportState::Partial{.rule = i, .step = 1, .texts = {std::string(trimmed(line))}};
     } else {
-      apply(i, *fields, taken);
+      apply(i, *fields, trimmed(line), taken);
     }
     return;
   }
 }
 
-ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<FieldText>& texts,
-                                                         std::vector<ReportEvent>& events) {
+ReportInterpreter::Fields ReportInterpreter::read_fields(
+    const std::vector<FieldText>& texts) const {
   Fields made;
   for (const auto& [field, text] : texts) {
     const std::string_view shown = trimmed(text);
     if (!is_number(field->kind)) {
       if (shown.size() > kMaxName) {
-        add_finding(
-            FindingKind::BadValue,
-            fmt::format("{} of {} characters: at most {}", field->name, shown.size(), kMaxName),
-            events);
+        made.unusable[field->name] =
+            fmt::format("{} of {} characters: at most {}", field->name, shown.size(), kMaxName);
         continue;
       }
       made.texts[field->name] = shown;
@@ -135,15 +127,23 @@ ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<Field
     }
     const auto number = read_number(text);
     const bool is_count = field->kind == FieldKind::Count || field->kind == FieldKind::Expected;
-    if (!number || (is_count && !is_whole(number->value))) {
-      add_finding(FindingKind::BadValue,
-                  fmt::format("{} '{}': {}", field->name, shown.substr(0, 40),
-                              number ? "no whole number" : number.error().what),
-                  events);
+    const bool is_of_count = field->kind == FieldKind::Count;
+    const std::int64_t least = is_of_count ? template_->first_count : 0;
+    std::string why;
+    if (!number) {
+      why = number.error().what;
+    } else if (is_count && !is_whole(number->value)) {
+      why = "no whole number, or too large";
+    } else if (is_count && number->value < static_cast<double>(least)) {
+      why = fmt::format("at least {}", least);
+    }
+    if (!why.empty()) {
+      const std::string name = field->of.empty() ? field->name : field->name + "." + field->of;
+      made.unusable[name] = fmt::format("{} '{}': {}", name, shown.substr(0, 40), why);
       continue;
     }
     if (is_count) {
-      (field->kind == FieldKind::Count ? made.count : made.expected) = std::int64_t(number->value);
+      (is_of_count ? made.count : made.expected) = std::int64_t(number->value);
       continue;
     }
     LineNumbers& numbers = made.numbers[field->of];
@@ -155,15 +155,16 @@ ReportInterpreter::Fields ReportInterpreter::read_fields(const std::vector<Field
 }
 
 void ReportInterpreter::apply(std::size_t index, const std::vector<FieldText>& texts,
-                              Taken& taken) {
+                              std::string_view line, Taken& taken) {
   const LineRule& rule = template_->rules[index];
   auto& events = taken.events;
   for (const auto& [field, text] : texts) {
     taken.fields.emplace_back(field->of.empty() ? field->name : field->name + "." + field->of,
                               trimmed(text));
   }
-  if (rule.starts_part) close_part(events);
-  const Fields fields = read_fields(texts, events);
+  if (rule.starts_part) break_part("the next part began", events);
+  Fields fields = read_fields(texts);
+  fields.line = line;
   if (keep_texts(rule, fields, events)) {
     ++state_.ordinals[index];
     state_.context["ordinal"] = fmt::to_string(state_.ordinals[index]);
@@ -172,30 +173,35 @@ void ReportInterpreter::apply(std::size_t index, const std::vector<FieldText>& t
   if (rule.ends_part) close_part(events);
 }
 
-/// Texts and counts. False: the line came before, and gives no values.
+/// Texts and counts. False: the line came before, or its count is none, and it gives no values.
 bool ReportInterpreter::keep_texts(const LineRule& rule, const Fields& fields,
                                    std::vector<ReportEvent>& events) {
   const auto serial = fields.texts.find("serial");
   if (serial != fields.texts.end() && !state_.part.serial.empty() &&
       serial->second != state_.part.serial) {
-    close_part(events);
+    break_part(fmt::format("serial number {} came", serial->second), events);
   }
   const bool restarts = fields.count == template_->first_count && state_.highest &&
                         *state_.highest > template_->first_count &&
                         std::ranges::none_of(template_->rules, &LineRule::starts_part);
-  if (restarts) close_part(events);
+  if (restarts) break_part(fmt::format("line {} came again", *fields.count), events);
   if (rule.starts_part || serial != fields.texts.end() || fields.texts.contains("part") ||
-      fields.count || fields.expected) {
+      fields.count || fields.expected || fields.unusable.contains("count")) {
     open_part(events);
+  }
+  // A value must not get the name that an earlier line had.
+  for (const auto& [name, why] : fields.unusable) {
+    state_.context.erase(name);
+    add_fault(FindingKind::BadValue, why, events);
   }
   for (const auto& [name, text] : fields.texts) state_.context[name] = text;
   if (fields.count) state_.context["count"] = fmt::to_string(*fields.count);
   if (serial != fields.texts.end()) state_.part.serial = serial->second;
   if (const auto part = fields.texts.find("part"); part != fields.texts.end())
     state_.part.number = part->second;
-  if (fields.expected && *fields.expected >= 0)
-    state_.expected = static_cast<std::uint64_t>(*fields.expected);
-  return !fields.count || take_count(*fields.count, events);
+  if (fields.expected) state_.expected = static_cast<std::uint64_t>(*fields.expected);
+  if (fields.unusable.contains("count")) return false;
+  return !fields.count || take_count(*fields.count, fields.line, events);
 }
 
 void ReportInterpreter::open_part(std::vector<ReportEvent>& events) {
@@ -203,41 +209,6 @@ void ReportInterpreter::open_part(std::vector<ReportEvent>& events) {
   state_.is_open = true;
   state_.expected = template_->expected;
   events.emplace_back(PartBegun{});
-}
-
-bool ReportInterpreter::take_count(std::int64_t count, std::vector<ReportEvent>& events) {
-  const std::int64_t next = state_.highest ? *state_.highest + 1 : template_->first_count;
-  if (count < template_->first_count || count < next) return take_earlier(count, events);
-  if (count > next) {
-    if (state_.missing.size() >= kMaxGaps) {
-      state_.is_incomplete = true;
-      const auto [from, to] = state_.missing.front();
-      add_finding(FindingKind::Missing, counts_text(from, to), events);
-      state_.missing.erase(state_.missing.begin());
-    }
-    state_.missing.emplace_back(next, count - 1);
-  }
-  state_.highest = count;
-  return true;
-}
-
-bool ReportInterpreter::take_earlier(std::int64_t count, std::vector<ReportEvent>& events) {
-  const auto gap = std::ranges::find_if(state_.missing, [&](const auto& missing) {
-    return missing.first <= count && count <= missing.second;
-  });
-  if (gap == state_.missing.end()) {
-    add_finding(FindingKind::Doubled, fmt::format("line {} came again", count), events);
-    return false;
-  }
-  add_finding(FindingKind::Reordered,
-              fmt::format("line {} came after line {}", count, *state_.highest), events);
-  const auto [from, to] = *gap;
-  const auto at = state_.missing.erase(gap);
-  std::vector<std::pair<std::int64_t, std::int64_t>> rest;
-  if (from < count) rest.emplace_back(from, count - 1);
-  if (count < to) rest.emplace_back(count + 1, to);
-  state_.missing.insert(at, rest.begin(), rest.end());
-  return true;
 }
 
 void ReportInterpreter::take_values(const LineRule& rule, const Fields& fields,
@@ -284,8 +255,7 @@ void ReportInterpreter::take_values(const LineRule& rule, const Fields& fields,
       }
       add_value(*std::move(value), events);
     } else {
-      state_.is_incomplete = true;
-      add_finding(FindingKind::BadValue, value.error().what, events);
+      add_fault(FindingKind::BadValue, value.error().what, events);
     }
   }
   if (has_values) ++state_.lines;
@@ -309,36 +279,15 @@ void ReportInterpreter::add_finding(FindingKind kind, std::string text,
   events.emplace_back(Finding{kind, std::move(text)});
 }
 
+void ReportInterpreter::add_fault(FindingKind kind, std::string text,
+                                  std::vector<ReportEvent>& events) {
+  state_.is_incomplete = true;
+  add_finding(kind, std::move(text), events);
+}
+
 void ReportInterpreter::update_verdict() {
   state_.part.verdict = state_.is_judged ? state_.worst : Verdict::Unknown;
   if (state_.is_incomplete) state_.part.verdict = worse(state_.part.verdict, Verdict::Unknown);
-}
-
-/// At the end of a part: what did not come.
-void ReportInterpreter::find_missing(std::vector<ReportEvent>& events) {
-  const auto miss = [&](FindingKind kind, std::string text) {
-    state_.is_incomplete = true;
-    add_finding(kind, std::move(text), events);
-  };
-  if (const LineForm* form = next_of_partial()) {
-    miss(FindingKind::Incomplete,
-         fmt::format("'{}' did not come after '{}'", form->text(), state_.partial->texts.back()));
-  }
-  for (const auto& [from, to] : state_.missing) miss(FindingKind::Missing, counts_text(from, to));
-  if (state_.expected) {
-    const auto expected = static_cast<std::int64_t>(*state_.expected);
-    const auto last = template_->first_count + expected - 1;
-    if (state_.highest && *state_.highest < last) {
-      miss(FindingKind::Missing, counts_text(*state_.highest + 1, last));
-    } else if (!state_.highest && state_.lines != *state_.expected) {
-      miss(state_.lines < *state_.expected ? FindingKind::Missing : FindingKind::Doubled,
-           fmt::format("{} lines with values came, {} were expected", state_.lines, expected));
-    }
-  }
-  for (const auto& [name, definition] : template_->characteristics) {
-    if (definition.is_required && !state_.seen.contains(name))
-      miss(FindingKind::Incomplete, fmt::format("{} was not measured", name));
-  }
 }
 
 void ReportInterpreter::close_part(std::vector<ReportEvent>& events) {
@@ -348,9 +297,24 @@ void ReportInterpreter::close_part(std::vector<ReportEvent>& events) {
   state_ = {};
 }
 
-std::vector<ReportEvent> ReportInterpreter::end() {
-  std::vector<ReportEvent> events;
+void ReportInterpreter::break_part(std::string_view why, std::vector<ReportEvent>& events) {
+  const bool has_end = std::ranges::any_of(
+      template_->rules, [](const LineRule& rule) { return rule.ends_part && !rule.is_ignored; });
+  if (state_.is_open && has_end) {
+    add_fault(FindingKind::Incomplete, fmt::format("the part's end did not come: {}", why), events);
+  }
   close_part(events);
+}
+
+std::vector<ReportEvent> ReportInterpreter::end(std::string_view cut) {
+  std::vector<ReportEvent> events;
+  if (state_.is_open && !cut.empty()) {
+    add_fault(FindingKind::Incomplete, fmt::format("the part's end did not come: its run {}", cut),
+              events);
+    close_part(events);
+  } else {
+    break_part("the report ended", events);
+  }
   state_ = {};
   return events;
 }

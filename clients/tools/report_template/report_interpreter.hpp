@@ -23,7 +23,7 @@ enum class FindingKind : std::uint8_t {
   Unmatched,   ///< the line has no form of the template
   BadValue,    ///< it has, and a value in it cannot be used
   Missing,     ///< lines of a counted report that did not come
-  Doubled,     ///< a line that had come already: nothing is taken from it
+  Doubled,     ///< a line that had come already: nothing is taken from it; or more than expected
   Reordered,   ///< a line that came after a later one
   Incomplete,  ///< a part or lines that follow each other, without all that belongs to them
 };
@@ -65,8 +65,9 @@ class ReportInterpreter {
   bool is_for(const ReportLine& line) const;
   /// A line that is not understood has no finding here: another template may know it.
   Taken take(const ReportLine& line);
-  /// The run is over: so is its part.
-  std::vector<ReportEvent> end();
+  /// The lines are over: so is the part. `cut`: how a run ended that did not complete; then nothing
+  /// says that the part is whole.
+  std::vector<ReportEvent> end(std::string_view cut = {});
 
   const ReportState& state() const { return state_; }
   const ReportTemplate& report_template() const { return *template_; }
@@ -77,21 +78,30 @@ class ReportInterpreter {
     std::map<std::string, std::string> texts;
     std::map<std::string, LineNumbers> numbers;  ///< by the characteristic in the field's name
     std::optional<std::int64_t> count, expected;
+    std::map<std::string, std::string> unusable;  ///< why, by the field's name
+    std::string_view line;
   };
   bool take_partial(std::string_view line, Taken& taken);
   const LineForm* next_of_partial() const;
   void take_rule(std::string_view line, Taken& taken);
-  void apply(std::size_t rule, const std::vector<FieldText>& texts, Taken& taken);
-  Fields read_fields(const std::vector<FieldText>& texts, std::vector<ReportEvent>& events);
+  void apply(std::size_t rule, const std::vector<FieldText>& texts, std::string_view line,
+             Taken& taken);
+  Fields read_fields(const std::vector<FieldText>& texts) const;
   void open_part(std::vector<ReportEvent>& events);
   void close_part(std::vector<ReportEvent>& events);
+  /// Something else than its own end is what ends it.
+  void break_part(std::string_view why, std::vector<ReportEvent>& events);
   bool keep_texts(const LineRule& rule, const Fields& fields, std::vector<ReportEvent>& events);
   /// False: the line came before.
-  bool take_count(std::int64_t count, std::vector<ReportEvent>& events);
-  bool take_earlier(std::int64_t count, std::vector<ReportEvent>& events);
+  bool take_count(std::int64_t count, std::string_view line, std::vector<ReportEvent>& events);
+  bool take_earlier(std::int64_t count, std::string_view line, std::vector<ReportEvent>& events);
+  void find_doubled(std::int64_t count, std::string_view line, std::vector<ReportEvent>& events);
+  void keep_line(std::int64_t count, std::string_view line);
   void take_values(const LineRule& rule, const Fields& fields, std::vector<ReportEvent>& events);
   void add_value(Value value, std::vector<ReportEvent>& events);
   void add_finding(FindingKind kind, std::string text, std::vector<ReportEvent>& events);
+  /// A finding that leaves the part unknown.
+  void add_fault(FindingKind kind, std::string text, std::vector<ReportEvent>& events);
   void find_missing(std::vector<ReportEvent>& events);
   void update_verdict();
 

@@ -64,6 +64,11 @@ ReportState state_of(const json& text) {
   state.seen = text.at("seen").get<std::set<std::string>>();
   if (!text.at("highest").is_null()) state.highest = text.at("highest").get<std::int64_t>();
   state.missing = text.at("missing").get<std::vector<std::pair<std::int64_t, std::int64_t>>>();
+  if (text.contains("kept")) {  // a state of an older version has none
+    for (auto& [count, line] :
+         text.at("kept").get<std::vector<std::pair<std::int64_t, std::string>>>())
+      state.kept[count] = std::move(line);
+  }
   if (!text.at("expected").is_null()) state.expected = text.at("expected").get<std::uint64_t>();
   state.lines = text.at("lines").get<std::uint64_t>();
   state.is_judged = text.at("is_judged").get<bool>();
@@ -80,6 +85,7 @@ bool is_sound(const ReportState& state) {
   };
   if (state.partial && state.partial->texts.empty()) return false;
   if (state.highest ? !is_count(*state.highest) : !state.missing.empty()) return false;
+  if (state.kept.size() > ReportState::kMaxKept) return false;
   return !state.expected || *state.expected <= std::uint64_t{kMaxCount};
 }
 
@@ -87,6 +93,8 @@ bool is_sound(const ReportState& state) {
 
 std::string to_json(const ReportState& state) {
   json ordinals = json::array();
+  json kept = json::array();
+  for (const auto& [count, line] : state.kept) kept.push_back({count, line});
   for (const auto& [rule, count] : state.ordinals) ordinals.push_back({rule, count});
   const json text = {
       {"is_open", state.is_open},
@@ -101,6 +109,7 @@ std::string to_json(const ReportState& state) {
       {"seen", state.seen},
       {"highest", state.highest ? json(*state.highest) : json(nullptr)},
       {"missing", state.missing},
+      {"kept", kept},
       {"expected", state.expected ? json(*state.expected) : json(nullptr)},
       {"lines", state.lines},
       {"is_judged", state.is_judged},

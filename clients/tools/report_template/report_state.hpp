@@ -70,6 +70,8 @@ struct ReportState {
   std::set<std::string> seen;                     ///< required characteristics that came
   std::optional<std::int64_t> highest;            ///< count so far
   std::vector<std::pair<std::int64_t, std::int64_t>> missing;  ///< counts below it, from and to
+  static constexpr std::size_t kMaxKept = 256;
+  std::map<std::int64_t, std::string> kept;  ///< lines by their counts: the highest ones
   std::optional<std::uint64_t> expected;
   std::uint64_t lines = 0;                                  ///< with values
   bool is_judged = false;                                   ///< a value had limits

@@ -36,9 +36,10 @@ class Trial {
         taken.is_understood ? &interpreter_.report_template().rules.at(taken.rule) : nullptr;
     shown_.push_back(report_template::taken_json(line.text, rule, taken));
   }
-  ordered_json end() {
+  /// `cut`: how a run ended that did not complete.
+  ordered_json end(std::string_view cut) {
     auto events = ordered_json::array();
-    for (const auto& event : interpreter_.end())
+    for (const auto& event : interpreter_.end(cut))
       events.push_back(report_template::event_json(event));
     return {{"lines", lines_},
             {"unmatched", unmatched_},
@@ -63,6 +64,12 @@ Response try_template(Services& services, const Request& request) {
   if (auto good = query.finish(); !good) return error_response(good.error());
   auto read = report_template::read_template(request.body);
   if (!read) return error_response(read.error());
+  const auto run = services.runs.run(request.parameter("id"));
+  if (!run) return error_response(run.error());
+  const bool is_whole = run->state == storage::RunState::Completed;
+  const std::string cut = is_whole || !storage::is_finished(run->state)
+                              ? std::string()
+                              : fmt::format("ended {}", storage::to_string(run->state));
   Trial trial(*std::move(read), page, only_unmatched);
   for (std::uint64_t offset = 0;; offset += kMaxLimit) {
     const auto records =
@@ -75,7 +82,7 @@ Response try_template(Services& services, const Request& request) {
                        request.parameter("id"), kMaxTried)});
     }
     for (const auto& record : *records) trial.take(record);
-    if (records->size() < kMaxLimit) return json_text_response(trial.end().dump());
+    if (records->size() < kMaxLimit) return json_text_response(trial.end(cut).dump());
   }
 }
 

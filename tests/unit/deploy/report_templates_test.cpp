@@ -194,6 +194,18 @@ TEST(ReportTemplates, UnderstandAnInspectionOfACenturion) {
   EXPECT_TRUE(read.findings.empty());
 }
 
+/// The program alarms after its first line: what came of the part does not make it good.
+TEST(ReportTemplates, MissTheEndOfAnInspection) {
+  Recorder recorder;
+  recorder.records = {{"output", "PART 77"}, {"output", "1 D 20.000 NOM 20.000 TOL .050"}};
+  const auto read = read_with("centurion-inspection", recorder);
+  EXPECT_EQ(read.value("D1").verdict, measurement::Verdict::Good);
+  ASSERT_EQ(read.parts.size(), 1u);
+  EXPECT_EQ(read.parts[0].verdict, measurement::Verdict::Unknown);
+  EXPECT_EQ(read.findings,
+            (std::vector<std::string>{"the part's end did not come: the report ended"}));
+}
+
 TEST(ReportTemplates, UnderstandTheTouchProbeOfATnc) {
   const auto recorder =
       run("tnc155", "start = { Z = 60.0 }\n[probe]\nsurface = [ { axis = \"Z\", at = -0.75 } ]\n",

@@ -50,9 +50,10 @@ class MeasurementsTest : public server_test::ServerTest {
     run.machine = machine;
     ASSERT_TRUE(store_->runs.create(run));
   }
-  /// Stores lines of a run; `kind` may be before a colon: `run_ended:`.
+  /// Stores lines of a run; `run_started` and `run_ended` are records of these kinds.
   void print(const std::vector<std::string>& lines, const std::string& run = "r1",
-             const std::string& machine = "lathe-1") {
+             const std::string& machine = "lathe-1",
+             storage::RunState state = storage::RunState::Completed) {
     storage::RecordBatch batch;
     batch.machine = machine;
     batch.epoch = 7;
@@ -70,6 +71,7 @@ class MeasurementsTest : public server_test::ServerTest {
       if (line == "run_ended") {
         storage::RunEnding ending;
         ending.run = run;
+        ending.state = state;
         ending.ended = clock_.now();
         batch.endings.push_back(std::move(ending));
       }

@@ -28,6 +28,58 @@ TEST_F(MeasurementsTest, FollowTheRecords) {
   EXPECT_TRUE(parts->at(0).ended);
 }
 
+TEST_F(MeasurementsTest, KnowNoVerdictOfAPartThatItsRunBrokeOff) {
+  start();
+  use(kBore);
+  for (const auto state :
+       {storage::RunState::Alarmed, storage::RunState::Aborted, storage::RunState::Interrupted}) {
+    const std::string run(storage::to_string(state));
+    make_run(run);
+    print({"PART 1", "D 40", "PART 2", "D 40", "run_ended"}, run, "lathe-1", state);
+    wait_until_derived();
+    const auto parts = store_->measurements.parts({.run = run}, {});
+    ASSERT_EQ(parts->size(), 2u);
+    EXPECT_EQ(parts->at(1).verdict, Verdict::Good) << "the next part began: it was whole";
+    EXPECT_EQ(parts->at(0).verdict, Verdict::Unknown) << run;
+    EXPECT_EQ(findings({.run = run}),
+              (Texts{"incomplete: the part's end did not come: its run ended " + run}));
+    const auto again = measurements_->derive(run, {}, {});
+    ASSERT_TRUE(again) << again.error().what;
+    EXPECT_EQ(again->back().verdict, Verdict::Unknown) << "also derived again";
+  }
+}
+
+/// The end of a run may never be reported: its gateway is gone, and the server gave it up.
+TEST_F(MeasurementsTest, KnowNoVerdictOfAPartWhoseRunWasGivenUp) {
+  start();
+  use(kBore);
+  make_run("r1");
+  print({"PART 1", "D 40"});
+  ASSERT_TRUE(store_->runs.set_state("r1", storage::RunState::Interrupted, "lost"));
+  make_run("r2");
+  print({"PART 2", "D 40", "run_ended"}, "r2");
+  wait_until_derived();
+  EXPECT_EQ(judged(), (Texts{"1 unknown", "2 good"}));
+}
+
+/// Another version is in force before the part's end came.
+TEST_F(MeasurementsTest, KnowNoVerdictOfAPartWhoseTemplateIsReplaced) {
+  const std::string ended = std::string(kBore) +
+                            "unknown = \"none\"\n[[line]]\nform = \"END\"\n"
+                            "ends_part = true\n";
+  start();
+  use(ended, storage::TemplateScope::Machine, "lathe-1");
+  print({"PART 1", "D 40"}, "");
+  wait_until_derived();
+  use(ended + "ignore = false\n", storage::TemplateScope::Machine, "lathe-1");
+  print({"PART 2", "D 40", "END"}, "");
+  wait_until_derived();
+  const auto parts = store_->measurements.parts({}, {});
+  ASSERT_EQ(parts->size(), 2u);
+  EXPECT_EQ(parts->at(1).verdict, Verdict::Unknown);
+  EXPECT_EQ(parts->at(0).verdict, Verdict::Good);
+}
+
 TEST_F(MeasurementsTest, ListLinesThatNothingKnows) {
   start();
   use(kBore);

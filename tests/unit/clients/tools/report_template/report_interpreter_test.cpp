@@ -149,6 +149,49 @@ TEST(CountedReport, TakesADoubledLineOnce) {
   EXPECT_EQ(reading.brought, (Brought{"[", "D1=1 good", "doubled: line 1 came again", "] good"}));
 }
 
+TEST(CountedReport, IsUnknownWhereALineCameWithTwoValues) {
+  Reading reading(kCounted);
+  reading.take("BEGIN").take("1 D 20.000").take("1 D 29.000").take("2 D 20.000").take("END 2");
+  EXPECT_EQ(reading.brought,
+            (Brought{"[", "D1=20.000 good",
+                     "doubled: line 1 came again as '1 D 29.000', first as '1 D 20.000'",
+                     "D2=20.000 good", "] unknown"}));
+  Reading late(kCounted);
+  late.take("BEGIN").take("2 D 1").take("1 D 1").take("1  D \t1").take("1 D 2").take("END 2");
+  EXPECT_EQ(late.brought.at(4), "doubled: line 1 came again") << "blanks do not matter";
+  EXPECT_EQ(late.brought.at(5), "doubled: line 1 came again as '1 D 2', first as '1 D 1'");
+  EXPECT_EQ(late.brought.back(), "] unknown");
+}
+
+TEST(CountedReport, ComparesLongLinesToTheirEnds) {
+  Reading reading(
+      "[[line]]\nform = '{count} D {actual} {note:text}'\ncharacteristic = 'D'\nlower = 0\n");
+  const std::string line = "1 D 1 " + std::string(300, 'x');
+  reading.take(line + "\xc3\xa4").take(line + "\xc3\xa4");
+  EXPECT_EQ(reading.brought.back(), "doubled: line 1 came again");
+  reading.take(line + "\xc3\xb6").end();
+  EXPECT_EQ(reading.brought.back(), "] unknown");
+}
+
+TEST(CountedReport, IsUnknownWithMoreLinesThanExpected) {
+  Reading reading(kCounted);
+  reading.take("BEGIN").take("1 D 1").take("2 D 1").take("3 D 1").take("END 2");
+  EXPECT_EQ(reading.brought, (Brought{"[", "D1=1 good", "D2=1 good", "D3=1 good",
+                                      "doubled: line 3 came, 2 were expected", "] unknown"}));
+}
+
+TEST(CountedReport, KeepsSomeLinesToCompare) {
+  Reading reading(kCounted);
+  reading.take("BEGIN");
+  for (int i = 1; i <= 600; ++i) reading.take(fmt::format("{} D 1", i));
+  EXPECT_EQ(reading.interpreter().state().kept.size(), 256u);
+  reading.take("600 D 1").take("1 D 1").take("END 600");
+  EXPECT_EQ(reading.brought.at(601), "doubled: line 600 came again");
+  EXPECT_EQ(reading.brought.at(602),
+            "doubled: line 1 came again as '1 D 1', too late to be compared with the first");
+  EXPECT_EQ(reading.brought.back(), "] unknown");
+}
+
 TEST(CountedReport, TakesALateLine) {
   Reading reading(kCounted);
   reading.take("BEGIN").take("1 D 1").take("4 D 1").take("3 D 1").take("2 D 1").take("3 D 1");
@@ -157,6 +200,66 @@ TEST(CountedReport, TakesALateLine) {
             (Brought{"[", "D1=1 good", "D4=1 good", "reordered: line 3 came after line 4",
                      "D3=1 good", "reordered: line 2 came after line 4", "D2=1 good",
                      "doubled: line 3 came again", "] good"}));
+}
+
+/// A count that is none, or cannot be read: its value is no other line's.
+TEST(CountedReport, TakesNothingOfALineWithABadCount) {
+  for (const auto& [count, why] :
+       {std::pair("0", "at least 1"), std::pair("-1", "at least 1"),
+        std::pair("99999999999", "no whole number, or too large"),
+        std::pair("9999999999999999999", "'9999999999999999999' has more than 18 digits")}) {
+    Reading reading(kCounted);
+    reading.take("BEGIN").take("1 D 1").take(fmt::format("{} D 7", count)).take("2 D 1");
+    reading.take("END 2");
+    EXPECT_EQ(reading.brought,
+              (Brought{"[", "D1=1 good", fmt::format("bad_value: count '{}': {}", count, why),
+                       "D2=1 good", "] unknown"}));
+  }
+}
+
+TEST(CountedReport, IsUnknownWithAnEndThatCountsNothing) {
+  Reading negative(kCounted);
+  negative.take("BEGIN").take("1 D 1").take("END -1");
+  EXPECT_EQ(negative.brought,
+            (Brought{"[", "D1=1 good", "bad_value: expected '-1': at least 0", "] unknown"}));
+  Reading large(kCounted);
+  large.take("BEGIN").take("1 D 1").take("END 99999999999");
+  EXPECT_EQ(large.brought.back(), "] unknown");
+}
+
+TEST(CountedReport, GivesTheValueOfABadCountNoName) {
+  Reading reading(R"([[line]]
+form = "LINE {count}"
+[[line]]
+form = "D {actual}"
+characteristic = "D{count}"
+lower = 0
+)");
+  reading.take("LINE 1").take("D 1").take("LINE 0").take("D 7").end();
+  EXPECT_EQ(reading.brought,
+            (Brought{"[", "D1=1 good", "bad_value: count '0': at least 1",
+                     "bad_value: field count of 'D{count}' did not come", "] unknown"}));
+}
+
+TEST(ReportInterpreter, GivesAValueNoOtherNameWhereItsOwnIsTooLong) {
+  Reading reading("[[line]]\nform = '{characteristic} {actual}'\nlower = 0\n");
+  reading.take("A 1").take(std::string(129, 'B') + " 7").end();
+  EXPECT_EQ(reading.brought,
+            (Brought{"[", "A=1 good", "bad_value: characteristic of 129 characters: at most 128",
+                     "bad_value: a value without a characteristic", "] unknown"}));
+}
+
+TEST(ReportInterpreter, NamesEachValueThatCannotBeRead) {
+  const std::string digits(20, '9');
+  Reading reading(
+      "[[line]]\nform = 'X{actual.X} Y{actual.Y} Z{actual.Z}'\ncharacteristic = "
+      "'{characteristic}'\nlower = 0\n");
+  reading.take(fmt::format("X{} Y{} Z1", digits, digits)).end();
+  EXPECT_EQ(
+      reading.brought,
+      (Brought{fmt::format("bad_value: actual.X '{0}': '{0}' has more than 18 digits", digits),
+               fmt::format("bad_value: actual.Y '{0}': '{0}' has more than 18 digits", digits), "[",
+               "Z=1 good", "] unknown"}));
 }
 
 TEST(CountedReport, BeginsAgainWithItsFirstNumber) {
@@ -175,6 +278,30 @@ TEST(CountedReport, HasBoundedMemoryOfGaps) {
   EXPECT_EQ(std::ranges::count_if(reading.brought,
                                   [](const auto& one) { return one.starts_with("missing"); }),
             600);
+}
+
+TEST(CountedReport, IsUnknownWithoutItsEnd) {
+  Reading next(kCounted);
+  next.take("BEGIN").take("1 D 1").take("BEGIN").take("1 D 1").take("END 1");
+  EXPECT_EQ(next.brought, (Brought{"[", "D1=1 good",
+                                   "incomplete: the part's end did not come: the next part began",
+                                   "] unknown", "[", "D1=1 good", "] good"}));
+  Reading over(kCounted);
+  over.take("BEGIN").take("1 D 1").end();
+  EXPECT_EQ(over.brought,
+            (Brought{"[", "D1=1 good", "incomplete: the part's end did not come: the report ended",
+                     "] unknown"}));
+}
+
+TEST(ReportInterpreter, MissesTheEndWhenTheSerialNumberChanges) {
+  Reading reading(
+      "[[line]]\nform = '{serial} D {actual}'\ncharacteristic = 'D'\nlower = 0\n[[line]]\n"
+      "form = 'END'\nends_part = true\n");
+  reading.take("1 D 1").take("2 D 1").take("END");
+  EXPECT_EQ(
+      reading.brought,
+      (Brought{"[", "D=1 good", "incomplete: the part's end did not come: serial number 2 came",
+               "] unknown", "[", "D=1 good", "] good"}));
 }
 
 TEST(ReportInterpreter, CountsLinesWithoutNumbers) {
@@ -231,6 +358,13 @@ TEST(ReportState, IsTheSameOverARestart) {
     state = *read;
   }
   EXPECT_EQ(parse_state("{}").error().code, Errc::Corrupt);
+  state.kept[1] = "1 D 1";
+  const std::string text = to_json(state), kept = R"("kept":[[1,"1 D 1"]],)";
+  const auto at = text.find(kept);
+  ASSERT_NE(at, std::string::npos) << text;
+  const auto older = parse_state(std::string(text).erase(at, kept.size()));
+  ASSERT_TRUE(older) << "states of older versions have none: " << older.error().what;
+  EXPECT_TRUE(older->kept.empty());
   state.highest.reset();
   state.missing = {{1, 2}};
   EXPECT_EQ(parse_state(to_json(state)).error().code, Errc::Corrupt);

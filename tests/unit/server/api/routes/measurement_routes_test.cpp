@@ -15,7 +15,8 @@ class MeasurementRoutes : public ApiTest {
   }
   /// A run that has printed three values and a line that no template knows.
   void measure() { measure({"D 40.001", "D 40.010", "LOAD 3", "D 40.100"}); }
-  void measure(const std::vector<std::string>& lines) {
+  void measure(const std::vector<std::string>& lines,
+               storage::RunState state = storage::RunState::Completed) {
     ASSERT_EQ(put("/api/v1/report-templates/bore", kTemplate).status, 200);
     ASSERT_EQ(put("/api/v1/report-template-assignments/program/O0100/bore").status, 204);
     const auto revision = push("O0100", "O0100\nM30\n");
@@ -39,6 +40,7 @@ class MeasurementRoutes : public ApiTest {
     }
     storage::RunEnding ending;
     ending.run = "run-1";
+    ending.state = state;
     ending.ended = clock_.now();
     batch.endings.push_back(ending);
     ASSERT_TRUE(store_->records.store(batch));
@@ -220,6 +222,16 @@ TEST_F(MeasurementRoutes, TryATemplateOnARun) {
   expect_error(
       call("POST", "/api/v1/runs/run-9/template-trial", {.body = kTemplate, .headers = {}}), 404,
       "not_found", "run-9");
+}
+
+TEST_F(MeasurementRoutes, TryATemplateOnARunThatAlarmed) {
+  measure({"D 40.001"}, storage::RunState::Alarmed);
+  const Json trial =
+      json(call("POST", "/api/v1/runs/run-1/template-trial", {.body = kTemplate, .headers = {}}));
+  ASSERT_EQ(trial["at_end"].size(), 2u) << trial.dump();
+  EXPECT_EQ(trial["at_end"][0]["text"], "the part's end did not come: its run ended alarmed");
+  EXPECT_EQ(trial["at_end"][1]["verdict"], "unknown");
+  EXPECT_EQ(json(get("/api/v1/parts?run=run-1"))["parts"][0]["verdict"], "unknown");
 }
 
 TEST_F(MeasurementRoutes, ReadAnArchiveBack) {
