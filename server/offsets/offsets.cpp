@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/process/log.hpp"
+#include "server/offsets/memory_check.hpp"
 
 namespace dripline::offsets {
 namespace {
@@ -17,6 +18,8 @@ constexpr std::uint64_t kSetupsBack = 200;       ///< that are looked through fo
 constexpr std::uint64_t kMeasurementsBack = 5'000;  ///< under other setups, or without a nominal
 constexpr std::uint64_t kPageSize = 500;
 constexpr double kMillimetersPerInch = 25.4;
+/// The value has its rule's digits already; zeros at the end are not written.
+constexpr int kDecimals = 9;
 
 /// Lengths in the setup's unit; anything else as it is.
 double in_setup_unit(double value, const std::string& unit, const std::string& setup_unit) {
@@ -159,12 +162,25 @@ Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule)
   if (!since) return fail(since.error());
   const auto measured = deviations(now, rule, *since);
   if (!measured) return fail(measured.error());
-  return Evaluation{.rule = rule,
-                    .unit = now.unit,
-                    .value = *value,
-                    .since = *since,
-                    .outcome = propose(*measured, *value, rule),
-                    .proposal = {}};
+  Evaluation evaluation{.rule = rule,
+                        .unit = now.unit,
+                        .value = *value,
+                        .since = *since,
+                        .outcome = propose(*measured, *value, rule),
+                        .proposal = {}};
+  Outcome& outcome = evaluation.outcome;
+  if (!outcome.new_value) return evaluation;
+  const auto changed = with_value(now.text, *target, *outcome.new_value, kDecimals);
+  if (!changed) return fail(changed.error());
+  const auto doubt =
+      doubt_of_step(parts_.store, {now.machine, now.control, rule.target, now.text, *changed});
+  if (!doubt) return fail(doubt.error());
+  if (!doubt->empty()) {
+    outcome.reasons.push_back("nothing is proposed: " + *doubt);
+    outcome.new_value.reset();
+    outcome.is_within_policy = false;
+  }
+  return evaluation;
 }
 
 Result<void> Offsets::keep(const Current& now, Evaluation& evaluation) {
@@ -263,10 +279,14 @@ Result<OffsetProposal> Offsets::approve(const storage::OffsetDecision& given) {
   }
   const auto target = parse_setup_target(proposal->target);
   if (!target) return fail(target.error());
-  constexpr int kDecimals =
-      9;  // the value has its rule's digits already; zeros at the end are not written
   auto text = with_value(now->text, *target, proposal->new_value, kDecimals);
   if (!text) return fail(text.error());
+  const auto doubt = doubt_at_approval(
+      parts_.store, {now->machine, now->control, proposal->target, now->text, *text});
+  if (!doubt) return fail(doubt.error());
+  if (!doubt->empty())
+    return fail(Errc::Conflict, "offset proposal {} of {}: {}", proposal->id, proposal->machine,
+                *doubt);
   auto saved = parts_.setups.save_by({.machine = now->machine,
                                       .control = now->control,
                                       .text = *std::move(text),

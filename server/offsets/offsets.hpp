@@ -59,8 +59,8 @@ class Offsets {
   Result<std::vector<Evaluation>> look(const std::string& machine);
 
   /// As it is then, with the setup that it became. Errors: NotFound, Conflict (decided already;
-  /// another setup is the newest), Unsupported (the setup's layout), those of the control,
-  /// LimitExceeded (the comment).
+  /// another setup is the newest; the control's memory is not the setup's, or a run is changing
+  /// it), Unsupported (the setup's layout), those of the control, LimitExceeded (the comment).
   Result<storage::OffsetProposal> approve(const storage::OffsetDecision& decision);
   /// Errors: NotFound, Conflict, Syntax (no reason), LimitExceeded (the comment).
   Result<storage::OffsetProposal> reject(storage::OffsetDecision decision);
