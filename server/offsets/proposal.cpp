@@ -105,6 +105,12 @@ class Reasoning {
 
 }  // namespace
 
+/// A step is the difference of values of up to some thousands, with at most 9 decimals.
+bool is_at_most(double step, double limit) {
+  constexpr double kRounding = 1e-10;
+  return step <= limit + kRounding;
+}
+
 Outcome propose(std::span<const Deviation> deviations, double value, const OffsetRule& rule) {
   Outcome outcome;
   Reasoning reasoning(outcome, rule);
