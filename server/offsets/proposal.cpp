@@ -95,7 +95,8 @@ class Reasoning {
     }
     say("{:.{}f} becomes {:.{}f}", value, rule_.decimals, next, rule_.decimals);
     outcome_.new_value = next;
-    outcome_.is_within_policy = rule_.automatic > 0 && std::abs(next - value) <= rule_.automatic;
+    outcome_.is_within_policy =
+        rule_.automatic > 0 && is_at_most(std::abs(next - value), rule_.automatic);
   }
 
  private:

@@ -99,6 +99,23 @@ TEST(Proposal, BoundsAskForAPerson) {
   EXPECT_TRUE(says(outcome, "would leave the bounds"));
 }
 
+/// 0.1 - 0.09 is a little more than 0.01 in binary.
+TEST(Proposal, PolicyAllowsAStepOfExactlyItsLimit) {
+  for (const double step : {0.01, 0.02}) {
+    OffsetRule of = rule();
+    of.max_step = of.automatic = step;
+    for (int hundredths = -30; hundredths <= 30; ++hundredths) {
+      const double value = hundredths / 100.0;
+      for (const double off : {0.5, -0.5}) {
+        const auto outcome = propose(deviations({off, off, off}), value, of);
+        EXPECT_TRUE(outcome.is_within_policy) << value << " by " << step;
+      }
+    }
+    of.automatic = step - 0.0001;
+    EXPECT_FALSE(propose(deviations({0.5, 0.5, 0.5}), 0.1, of).is_within_policy);
+  }
+}
+
 TEST(Proposal, PolicyAllowsSmallSteps) {
   auto of = rule();
   of.automatic = 0.004;
