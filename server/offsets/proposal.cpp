@@ -85,7 +85,11 @@ class Reasoning {
       step = std::copysign(rule_.max_step, step);
       say("limited to the largest step, {:g}", rule_.max_step);
     }
-    const double next = rounded(value + step, rule_.decimals);
+    double next = rounded(value + step, rule_.decimals);
+    const bool is_too_far = !is_at_most(std::abs(next - value), rule_.max_step);
+    if (is_too_far && next != rounded(value, rule_.decimals)) {  // by its last digit
+      next = rounded(next - std::copysign(std::pow(10.0, -rule_.decimals), step), rule_.decimals);
+    }
     if (next == rounded(value, rule_.decimals))
       return say("that changes no digit of {:.{}f}", value, rule_.decimals);
     if ((rule_.lowest && next < *rule_.lowest) || (rule_.highest && next > *rule_.highest)) {
