@@ -222,7 +222,10 @@ Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule)
                         .proposal = {}};
   Outcome& outcome = evaluation.outcome;
   if (!outcome.new_value) return evaluation;
-  const auto doubt = doubt_of(now, rule, *outcome.new_value);
+  auto doubt = doubt_of(now, rule, *outcome.new_value);
+  if (doubt && doubt->empty())
+    doubt = was_rejected(parts_.store.offsets,
+                         {now.machine, rule, *value, *outcome.new_value, *measured});
   if (!doubt) return fail(doubt.error());
   if (!doubt->empty()) {
     outcome.reasons.push_back("nothing is proposed: " + *doubt);

@@ -189,6 +189,36 @@ TEST_F(OffsetsTest, AToolThatIsGoneFromTheSetupIsNotMadeAgain) {
             "nothing is proposed: setup 2 of lathe-1 has no tool 3");
 }
 
+TEST_F(OffsetsTest, ARejectedOneComesAgainWhenManyMorePartsAskForIt) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto rejected = only_proposal();
+  ASSERT_TRUE(offsets_->reject(
+      {.id = rejected.id, .who = "anna", .comment = "a chip on the probe", .time = {}}));
+  for (const int more : {0, 1, 2}) {
+    if (more > 0) measure(40.02);
+    const auto looked = offsets_->look("lathe-1");
+    ASSERT_TRUE(looked) << looked.error().what;
+    EXPECT_FALSE(looked->front().proposal) << more;
+    EXPECT_EQ(looked->front().outcome.reasons.back(),
+              fmt::format("nothing is proposed: anna rejected it as offset proposal 1: a chip on "
+                          "the probe. It comes again with another value, or after 3 measurements "
+                          "more; there are {}",
+                          more));
+  }
+  measure(40.02);
+  EXPECT_NE(only_proposal().id, rejected.id);
+}
+
+TEST_F(OffsetsTest, ARejectedOneComesAgainWithAnotherValue) {
+  use_rules();
+  for (const double actual : {40.018, 40.02, 40.022}) measure(actual);
+  const auto rejected = only_proposal();
+  ASSERT_TRUE(offsets_->reject({.id = rejected.id, .who = "anna", .comment = "wait", .time = {}}));
+  measure(40.024);
+  EXPECT_LT(only_proposal().new_value, rejected.new_value);
+}
+
 /// Its setup may come after its rules.
 TEST_F(OffsetsTest, WithoutASetupNothingIsApproved) {
   add_machine("lathe-2");
