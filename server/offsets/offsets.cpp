@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/process/log.hpp"
+#include "server/offsets/memory_check.hpp"
+#include "server/offsets/rule_check.hpp"
 
 namespace dripline::offsets {
 namespace {
@@ -17,6 +19,8 @@ constexpr std::uint64_t kSetupsBack = 200;       ///< that are looked through fo
 constexpr std::uint64_t kMeasurementsBack = 5'000;  ///< under other setups, or without a nominal
 constexpr std::uint64_t kPageSize = 500;
 constexpr double kMillimetersPerInch = 25.4;
+/// The value has its rule's digits already; zeros at the end are not written.
+constexpr int kDecimals = 9;
 
 /// Lengths in the setup's unit; anything else as it is.
 double in_setup_unit(double value, const std::string& unit, const std::string& setup_unit) {
@@ -60,7 +64,47 @@ class RunSetups {
 struct Offsets::Current {
   std::string machine, control, text, unit;
   std::uint64_t setup = 0;  ///< 0: there is none
+  SetupText place() const { return {machine, setup, text}; }
 };
+
+/// Of a machine that has a setup.
+Result<void> Offsets::check_rules(const Current& now, const std::vector<OffsetRule>& rules) {
+  if (now.setup == 0) return {};  // it may come later: until then nothing is proposed
+  for (const OffsetRule& rule : rules) {
+    const auto target = parse_setup_target(rule.target);
+    if (!target) return fail(target.error());
+    const auto absent = what_is_absent(now.place(), *target);
+    if (!absent) return fail(absent.error());
+    if (!absent->empty()) return fail(Errc::Conflict, "rule {}: {}", rule.name, *absent);
+  }
+  return {};
+}
+
+Result<void> Offsets::check_rule(const OffsetProposal& proposal) {
+  const auto stored = parts_.store.offsets.rules(proposal.machine);
+  if (!stored && stored.error().code != Errc::NotFound) return fail(stored.error());
+  const auto rules = stored ? parse_offset_rules(stored->text) : Result<std::vector<OffsetRule>>{};
+  if (!rules) return fail(rules.error());
+  return check_allowed(proposal, *rules);
+}
+
+Result<void> Offsets::withdraw_of_gone(const std::string& machine,
+                                       const std::vector<OffsetRule>& rules) {
+  storage::OffsetFilter filter{
+      .machine = machine, .target = {}, .state = storage::OffsetState::Pending};
+  const auto pending = parts_.store.offsets.list(filter, {.limit = 2 * kMaxRules});
+  if (!pending) return fail(pending.error());
+  for (const OffsetProposal& proposal : *pending) {
+    const auto is_its = [&](const OffsetRule& rule) { return is_of_rule(proposal, rule); };
+    if (std::ranges::any_of(rules, is_its)) continue;
+    process::log_info("offset proposal {} machine={} is withdrawn: there is no rule {} any more",
+                      proposal.id, machine, proposal.rule);
+    if (auto done = parts_.store.offsets.withdraw(machine, proposal.target, parts_.clock.now());
+        !done)
+      return done;
+  }
+  return {};
+}
 
 Offsets::~Offsets() {
   end();
@@ -150,6 +194,17 @@ Result<std::vector<Deviation>> Offsets::deviations(const Current& now, const Off
   return found;
 }
 
+/// Why the value is not to be written into the setup; empty: nothing speaks against it.
+Result<std::string> Offsets::doubt_of(const Current& now, const OffsetRule& rule, double value) {
+  const auto target = parse_setup_target(rule.target);
+  if (!target) return fail(target.error());
+  auto absent = what_is_absent(now.place(), *target);
+  if (!absent || !absent->empty()) return absent;
+  const auto changed = with_value(now.text, *target, value, kDecimals);
+  if (!changed) return changed.error().what;
+  return doubt_of_step(parts_.store, {now.machine, now.control, rule.target, now.text, *changed});
+}
+
 Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule) {
   const auto target = parse_setup_target(rule.target);
   if (!target) return fail(target.error());
@@ -159,12 +214,25 @@ Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule)
   if (!since) return fail(since.error());
   const auto measured = deviations(now, rule, *since);
   if (!measured) return fail(measured.error());
-  return Evaluation{.rule = rule,
-                    .unit = now.unit,
-                    .value = *value,
-                    .since = *since,
-                    .outcome = propose(*measured, *value, rule),
-                    .proposal = {}};
+  Evaluation evaluation{.rule = rule,
+                        .unit = now.unit,
+                        .value = *value,
+                        .since = *since,
+                        .outcome = propose(*measured, *value, rule),
+                        .proposal = {}};
+  Outcome& outcome = evaluation.outcome;
+  if (!outcome.new_value) return evaluation;
+  auto doubt = doubt_of(now, rule, *outcome.new_value);
+  if (doubt && doubt->empty())
+    doubt = was_rejected(parts_.store.offsets,
+                         {now.machine, rule, *value, *outcome.new_value, *measured});
+  if (!doubt) return fail(doubt.error());
+  if (!doubt->empty()) {
+    outcome.reasons.push_back("nothing is proposed: " + *doubt);
+    outcome.new_value.reset();
+    outcome.is_within_policy = false;
+  }
+  return evaluation;
 }
 
 Result<void> Offsets::keep(const Current& now, Evaluation& evaluation) {
@@ -201,15 +269,20 @@ Result<void> Offsets::keep(const Current& now, Evaluation& evaluation) {
 Result<storage::OffsetRules> Offsets::save_rules(const std::string& machine,
                                                  const std::string& text,
                                                  const storage::Actor& who) {
-  if (auto known = parts_.store.machines.find(machine); !known) return fail(known.error());
-  if (auto read = parse_offset_rules(text); !read) return fail(read.error());
+  const auto now = current_of(machine);
+  if (!now) return fail(now.error());
+  const auto rules = parse_offset_rules(text);
+  if (!rules) return fail(rules.error());
+  if (auto good = check_rules(*now, *rules); !good) return fail(good.error());
   auto saved = parts_.store.offsets.save_rules({.machine = machine,
                                                 .version = 0,
                                                 .text = text,
                                                 .author = who.name,
                                                 .created = parts_.clock.now()},
                                                who);
-  if (saved) note(machine);
+  if (!saved) return saved;
+  note(machine);
+  if (auto done = withdraw_of_gone(machine, *rules); !done) return fail(done.error());
   return saved;
 }
 
@@ -220,6 +293,7 @@ Result<std::vector<Evaluation>> Offsets::look(const std::string& machine) {
   if (!stored) return fail(stored.error());
   const auto rules = parse_offset_rules(stored->text);
   if (!rules) return fail(rules.error());
+  if (auto done = withdraw_of_gone(machine, *rules); !done) return fail(done.error());
   std::vector<Evaluation> evaluations;
   for (const OffsetRule& rule : *rules) {
     const auto now = current_of(machine);  // each time: the rule before may have changed it
@@ -254,6 +328,7 @@ Result<OffsetProposal> Offsets::approve(const storage::OffsetDecision& given) {
   const auto proposal = parts_.store.offsets.find(decision.id);
   if (!proposal) return fail(proposal.error());
   if (auto pending = storage::check_pending(*proposal); !pending) return fail(pending.error());
+  if (auto allowed = check_rule(*proposal); !allowed) return fail(allowed.error());
   const auto now = current_of(proposal->machine);
   if (!now) return fail(now.error());
   if (now->setup != proposal->base) {
@@ -263,10 +338,18 @@ Result<OffsetProposal> Offsets::approve(const storage::OffsetDecision& given) {
   }
   const auto target = parse_setup_target(proposal->target);
   if (!target) return fail(target.error());
-  constexpr int kDecimals =
-      9;  // the value has its rule's digits already; zeros at the end are not written
+  const auto absent = what_is_absent(now->place(), *target);
+  if (!absent) return fail(absent.error());
+  if (!absent->empty())
+    return fail(Errc::Conflict, "offset proposal {}: {}", proposal->id, *absent);
   auto text = with_value(now->text, *target, proposal->new_value, kDecimals);
   if (!text) return fail(text.error());
+  const auto doubt = doubt_at_approval(
+      parts_.store, {now->machine, now->control, proposal->target, now->text, *text});
+  if (!doubt) return fail(doubt.error());
+  if (!doubt->empty())
+    return fail(Errc::Conflict, "offset proposal {} of {}: {}", proposal->id, proposal->machine,
+                *doubt);
   auto saved = parts_.setups.save_by({.machine = now->machine,
                                       .control = now->control,
                                       .text = *std::move(text),

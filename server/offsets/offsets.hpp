@@ -51,7 +51,9 @@ class Offsets {
   /// Something was measured on the machine. Never waits.
   void note(const std::string& machine);
 
-  /// Errors: those of parse_offset_rules and the store; NotFound (the machine).
+  /// Pending proposals of rules that are gone are withdrawn. Errors: those of parse_offset_rules
+  /// and the store; NotFound (the machine), Conflict (the machine's setup has not what a rule
+  /// corrects).
   Result<storage::OffsetRules> save_rules(const std::string& machine, const std::string& text,
                                           const storage::Actor& who);
   /// Evaluates all rules of the machine and keeps what follows. Errors: those of the store; a
@@ -59,8 +61,9 @@ class Offsets {
   Result<std::vector<Evaluation>> look(const std::string& machine);
 
   /// As it is then, with the setup that it became. Errors: NotFound, Conflict (decided already;
-  /// another setup is the newest), Unsupported (the setup's layout), those of the control,
-  /// LimitExceeded (the comment).
+  /// another setup is the newest; its rule is gone or allows it no more; the control's memory is
+  /// not the setup's, or a run is changing it), Unsupported (the setup's layout), those of the
+  /// control, LimitExceeded (the comment).
   Result<storage::OffsetProposal> approve(const storage::OffsetDecision& decision);
   /// Errors: NotFound, Conflict, Syntax (no reason), LimitExceeded (the comment).
   Result<storage::OffsetProposal> reject(storage::OffsetDecision decision);
@@ -76,6 +79,10 @@ class Offsets {
   Result<std::uint64_t> in_force_since(const Current& now, const OffsetRule& rule, double value);
   Result<std::vector<Deviation>> deviations(const Current& now, const OffsetRule& rule,
                                             std::uint64_t since);
+  Result<void> check_rule(const storage::OffsetProposal& proposal);
+  Result<void> withdraw_of_gone(const std::string& machine, const std::vector<OffsetRule>& rules);
+  Result<std::string> doubt_of(const Current& now, const OffsetRule& rule, double value);
+  static Result<void> check_rules(const Current& now, const std::vector<OffsetRule>& rules);
   Result<Evaluation> evaluate(const Current& now, const OffsetRule& rule);
   Result<void> keep(const Current& now, Evaluation& evaluation);
   void publish(const storage::OffsetProposal& proposal);

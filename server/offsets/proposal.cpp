@@ -85,7 +85,11 @@ class Reasoning {
       step = std::copysign(rule_.max_step, step);
       say("limited to the largest step, {:g}", rule_.max_step);
     }
-    const double next = rounded(value + step, rule_.decimals);
+    double next = rounded(value + step, rule_.decimals);
+    const bool is_too_far = !is_at_most(std::abs(next - value), rule_.max_step);
+    if (is_too_far && next != rounded(value, rule_.decimals)) {  // by its last digit
+      next = rounded(next - std::copysign(std::pow(10.0, -rule_.decimals), step), rule_.decimals);
+    }
     if (next == rounded(value, rule_.decimals))
       return say("that changes no digit of {:.{}f}", value, rule_.decimals);
     if ((rule_.lowest && next < *rule_.lowest) || (rule_.highest && next > *rule_.highest)) {
@@ -95,7 +99,8 @@ class Reasoning {
     }
     say("{:.{}f} becomes {:.{}f}", value, rule_.decimals, next, rule_.decimals);
     outcome_.new_value = next;
-    outcome_.is_within_policy = rule_.automatic > 0 && std::abs(next - value) <= rule_.automatic;
+    outcome_.is_within_policy =
+        rule_.automatic > 0 && is_at_most(std::abs(next - value), rule_.automatic);
   }
 
  private:
@@ -104,6 +109,12 @@ class Reasoning {
 };
 
 }  // namespace
+
+/// A step is the difference of values of up to some thousands, with at most 9 decimals.
+bool is_at_most(double step, double limit) {
+  constexpr double kRounding = 1e-10;
+  return step <= limit + kRounding;
+}
 
 Outcome propose(std::span<const Deviation> deviations, double value, const OffsetRule& rule) {
   Outcome outcome;

@@ -31,4 +31,7 @@ struct Outcome {
 /// are not finite are left out.
 Outcome propose(std::span<const Deviation> deviations, double value, const OffsetRule& rule);
 
+/// Whether a step is within a limit, but for the rounding of binary numbers.
+bool is_at_most(double step, double limit);
+
 }  // namespace dripline::offsets

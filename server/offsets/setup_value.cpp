@@ -208,6 +208,18 @@ Result<double> value_in_setup(std::string_view text, const SetupTarget& target) 
   return (*holder)[key_of(target)].value<double>().value_or(0.0);
 }
 
+Result<bool> is_in_setup(std::string_view text, const SetupTarget& target) {
+  const auto setup = parse(text);
+  if (!setup) return fail(setup.error());
+  return entry_of(*setup, target) != nullptr;
+}
+
+std::string owner_of(const SetupTarget& target) {
+  if (target.kind == Kind::Variable) return "variable " + target.name;
+  if (target.kind == Kind::Offset) return "offset " + target.name;
+  return fmt::format("tool {}", target.tool);
+}
+
 Result<std::string> with_value(std::string_view text, const SetupTarget& target, double value,
                                int decimals) {
   const auto setup = parse(text);

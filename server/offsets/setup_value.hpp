@@ -24,6 +24,11 @@ Result<SetupTarget> parse_setup_target(std::string_view text);
 /// 0 where the setup says nothing of it. Errors: Syntax (no TOML, with the line).
 Result<double> value_in_setup(std::string_view toml, const SetupTarget& target);
 
+/// Whether the setup has the tool, the offset or the variable itself. Errors: Syntax.
+Result<bool> is_in_setup(std::string_view toml, const SetupTarget& target);
+/// "tool 3", "offset G54", "variable #500"
+std::string owner_of(const SetupTarget& target);
+
 /// The same text with another value: comments, order and layout stay; a tool, an offset or a key
 /// that is not there is added. Errors: Syntax (no TOML), Unsupported (a layout that it cannot be
 /// written into).

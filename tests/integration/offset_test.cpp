@@ -43,11 +43,12 @@ outlier = 0
 
 /// A simulated probe meets the face in the program's coordinates, whatever the tool's wear is: the
 /// program takes the wear in force (P624, Z of offset 3) off, by which a real tool is shifted.
-std::string program(double drift) {
+/// `added`: a block before the end.
+std::string program(double drift, const std::string& added = "") {
   return fmt::format(
       "O0900\n(TOUCH THE FACE WITH THE TOOL)\nG21 G98\nT0303 M6\nG0 X10.\nZ5.\n"
-      "PROBE1 G1 Z-3. F100\nP3=P208+{:.4f}-P624\nPOPEN P0\nDPRNT [L #3]\nPROBE2 Z5. F500\nM30\n",
-      drift);
+      "PROBE1 G1 Z-3. F100\nP3=P208+{:.4f}-P624\nPOPEN P0\nDPRNT [L #3]\nPROBE2 Z5. F500\n{}M30\n",
+      drift, added);
 }
 
 class DriftingLathe : public testing::Test {
@@ -76,8 +77,8 @@ class DriftingLathe : public testing::Test {
     put("machines/lathe-1/offset-rules", kRules);
   }
   /// Runs a part and returns its deviation, as the server measured it.
-  double part(double drift) {
-    system_.push("O0900", program(drift));
+  double part(double drift, const std::string& added = "") {
+    system_.push("O0900", program(drift, added));
     const std::string run = system_.start_run("O0900");
     EXPECT_EQ(system_.wait_ended(run).value("state", ""), "completed");
     json measured;
@@ -180,6 +181,25 @@ TEST_F(DriftingLathe, AScrapPartLetsNoJobFollowAlthoughItsRunIsOver) {
   const auto second = start();
   EXPECT_EQ(second.status, 409) << second.body;
   EXPECT_NE(second.body.find("is scrap"), std::string::npos) << second.body;
+}
+
+/// The control's memory goes before the setup: a step from the setup's 0 would be one of -0.03
+/// more.
+TEST_F(DriftingLathe, NothingFollowsWhereAProgramHasChangedTheWear) {
+  set_up();
+  part(0.030);
+  part(0.030);
+  part(0.030, "G10\nP624=0.05\nG11\n");
+  json looked;
+  ASSERT_TRUE(eventually([&] {
+    looked =
+        system_.rest().post("/api/v1/machines/lathe-1/offsets/evaluation", json::object()).json();
+    return looked.dump().find("T3.wear.Z is 0.05 in the memory of lathe-1 (P624") !=
+           std::string::npos;
+  })) << looked.dump();
+  EXPECT_TRUE(looked["rules"][0]["proposal"].is_null());
+  EXPECT_TRUE(offsets("pending").empty());
+  EXPECT_TRUE(offsets("applied").empty());
 }
 
 }  // namespace

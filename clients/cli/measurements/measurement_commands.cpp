@@ -54,8 +54,9 @@ int parts(Context& context, client::Client& client, const MeasurementsCommand& c
 int findings(Context& context, client::Client& client, const MeasurementsCommand& command) {
   client::MeasurementQuery query = command.query;
   if (const auto status = resolve_run(client, query.run)) return *status;
-  return print_listing(context, client, client.report_findings(query),
-                       {"findings", "Every line that a template is asked about was understood.\n", finding_table});
+  return print_listing(
+      context, client, client.report_findings(query),
+      {"findings", "Every line that a template is asked about was understood.\n", finding_table});
 }
 
 int derive(Context& context, client::Client& client, const DeriveCommand& command) {

@@ -313,6 +313,10 @@ machines::MachineListener ServerParts::machine_listener() {
                                                             fmt::join(notices, "; "))});
     publish(view);
   };
+  listener.on_run = [this, publish = listener.on_run](const storage::Run& run) {
+    publish(run);
+    if (storage::is_finished(run.state)) offsets.note(run.machine);  // its memory is known now
+  };
   return listener;
 }
 

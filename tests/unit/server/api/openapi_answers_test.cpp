@@ -157,6 +157,9 @@ class OpenApiAnswers : public ProgramAnswers {
                          "[[rule]]\nname = \"X\"\ncharacteristic = \"X\"\ntarget = "
                          "\"T3.wear.X\"\nmax_step = 0.1\n",
                      .headers = {}};
+    EXPECT_EQ(
+        call("PUT", lathe + "/setup", {.body = "[[tool]]\nnumber = 3\n", .headers = {}}).status,
+        201);
     const auto saved = call("PUT", lathe + "/offset-rules", rules);
     EXPECT_EQ(saved.status, 200) << saved.body;
     expect_described("PUT", machine + "/offset-rules", saved);

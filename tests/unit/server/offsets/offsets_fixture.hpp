@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "server/offsets/offsets.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
@@ -107,13 +109,15 @@ class OffsetsTest : public server_test::ServerTest {
     storage::DerivedBatch batch;
     batch.machine = "lathe-1";
     batch.epoch = 7;
-    batch.after = record.number - 1;
+    batch.after = std::exchange(through_, record.number);
     batch.through = record.number;
     batch.parts = {part};
     batch.measurements = {m};
     const auto done = store_->measurements.commit(batch);
     EXPECT_TRUE(done) << done.error().what;
   }
+
+  std::uint64_t through_ = 0;  ///< the last record that was measured from
 };
 
 }  // namespace dripline::offsets

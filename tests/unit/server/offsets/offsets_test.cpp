@@ -162,21 +162,127 @@ TEST_F(OffsetsTest, RejectingNeedsAReasonAndIsKept) {
   EXPECT_EQ(wear(), 0.1);
 }
 
-TEST_F(OffsetsTest, AMachineWithoutASetupGetsOne) {
+constexpr const char* kWrongTool =
+    "[[rule]]\nname = \"L\"\ncharacteristic = \"D40\"\ntarget = \"T99.wear.X\"\n"
+    "max_step = 0.05\n";
+
+TEST_F(OffsetsTest, ARuleForAToolThatTheSetupHasNotIsRefused) {
+  const auto saved = offsets_->save_rules("lathe-1", std::string(kRules) + kWrongTool, "anna");
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().code, Errc::Conflict);
+  EXPECT_EQ(saved.error().what, "rule L: setup 1 of lathe-1 has no tool 99");
+  EXPECT_FALSE(store_->offsets.rules("lathe-1"));
+  const std::string offset =
+      "[[rule]]\nname = \"Z\"\ncharacteristic = \"Z\"\ntarget = \"G59.Z\"\nmax_step = 1\n";
+  EXPECT_EQ(offsets_->save_rules("lathe-1", offset, "anna").error().what,
+            "rule Z: setup 1 of lathe-1 has no offset G59");
+}
+
+TEST_F(OffsetsTest, AToolThatIsGoneFromTheSetupIsNotMadeAgain) {
+  use_rules();
+  save_setup("units = \"mm\"\n[[tool]]\nnumber = 4\n", "tool 3 is out");
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto looked = offsets_->look("lathe-1");
+  ASSERT_TRUE(looked) << looked.error().what;
+  EXPECT_FALSE(looked->front().proposal);
+  EXPECT_EQ(looked->front().outcome.reasons.back(),
+            "nothing is proposed: setup 2 of lathe-1 has no tool 3");
+}
+
+TEST_F(OffsetsTest, ARejectedOneComesAgainWhenManyMorePartsAskForIt) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto rejected = only_proposal();
+  ASSERT_TRUE(offsets_->reject(
+      {.id = rejected.id, .who = "anna", .comment = "a chip on the probe", .time = {}}));
+  for (const int more : {0, 1, 2}) {
+    if (more > 0) measure(40.02);
+    const auto looked = offsets_->look("lathe-1");
+    ASSERT_TRUE(looked) << looked.error().what;
+    EXPECT_FALSE(looked->front().proposal) << more;
+    EXPECT_EQ(looked->front().outcome.reasons.back(),
+              fmt::format("nothing is proposed: anna rejected it as offset proposal 1: a chip on "
+                          "the probe. It comes again with another value, or after 3 measurements "
+                          "more; there are {}",
+                          more));
+  }
+  measure(40.02);
+  EXPECT_NE(only_proposal().id, rejected.id);
+}
+
+TEST_F(OffsetsTest, ARejectedOneComesAgainWithAnotherValue) {
+  use_rules();
+  for (const double actual : {40.018, 40.02, 40.022}) measure(actual);
+  const auto rejected = only_proposal();
+  ASSERT_TRUE(offsets_->reject({.id = rejected.id, .who = "anna", .comment = "wait", .time = {}}));
+  measure(40.024);
+  EXPECT_LT(only_proposal().new_value, rejected.new_value);
+}
+
+/// Its setup may come after its rules.
+TEST_F(OffsetsTest, WithoutASetupNothingIsApproved) {
   add_machine("lathe-2");
+  ASSERT_TRUE(offsets_->save_rules("lathe-2", kWrongTool, "anna"));
   storage::OffsetProposal proposal;
   proposal.machine = "lathe-2";
-  proposal.rule = "D";
-  proposal.target = "T1.wear.Z";
+  proposal.rule = "L";
+  proposal.target = "T99.wear.X";
   proposal.unit = "in";
   proposal.new_value = -0.001;
   proposal.created = clock_.now();
   proposal.reasons = "[]";
   const auto kept = store_->offsets.propose(proposal);
   ASSERT_TRUE(kept) << kept.error().what;
-  ASSERT_TRUE(offsets_->approve({.id = kept->proposal.id, .who = "anna", .time = {}}));
-  EXPECT_EQ(store_->setups.find("lathe-2", std::nullopt)->text,
-            "[[tool]]\nnumber = 1\nwear = { Z = -0.001 }\n");
+  const auto approved = offsets_->approve({.id = kept->proposal.id, .who = "anna", .time = {}});
+  ASSERT_FALSE(approved);
+  EXPECT_EQ(approved.error().code, Errc::Conflict);
+  EXPECT_NE(approved.error().what.find("has no setup on the server, so there is no tool 99"),
+            std::string::npos)
+      << approved.error().what;
+  EXPECT_FALSE(store_->setups.find("lathe-2", std::nullopt));
+}
+
+TEST_F(OffsetsTest, WhatARemovedRuleProposedIsWithdrawn) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto proposal = only_proposal();
+  ASSERT_TRUE(offsets_->save_rules("lathe-1", "# none\n", "anna"));
+  EXPECT_EQ(store_->offsets.find(proposal.id)->state, OffsetState::Superseded);
+  EXPECT_FALSE(offsets_->approve({.id = proposal.id, .who = "anna", .time = {}}));
+  EXPECT_EQ(wear(), 0.1);
+}
+
+/// Saved by a server that did not withdraw it, or between the two.
+TEST_F(OffsetsTest, WhatARemovedRuleProposedIsNotApproved) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto proposal = only_proposal();
+  const auto save = [&](const std::string& text) {
+    ASSERT_TRUE(store_->offsets.save_rules({.machine = "lathe-1",
+                                            .version = 0,
+                                            .text = text,
+                                            .author = "anna",
+                                            .created = clock_.now()},
+                                           "anna"));
+  };
+  const auto refusal = [&] {
+    const auto approved = offsets_->approve({.id = proposal.id, .who = "anna", .time = {}});
+    if (approved) return std::string("approved");
+    EXPECT_EQ(approved.error().code, Errc::Conflict);
+    return approved.error().what;
+  };
+  save("# none\n");
+  EXPECT_NE(refusal().find("was made by rule D40 for T3.wear.X, which is not among the rules"),
+            std::string::npos)
+      << refusal();
+  std::string narrow = kRules;
+  save(narrow.replace(narrow.find("max_step = 0.05"), 15, "max_step = 0.005"));
+  EXPECT_NE(refusal().find("beyond the largest step of rule D40"), std::string::npos) << refusal();
+  save(std::string(kRules) + "lowest = 0.095\n");
+  EXPECT_NE(refusal().find("outside of the bounds of rule D40"), std::string::npos) << refusal();
+  save("# again\n");
+  ASSERT_TRUE(offsets_->look("lathe-1"));
+  EXPECT_EQ(store_->offsets.find(proposal.id)->state, OffsetState::Superseded);
 }
 
 TEST_F(OffsetsTest, HistoryShowsEveryValueWithItsRunsAndParts) {

@@ -99,6 +99,38 @@ TEST(Proposal, BoundsAskForAPerson) {
   EXPECT_TRUE(says(outcome, "would leave the bounds"));
 }
 
+/// A value by hand may have more digits than the rule writes.
+TEST(Proposal, RoundingGoesNotBeyondTheLargestStep) {
+  OffsetRule of = rule();
+  of.decimals = 2;
+  of.max_step = 0.015;
+  const auto down = propose(deviations({0.5, 0.5, 0.5}), 0.0166, of);  // 0.0016 is 0.00
+  ASSERT_TRUE(down.new_value);
+  EXPECT_DOUBLE_EQ(*down.new_value, 0.01);
+  EXPECT_TRUE(says(down, "becomes 0.01"));
+  of.max_step = 0.01;
+  EXPECT_FALSE(propose(deviations({-0.5, -0.5, -0.5}), 0.0166, of).new_value) << "0.03 is too far";
+  of.max_step = 0.002;
+  EXPECT_FALSE(propose(deviations({-0.5, -0.5, -0.5}), 0.0166, of).new_value) << "0.02 is its own";
+}
+
+/// 0.1 - 0.09 is a little more than 0.01 in binary.
+TEST(Proposal, PolicyAllowsAStepOfExactlyItsLimit) {
+  for (const double step : {0.01, 0.02}) {
+    OffsetRule of = rule();
+    of.max_step = of.automatic = step;
+    for (int hundredths = -30; hundredths <= 30; ++hundredths) {
+      const double value = hundredths / 100.0;
+      for (const double off : {0.5, -0.5}) {
+        const auto outcome = propose(deviations({off, off, off}), value, of);
+        EXPECT_TRUE(outcome.is_within_policy) << value << " by " << step;
+      }
+    }
+    of.automatic = step - 0.0001;
+    EXPECT_FALSE(propose(deviations({0.5, 0.5, 0.5}), 0.1, of).is_within_policy);
+  }
+}
+
 TEST(Proposal, PolicyAllowsSmallSteps) {
   auto of = rule();
   of.automatic = 0.004;

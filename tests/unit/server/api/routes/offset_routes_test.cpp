@@ -5,15 +5,30 @@ namespace {
 
 class OffsetRoutes : public ApiTest {
  protected:
-  OffsetRoutes() { show_machine("lathe-1"); }
+  static constexpr const char* kRules =
+      "[[rule]]\nname = \"D40\"\ncharacteristic = \"D40\"\ntarget = \"T3.wear.X\"\nmax_step = "
+      "0.1\n";
+
+  OffsetRoutes() {
+    show_machine("lathe-1");
+    EXPECT_TRUE(setups_->save({.machine = "lathe-1",
+                               .control = "centurion",
+                               .text = "units = \"mm\"\n[[tool]]\nnumber = 3\n",
+                               .comment = {}},
+                              "meyer"));
+  }
 
   std::uint64_t propose(double new_value) {
+    const auto rules =
+        call("PUT", "/api/v1/machines/lathe-1/offset-rules", {.body = kRules, .headers = {}});
+    EXPECT_EQ(rules.status, 200) << rules.body;
     storage::OffsetProposal proposal;
     proposal.machine = "lathe-1";
     proposal.rule = "D40";
     proposal.target = "T3.wear.X";
     proposal.unit = "mm";
     proposal.new_value = new_value;
+    proposal.base = 1;
     proposal.created = clock_.now();
     proposal.reasons = R"(["mean deviation +0.02"])";
     return store_->offsets.propose(proposal)->proposal.id;
@@ -32,7 +47,7 @@ TEST_F(OffsetRoutes, ListShowAndApprove) {
   const auto applied = post(path(id, "approve"), {{"comment", "measured twice"}});
   ASSERT_EQ(applied.status, 200) << applied.body;
   EXPECT_EQ(json(applied)["state"], "applied");
-  EXPECT_EQ(json(applied)["setup"], 1);
+  EXPECT_EQ(json(applied)["setup"], 2);
   EXPECT_EQ(json(applied)["who"], "admin");
   expect_error(post(path(id, "approve"), Json::object()), 409, "conflict", "is applied already");
   const auto history = json(get("/api/v1/machines/lathe-1/offset-history?target=T3"));
@@ -75,12 +90,14 @@ TEST_F(OffsetRoutes, RulesAreStoredAndEvaluated) {
   expect_error(get(rules), 404, "not_found", "no offset rules");
   expect_error(call("PUT", rules, {.body = "[[rule]]\n", .headers = {}}), 400, "syntax",
                "name is missing");
-  const std::string text =
-      "[[rule]]\nname = \"D40\"\ncharacteristic = \"D40\"\ntarget = \"T3.wear.X\"\nmax_step = "
-      "0.1\n";
-  const auto saved = call("PUT", rules, {.body = text, .headers = {}});
+  const auto saved = call("PUT", rules, {.body = kRules, .headers = {}});
   ASSERT_EQ(saved.status, 200) << saved.body;
-  EXPECT_EQ(json(get(rules))["text"], text);
+  EXPECT_EQ(json(get(rules))["text"], kRules);
+  expect_error(call("PUT", rules,
+                    {.body = "[[rule]]\nname = \"L\"\ncharacteristic = \"L\"\ntarget = "
+                             "\"T99.wear.X\"\nmax_step = 1\n",
+                     .headers = {}}),
+               409, "conflict", "rule L: setup 1 of lathe-1 has no tool 99");
   const auto looked = json(post("/api/v1/machines/lathe-1/offsets/evaluation", Json::object()));
   ASSERT_EQ(looked["rules"].size(), 1U) << looked.dump();
   EXPECT_EQ(looked["rules"][0]["reasons"][0],

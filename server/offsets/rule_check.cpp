@@ -1,0 +1,66 @@
+#include "server/offsets/rule_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dripline::offsets {
+
+bool is_of_rule(const storage::OffsetProposal& proposal, const OffsetRule& rule) {
+  return rule.name == proposal.rule && rule.target == proposal.target;
+}
+
+Result<void> check_allowed(const storage::OffsetProposal& proposal,
+                           const std::vector<OffsetRule>& rules) {
+  const auto rule =
+      std::ranges::find_if(rules, [&](const OffsetRule& one) { return is_of_rule(proposal, one); });
+  if (rule == rules.end()) {
+    return fail(Errc::Conflict,
+                "offset proposal {} was made by rule {} for {}, which is not among the rules of {} "
+                "any more",
+                proposal.id, proposal.rule, proposal.target, proposal.machine);
+  }
+  if (!is_at_most(std::abs(proposal.new_value - proposal.old_value), rule->max_step)) {
+    return fail(Errc::Conflict,
+                "offset proposal {}: {} to {} is beyond the largest step of rule {} by now, {}",
+                proposal.id, proposal.old_value, proposal.new_value, rule->name, rule->max_step);
+  }
+  if ((rule->lowest && proposal.new_value < *rule->lowest) ||
+      (rule->highest && proposal.new_value > *rule->highest)) {
+    return fail(Errc::Conflict, "offset proposal {}: {} is outside of the bounds of rule {} by now",
+                proposal.id, proposal.new_value, rule->name);
+  }
+  return {};
+}
+
+Result<std::string> was_rejected(storage::OffsetStore& store, const NextStep& step) {
+  const OffsetRule& rule = step.rule;
+  storage::OffsetFilter filter{
+      .machine = step.machine, .target = rule.target, .state = storage::OffsetState::Rejected};
+  const auto rejected = store.list(filter, {.limit = 1});
+  if (!rejected) return fail(rejected.error());
+  if (rejected->empty()) return std::string();
+  const storage::OffsetProposal& last = rejected->front();
+  const bool is_same = is_of_rule(last, rule) &&
+                       is_at_most(std::abs(last.old_value - step.value), 0) &&
+                       is_at_most(std::abs(last.new_value - step.new_value), 0);
+  const auto is_newer = [&](const Deviation& one) { return one.measurement > last.last; };
+  const auto newer = static_cast<std::size_t>(std::ranges::count_if(step.measured, is_newer));
+  if (!is_same || newer >= rule.min_count) return std::string();
+  return fmt::format(
+      "{} rejected it as offset proposal {}: {}. It comes again with another value, or after {} "
+      "measurements more; there are {}",
+      last.who, last.id, last.comment, rule.min_count, newer);
+}
+
+Result<std::string> what_is_absent(const SetupText& setup, const SetupTarget& target) {
+  if (setup.number == 0) {
+    return fmt::format("machine {} has no setup on the server, so there is no {}", setup.machine,
+                       owner_of(target));
+  }
+  const auto is_there = is_in_setup(setup.text, target);
+  if (!is_there) return fail(is_there.error());
+  if (*is_there) return std::string();
+  return fmt::format("setup {} of {} has no {}", setup.number, setup.machine, owner_of(target));
+}
+
+}  // namespace dripline::offsets

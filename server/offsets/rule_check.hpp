@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "server/offsets/offset_rule.hpp"
+#include "server/offsets/proposal.hpp"
+#include "server/offsets/setup_value.hpp"
+#include "storage/offset_store.hpp"
+
+namespace dripline::offsets {
+
+bool is_of_rule(const storage::OffsetProposal& proposal, const OffsetRule& rule);
+
+/// Whether the rule that made the proposal is still there, and would allow it. Errors: Conflict.
+Result<void> check_allowed(const storage::OffsetProposal& proposal,
+                           const std::vector<OffsetRule>& rules);
+
+struct NextStep {
+  const std::string& machine;
+  const OffsetRule& rule;
+  double value = 0, new_value = 0;
+  const std::vector<Deviation>& measured;
+};
+/// Why the same step is not proposed again after a person has rejected it; empty: it was not, or
+/// min_count more measurements still ask for it. Errors: those of the store.
+Result<std::string> was_rejected(storage::OffsetStore& store, const NextStep& step);
+
+struct SetupText {
+  const std::string& machine;
+  std::uint64_t number = 0;  ///< 0: there is none
+  const std::string& text;
+};
+/// What a correction would have to add to the setup, in words; empty: its tool, offset or variable
+/// is there. A slip of the pen must not make a tool. Errors: Syntax.
+Result<std::string> what_is_absent(const SetupText& setup, const SetupTarget& target);
+
+}  // namespace dripline::offsets
