@@ -17,11 +17,6 @@ std::string host_name() {
   return name.data();
 }
 
-/// Who holds a machine or its queue.
-std::string template_of(const storage::MeasuredPart& part) {
-  return fmt::format("report template {} version {}", part.template_name, part.template_version);
-}
-
 api::HttpHandlers mtconnect_handlers(mtconnect::Agent& agent) {
   return {
       .handle = [&agent](const api::Request& request) { return agent.handle(request); },
@@ -268,37 +263,6 @@ machines::MachineListener ServerParts::published() {
     publish(record);
   };
   return listener;
-}
-
-Result<void> ServerParts::hold_queue(const storage::MeasuredPart& part, const std::string& reason) {
-  return jobs.hold(part.machine, reason, template_of(part));
-}
-
-/// A report is often the last thing of a program: where the run is over, what can be held is what
-/// would come next. So the queue is held in any case.
-Result<void> ServerParts::hold_machine(const storage::MeasuredPart& part,
-                                       const std::string& reason) {
-  if (auto held = hold_queue(part, reason); !held) return held;
-  const auto has_ended = [&] {
-    const auto run = store->runs.find(part.run);
-    return run && storage::is_finished(run->state);
-  };
-  const bool is_of_run = !part.run.empty();
-  if (is_of_run && has_ended()) return {};
-  library::AuditTrail::Change change{.who = template_of(part),
-                                     .action = is_of_run ? "run.hold" : "machine.hold",
-                                     .subject = is_of_run ? part.run : part.machine,
-                                     .detail = reason};
-  audit.write(change);
-  machines::CommandRequest hold;
-  hold.action = dds::CommandAction::Hold;
-  (is_of_run ? hold.run : hold.machine) = is_of_run ? part.run : part.machine;
-  auto done = machines.command(hold);
-  if (done) return done;
-  change.detail += ": refused, " + done.error().what;
-  audit.write(std::move(change));
-  if (is_of_run && has_ended()) return {};
-  return done;
 }
 
 machines::MachineListener ServerParts::machine_listener() {

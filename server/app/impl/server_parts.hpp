@@ -77,8 +77,9 @@ struct ServerParts {
   machines::MachineListener published();
   /// The verdict of a report template on a part: nothing of the job queue starts.
   Result<void> hold_queue(const storage::MeasuredPart& part, const std::string& reason);
-  /// The verdict of a report template on a part: feed hold.
+  /// The same, and feed hold while its run is active. Errors: those of the hold, else of the queue.
   Result<void> hold_machine(const storage::MeasuredPart& part, const std::string& reason);
+  Result<void> hold_motion(const storage::MeasuredPart& part, const std::string& reason);
   machines::MachineListener machine_listener();
   /// A full disk only keeps the server from storing: clients should still find it.
   void announce();
