@@ -14,29 +14,6 @@ namespace {
 using measurement_files::MeasurementSource;
 using measurement_files::Sink;
 
-class ListSource final : public MeasurementSource {
- public:
-  explicit ListSource(std::vector<measurement::Measurement> all) : all_(std::move(all)) {}
-  Result<void> each(const measurement_files::Visitor& visit) override {
-    for (const auto& one : all_) {
-      if (auto done = visit(one); !done) return done;
-    }
-    return {};
-  }
-
- private:
-  const std::vector<measurement::Measurement> all_;
-};
-
-Result<std::vector<measurement_files::DigitizedPoint>> points(MeasurementSource& source) {
-  auto found = measurement_files::points_of(source);
-  if (found && found->empty()) {
-    return fail(Errc::NotFound,
-                "no measurement is a point: their characteristics end with X, Y or Z");
-  }
-  return found;
-}
-
 Result<void> write_dfq(MeasurementSource& source, const Sink& sink) {
   return measurement_files::write_dfq(source, {}, sink);
 }
@@ -50,16 +27,16 @@ Result<void> write_html(MeasurementSource& source, const Sink& sink) {
   return measurement_files::write_part_report(source, {}, sink);
 }
 Result<void> write_points(MeasurementSource& source, const Sink& sink) {
-  const auto found = points(source);
+  const auto found = measurement_files::points_of(source);
   return found ? measurement_files::write_points_csv(*found, sink) : fail(found.error());
 }
 Result<void> write_dxf(MeasurementSource& source, const Sink& sink) {
-  const auto found = points(source);
+  const auto found = measurement_files::points_of(source);
   return found ? measurement_files::write_dxf(*found, 0, sink) : fail(found.error());
 }
 Result<void> write_stl(MeasurementSource& source, const Sink& sink) {
   constexpr double kBase = 5;  // mm below the lowest point, as `dnc report export` has it
-  const auto found = points(source);
+  const auto found = measurement_files::points_of(source);
   if (!found) return fail(found.error());
   const auto grid = measurement_files::make_height_grid(*found, 0);
   if (!grid) return fail(grid.error());
@@ -99,7 +76,7 @@ Response file_response(storage::MeasurementStore& store, const storage::Measurem
   }
   auto all = all_measurements(store, filter, kMaxInFile);
   if (!all) return error_response(all.error());
-  ListSource source(*std::move(all));
+  measurement_files::ListSource source(*std::move(all));
   Response response;
   response.content_type = found->content_type;
   // What others have written is in it: a file to be saved, never a page of this server.

@@ -24,18 +24,9 @@ using measurement_files::AqdefEncoding;
 using measurement_files::MeasurementSource;
 using measurement_files::Sink;
 
-Result<std::vector<measurement_files::DigitizedPoint>> points(MeasurementSource& source) {
-  auto found = measurement_files::points_of(source);
-  if (found && found->empty()) {
-    return fail(Errc::NotFound,
-                "no measurement is a point: their characteristics end with X, Y or Z");
-  }
-  return found;
-}
-
 Result<void> write_points(const MeasurementExport& request, MeasurementSource& source,
                           const Sink& sink) {
-  const auto found = points(source);
+  const auto found = measurement_files::points_of(source);
   if (!found) return fail(found.error());
   if (request.format == "points") return measurement_files::write_points_csv(*found, sink);
   if (request.format == "dxf") return measurement_files::write_dxf(*found, 0, sink);

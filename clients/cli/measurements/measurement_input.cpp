@@ -65,22 +65,6 @@ class TextSource final : public MeasurementSource {
   Filter filter_;
 };
 
-class ListSource final : public MeasurementSource {
- public:
-  ListSource(std::vector<Measurement> all, const Filter& filter) : all_(std::move(all)) {
-    std::erase_if(all_, [&](const Measurement& m) { return !filter.takes(m); });
-  }
-  Result<void> each(const Visitor& visit) override {
-    for (const Measurement& m : all_) {
-      if (auto done = visit(m); !done) return done;
-    }
-    return {};
-  }
-
- private:
-  std::vector<Measurement> all_;
-};
-
 Result<std::unique_ptr<MeasurementSource>> open_file(const MeasurementChoice& choice) {
   auto filter = Filter::of(choice);
   if (!filter) return fail(filter.error());
@@ -90,7 +74,8 @@ Result<std::unique_ptr<MeasurementSource>> open_file(const MeasurementChoice& ch
     return std::make_unique<TextSource>(*std::move(file), *std::move(filter));
   auto all = measurement_files::read_aqdef(file->text(), {});
   if (!all) return fail(all.error().code, "{}: {}", choice.file, all.error().what);
-  return std::make_unique<ListSource>(*std::move(all), *filter);
+  std::erase_if(*all, [&](const Measurement& m) { return !filter->takes(m); });
+  return std::make_unique<measurement_files::ListSource>(*std::move(all));
 }
 
 /// Closes it; its name is gone when it has been mapped.

@@ -77,7 +77,9 @@ Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source) {
   });
   if (!done) return fail(done.error());
   close();
-  return points;
+  if (!points.empty()) return points;
+  return fail(Errc::NotFound,
+              "no measurement is a point: their characteristics end with X, Y or Z");
 }
 
 Result<void> write_points_csv(std::span<const DigitizedPoint> points, const Sink& sink) {

@@ -14,8 +14,8 @@ struct DigitizedPoint {
 };
 
 /// Of measurements: those of one record whose characteristics end with X, Y and Z are a point. Z
-/// may be missing (then 0): a contour in a plane. Errors: those of the source; LimitExceeded (over
-/// kMaxPoints).
+/// may be missing (then 0): a contour in a plane. Errors: those of the source; NotFound (no
+/// measurement is a point), LimitExceeded (over kMaxPoints).
 Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source);
 inline constexpr std::size_t kMaxPoints = 4'000'000;
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "protocol/base/result.hpp"
@@ -21,6 +22,21 @@ class MeasurementSource {
  public:
   virtual ~MeasurementSource() = default;
   virtual Result<void> each(const Visitor& visit) = 0;
+};
+
+/// Measurements in memory.
+class ListSource : public MeasurementSource {
+ public:
+  explicit ListSource(std::vector<measurement::Measurement> all) : all_(std::move(all)) {}
+  Result<void> each(const Visitor& visit) override {
+    for (const auto& one : all_) {
+      if (auto done = visit(one); !done) return done;
+    }
+    return {};
+  }
+
+ private:
+  const std::vector<measurement::Measurement> all_;
 };
 
 /// Takes the next bytes of a file. Errors end the writing.

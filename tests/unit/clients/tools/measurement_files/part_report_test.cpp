@@ -8,7 +8,7 @@ namespace dripline::measurement_files {
 namespace {
 
 TEST(PartReport, HasAPageForEachWorkpieceWithItsVerdict) {
-  ListSource source(sample());
+  CountingSource source(sample());
   const std::string html = written([&](const Sink& sink) {
     return write_part_report(source, {"Report <1>", "lathe-1"}, sink);
   });

@@ -40,7 +40,7 @@ void expect_same(const Measurement& a, const Measurement& b) {
 
 TEST(TextFiles, BothFormsComeBackAsTheyWere) {
   for (const auto write : {write_csv, write_json_lines}) {
-    ListSource source(sample());
+    CountingSource source(sample());
     const std::string file = written([&](const Sink& sink) { return write(source, sink); });
     EXPECT_EQ(source.passes, 1);
     const auto all = read(file);
