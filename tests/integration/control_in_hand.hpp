@@ -5,6 +5,16 @@
 
 namespace dripline::integration {
 
+/// O9999 with (PRG=0077) asks for O0077; the answer comes as O9998.
+inline constexpr const char* kSendRules = R"(reply = "O9998"
+[[rule]]
+name = "send"
+program = "O9999"
+trigger = "PRG"
+action = "send"
+argument = "O{}"
+)";
+
 /// A server and the gateway beside a control; the test has the control's end of the line.
 class ControlInHand : public testing::Test {
  protected:

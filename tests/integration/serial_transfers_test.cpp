@@ -102,14 +102,7 @@ TEST_F(GatewaysPort, RefusesWhatIsNotThereAndWhatIsSetUpAtTheGatewayWithAReason)
 
 TEST_F(GatewaysPort, TriesTheRulesThatTheGatewayHas) {
   const test_support::TemporaryFolder folder;
-  std::ofstream(folder.path() / "rules.toml") << R"(reply = "O9998"
-[[rule]]
-name = "send"
-program = "O9999"
-trigger = "PRG"
-action = "send"
-argument = "O{}"
-)";
+  std::ofstream(folder.path() / "rules.toml") << kSendRules;
   std::ofstream(folder.path() / "call.nc") << "O9999\n(PRG=0077)\nM30\n";
   start({"--line-rules", folder.path() / "rules.toml"});
   const auto tried = dnc({"port", "test-rules", "lathe-1", folder.path() / "call.nc"});

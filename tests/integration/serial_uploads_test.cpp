@@ -63,14 +63,7 @@ TEST_F(ControlInHand, ItsLineIsShownTestedAndRecordedAsAPortOfTheServer) {
 
 TEST_F(ControlInHand, ItsRulesDecideWhatItsOperatorRequests) {
   const test_support::TemporaryFolder folder;
-  std::ofstream(folder.path() / "rules.toml") << R"(reply = "O9998"
-[[rule]]
-name = "send"
-program = "O9999"
-trigger = "PRG"
-action = "send"
-argument = "O{}"
-)";
+  std::ofstream(folder.path() / "rules.toml") << kSendRules;
   start({"--line-rules", folder.path() / "rules.toml"});
   system_->push("O0077", "O0077\nG0 X1.\nM30\n");
   control_->send("O9999\n(PRG=0077)\nM30\n");

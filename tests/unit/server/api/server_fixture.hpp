@@ -52,8 +52,8 @@ class ServerTest : public testing::Test {
 
   ServerTest() { reopen(); }
 
-  void reopen() {
-    const bool has_search = search_ != nullptr;
+  /// Another process may have it, until `reopen`.
+  void close_store() {
     search_.reset();
     attachments_.reset();
     setups_.reset();
@@ -63,6 +63,10 @@ class ServerTest : public testing::Test {
     chain_.reset();
     audit_.reset();
     store_.reset();
+  }
+  void reopen() {
+    const bool has_search = search_ != nullptr;
+    close_store();
     auto opened = storage::SqliteStore::open({.file = folder_.path() / "store.sqlite"}, clock_);
     EXPECT_TRUE(opened) << opened.error().what;
     store_ = *std::move(opened);

@@ -72,16 +72,6 @@ class KilledImports : public server_test::ServerTest {
   }
 
  private:
-  void close_store() {
-    setups_.reset();
-    releases_.reset();
-    runs_.reset();
-    programs_.reset();
-    chain_.reset();
-    audit_.reset();
-    attachments_.reset();
-    store_.reset();
-  }
   [[noreturn]] void serve(int to, unsigned seed) {
     reopen();
     use_policy(kPolicy);

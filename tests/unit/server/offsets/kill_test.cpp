@@ -33,15 +33,6 @@ class KilledOffsets : public OffsetsTest {
   }
 
  private:
-  void close_store() {
-    setups_.reset();
-    releases_.reset();
-    runs_.reset();
-    programs_.reset();
-    chain_.reset();
-    audit_.reset();
-    store_.reset();
-  }
   [[noreturn]] void approve_all() {
     auto store = storage::SqliteStore::open({.file = file()}, clock_);
     if (!store) ::_exit(1);
