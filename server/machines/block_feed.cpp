@@ -18,10 +18,6 @@ bool is_same(const dds::BlockRequest& a, const dds::BlockRequest& b) {
   return a.run == b.run && a.program == b.program && a.offset == b.offset && a.length == b.length;
 }
 
-bool has_ended(storage::RunState state) {
-  return state != storage::RunState::Ordered && state != storage::RunState::Active;
-}
-
 dds::BlockStatus status_of(const Error& error) {
   return error.code == Errc::Corrupt ? dds::BlockStatus::Corrupt : dds::BlockStatus::Failed;
 }
@@ -201,7 +197,7 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
   if (run->machine != request.machine) {
     return no_run(fmt::format("run {} is of machine {}", run->id, run->machine));
   }
-  if (has_ended(run->state)) {
+  if (storage::is_finished(run->state)) {
     return no_run(fmt::format("run {} has ended: {}", run->id, storage::to_string(run->state)));
   }
   if (request.program.empty() || request.program == run->program) {

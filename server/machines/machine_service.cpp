@@ -7,13 +7,6 @@
 #include "server/machines/machine_registry.hpp"
 
 namespace dripline::machines {
-namespace {
-
-bool has_ended(const storage::Run& run) {
-  return run.state != storage::RunState::Ordered && run.state != storage::RunState::Active;
-}
-
-}  // namespace
 
 MachineService::Parts::Parts(MachineService& service, dds::ServerEndpoint& endpoint)
     : blocks(service.sources_, endpoint, service.pool_),
@@ -216,7 +209,7 @@ Result<void> MachineService::command(const CommandRequest& request) {
   if (request.run.empty()) return command_machine(request);
   const auto run = store_.runs.find(request.run);
   if (!run) return fail(run.error());
-  if (has_ended(*run)) {
+  if (storage::is_finished(run->state)) {
     return fail(Errc::Conflict, "run {} has ended: {}", run->id, storage::to_string(run->state));
   }
   const auto view = connected_machine(run->machine);
