@@ -24,7 +24,7 @@ api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
               [&api](const api::Request& head) { return api.waits_for_machine(head); }};
 }
 
-/// What a folder stores has one author, whoever posted it: then four eyes may be those of one.
+/// What a folder stores has one author for all who post there: then four eyes may be those of one.
 void warn_of_authors(const library::ReleasePolicy& policy,
                      const std::vector<folders::FolderSettings>& folders) {
   if (std::ranges::none_of(policy.rules, &library::StepRule::needs_four_eyes)) return;

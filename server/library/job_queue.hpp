@@ -56,7 +56,7 @@ class JobQueue {
                             const storage::Actor& who);
   Result<void> remove(const std::string& machine, std::uint64_t job, const storage::Actor& who);
   /// Stops the queue of a machine: no run of its jobs begins until it is released. What runs goes
-  /// on. For whoever has a reason: an operator, a measurement out of its tolerance. Errors:
+  /// on. By anyone with a reason: an operator, a measurement out of its tolerance. Errors:
   /// NotFound (the machine), Syntax (no reason), LimitExceeded (its length), those of the store.
   Result<void> hold(const std::string& machine, const std::string& reason,
                     const storage::Actor& who);

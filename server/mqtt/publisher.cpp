@@ -90,10 +90,10 @@ void Publisher::set_lost(const std::string& fault) {
 }
 
 /// A connection alone does not end a fault: a broker that refuses a message accepts connections.
-void Publisher::settle() {
+void Publisher::end_fault() {
   if (!failing_since_) return;
   const bool has_caught_up = under_way() == 0 && !is_more_;
-  const bool has_lasted = parts_.clock.steady_now() - connected_at_ >= options_.settle_after;
+  const bool has_lasted = parts_.clock.steady_now() - connected_at_ >= options_.fault_ends_after;
   if (!has_caught_up && !has_lasted) return;
   failing_since_.reset();
   failures_ = 0;
@@ -178,7 +178,7 @@ Result<void> Publisher::publish_loop(const std::stop_token& stop) {
     if (auto received = receive(next_wait()); !received) return received;
     if (auto stored = commit(false); !stored) return stored;
     if (auto good = check_answers(); !good) return good;
-    settle();
+    end_fault();
   }
   return {};
 }

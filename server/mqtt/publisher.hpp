@@ -38,7 +38,7 @@ class Publisher {
     std::chrono::milliseconds first_retry{500};
     std::chrono::milliseconds longest_retry{30'000};
     std::chrono::milliseconds long_fault{60'000};  ///< then it is a finding
-    std::chrono::milliseconds settle_after{
+    std::chrono::milliseconds fault_ends_after{
         60'000};                               ///< connected: the fault is over, or all is there
     std::chrono::milliseconds farewell{1000};  ///< at the end, for what is under way
   };
@@ -105,7 +105,7 @@ class Publisher {
   Message online_message(bool is_online) const;
   void set_connected();
   void set_lost(const std::string& fault);
-  void settle();
+  void end_fault();
   void pause(const std::stop_token& stop);
 
   const Parts parts_;

@@ -73,7 +73,7 @@ bool ReportInterpreter::take_earlier(std::int64_t count, std::string_view line,
   return true;
 }
 
-/// Nothing is taken from it. Which of two different lines is right nobody knows.
+/// Nothing is taken from it. Which of two different lines is right is not known.
 void ReportInterpreter::find_doubled(std::int64_t count, std::string_view line,
                                      std::vector<ReportEvent>& events) {
   const std::string again = kept_line(line);

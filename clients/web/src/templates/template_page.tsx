@@ -60,7 +60,7 @@ interface EditProps extends Loaded {
   onStored: (version: number) => void;
 }
 
-/// What a store has come to; nobody's version is lost by it, but another user's may have come between.
+/// What a store has come to; no version is lost by it, but another user's may have come between.
 function outcomeText(stored: ReportTemplate, { newest }: Base): string {
   const t = texts().templates;
   if (stored.version === newest) return t.unchanged;

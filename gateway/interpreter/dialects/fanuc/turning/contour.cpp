@@ -70,7 +70,7 @@ bool end_contour(Run& run) {
   cycle.moves.clear();
   run.lead_stages();
   if (!is_done) return false;
-  // The program goes on after a contour that follows its cycle; another one is left again.
+  // The program continues after a contour that follows its cycle; another one is left again.
   const bool continues = !is_finishing && state.at.offset > cycle.back.offset;
   if (!continues) state.at = cycle.back;
   run.update_special();
