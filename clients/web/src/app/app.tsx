@@ -1,6 +1,6 @@
 // The frame around every view: who is signed in, which view is shown, and whether what it shows is current.
 import { Component, type ComponentChildren } from 'preact';
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect, useMemo, useState } from 'preact/hooks';
 import { beginSession, refreshSession, type SessionState } from '../api/session';
 import { Floor } from '../floor/floor';
 import { feed } from '../live/feed';
@@ -12,13 +12,14 @@ import { parseRoute, type Route } from './route';
 import { SignIn, SignInAgain } from './sign_in';
 
 function useRoute(): Route {
-  const [route, setRoute] = useState(() => parseRoute(location.hash));
+  const [hash, setHash] = useState(location.hash);
   useEffect(() => {
-    const show = () => setRoute(parseRoute(location.hash));
+    const show = () => setHash(location.hash);
     addEventListener('hashchange', show);
+    show(); // an effect runs after the first picture: the address may be another by then
     return () => removeEventListener('hashchange', show);
   }, []);
-  return route;
+  return useMemo(() => parseRoute(hash), [hash]);
 }
 
 /// The feed follows the session: it reads while somebody is signed in, and keeps what it knows while a session is renewed.
