@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, afterEach, before } from 'node:test';
-import { chromium, type Browser, type Locator, type Page } from 'playwright-core';
+import { chromium, type Browser, type Locator, type Page, type Request } from 'playwright-core';
 import { Shop } from './shop';
 
 export const kWidths = [1280, 800] as const;
@@ -20,6 +20,28 @@ export interface Visit {
   page: Page;
   /// Errors and warnings of the console: also what the Content-Security-Policy has stopped.
   complaints: string[];
+  requests: Requests;
+}
+
+/// What the page has asked the server for.
+export interface Requests {
+  /// Since the visit began.
+  readonly asked: number;
+  /// Not answered yet; a stream is answered when it begins.
+  readonly waiting: number;
+}
+
+function watchRequests(page: Page): Requests {
+  const waiting = new Set<Request>();
+  let asked = 0;
+  page.on('request', (request) => {
+    if (request.isNavigationRequest()) waiting.clear(); // what the document before has asked for
+    waiting.add(request);
+    asked++;
+  });
+  page.on('response', (response) => waiting.delete(response.request()));
+  page.on('requestfailed', (request) => waiting.delete(request));
+  return { get asked() { return asked; }, get waiting() { return waiting.size; } };
 }
 
 /// Long enough for a computer that does much else; a condition that holds ends the wait at once.
@@ -36,6 +58,7 @@ export async function visit(browser: Browser, shop: Shop, place = '', options: V
   context.setDefaultTimeout(kPatienceMs);
   const page = await context.newPage();
   const complaints: string[] = [];
+  const requests = watchRequests(page);
   page.on('console', (message) => {
     const isLostServer = message.text().includes('ERR_CONNECTION_REFUSED') || message.text().includes('net::ERR_');
     if (['error', 'warning'].includes(message.type()) && !isLostServer) complaints.push(message.text());
@@ -48,7 +71,7 @@ export async function visit(browser: Browser, shop: Shop, place = '', options: V
   const user = options.user === undefined ? 'admin' : options.user;
   if (user !== null) await context.addCookies([{ ...(await shop.sessionOf(user)), url: shop.url }]);
   await page.goto(`${shop.url}/${place}`);
-  return { page, complaints };
+  return { page, complaints, requests };
 }
 
 /// A shop and a browser for the tests of a file; what a test has opened is closed after it.
