@@ -21,6 +21,15 @@ struct Upload {
   std::string damage;   ///< why part of it is not to be trusted; empty: it is whole
 };
 
+/// One that is coming in. (Of UploadStore alone.)
+struct OpenUpload {
+  std::string id, damage;
+  std::uint64_t size = 0;
+  Sha256 hash;
+  std::optional<Error> error;
+  Descriptor file;
+};
+
 /// Programs from the control on the gateway's disk: each is there when it is complete, and stays
 /// until the server has it. One thread. Bounds: kMaxUploads and kMaxBytes; more is refused.
 class UploadStore {
@@ -47,13 +56,6 @@ class UploadStore {
 
  private:
   explicit UploadStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  struct Open {
-    std::string id, damage;
-    std::uint64_t size = 0;
-    Sha256 hash;
-    std::optional<Error> error;
-    Descriptor file;
-  };
   std::filesystem::path text_path(const std::string& id) const { return folder_ / (id + ".nc"); }
   std::filesystem::path note_path(const std::string& id) const { return folder_ / (id + ".json"); }
   std::filesystem::path open_path() const { return folder_ / "begun"; }
@@ -63,7 +65,7 @@ class UploadStore {
   std::filesystem::path folder_;
   std::deque<Upload> waiting_;
   std::uint64_t bytes_ = 0;
-  std::optional<Open> open_;
+  std::optional<OpenUpload> open_;
 };
 
 }  // namespace dripline::gateway

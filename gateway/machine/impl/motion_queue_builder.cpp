@@ -14,7 +14,7 @@ constexpr std::size_t kLongestWarning = 4096;
 }  // namespace
 
 MotionQueueBuilder::MotionQueueBuilder(const MachineLimits& limits, ActionQueue& queue)
-    : limits_(limits), queue_(queue), builder_(limits), spindle_(limits.spindle) {}
+    : queue_(queue), builder_(limits), spindle_(limits.spindle) {}
 
 void MotionQueueBuilder::begin(const Coordinates& at) {
   end_ = at;

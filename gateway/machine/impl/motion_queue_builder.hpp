@@ -53,7 +53,6 @@ class MotionQueueBuilder final : public interpreter::EventSink {
   template <class Event>
   void add_as_is(const Event& event);
 
-  const MachineLimits& limits_;
   ActionQueue& queue_;
   MoveBuilder builder_;
   SpindleModel spindle_;  ///< as programmed at the end of the queue

@@ -183,7 +183,7 @@ class LookAheadStage : public compensation::CompensationSink {
 
   void deliver_held() {
     for (std::size_t i = 0; i < state_.held.size(); ++i) {
-      std::visit([this](const auto& event) { deliver(event); }, state_.held[i]);
+      std::visit([this](const auto& event) { this->deliver(event); }, state_.held[i]);
     }
     state_.held.clear();
   }
