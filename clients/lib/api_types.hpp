@@ -35,6 +35,13 @@ struct ServerInfo {
     std::string since, fault;
     std::uint64_t records_waiting = 0, records_published = 0, states_published = 0;
     std::uint64_t records_missing = 0;
+    struct Sparkplug {
+      std::string node;
+      bool connected = false;
+      std::string since, fault;
+      std::uint64_t messages_published = 0, rebirths = 0;
+    };
+    std::optional<Sparkplug> sparkplug;  ///< absent: it is not spoken
   };
   std::optional<Mqtt> mqtt;  ///< absent: there is no broker
 };

@@ -30,6 +30,7 @@
 #include "server/machines/machine_control.hpp"
 #include "server/measurements/measurements.hpp"
 #include "server/mqtt/publisher.hpp"
+#include "server/mqtt/sparkplug_node.hpp"
 #include "server/offsets/offsets.hpp"
 #include "server/paths/program_paths.hpp"
 #include "server/ports/port_control.hpp"
@@ -74,6 +75,7 @@ struct Services {
   folders::Folders* folders = nullptr;                 ///< null: a server without hot folders
   webhooks::Webhooks* webhooks = nullptr;              ///< null: a server without webhooks
   mqtt::Publisher* publisher = nullptr;                ///< null: a server without a broker
+  mqtt::SparkplugNode* sparkplug = nullptr;            ///< null: it is not spoken
   bool has_tls = false;                                ///< the sockets in front of it do
 };
 

@@ -50,6 +50,7 @@ Server::~Server() {
   if (parts_->retention) parts_->retention->end();
   parts_->offsets.end();
   if (parts_->publisher) parts_->publisher->end();
+  if (parts_->sparkplug) parts_->sparkplug->end();
   parts_->events.close();
   parts_->http.reset();
   parts_->mtconnect_http.reset();
@@ -134,6 +135,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
     if (auto opened = parts.open_mtconnect(**agent); !opened) return fail(opened.error());
   }
   if (parts.publisher) parts.publisher->begin();
+  if (parts.sparkplug) parts.sparkplug->begin();
   auto http = api::HttpServer::start(*options, http_handlers(parts.api, parts.page));
   if (!http) return fail(http.error());
   parts.http = *std::move(http);

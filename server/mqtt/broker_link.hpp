@@ -14,13 +14,15 @@ namespace dripline::mqtt {
 struct Message {
   std::string topic;
   std::string payload;
-  int qos = 1;  ///< 1 or 2: every message is acknowledged, so that what waits can be bounded
+  /// 0: acknowledged when it is written to the connection. 1 or 2: by the broker.
+  int qos = 1;
   bool is_retained = false;
 };
 
 /// One connection to a broker after the other, each without anything of the one before: what was
-/// not acknowledged is published again by the caller. It subscribes to nothing, and nothing that a
-/// broker sends reaches the caller but acknowledgments. One thread, but for `wake`.
+/// not acknowledged is published again by the caller. Nothing that a broker sends reaches the
+/// caller but acknowledgments, and messages of the one topic it asks for. One thread, but for
+/// `wake`.
 class BrokerLink {
  public:
   virtual ~BrokerLink() = default;
@@ -34,11 +36,13 @@ class BrokerLink {
     bool is_lost = false;       ///< open it again
     std::string fault = {};     ///< why it is lost
     std::vector<Acknowledgment> acknowledged = {};
+    std::vector<std::string> received = {};  ///< payloads; what is long, or too many, is left out
   };
 
   /// Begins to connect; `will` is what the broker publishes for us when the connection is lost.
-  /// Errors: Io, Denied (TLS files, password).
-  virtual Result<void> open(const Message& will) = 0;
+  /// `subscribed`: a topic whose messages are wanted; empty: none. Errors: Io, Denied (TLS files,
+  /// password).
+  virtual Result<void> open(const Message& will, const std::string& subscribed) = 0;
   /// Hands a message to the connection, without waiting for the broker. Errors: Io, LimitExceeded
   /// (the broker takes no message of this size).
   virtual Result<std::uint64_t> publish(const Message& message) = 0;

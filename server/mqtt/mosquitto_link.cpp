@@ -47,8 +47,9 @@ class MosquittoLink final : public BrokerLink {
     std::call_once(once, [] { mosquitto_lib_init(); });
   }
 
-  Result<void> open(const Message& will) override {
+  Result<void> open(const Message& will, const std::string& subscribed) override {
     progress_ = {};
+    subscribed_ = subscribed;
     last_fault_.clear();
     client_.reset(mosquitto_new(client_id_.c_str(), true, this));
     if (!client_) return fail(Errc::Io, "mqtt: no client: {}", mosquitto_strerror(MOSQ_ERR_NOMEM));
@@ -92,6 +93,7 @@ class MosquittoLink final : public BrokerLink {
     if (done != MOSQ_ERR_SUCCESS && !progress_.is_lost) lose(text_of(done));
     Progress now = progress_;
     progress_.acknowledged.clear();
+    progress_.received.clear();
     return now;
   }
 
@@ -116,7 +118,14 @@ class MosquittoLink final : public BrokerLink {
         client, [](::mosquitto*, void* object, int reason, int, const mosquitto_property*) {
           auto& link = self(object);
           link.progress_.is_connected = reason == 0;
-          if (reason != 0) link.lose("refused: " + link.reason_text(reason));
+          if (reason != 0) return link.lose("refused: " + link.reason_text(reason));
+          if (!link.subscribed_.empty()) link.subscribe();
+        });
+    mosquitto_message_callback_set(
+        client, [](::mosquitto*, void* object, const mosquitto_message* message) {
+          auto& link = self(object);
+          const bool is_wanted = link.subscribed_ == message->topic && !message->retain;
+          if (is_wanted) link.receive(message->payload, message->payloadlen);
         });
     mosquitto_disconnect_v5_callback_set(
         client, [](::mosquitto*, void* object, int reason, const mosquitto_property*) {
@@ -134,6 +143,19 @@ class MosquittoLink final : public BrokerLink {
     mosquitto_log_callback_set(client, [](::mosquitto*, void* object, int level, const char* text) {
       if (level == MOSQ_LOG_ERR) self(object).last_fault_ = text;
     });
+  }
+
+  void subscribe() {
+    constexpr int kQos = 1;
+    const int done = mosquitto_subscribe(client_.get(), nullptr, subscribed_.c_str(), kQos);
+    if (done != MOSQ_ERR_SUCCESS) lose(text_of(done));
+  }
+  void receive(const void* payload, int size) {
+    constexpr int kMaxSize = 64 * 1024;
+    constexpr std::size_t kMaxWaiting = 16;
+    if (size < 0 || size > kMaxSize || progress_.received.size() >= kMaxWaiting) return;
+    progress_.received.emplace_back(static_cast<const char*>(payload),
+                                    static_cast<std::size_t>(size));
   }
 
   Result<void> secure() {
@@ -186,6 +208,7 @@ class MosquittoLink final : public BrokerLink {
   Descriptor wake_;
   Progress progress_;
   std::string last_fault_;
+  std::string subscribed_;
   Client client_;  // last: its callbacks use the others
 };
 

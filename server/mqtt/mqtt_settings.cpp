@@ -9,6 +9,7 @@
 #include <fstream>
 #include <utility>
 
+#include "server/mqtt/sparkplug_payload.hpp"
 #include "server/mqtt/topics.hpp"
 
 namespace dripline::mqtt {
@@ -175,6 +176,15 @@ Result<void> take_kinds(MqttSettings& settings, std::string_view key, const toml
   return {};
 }
 
+template <std::string MqttSettings::*kMember>
+Result<void> take_sparkplug_id(MqttSettings& settings, std::string_view key,
+                               const toml::node& node) {
+  if (auto taken = take_text<kMember, kMaxText>(settings, key, node); !taken) return taken;
+  if (auto good = check_sparkplug_id(settings.*kMember); !good)
+    return fail(good.error().code, "line {}: {} {}", source_line(node), key, good.error().what);
+  return {};
+}
+
 struct MqttKey {
   std::string_view key;
   Result<void> (*take)(MqttSettings&, std::string_view key, const toml::node&);
@@ -194,6 +204,8 @@ constexpr std::array kMqttKeys{
     MqttKey{"retain_status", take_flag<&MqttSettings::is_status_retained>},
     MqttKey{"status_interval_ms", take_interval},
     MqttKey{"protocol", take_protocol},
+    MqttKey{"sparkplug_group", take_sparkplug_id<&MqttSettings::sparkplug_group>},
+    MqttKey{"sparkplug_node", take_sparkplug_id<&MqttSettings::sparkplug_node>},
     MqttKey{"open_network", take_flag<&MqttSettings::is_open_network_allowed>},
 };
 
@@ -206,8 +218,10 @@ Result<void> check_keys(const MqttSettings& settings, unsigned line) {
     return fail(Errc::Conflict, "line {}: ca, certificate and key belong to mqtts://", line);
   if (settings.user.empty() && !settings.password_file.empty())
     return fail(Errc::Conflict, "line {}: a password_file needs a user", line);
-  if (!settings.has_status && !settings.has_records)
-    return fail(Errc::Conflict, "line {}: neither status nor kinds: nothing is published", line);
+  if (!settings.has_status && !settings.has_records && !settings.has_sparkplug())
+    return fail(Errc::Conflict,
+                "line {}: neither status nor kinds nor a sparkplug_group: nothing is published",
+                line);
   return {};
 }
 

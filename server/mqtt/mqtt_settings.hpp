@@ -31,8 +31,12 @@ struct MqttSettings {
   std::chrono::milliseconds status_interval{500};  ///< between two states of a machine
   bool is_version_5 = true;                        ///< of MQTT; else 3.1.1
   bool is_open_network_allowed = false;            ///< beyond this computer without TLS
+  /// Of Sparkplug B: the machines are devices of this node; empty: it is not spoken.
+  std::string sparkplug_group;
+  std::string sparkplug_node = "dripline";
 
   bool is_on() const { return !broker.empty(); }
+  bool has_sparkplug() const { return !sparkplug_group.empty(); }
 };
 
 /// Reads the table `[mqtt]` of a configuration; everything else in it is left out. The format:

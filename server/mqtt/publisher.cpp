@@ -24,9 +24,8 @@ Publisher::Publisher(Parts parts, MqttSettings settings, Options options)
       settings_(std::move(settings)),
       options_(options),
       queue_(settings_.status_interval),
-      feed_(parts_.store, kReader, {.window = options.window, .kinds = settings_.kinds}) {
-  state_.broker = settings_.broker;
-}
+      broker_(parts_.clock, "mqtt", settings_.broker, options.state, parts_.on_fault),
+      feed_(parts_.store, kReader, {.window = options.window, .kinds = settings_.kinds}) {}
 
 Publisher::~Publisher() {
   end();
@@ -53,64 +52,12 @@ void Publisher::note_record() {
 }
 
 Result<Publisher::State> Publisher::state() const {
-  State now = [&] {
-    const std::lock_guard lock(mutex_);
-    return state_;
-  }();
+  State now{broker_.view(), settings_.broker, 0, published_records_, published_states_, missing_};
   if (!settings_.has_records) return now;
   const auto unread = parts_.store.record_readers.unread(kReader);
   if (!unread) return fail(unread.error());
   for (const auto& [cursor, last] : *unread) now.waiting += last - cursor.number;
   return now;
-}
-
-void Publisher::set_connected() {
-  connected_at_ = parts_.clock.steady_now();
-  const std::lock_guard lock(mutex_);
-  state_.is_connected = true;
-  state_.since = parts_.clock.now();
-  if (++state_.connections == 1) process::log_info("mqtt: connected to {}", settings_.broker);
-}
-
-/// The log has the first fault of an outage.
-void Publisher::set_lost(const std::string& fault) {
-  const UtcTime now = parts_.clock.now();
-  {
-    const std::lock_guard lock(mutex_);
-    if (state_.is_connected || !state_.since) state_.since = now;
-    state_.is_connected = false;
-    state_.fault = fault;
-  }
-  if (!failing_since_) {
-    failing_since_ = now;
-    process::log_warning("mqtt: not published: {}", fault);
-  }
-  if (now - *failing_since_ >= options_.long_fault && parts_.on_fault)
-    parts_.on_fault(settings_.broker, fault);
-}
-
-/// A connection alone does not end a fault: a broker that refuses a message accepts connections.
-void Publisher::end_fault() {
-  if (!failing_since_) return;
-  const bool has_caught_up = under_way() == 0 && !is_more_;
-  const bool has_lasted = parts_.clock.steady_now() - connected_at_ >= options_.fault_ends_after;
-  if (!has_caught_up && !has_lasted) return;
-  failing_since_.reset();
-  failures_ = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    state_.fault.clear();
-  }
-  process::log_info("mqtt: {} is reached again", settings_.broker);
-  if (parts_.on_fault) parts_.on_fault(settings_.broker, "");
-}
-
-void Publisher::pause(const std::stop_token& stop) {
-  constexpr unsigned kMaxDoublings = 16;
-  const auto doubled = options_.first_retry * (1LL << std::min(failures_++, kMaxDoublings));
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, stop, std::min(milliseconds(doubled), options_.longest_retry),
-                    [] { return false; });
 }
 
 void Publisher::work(const std::stop_token& stop) {
@@ -119,8 +66,8 @@ void Publisher::work(const std::stop_token& stop) {
     if (auto stored = commit(true); !stored)
       process::log_warning("mqtt: what was published is not noted: {}", stored.error().what);
     if (served || stop.stop_requested()) continue;
-    set_lost(served.error().what);
-    pause(stop);
+    broker_.set_lost(served.error().what);
+    broker_.pause(stop);
   }
 }
 
@@ -148,7 +95,7 @@ Result<void> Publisher::serve(const std::stop_token& stop) {
 Result<void> Publisher::connect(const std::stop_token& stop) {
   feed_.restart();
   states_.clear();
-  if (auto opened = parts_.link.open(online_message(false)); !opened) return opened;
+  if (auto opened = parts_.link.open(online_message(false), {}); !opened) return opened;
   const SteadyTime limit = parts_.clock.steady_now() + options_.connect_limit;
   while (!stop.stop_requested()) {
     const auto progress = parts_.link.wait(options_.look);
@@ -167,7 +114,7 @@ void Publisher::greet() {
   if (settings_.has_status) {
     for (const auto& view : parts_.machines()) queue_.add(view);
   }
-  set_connected();
+  broker_.set_connected();
 }
 
 Result<void> Publisher::publish_loop(const std::stop_token& stop) {
@@ -178,7 +125,7 @@ Result<void> Publisher::publish_loop(const std::stop_token& stop) {
     if (auto received = receive(next_wait()); !received) return received;
     if (auto stored = commit(false); !stored) return stored;
     if (auto good = check_answers(); !good) return good;
-    end_fault();
+    broker_.end_fault(under_way() == 0 && !is_more_);
   }
   return {};
 }
@@ -266,14 +213,12 @@ Result<void> Publisher::take(const BrokerLink::Acknowledgment& acknowledged) {
     what = state->second;
     if (acknowledged.refusal.empty()) {
       states_.erase(state);
-      const std::lock_guard lock(mutex_);
-      ++state_.states;
+      ++published_states_;
     }
   } else if (acknowledged.refusal.empty()) {
     if (!feed_.acknowledge(acknowledged.message)) return {};
-    const std::lock_guard lock(mutex_);
-    ++state_.records;
-    state_.missing = feed_.missing();
+    ++published_records_;
+    missing_ = feed_.missing();
   } else {
     what = settings_.prefix + "/+/records";
   }
@@ -301,7 +246,7 @@ Result<void> Publisher::check_answers() {
 
 /// Ends what is under way, says that the server is gone, and notes how far it has got.
 void Publisher::take_leave() {
-  if (!state_.is_connected) return;
+  if (!broker_.view().is_connected) return;
   const auto gone = parts_.link.publish(online_message(false));
   if (gone) states_[*gone] = online_topic(settings_.prefix);
   const SteadyTime limit = parts_.clock.steady_now() + options_.farewell;

@@ -2,11 +2,9 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -16,6 +14,7 @@
 #include "protocol/base/clock.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/mqtt/broker_link.hpp"
+#include "server/mqtt/broker_state.hpp"
 #include "server/mqtt/record_feed.hpp"
 #include "server/mqtt/status_queue.hpp"
 #include "storage/store.hpp"
@@ -35,12 +34,8 @@ class Publisher {
     std::chrono::milliseconds commit_after{200};  ///< of acknowledgments, so that they are few
     std::chrono::milliseconds connect_limit{10'000};
     std::chrono::milliseconds answer_limit{30'000};  ///< for an acknowledgment
-    std::chrono::milliseconds first_retry{500};
-    std::chrono::milliseconds longest_retry{30'000};
-    std::chrono::milliseconds long_fault{60'000};  ///< then it is a finding
-    std::chrono::milliseconds fault_ends_after{
-        60'000};                               ///< connected: the fault is over, or all is there
-    std::chrono::milliseconds farewell{1000};  ///< at the end, for what is under way
+    std::chrono::milliseconds farewell{1000};        ///< at the end, for what is under way
+    BrokerState::Options state = {};
   };
   struct Parts {
     const storage::Store& store;
@@ -52,18 +47,13 @@ class Publisher {
     std::function<std::vector<machines::MachineView>()> machines;
     std::function<nlohmann::json(const machines::MachineView&)> status_json;
     std::function<nlohmann::json(const storage::Record&)> record_json;
-    /// What has been wrong for long; empty: nothing any more. On the thread of the publisher.
-    std::function<void(const std::string& broker, const std::string& fault)> on_fault = {};
+    BrokerState::OnFault on_fault = {};  ///< on the thread of the publisher
   };
-  struct State {
-    std::string broker;
-    bool is_connected = false;
-    std::optional<UtcTime> since = {};  ///< it is connected, or not
-    std::string fault;                  ///< why not, or what the connection before ended with
-    std::uint64_t waiting = 0;          ///< records that the broker has not acknowledged
-    std::uint64_t records = 0;          ///< acknowledged since the start
-    std::uint64_t states = 0;           ///< likewise
-    std::uint64_t connections = 0;      ///< since the start
+  struct State : BrokerState::View {
+    std::string broker = {};
+    std::uint64_t waiting = 0;  ///< records that the broker has not acknowledged
+    std::uint64_t records = 0;  ///< acknowledged since the start
+    std::uint64_t states = 0;   ///< likewise
     std::uint64_t missing = 0;  ///< records that went into archives before they were published
   };
 
@@ -103,10 +93,6 @@ class Publisher {
   std::size_t under_way() const { return states_.size() + feed_.under_way(); }
 
   Message online_message(bool is_online) const;
-  void set_connected();
-  void set_lost(const std::string& fault);
-  void end_fault();
-  void pause(const std::stop_token& stop);
 
   const Parts parts_;
   const MqttSettings settings_;
@@ -114,17 +100,13 @@ class Publisher {
   StatusQueue queue_;
   std::atomic<bool> is_record_noted_ = false;
 
-  mutable std::mutex mutex_;
-  std::condition_variable_any changed_;
-  State state_;
+  BrokerState broker_;
+  std::atomic<std::uint64_t> published_records_ = 0, published_states_ = 0, missing_ = 0;
 
   // Of the thread.
   RecordFeed feed_;
   std::map<std::uint64_t, std::string> states_;  ///< under way: message, what it is
   bool is_more_ = false;                         ///< records wait that fit the window
-  std::optional<UtcTime> failing_since_;
-  unsigned failures_ = 0;
-  SteadyTime connected_at_{};
   SteadyTime looked_{};
   SteadyTime committed_{};
   SteadyTime answered_{};

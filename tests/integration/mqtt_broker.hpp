@@ -57,15 +57,13 @@ class Subscriber {
     std::string topic, payload;
     bool is_retained = false;
   };
-  explicit Subscriber(int port, const std::string& user = "", const std::string& password = "",
-                      const std::string& ca = "") {
+  explicit Subscriber(int port, std::string pattern = "shop/#") : pattern_(std::move(pattern)) {
     mosquitto_lib_init();
     client_ = mosquitto_new("reader", false, this);
-    if (!user.empty()) mosquitto_username_pw_set(client_, user.c_str(), password.c_str());
-    if (!ca.empty()) mosquitto_tls_set(client_, ca.c_str(), nullptr, nullptr, nullptr, nullptr);
     mosquitto_reconnect_delay_set(client_, 1, 1, false);
-    mosquitto_connect_callback_set(client_, [](::mosquitto* client, void*, int reason) {
-      if (reason == 0) mosquitto_subscribe(client, nullptr, "shop/#", 2);
+    mosquitto_connect_callback_set(client_, [](::mosquitto* client, void* object, int reason) {
+      const auto& self = *static_cast<Subscriber*>(object);
+      if (reason == 0) mosquitto_subscribe(client, nullptr, self.pattern_.c_str(), 2);
     });
     mosquitto_subscribe_callback_set(client_, [](::mosquitto*, void* object, int, int, const int*) {
       auto& self = *static_cast<Subscriber*>(object);
@@ -104,6 +102,11 @@ class Subscriber {
     }
     return some;
   }
+  void publish(const std::string& topic, const std::string& payload) {
+    EXPECT_EQ(mosquitto_publish(client_, nullptr, topic.c_str(), static_cast<int>(payload.size()),
+                                payload.data(), 1, false),
+              MOSQ_ERR_SUCCESS);
+  }
   /// Of the last message; an empty object: there is none.
   nlohmann::json last(const std::string& part) {
     const auto all = received(part);
@@ -112,6 +115,7 @@ class Subscriber {
   }
 
  private:
+  const std::string pattern_;
   ::mosquitto* client_ = nullptr;
   std::mutex mutex_;
   bool is_subscribed_ = false;

@@ -7,6 +7,7 @@
 #include <set>
 #include <thread>
 
+#include "server/mqtt/sparkplug_payload.hpp"
 #include "storage/sqlite_store.hpp"
 #include "tests/integration/mqtt_broker.hpp"
 #include "tests/support/program_generator.hpp"
@@ -264,6 +265,45 @@ TEST_F(Mqtt, TakesTlsWithCertificatesUserAndPassword) {
   system_.server().kill();
   system_.start_server();
   fault_with("uthorized");
+}
+
+TEST_F(Mqtt, MachinesAreDevicesOfASparkplugNode) {
+  broker_.start();
+  Subscriber host(broker_.port(), "spBv1.0/#");
+  configure("broker = \"" + address() +
+            "\"\nsparkplug_group = \"hall\"\nsparkplug_node = \"dnc\"\n");
+  system_.start_server();
+  system_.start_gateway();
+  system_.wait_connected();
+  const auto gets = [&](const std::string& topic, std::size_t number) {
+    return eventually([&] { return host.received("spBv1.0/hall/" + topic).size() >= number; });
+  };
+  ASSERT_TRUE(gets("NBIRTH/dnc", 1));
+  ASSERT_TRUE(gets("DBIRTH/dnc/lathe-1", 1));
+  for (const auto& message : host.received("spBv1.0")) EXPECT_FALSE(message.is_retained);
+  system_.push("O0300", report_program(10));
+  system_.wait_ended(system_.start_run("O0300"));
+  ASSERT_TRUE(gets("DDATA/dnc/lathe-1", 1));
+  const auto birth = host.received("DBIRTH").back().payload;
+  EXPECT_NE(birth.find("status/execution"), std::string::npos);
+  host.publish("spBv1.0/hall/NCMD/dnc", "not a payload");
+  host.publish("spBv1.0/hall/NCMD/dnc",
+               mqtt::encode({.time = UtcTime{},
+                             .seq = {},
+                             .metrics = {{mqtt::kRebirth, mqtt::Metric::Type::Boolean, true}}}));
+  EXPECT_TRUE(gets("NBIRTH/dnc", 2));
+  EXPECT_TRUE(gets("DBIRTH/dnc/lathe-1", 2));
+  EXPECT_EQ(state().at("sparkplug").at("rebirths"), 1);
+  const std::size_t dead = host.received("NDEATH").size();
+  system_.gateway().kill();
+  EXPECT_TRUE(gets("DDEATH/dnc/lathe-1", 1));
+  system_.server().kill();
+  EXPECT_TRUE(gets("NDEATH/dnc", dead + 1)) << "the last will";
+  system_.start_server();
+  EXPECT_TRUE(gets("NBIRTH/dnc", 3));
+  system_.server().signal(SIGTERM);
+  EXPECT_EQ(system_.server().wait(seconds(20)), 0);
+  EXPECT_TRUE(gets("NDEATH/dnc", dead + 2));
 }
 
 TEST_F(Mqtt, IsRefusedBeyondThisComputerWithoutTls) {

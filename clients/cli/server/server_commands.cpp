@@ -17,17 +17,27 @@ void add_health(Details& details, const client::ServerInfo::Health& health) {
   }
 }
 
+template <class Connection>
+void add_connection(Details& details, const char* label, const std::string& name,
+                    const Connection& connection) {
+  details.add(
+      label,
+      fmt::format("{}, {}{}", printable(name), connection.connected ? "connected" : "not connected",
+                  connection.since.empty() ? "" : " since " + time_text(connection.since)));
+  if (!connection.fault.empty()) details.add("", printable(connection.fault));
+}
+
 void add_broker(Details& details, const client::ServerInfo::Mqtt& mqtt) {
-  details.add("MQTT",
-              fmt::format("{}, {}{}", mqtt.broker, mqtt.connected ? "connected" : "not connected",
-                          mqtt.since.empty() ? "" : " since " + time_text(mqtt.since)));
-  if (!mqtt.fault.empty()) details.add("", printable(mqtt.fault));
+  add_connection(details, "MQTT", mqtt.broker, mqtt);
   details.add("", fmt::format("{} records wait, {} published", mqtt.records_waiting,
                               mqtt.records_published));
   if (mqtt.records_missing > 0) {
     details.add("", fmt::format("{} records went into archives before they were published",
                                 mqtt.records_missing));
   }
+  if (!mqtt.sparkplug) return;
+  add_connection(details, "Sparkplug", mqtt.sparkplug->node, *mqtt.sparkplug);
+  details.add("", fmt::format("{} messages published", mqtt.sparkplug->messages_published));
 }
 
 int show_status(Context& context, client::Client& client) {

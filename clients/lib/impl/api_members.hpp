@@ -36,9 +36,15 @@ void members(V& v, Is<ServerInfo::Health> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<ServerInfo::Mqtt::Sparkplug> auto& x) {
+  DRIPLINE_MEMBERS(node, connected, since, fault, messages_published, rebirths);
+}
+
+template <class V>
 void members(V& v, Is<ServerInfo::Mqtt> auto& x) {
   DRIPLINE_MEMBERS(broker, connected, since, fault, records_waiting, records_published,
                    states_published, records_missing);
+  v.later("sparkplug", x.sparkplug);
 }
 
 template <class V>

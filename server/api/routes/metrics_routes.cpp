@@ -121,6 +121,14 @@ void add_publisher(MetricsText& out, const mqtt::Publisher& publisher) {
               static_cast<double>(state->missing));
 }
 
+void add_sparkplug(MetricsText& out, const mqtt::SparkplugNode& node) {
+  const auto state = node.state();
+  out.gauge("dripline_sparkplug_connected", "1: the node of Sparkplug B reaches the broker.",
+            number(state.is_connected));
+  out.counter("dripline_sparkplug_messages_total", "Births, changes and deaths published.",
+              static_cast<double>(state.messages));
+}
+
 void add_folders(MetricsText& out, const folders::Folders& all) {
   const auto states = all.states();
   if (states.empty()) return;
@@ -235,6 +243,7 @@ Response list_metrics(Services& services, const RequestTimes& times, const Reque
   add_audit(out, services.chain.state());
   if (services.webhooks != nullptr) add_webhooks(out, *services.webhooks);
   if (services.publisher != nullptr) add_publisher(out, *services.publisher);
+  if (services.sparkplug != nullptr) add_sparkplug(out, *services.sparkplug);
   if (services.folders != nullptr) add_folders(out, *services.folders);
   add_disk(out, services.facts.data_dir);
   add_process(out);

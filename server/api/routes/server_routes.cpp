@@ -34,6 +34,18 @@ bool is_ready(const library::Health::State& state) {
                               [](const auto& finding) { return finding.subject == "store"; });
 }
 
+/// Null: Sparkplug is not spoken.
+nlohmann::json sparkplug_json(const Services& services) {
+  if (services.sparkplug == nullptr) return nullptr;
+  const auto state = services.sparkplug->state();
+  return {{"node", state.node},
+          {"connected", state.is_connected},
+          {"since", time_or_null(state.since)},
+          {"fault", text_or_null(state.fault)},
+          {"messages_published", state.messages},
+          {"rebirths", state.rebirths}};
+}
+
 /// Null: a server without a broker.
 nlohmann::json mqtt_json(const Services& services) {
   if (services.publisher == nullptr) return nullptr;
@@ -46,7 +58,8 @@ nlohmann::json mqtt_json(const Services& services) {
           {"records_waiting", state->waiting},
           {"records_published", state->records},
           {"states_published", state->states},
-          {"records_missing", state->missing}};
+          {"records_missing", state->missing},
+          {"sparkplug", sparkplug_json(services)}};
 }
 
 Response describe_server(Services& services, const Request& request) {

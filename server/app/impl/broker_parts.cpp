@@ -2,14 +2,20 @@
 #include "server/app/impl/server_parts.hpp"
 
 namespace dripline::app {
+namespace {
+
+std::string client_of(const Settings& settings, const std::string& identity) {
+  constexpr std::size_t kIdentity = 12;
+  const auto& client = settings.mqtt.client_id;
+  return client.empty() ? "dncd-" + identity.substr(0, kIdentity) : client;
+}
+
+}  // namespace
 
 std::unique_ptr<mqtt::Publisher> ServerParts::make_publisher(const Settings& settings,
                                                              const Loaded& loaded) {
   if (!settings.mqtt.is_on()) return nullptr;
-  const auto& client = settings.mqtt.client_id;
-  constexpr std::size_t kIdentity = 12;
-  broker = mqtt::make_mosquitto_link(
-      settings.mqtt, client.empty() ? "dncd-" + loaded.identity.substr(0, kIdentity) : client);
+  broker = mqtt::make_mosquitto_link(settings.mqtt, client_of(settings, loaded.identity));
   return std::make_unique<mqtt::Publisher>(
       mqtt::Publisher::Parts{
           .store = *store,
@@ -22,6 +28,22 @@ std::unique_ptr<mqtt::Publisher> ServerParts::make_publisher(const Settings& set
           .record_json = api::record_json,
           .on_fault = watch_faults("mqtt", "broker", "the broker has not been reached for long")},
       settings.mqtt, mqtt::Publisher::Options{});
+}
+
+std::unique_ptr<mqtt::SparkplugNode> ServerParts::make_sparkplug(const Settings& settings,
+                                                                 const Loaded& loaded) {
+  if (!settings.mqtt.has_sparkplug()) return nullptr;
+  sparkplug_broker =
+      mqtt::make_mosquitto_link(settings.mqtt, client_of(settings, loaded.identity) + "-sparkplug");
+  return std::make_unique<mqtt::SparkplugNode>(
+      mqtt::SparkplugNode::Parts{
+          .link = *sparkplug_broker,
+          .clock = clock,
+          .version = DRIPLINE_VERSION,
+          .machines = [this] { return machines.machines(); },
+          .status_json = api::machine_json,
+          .on_fault = watch_faults("mqtt", "broker", "the broker has not been reached for long")},
+      settings.mqtt, mqtt::SparkplugNode::Options{});
 }
 
 }  // namespace dripline::app

@@ -91,6 +91,7 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
                                          "a webhook has not been delivered for long")},
                {}),
       publisher(make_publisher(settings, loaded)),
+      sparkplug(make_sparkplug(settings, loaded)),
       mtconnect(make_mtconnect(settings, loaded)),
       offsets({.store = *store,
                .setups = setups,
@@ -144,6 +145,7 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
            .folders = &folders,
            .webhooks = &webhooks,
            .publisher = publisher.get(),
+           .sparkplug = sparkplug.get(),
            .has_tls = !settings.tls_key.empty()}),
       tidied(clock.steady_now()) {}
 
@@ -249,6 +251,7 @@ machines::MachineListener ServerParts::published() {
   if (publisher) {
     listener.on_machine = [this, publish = listener.on_machine](const auto& view) {
       publisher->note(view);
+      if (sparkplug) sparkplug->note(view);
       publish(view);
     };
   }

@@ -30,6 +30,7 @@
 #include "server/machines/machine_service.hpp"
 #include "server/measurements/measurements.hpp"
 #include "server/mqtt/publisher.hpp"
+#include "server/mqtt/sparkplug_node.hpp"
 #include "server/mtconnect/agent.hpp"
 #include "server/offsets/offsets.hpp"
 #include "server/ports/gateway_lines.hpp"
@@ -70,6 +71,9 @@ struct ServerParts {
   FaultWatch watch_faults(const char* subject, const char* of, const char* what);
   /// Null: there is no broker.
   std::unique_ptr<mqtt::Publisher> make_publisher(const Settings& settings, const Loaded& loaded);
+  /// Null: Sparkplug is not spoken.
+  std::unique_ptr<mqtt::SparkplugNode> make_sparkplug(const Settings& settings,
+                                                      const Loaded& loaded);
   std::unique_ptr<mtconnect::Agent> make_mtconnect(const Settings& settings, const Loaded& loaded);
   /// Of the machine's last run, if it ended with an alarm.
   std::vector<storage::Record> last_alarms(const std::string& machine) const;
@@ -121,9 +125,11 @@ struct ServerParts {
   library::Setups setups;
   std::unique_ptr<webhooks::Sender> webhook_sender;
   webhooks::Webhooks webhooks;
-  std::unique_ptr<mqtt::BrokerLink> broker;     ///< null: there is none
-  std::unique_ptr<mqtt::Publisher> publisher;   ///< likewise
-  std::unique_ptr<mtconnect::Agent> mtconnect;  ///< null: there is none
+  std::unique_ptr<mqtt::BrokerLink> broker;            ///< null: there is none
+  std::unique_ptr<mqtt::Publisher> publisher;          ///< likewise
+  std::unique_ptr<mqtt::BrokerLink> sparkplug_broker;  ///< null: Sparkplug is not spoken
+  std::unique_ptr<mqtt::SparkplugNode> sparkplug;      ///< likewise
+  std::unique_ptr<mtconnect::Agent> mtconnect;         ///< null: there is none
   offsets::Offsets offsets;
   machines::MachineService machine_service;
   std::atomic<bool> are_lines_handled = false;  ///< by gateway_lines

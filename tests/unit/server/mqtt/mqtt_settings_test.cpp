@@ -33,6 +33,7 @@ TEST(MqttSettings, HaveDefaults) {
   EXPECT_EQ(settings->qos, 2);
   EXPECT_TRUE(settings->is_status_retained);
   EXPECT_TRUE(settings->kinds.empty());
+  EXPECT_FALSE(settings->has_sparkplug());
 }
 
 TEST(MqttSettings, TakeEveryKey) {
@@ -40,7 +41,8 @@ TEST(MqttSettings, TakeEveryKey) {
       "[mqtt]\nbroker = 'mqtts://[::1]:9'\nca = 'ca.pem'\ncertificate = 'c.pem'\nkey = 'k.pem'\n"
       "user = 'dripline'\npassword_file = 'pw'\nclient_id = 'shop-1'\nprefix = 'plant/hall-2'\n"
       "qos = 1\nkinds = ['output', 'alarm']\nstatus = true\nretain_status = false\n"
-      "status_interval_ms = 2000\nprotocol = '3.1.1'\nopen_network = true\n");
+      "status_interval_ms = 2000\nprotocol = '3.1.1'\nopen_network = true\n"
+      "sparkplug_group = 'Hall 2'\nsparkplug_node = 'dnc'\n");
   ASSERT_TRUE(settings) << settings.error().what;
   EXPECT_EQ(settings->host, "::1");
   EXPECT_EQ(settings->port, 9);
@@ -51,6 +53,8 @@ TEST(MqttSettings, TakeEveryKey) {
   EXPECT_FALSE(settings->is_status_retained);
   EXPECT_TRUE(settings->is_open_network_allowed);
   EXPECT_EQ(settings->qos, 1);
+  EXPECT_EQ(settings->sparkplug_group, "Hall 2");
+  EXPECT_EQ(settings->sparkplug_node, "dnc");
 }
 
 struct Refusal {
@@ -86,6 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"nothing", "broker = 'mqtt://h'\nkinds = []\nstatus = false\n",
                 "nothing is published"},
         Refusal{"protocol", "broker = 'mqtt://h'\nprotocol = '4'\n", "line 3: protocol '4'"},
+        Refusal{"group", "broker = 'mqtt://h'\nsparkplug_group = 'a/b'\n",
+                "line 3: sparkplug_group 'a/b' must be a name"},
         Refusal{"interval", "broker = 'mqtt://h'\nstatus_interval_ms = 1\n", "100 to 60000"}),
     [](const auto& i) { return std::string(i.param.name); });
 

@@ -1,102 +1,17 @@
 #include "server/mqtt/publisher.hpp"
 
-#include <condition_variable>
-#include <deque>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "tests/support/child_process.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
+#include "tests/unit/server/mqtt/fake_link.hpp"
 
 namespace dripline::mqtt {
 namespace {
 
 using Json = nlohmann::json;
 using std::chrono::milliseconds;
-
-/// A broker in the test's hands.
-class FakeLink final : public BrokerLink {
- public:
-  Result<void> open(const Message& will) override {
-    const std::lock_guard lock(mutex_);
-    ++opened;
-    will_ = will;
-    pending_.clear();
-    is_connected_ = false;
-    if (is_down) return fail(Errc::Io, "nothing there");
-    return {};
-  }
-  Result<std::uint64_t> publish(const Message& message) override {
-    const std::lock_guard lock(mutex_);
-    ++next_;
-    pending_.emplace_back(next_, message);
-    most_pending = std::max(most_pending, pending_.size());
-    return next_;
-  }
-  Progress wait(milliseconds limit) override {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, limit, [&] {
-      return is_awake_ || is_down || !is_connected_ || (!is_silent && !pending_.empty());
-    });
-    is_awake_ = false;
-    if (is_down) return {.is_lost = true, .fault = "lost"};
-    Progress progress{.is_connected = true, .is_lost = false, .fault = "", .acknowledged = {}};
-    is_connected_ = true;
-    while (!is_silent && !pending_.empty()) {
-      const auto& [id, message] = pending_.front();
-      const bool is_refused = !refused.empty() && message.topic.find(refused) != std::string::npos;
-      if (!is_refused) got.push_back(message);
-      progress.acknowledged.push_back({id, is_refused ? "not authorized" : ""});
-      pending_.pop_front();
-    }
-    return progress;
-  }
-  void wake() override {
-    const std::lock_guard lock(mutex_);
-    is_awake_ = true;
-    changed_.notify_all();
-  }
-  void close() override {
-    const std::lock_guard lock(mutex_);
-    ++closed;
-  }
-  void drop() override {
-    const std::lock_guard lock(mutex_);
-    ++dropped;
-  }
-  void set(bool FakeLink::*what, bool value) {
-    const std::lock_guard lock(mutex_);
-    this->*what = value;
-    changed_.notify_all();
-  }
-  std::vector<Message> received(const std::string& part) {
-    const std::lock_guard lock(mutex_);
-    std::vector<Message> some;
-    std::ranges::copy_if(got, std::back_inserter(some), [&](const Message& message) {
-      return message.topic.find(part) != std::string::npos;
-    });
-    return some;
-  }
-  Message will() {
-    const std::lock_guard lock(mutex_);
-    return will_;
-  }
-
-  bool is_down = false;    ///< connections fail
-  bool is_silent = false;  ///< nothing is acknowledged
-  std::string refused;     ///< part of the topics
-  int opened = 0, closed = 0, dropped = 0;
-  std::size_t most_pending = 0;
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::pair<std::uint64_t, Message>> pending_;
-  std::vector<Message> got;
-  Message will_;
-  std::uint64_t next_ = 0;
-  bool is_connected_ = false, is_awake_ = false;
-};
 
 class PublisherTest : public server_test::ServerTest {
  protected:
@@ -170,10 +85,10 @@ class PublisherTest : public server_test::ServerTest {
                               .gather = milliseconds(1),
                               .commit_after = milliseconds(5),
                               .answer_limit = milliseconds(300),
-                              .first_retry = milliseconds(5),
-                              .longest_retry = milliseconds(20),
-                              .long_fault = milliseconds(0),
-                              .farewell = milliseconds(100)};
+                              .farewell = milliseconds(100),
+                              .state = {.first_retry = milliseconds(5),
+                                        .longest_retry = milliseconds(20),
+                                        .long_fault = milliseconds(0)}};
   SystemClock system_;
   FakeLink link_;
   std::mutex mutex_;
