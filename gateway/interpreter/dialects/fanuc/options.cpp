@@ -21,6 +21,7 @@ struct ModelRow {
   bool has_long_variables = false;
   int program_digits = 4;
   std::uint32_t last_sequence = 99'999;
+  bool has_program_names = false;
 };
 constexpr ModelRow kSixteenI{RepeatAddress::K, CallForm::EightDigits, 4, 149, 531, true, true};
 constexpr std::array<ModelRow, 9> kModels{
@@ -32,7 +33,8 @@ constexpr std::array<ModelRow, 9> kModels{
      kSixteenI,
      kSixteenI,
      kSixteenI,
-     {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true, true, 4, 99'999'999}}};
+     {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true, true, 4, 99'999'999,
+      true}}};
 
 AxisValues values_of(const Position& position) {
   AxisValues values{};
@@ -56,6 +58,7 @@ Result<void> read_model(const Options& options, const OptionKey& key, C& control
   control.has_long_variables = row.has_long_variables;
   control.program_digits = row.program_digits;
   control.last_sequence = row.last_sequence;
+  control.has_program_names = row.has_program_names;
   if (row.call_depth > 8) control.max_nesting = 15;
   return {};
 }
@@ -199,7 +202,8 @@ Result<void> read_skip_levels(const Options& options, const OptionKey& key, C& c
 constexpr std::array kSharedRows{
     Row{{"model", "0M|6M|11M|16M|0i|16i|18i|21i|30i",
          "sets the defaults of repeat_address, m98_form, max_call_depth, last_common, last_kept, "
-         "program_digits; whether the control has G54.1, MOD and POW, and the long numbers of "
+         "program_digits, program_names; whether the control has G54.1, MOD and POW, and the long "
+         "numbers of "
          "system variables",
          "16M"},
         read_model},
@@ -271,6 +275,8 @@ constexpr std::array kSharedRows{
                                "the variables #98000 to #98499, which are kept"),
     Row{option("program_digits", kWhole, "digits of program numbers: 4 or 8", "4", {4, 8}),
         read_program_digits},
+    row<&C::has_program_names>("program_names", kFlag,
+                               "programs may have a name, <NAME>, instead of an O number"),
     pins_row<&C::pins_at_one, &C::answers_pins>()};
 
 constexpr std::array kMillRows{

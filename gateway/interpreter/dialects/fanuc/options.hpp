@@ -30,6 +30,7 @@ struct ControlOptions {
   bool has_later_functions = false;      ///< MOD, POW
   bool has_long_variables = false;       ///< #100001 and up, #14001, #4201
   int program_digits = 4;                ///< of O numbers
+  bool has_program_names = false;        ///< <NAME> instead of an O number
   std::uint32_t last_sequence = 99'999;  ///< of N
   bool calculator_point = false;
   bool has_tool_changer = true;  ///< false: M06 stops for the operator's hands

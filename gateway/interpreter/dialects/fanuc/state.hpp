@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "gateway/interpreter/core/block_interpreter.hpp"
@@ -166,6 +167,7 @@ struct LoopFrame {
 /// G66
 struct ModalCall {
   std::uint32_t program = 0;
+  std::string name;  ///< of a program that has one instead of a number
   std::uint32_t passes = 1;
   std::int8_t outer = -1;  ///< what calls while this one's macro runs
   Locals arguments{};
@@ -181,6 +183,7 @@ struct Jump {
   std::uint8_t loop_number = 1;
   std::int8_t modal = -1;    ///< which modal call, of CallKind::Modal
   std::uint32_t number = 0;  ///< sequence or program number
+  std::string name;          ///< of a program that has one instead of a number
   std::uint32_t passes = 1;
   TextPosition from;  ///< the block that jumps
   Locals arguments{};

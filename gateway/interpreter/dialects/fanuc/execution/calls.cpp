@@ -14,14 +14,44 @@ bool refuse_two(Run& run) {
   return run.fail(ErrorCode::ImproperCommand, 0, "two calls or ends in one block");
 }
 
-void open_call(Run& run, CallKind kind, std::uint32_t program, std::uint32_t passes) {
+/// Of the block in hand; empty: it calls by number.
+std::string called_name(const Run& run) {
+  const Block::Parts& parts = run.block.parts;
+  return {run.text.begin() + parts.name_begin, run.text.begin() + parts.name_end};
+}
+
+void open_call(Run& run, CallKind kind, std::uint32_t program, std::string name,
+               std::uint32_t passes) {
   Jump& jump = run.state.jump;
   jump = Jump{};
   jump.kind = JumpKind::Call;
   jump.call = kind;
   jump.number = program;
+  jump.name = std::move(name);
   jump.passes = passes;
   jump.from = run.state.at;
+}
+
+bool read_passes(Run& run, std::uint32_t& passes) {
+  const Words& words = run.block.words;
+  run.ledger.take(set_of(L));
+  const double repeats = run.whole(words[L]);
+  if (!(repeats >= 1 && repeats <= 9999)) {
+    return run.fail(ErrorCode::TooManyDigits, words.column(L), fmt::format("L{}", repeats));
+  }
+  passes = static_cast<std::uint32_t>(repeats);
+  return true;
+}
+
+/// M98 of a program with a name; its repeats are always in L.
+bool plan_named_subprogram(Run& run) {
+  const Words& words = run.block.words;
+  if (words.has(P))
+    return run.fail(ErrorCode::ImproperCommand, words.column(P), "two programs in one block");
+  std::uint32_t passes = 1;
+  if (words.has(L) && !read_passes(run, passes)) return false;
+  open_call(run, CallKind::Subprogram, 0, called_name(run), passes);
+  return true;
 }
 
 /// P of M98: a program, with repeats before its last four digits where the form allows.
@@ -29,12 +59,14 @@ bool plan_subprogram(Run& run, int code) {
   const Words& words = run.block.words;
   const CallForm form = run.options.call_form;
   if (run.options.is_dnc && code == 198) return run.fail(ErrorCode::ExternalCall, 0);
-  if (!words.has(P)) return run.fail(ErrorCode::NoP, 0);
+  const bool has_name = run.block.parts.name_end != 0;
+  if (!words.has(P) && !has_name) return run.fail(ErrorCode::NoP, 0);
   if (words.has(Q)) {
     // Later controls begin the program at block N of this number; from its head is another part.
     return run.fail(ErrorCode::ImproperCommand, words.column(Q),
                     fmt::format("M{} calls a program from its head, not from a block", code));
   }
+  if (has_name) return plan_named_subprogram(run);
   const double value = run.whole(words[P]);
   const bool takes_l = form != CallForm::EightDigits && words.has(L);
   const bool has_long_numbers = run.options.program_digits == 8;
@@ -55,16 +87,9 @@ bool plan_subprogram(Run& run, int code) {
     passes = program / 10000;
     program %= 10000;
   }
-  if (takes_l) {
-    run.ledger.take(set_of(L));
-    const double repeats = run.whole(words[L]);
-    if (!(repeats >= 1 && repeats <= 9999)) {
-      return run.fail(ErrorCode::TooManyDigits, words.column(L), fmt::format("L{}", repeats));
-    }
-    passes = static_cast<std::uint32_t>(repeats);
-  }
+  if (takes_l && !read_passes(run, passes)) return false;
   if (program == 0) return run.fail(ErrorCode::NumberNotFound, words.column(P), "O0000");
-  open_call(run, CallKind::Subprogram, program, passes);
+  open_call(run, CallKind::Subprogram, program, {}, passes);
   return true;
 }
 
@@ -128,14 +153,15 @@ bool plan_macro_call(Run& run) {
     if (!write_variable(run, parts.variable, parts.g_column, parts.value)) return false;
   }
   if (!parts.is_modal_call) {
-    open_call(run, parts.call, parts.call_program, parts.call_passes);
+    open_call(run, parts.call, parts.call_program, called_name(run), parts.call_passes);
     state.jump.arguments = arguments;
     return true;
   }
   if (state.modals.size() == kMaxModalCalls) {
     return run.fail(ErrorCode::TooManyModalCalls, parts.g_column);
   }
-  state.modals.push_back({parts.call_program, parts.call_passes, state.modal_active, arguments});
+  state.modals.push_back(
+      {parts.call_program, called_name(run), parts.call_passes, state.modal_active, arguments});
   state.modal_active = static_cast<std::int8_t>(state.modals.size() - 1);
   run.update_special();
   return true;
@@ -159,7 +185,7 @@ bool plan_modal_call(Run& run) {
     return true;
   if (state.jump.kind != JumpKind::None || run.block.parts.ending != Ending::None) return true;
   const ModalCall& call = state.modals[static_cast<std::size_t>(state.modal_active)];
-  open_call(run, CallKind::Modal, call.program, call.passes);
+  open_call(run, CallKind::Modal, call.program, call.name, call.passes);
   state.jump.arguments = call.arguments;
   state.jump.modal = state.modal_active;
   return true;

@@ -10,6 +10,11 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
+/// As the control writes it: O0012, or its name.
+std::string program_of(const Jump& jump) {
+  return jump.name.empty() ? fmt::format("O{:04}", jump.number) : jump.name;
+}
+
 std::size_t loop_base(const ModalState& state) {
   return state.calls.empty() ? 0 : state.calls.back().loop_base;
 }
@@ -122,7 +127,7 @@ bool check_depth(Run& run) {
     return true;
   }
   return run.fail(ErrorCode::Nesting, 0,
-                  fmt::format("O{:04} is called too deep", state.jump.number));
+                  fmt::format("{} is called too deep", program_of(state.jump)));
 }
 
 BlockOutcome enter_call(Run& run, const TextPosition& entry) {
@@ -149,12 +154,12 @@ BlockOutcome enter_call(Run& run, const TextPosition& entry) {
 }
 
 BlockOutcome call_library(Run& run) {
-  const std::uint32_t number = run.state.jump.number;
-  const ProgramLookup lookup = run.source.find(fmt::format("O{:04}", number));
+  const std::string name = program_of(run.state.jump);
+  const ProgramLookup lookup = run.source.find(name);
   run.text.invalidate();
   if (lookup.state == ProgramLookup::State::NotYet) return BlockOutcome::NeedsText;
   if (lookup.state == ProgramLookup::State::NotFound) {
-    run.fail(ErrorCode::NumberNotFound, 0, fmt::format("O{:04}", number));
+    run.fail(ErrorCode::NumberNotFound, 0, name);
     return BlockOutcome::Paused;
   }
   TextPosition entry;
@@ -246,8 +251,7 @@ BlockOutcome take_jump(Run& run, TextSearch& search) {
     outcome = search.find_end(jump.from, state.at, jump.loop_number, loop);
   } else if (jump.kind == JumpKind::Call) {
     // A program from the line cannot be searched: what it calls is in memory.
-    outcome =
-        run.options.is_dnc ? TextSearch::Outcome::Missing : search.find_program(jump.number, found);
+    outcome = run.options.is_dnc ? TextSearch::Outcome::Missing : search.find_program(jump, found);
   } else {
     outcome = search.find_label(state.at, jump.number, open, found);
   }

@@ -163,6 +163,8 @@ struct Block {
     bool is_modal_call = false;
     std::uint32_t call_program = 0;
     bool has_call_program = false;
+    std::uint32_t name_begin = 0;  ///< of the <NAME> of a program, without its brackets
+    std::uint32_t name_end = 0;    ///< 0: there is none
     std::uint32_t call_passes = 1;
     // of a macro statement
     StatementKind statement = StatementKind::None;

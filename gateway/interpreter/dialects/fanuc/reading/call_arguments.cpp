@@ -97,6 +97,8 @@ bool add_argument(Run& run, char letter, const Word& word) {
   Block& block = run.block;
   double value = 0;
   if (letter == 'P' && block.parts.call != CallKind::Code) {
+    if (block.parts.name_end != 0)
+      return run.fail(ErrorCode::ImproperCommand, word.column, "two programs in one block");
     if (run.options.model == Model::M0 && word.form == WordForm::Computed) {
       return run.fail(ErrorCode::ImproperG, word.column, "MACRO A");
     }

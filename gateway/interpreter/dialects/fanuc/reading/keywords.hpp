@@ -62,6 +62,11 @@ constexpr bool is_blank(char c) {
 constexpr bool is_letter(char c) {
   return kind_of(c) == CharKind::Letter;
 }
+/// Of a program's name; small letters and capitals are different.
+constexpr bool is_name_character(char c) {
+  return is_letter(c) || is_digit(c) || c == '+' || c == '-' || c == '_' || c == '.';
+}
+inline constexpr std::size_t kMaxProgramName = 32;
 /// The text must end with a LF.
 inline const char* skip_blanks(const char* at) {
   while (is_blank(*at)) ++at;

@@ -23,6 +23,7 @@ struct WrittenWord {
   char letter = 0;
   bool is_computed = false;
   double value = 0;
+  std::string_view name = {};  ///< of a program; the letter is <
 };
 
 const char* skip_brackets(const char* at, const char* end) {
@@ -55,6 +56,8 @@ class BlockWords {
         at_ = skip_brackets(at_, end_);
       } else if (*at_ == '#') {
         at_ = skip_variable(at_, end_);
+      } else if (*at_ == '<') {
+        if (read_name(word)) return true;
       } else if (!is_letter(*at_)) {
         ++at_;
       } else if (read(word)) {
@@ -65,9 +68,17 @@ class BlockWords {
   }
 
  private:
+  bool read_name(WrittenWord& word) {
+    const char* begin = ++at_;
+    while (at_ != end_ && is_name_character(*at_)) ++at_;
+    if (at_ == end_ || *at_ != '>') return false;
+    word = {'<', false, 0, {begin, static_cast<std::size_t>(at_ - begin)}};
+    ++at_;
+    return !word.name.empty();
+  }
   /// False: the letter begins no word.
   bool read(WrittenWord& word) {
-    word = {upper(*at_), false, 0};
+    word = {upper(*at_), false, 0, {}};
     const char* value = skip_blanks(at_ + 1);
     if (is_letter(*value)) {
       const Keyword keyword = take_keyword(at_);
@@ -101,6 +112,7 @@ class BlockCall {
   void take(const WrittenWord& word) {
     if (is_code_call_) return;  // its words are arguments
     if (word.letter == 'P') p_ = word;
+    if (word.letter == '<') name_ = word.name;
     if (word.letter == 'L') has_l_ = true;
     if (is_macro_) return;
     if (word.letter == 'G') take_g(word);
@@ -110,6 +122,10 @@ class BlockCall {
 
   void finish() {
     const bool may_call = is_macro_ || is_subprogram_ || has_computed_m_;
+    if (!is_code_call_ && may_call && !name_.empty()) {
+      calls_.add({.name = std::string(name_), .earlier = {}, .line = line_});
+      return;
+    }
     if (is_code_call_ || p_.letter == 0 || !may_call) return;
     if (p_.is_computed || has_computed_m_) return add_computed();
     std::uint64_t program = static_cast<std::uint64_t>(std::clamp(p_.value, 0.0, 99'999'999.0));
@@ -166,6 +182,7 @@ class BlockCall {
   bool is_macro_ = false, is_subprogram_ = false, is_code_call_ = false, has_computed_m_ = false;
   bool has_l_ = false;
   WrittenWord p_;  ///< without a letter: none
+  std::string_view name_;
 };
 
 void read_calls(const ControlOptions& options, const CallLines& lines, CallCollector& calls) {
@@ -206,7 +223,8 @@ Result<ProgramCalls> calls_of(const Setup& setup, bool is_lathe, ProgramSource& 
     if (head.kind == BlockHead::Kind::Program) {
       // A run that has called this text leaves it at the next program.
       if (has_code && program != kMainProgram) break;
-      calls.add_contained(fmt::format("O{:04}", head.number));
+      calls.add_contained(head.name.empty() ? fmt::format("O{:04}", head.number)
+                                            : std::string(head.name));
     }
     has_code = true;
     read_calls(*options, lines, calls);

@@ -45,6 +45,15 @@ int read_loop_word(const char* at, const char* end) {
   return read_number_of(at, number) && number <= 3 ? static_cast<int>(number) : 0;
 }
 
+/// `<NAME>`
+bool read_name(const char* at, std::string_view& name) {
+  if (*at != '<') return false;
+  const char* end = ++at;
+  while (is_name_character(*end)) ++end;
+  name = {at, static_cast<std::size_t>(end - at)};
+  return *end == '>' && !name.empty() && name.size() <= kMaxProgramName;
+}
+
 bool same_place(const TextPosition& a, const TextPosition& b) {
   return a.program == b.program && a.offset == b.offset;
 }
@@ -66,8 +75,10 @@ BlockHead read_head(const char* begin, const char* end) {
     at = skip_comments(at, end);
   }
   const char first = is_letter(*at) ? upper(*at) : *at;
-  if (first == 'O' || first == ':') {
-    if (read_number_of(++at, head.number)) head.kind = BlockHead::Kind::Program;
+  if (first == 'O' || first == ':' || first == '<') {
+    const char* name = first == 'O' ? skip_blanks(at + 1) : at;
+    if (read_name(name, head.name) || (first != '<' && read_number_of(++at, head.number)))
+      head.kind = BlockHead::Kind::Program;
     return head;
   }
   if (first == 'N' && read_number_of(++at, head.number)) {
@@ -169,13 +180,22 @@ TextSearch::Outcome TextSearch::continue_label_search(LabelSearch& search) {
   return Outcome::More;
 }
 
-TextSearch::Outcome TextSearch::find_program(std::uint32_t number, TextPosition& found) {
+const TextSearch::Place* TextSearch::known_program(const Jump& jump) const {
+  if (jump.name.empty()) {
+    const auto place = programs_.find(jump.number);
+    return place == programs_.end() ? nullptr : &place->second;
+  }
+  const auto place = named_programs_.find(jump.name);
+  return place == named_programs_.end() ? nullptr : &place->second;
+}
+
+TextSearch::Outcome TextSearch::find_program(const Jump& jump, TextPosition& found) {
   for (unsigned blocks = 0; blocks < kBlocksPerCall; ++blocks) {
-    if (const auto place = programs_.find(number); place != programs_.end()) {
+    if (const Place* place = known_program(jump); place != nullptr) {
       found = TextPosition{};
       found.head_seen = true;
-      found.segment_offset = found.offset = place->second.offset;
-      found.segment_line = found.line = place->second.line;
+      found.segment_offset = found.offset = place->offset;
+      found.segment_line = found.line = place->line;
       return Outcome::Found;
     }
     if (programs_complete_) return Outcome::Missing;
@@ -190,7 +210,11 @@ TextSearch::Outcome TextSearch::find_program(std::uint32_t number, TextPosition&
     }
     if (outcome != Outcome::Found) return outcome;
     if (head.kind == BlockHead::Kind::Program) {
-      programs_.try_emplace(head.number, Place{block.offset, block.line});
+      const Place place{block.offset, block.line};
+      if (head.name.empty())
+        programs_.try_emplace(head.number, place);
+      else
+        named_programs_.try_emplace(std::string(head.name), place);
     }
     programs_next_ = next;
   }

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
@@ -14,7 +16,8 @@ struct BlockHead {
   enum class Kind : std::uint8_t { Empty, Sequence, Program, Percent, Other };
   Kind kind = Kind::Empty;
   std::uint32_t number = 0;
-  int loop = 0;  ///< m of DO m, -m of END m
+  std::string_view name = {};  ///< of a program that has one; in the text
+  int loop = 0;                ///< m of DO m, -m of END m
 };
 /// The text must end with a LF.
 BlockHead read_head(const char* begin, const char* end);
@@ -43,8 +46,8 @@ class TextSearch {
   /// `open` holds the loops around `from`, and afterwards those around what was found.
   Outcome find_label(const TextPosition& from, std::uint32_t label, OpenLoops& open,
                      TextPosition& found);
-  /// The program O`number` in the text that was started.
-  Outcome find_program(std::uint32_t number, TextPosition& found);
+  /// The program that a jump calls, in the text that was started.
+  Outcome find_program(const Jump& jump, TextPosition& found);
   /// The END of the loop that begins at `head`; `after` is the block after it.
   Outcome find_end(const TextPosition& head, const TextPosition& after, std::uint8_t number,
                    LoopFrame& loop);
@@ -91,7 +94,10 @@ class TextSearch {
   std::array<LoopFrame, kKnown> loops_{};
   LabelSearch label_search_;
   EndSearch end_search_;
+  const Place* known_program(const Jump& jump) const;
+
   std::unordered_map<std::uint32_t, Place> programs_;  ///< by number
+  std::unordered_map<std::string, Place> named_programs_;
   TextPosition programs_next_;
   bool programs_complete_ = false;
 };

@@ -64,6 +64,9 @@ INSTANTIATE_TEST_SUITE_P(
         CallCase{"blocks_of_a_line", "fanuc", "G0 X1;M98 P2;(;M98 P3;)M98 P4\n", "O0002:1 O0004:1"},
         CallCase{"bound_codes", "fanuc", "G100 P5\nM60\nT3\nG101\n", "O9010:1 O9020:2 O9000:3",
                  "control.g_macro = [100]\ncontrol.m_macro = [60]\ncontrol.t_macro = true\n"},
+        CallCase{"names", "fanuc",
+                 "<A>\nM98 <G65P3>\nG65 <M98P4> A1.\nM198 <B> L2\nG0 X1 <C>\nM98 <D\n",
+                 "G65P3:2 M98P4:3 B:4"},
         CallCase{"after_the_tape_end", "fanuc", "%\nO1\nM98 P2\n%\nM98 P3\n", "O0002:3"}),
     [](const auto& i) { return std::string(i.param.name); });
 
@@ -116,6 +119,8 @@ TEST(ProgramCalls, AreContainedInTheTextThatIsStarted) {
   const std::string text = "O0001\nM98 P2\nM30\nO0002\nM98 P3\nM99\n";
   EXPECT_EQ(calls_of("fanuc", text)->contained, (std::set<std::string>{"O0001", "O0002"}));
   EXPECT_EQ(calls_of("centurion", text)->contained, (std::set<std::string>{"O0001", "O0002"}));
+  const std::string named = "<A>\nM98 <B>\nM30\nO<B>\nM98 <C>\nM99\n";
+  EXPECT_EQ(calls_of("fanuc", named)->contained, (std::set<std::string>{"A", "B"}));
   // A text that is called is left at its next program.
   EXPECT_EQ(words_of(calls_of("fanuc", text, "", 1)), "O0002:2");
   EXPECT_EQ(words_of(calls_of("centurion", text, "", 1)), "O0002:2");
