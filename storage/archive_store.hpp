@@ -30,6 +30,9 @@ struct Archive {
   std::uint64_t rows = 0, bytes = 0;
   UtcTime first_time{}, last_time{}, created{};
   bool is_removed = false;
+  /// Its parts are counted for their runs (MeasurementStore::parts_of_run); false: it took some
+  /// before there were such counts. The store's own.
+  bool is_counted = true;
 };
 
 /// What a journal of a machine has in the table that may be taken out: it is derived, and belongs
@@ -62,12 +65,15 @@ class ArchiveStore {
   /// The file is on disk. The audit entry (archive.create), with the file's digest, is part of the
   /// transaction. Returns its id. Errors: Conflict (a file of that name is listed).
   virtual Result<std::uint64_t> add(const Archive& archive, const Actor& who) = 0;
-  /// Takes some of its rows out of the tables; 0: none is left, and the archive says so.
+  /// Takes some of its rows out of the tables; 0: none is left, and the archive says so. A part is
+  /// counted for its run in the transaction that takes it out.
   virtual Result<std::uint64_t> remove_rows(std::uint64_t id, std::uint64_t limit) = 0;
   /// Newest first.
   virtual Result<std::vector<Archive>> list(Page page) = 0;
   /// Those whose rows are still to be taken out.
   virtual Result<std::vector<Archive>> unremoved() = 0;
+  /// Those whose parts are not counted for their runs.
+  virtual Result<std::vector<Archive>> uncounted() = 0;
 };
 
 }  // namespace dripline::storage

@@ -74,6 +74,15 @@ struct MeasurementFilter {
   bool with_superseded = false;
 };
 
+/// How many parts of a run have each verdict, by its number; without superseded ones.
+struct RunParts {
+  std::array<std::uint64_t, 4> verdicts{};  ///< of all, the archived ones too
+  std::uint64_t archived = 0;               ///< of them, those that are in archives alone
+  std::vector<std::string> archives = {};   ///< that have them: their files, oldest first
+
+  std::uint64_t all() const { return verdicts[0] + verdicts[1] + verdicts[2] + verdicts[3]; }
+};
+
 struct PartFilter {
   std::optional<std::string> machine = {}, run = {};
   std::optional<measurement::Verdict> verdict = {};
@@ -113,8 +122,7 @@ class MeasurementStore {
   virtual Result<std::vector<MeasuredPart>> parts(const PartFilter& filter, Page page) = 0;
   /// Errors: NotFound.
   virtual Result<MeasuredPart> part(std::uint64_t id) = 0;
-  /// How many parts of a run have each verdict, by its number; without superseded ones.
-  virtual Result<std::array<std::uint64_t, 4>> verdicts(const std::string& run) = 0;
+  virtual Result<RunParts> parts_of_run(const std::string& run) = 0;
   /// In their order.
   virtual Result<std::vector<ReportFinding>> findings(const PartFilter& filter, Page page) = 0;
   /// Names of what was measured; of a machine, or of all.

@@ -8,10 +8,14 @@ namespace {
 
 using storage::OffsetProposal;
 
-constexpr std::uint64_t kPartsOfRun = 500;  ///< that are counted
-
 bool begins_with(const std::string& target, const std::string& prefix) {
   return target == prefix || (target.starts_with(prefix) && target[prefix.size()] == '.');
+}
+
+/// By the times alone.
+bool may_have_parts(const storage::Archive& archive, const storage::Run& run) {
+  return archive.last_time >= run.started.value_or(run.created) &&
+         (!run.ended || archive.first_time <= *run.ended);
 }
 
 }  // namespace
@@ -26,15 +30,26 @@ Result<void> OffsetHistory::add_runs(HistoryEntry& entry, std::uint64_t until) {
     if (!runs) return fail(runs.error());
     entry.runs.insert(entry.runs.end(), runs->rbegin(), runs->rend());
   }
+  return add_parts(entry);
+}
+
+Result<void> OffsetHistory::add_parts(HistoryEntry& entry) {
   for (const storage::Run& run : entry.runs) {
-    storage::PartFilter filter;
-    filter.run = run.id;
-    const auto parts = store_.measurements.parts(filter, {.limit = kPartsOfRun});
+    const auto parts = store_.measurements.parts_of_run(run.id);
     if (!parts) return fail(parts.error());
-    entry.parts += parts->size();
-    entry.good += static_cast<std::uint64_t>(
-        std::ranges::count(*parts, measurement::Verdict::Good,
-                           [](const storage::MeasuredPart& part) { return part.verdict; }));
+    entry.parts += parts->all();
+    entry.good += parts->verdicts[static_cast<std::size_t>(measurement::Verdict::Good)];
+    entry.archived += parts->archived;
+    for (const std::string& file : parts->archives) {
+      if (std::ranges::find(entry.archives, file) == entry.archives.end())
+        entry.archives.push_back(file);
+    }
+  }
+  const auto uncounted = store_.archives.uncounted();
+  if (!uncounted) return fail(uncounted.error());
+  for (const storage::Archive& archive : *uncounted) {
+    const auto may_have = [&](const storage::Run& run) { return may_have_parts(archive, run); };
+    if (std::ranges::any_of(entry.runs, may_have)) entry.uncounted.push_back(archive.file);
   }
   return {};
 }

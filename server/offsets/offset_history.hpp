@@ -18,7 +18,11 @@ struct HistoryEntry {
   std::optional<storage::OffsetProposal> proposal = {};
   std::vector<storage::Run> runs =
       {};  ///< cut under it, oldest first; at most OffsetHistory::kMaxRuns
-  std::uint64_t parts = 0, good = 0;
+  std::uint64_t parts = 0, good = 0;       ///< of these runs, the archived ones too
+  std::uint64_t archived = 0;              ///< of the parts, those that are in archives alone
+  std::vector<std::string> archives = {};  ///< that have them: their files
+  /// Archives that may have parts of these runs, from before their parts were counted.
+  std::vector<std::string> uncounted = {};
 };
 
 /// What was in force while a run was cut: its setup, for all of its blocks. What the program itself
@@ -46,6 +50,7 @@ class OffsetHistory {
 
  private:
   Result<void> add_runs(HistoryEntry& entry, std::uint64_t until);
+  Result<void> add_parts(HistoryEntry& entry);
 
   const storage::Store& store_;
 };

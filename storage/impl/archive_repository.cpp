@@ -11,7 +11,7 @@ namespace {
 
 const std::string kSelect =
     "SELECT id, kind, machine, epoch, first, last, file, sha256, rows, bytes, first_us, last_us, "
-    "created_us, is_removed FROM archive ";
+    "created_us, is_removed, is_counted FROM archive ";
 
 Archive read_archive(const sqlite::Statement& row) {
   Archive archive;
@@ -29,6 +29,7 @@ Archive read_archive(const sqlite::Statement& row) {
   archive.last_time = row.time(11);
   archive.created = row.time(12);
   archive.is_removed = row.integer(13) != 0;
+  archive.is_counted = row.integer(14) != 0;
   return archive;
 }
 
@@ -54,6 +55,16 @@ Result<std::uint64_t> remove_records(sqlite::Database& database, const Archive& 
   return database.changes();
 }
 
+/// The part is about to leave its table: its run keeps its verdict.
+Result<void> count_part(sqlite::Database& database, const Archive& archive, std::int64_t part) {
+  static const std::string kSql =
+      "INSERT INTO archived_part (run, archive, template, verdict, parts) SELECT run, ?2, "
+      "template, "
+      "verdict, 1 FROM measured_part WHERE id = ?1 AND run IS NOT NULL AND is_superseded = 0 "
+      "ON CONFLICT (run, archive, template, verdict) DO UPDATE SET parts = parts + 1";
+  return sqlite::run(database, kSql, part, archive.id);
+}
+
 /// Of the first part that is still there: its values, its findings, then the part.
 Result<std::uint64_t> remove_measurements(sqlite::Database& database, const Archive& archive,
                                           std::uint64_t limit) {
@@ -66,12 +77,14 @@ Result<std::uint64_t> remove_measurements(sqlite::Database& database, const Arch
   for (const char* sql :
        {"DELETE FROM measurement WHERE id IN (SELECT id FROM measurement WHERE part = ?1 LIMIT ?2)",
         "DELETE FROM report_finding WHERE id IN (SELECT id FROM report_finding WHERE part = ?1 "
-        "LIMIT ?2)",
-        "DELETE FROM measured_part WHERE id = ?1 AND ?2 IS NOT NULL"}) {
+        "LIMIT ?2)"}) {
     if (auto done = sqlite::run(database, sql, ***part, limit); !done) return fail(done.error());
     if (database.changes() > 0) return database.changes();
   }
-  return 0;
+  if (auto counted = count_part(database, archive, ***part); !counted) return fail(counted.error());
+  auto done = sqlite::run(database, "DELETE FROM measured_part WHERE id = ?1", ***part);
+  if (!done) return fail(done.error());
+  return database.changes();
 }
 
 }  // namespace
@@ -239,6 +252,12 @@ Result<std::vector<Archive>> ArchiveRepository::list(Page page) {
 
 Result<std::vector<Archive>> ArchiveRepository::unremoved() {
   static const std::string kSql = kSelect + "WHERE is_removed = 0 ORDER BY id";
+  return connections_.read(
+      [&](sqlite::Database& database) { return sqlite::all_rows(database, kSql, read_archive); });
+}
+
+Result<std::vector<Archive>> ArchiveRepository::uncounted() {
+  static const std::string kSql = kSelect + "WHERE is_counted = 0 ORDER BY id";
   return connections_.read(
       [&](sqlite::Database& database) { return sqlite::all_rows(database, kSql, read_archive); });
 }

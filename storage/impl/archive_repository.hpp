@@ -21,6 +21,7 @@ class ArchiveRepository final : public ArchiveStore {
   Result<std::uint64_t> remove_rows(std::uint64_t id, std::uint64_t limit) override;
   Result<std::vector<Archive>> list(Page page) override;
   Result<std::vector<Archive>> unremoved() override;
+  Result<std::vector<Archive>> uncounted() override;
 
  private:
   Connections& connections_;

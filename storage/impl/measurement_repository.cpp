@@ -266,17 +266,34 @@ Result<MeasuredPart> MeasurementRepository::part(std::uint64_t id) {
   return std::move(**found);
 }
 
-Result<std::array<std::uint64_t, 4>> MeasurementRepository::verdicts(const std::string& run) {
+Result<RunParts> MeasurementRepository::parts_of_run(const std::string& run) {
+  struct Row {
+    std::uint64_t verdict = 0, parts = 0;
+    std::optional<std::string> archive;
+  };
+  static const std::string kSql =
+      "SELECT verdict, count(*), NULL, 0 AS place FROM measured_part WHERE run = ?1 AND "
+      "is_superseded = 0 GROUP BY verdict UNION ALL "
+      "SELECT a.verdict, sum(a.parts), archive.file, archive.id FROM archived_part AS a JOIN "
+      "archive ON archive.id = a.archive WHERE a.run = ?1 GROUP BY a.archive, a.verdict "
+      "ORDER BY place";
   const auto rows = connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(
-        database,
-        "SELECT verdict, count(*) FROM measured_part WHERE run = ?1 AND is_superseded = 0 GROUP BY "
-        "verdict",
-        [](const sqlite::Statement& row) { return std::pair(row.number(0), row.number(1)); }, run);
+        database, kSql,
+        [](const sqlite::Statement& row) {
+          return Row{row.number(0), row.number(1), row.optional_text(2)};
+        },
+        run);
   });
   if (!rows) return fail(rows.error());
-  std::array<std::uint64_t, 4> counts{};
-  for (const auto& [verdict, count] : *rows) counts.at(verdict) = count;
+  RunParts counts;
+  for (const Row& row : *rows) {
+    counts.verdicts.at(row.verdict) += row.parts;
+    if (!row.archive) continue;
+    counts.archived += row.parts;
+    if (counts.archives.empty() || counts.archives.back() != *row.archive)
+      counts.archives.push_back(*row.archive);
+  }
   return counts;
 }
 

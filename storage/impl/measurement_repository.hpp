@@ -23,7 +23,7 @@ class MeasurementRepository final : public MeasurementStore {
       std::uint64_t limit) override;
   Result<std::vector<MeasuredPart>> parts(const PartFilter& filter, Page page) override;
   Result<MeasuredPart> part(std::uint64_t id) override;
-  Result<std::array<std::uint64_t, 4>> verdicts(const std::string& run) override;
+  Result<RunParts> parts_of_run(const std::string& run) override;
   Result<std::vector<ReportFinding>> findings(const PartFilter& filter, Page page) override;
   Result<std::vector<std::string>> characteristics(
       const std::optional<std::string>& machine) override;

@@ -153,7 +153,7 @@ int push_rules(Context& context, client::Client& client, const OffsetChoice& com
 
 Table history_table(const ordered_json& history) {
   Table table({"VALUE", right("IS"), "UNIT", right("SETUP"), "SINCE", "WHO", right("RUNS"),
-               right("PARTS"), right("GOOD"), "FIRST RUN", "LAST RUN", "WHY"});
+               right("PARTS"), right("GOOD"), right("ARCHIVED"), "FIRST RUN", "LAST RUN", "WHY"});
   for (const auto& entry : history) {
     const auto& runs = entry.at("runs");
     const auto run = [&](std::size_t i) {
@@ -163,16 +163,52 @@ Table history_table(const ordered_json& history) {
                offset_word(entry, "unit"), offset_number(entry, "setup"),
                time_text(offset_word(entry, "time")), offset_word(entry, "who"),
                std::to_string(runs.size()), offset_number(entry, "parts"),
-               offset_number(entry, "good"), run(0), run(runs.empty() ? 0 : runs.size() - 1),
-               offset_word(entry, "why")});
+               offset_number(entry, "good"), offset_number(entry, "archived"), run(0),
+               run(runs.empty() ? 0 : runs.size() - 1), offset_word(entry, "why")});
   }
   return table;
 }
 
+/// The files that the list `key` of some entry names, each once.
+std::vector<std::string> files_of(const ordered_json& history, const char* key) {
+  std::vector<std::string> files;
+  for (const auto& entry : history) {
+    const auto list = entry.find(key);  // an older server has none
+    if (list == entry.end()) continue;
+    for (const auto& file : *list) {
+      const std::string name = printable(file.get<std::string>());
+      if (std::ranges::find(files, name) == files.end()) files.push_back(name);
+    }
+  }
+  return files;
+}
+
+void print_archives(const Context& context, const ordered_json& history) {
+  const auto archives = files_of(history, "archives");
+  if (!archives.empty()) {
+    context.print(
+        fmt::format("\nARCHIVED parts are counted in PARTS; their measurements are in {}\n"
+                    "(dnc report measurements --archive FILE reads them).\n",
+                    fmt::join(archives, ", ")));
+  }
+  const auto uncounted = files_of(history, "uncounted");
+  if (!uncounted.empty()) {
+    context.print(
+        fmt::format("\nMay have more parts of these runs, which an earlier version did not count: "
+                    "{}\n",
+                    fmt::join(uncounted, ", ")));
+  }
+}
+
 int history(Context& context, client::Client& client, const OffsetChoice& command) {
   const auto answer = client.offset_history(command.machine, command.target, command.limit);
-  return print_listing(context, client, answer,
-                       {"history", "No setup states such a value.\n", history_table});
+  const int status = print_listing(context, client, answer,
+                                   {"history", "No setup states such a value.\n", history_table});
+  if (status != kExitOk || context.wants_json) return status;
+  return shown_json(client, *answer, [&](const ordered_json& shown) {
+    print_archives(context, shown.at("history"));
+    return kExitOk;
+  });
 }
 
 int in_force(Context& context, client::Client& client, const OffsetChoice& command) {

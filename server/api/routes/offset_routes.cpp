@@ -72,7 +72,10 @@ json history_json(const offsets::HistoryEntry& entry) {
             {"proposal", entry.proposal ? offset_json(*entry.proposal) : json(nullptr)},
             {"runs", json::array()},
             {"parts", entry.parts},
-            {"good", entry.good}};
+            {"good", entry.good},
+            {"archived", entry.archived},
+            {"archives", entry.archives},
+            {"uncounted", entry.uncounted}};
   for (const storage::Run& run : entry.runs) view["runs"].push_back(run.id);
   return view;
 }

@@ -152,10 +152,14 @@ Response show_run(Services& services, const Request& request) {
   nlohmann::json view = run_json(*run);
   view["parts"] = nullptr;
   if (services.measurements != nullptr) {
-    const auto counts = services.measurements->stored().verdicts(run->id);
-    if (!counts) return error_response(counts.error());
-    for (std::size_t i = 0; i < counts->size(); ++i)
-      view["parts"][std::string(measurement::to_string(measurement::Verdict(i)))] = (*counts)[i];
+    const auto parts = services.measurements->stored().parts_of_run(run->id);
+    if (!parts) return error_response(parts.error());
+    for (std::size_t i = 0; i < parts->verdicts.size(); ++i) {
+      view["parts"][std::string(measurement::to_string(measurement::Verdict(i)))] =
+          parts->verdicts[i];
+    }
+    view["parts"]["archived"] = parts->archived;
+    view["parts"]["archives"] = parts->archives;
   }
   return json_response(200, view);
 }

@@ -159,7 +159,7 @@ TEST_P(KeptFile, HasMeasurementsSinceVersion11) {
   EXPECT_TRUE(store_->measurements.underived()->empty());
   EXPECT_EQ(store_->measurements.next_part_id(), has_them ? 2u : 1u);
   EXPECT_EQ(store_->report_templates.assignments()->size(), has_them ? 1u : 0u);
-  EXPECT_EQ(store_->archives.list({})->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->archives.list({})->size(), version() >= 17 ? 2u : has_them ? 1u : 0u);
   if (!has_them) return;
   const auto measured = store_->measurements.list({.run = "r1"}, {}, 10)->front();
   EXPECT_EQ(measured.actual, 1.5);
@@ -190,7 +190,7 @@ TEST_P(KeptFile, HasHotFoldersJobsAndWebhooksSinceVersion14) {
   reopen();
   const bool has_them = version() >= 14;
   EXPECT_EQ(store_->folders.unfinished("cam")->size(), has_them ? 1u : 0u);
-  EXPECT_EQ(store_->jobs.list("m1", true, {})->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->jobs.list("m1", true, {})->size(), version() >= 17 ? 2u : has_them ? 1u : 0u);
   EXPECT_EQ(store_->webhooks.list()->size(), has_them ? 1u : 0u);
   if (!has_them) return;
   EXPECT_EQ(store_->folders.unfinished("cam")->at(0).target, "done/p.nc");
@@ -220,10 +220,21 @@ TEST_P(KeptFile, HasReadersOfTheRecordsSinceVersion16) {
   EXPECT_EQ(unread->at(0).last, 3u);
 }
 
+TEST_P(KeptFile, HasCountsOfArchivedPartsSinceVersion17) {
+  reopen();
+  const bool has_them = version() >= 17;
+  const auto parts = store_->measurements.parts_of_run("r1");
+  ASSERT_TRUE(parts) << parts.error().what;
+  EXPECT_EQ(parts->archived, has_them ? 2u : 0u);
+  EXPECT_EQ(parts->all(), (version() >= 11 ? 1u : 0u) + (has_them ? 2u : 0u));
+  EXPECT_TRUE(store_->archives.uncounted()->empty()) << "an archive of records has no parts";
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
-                                         "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql"),
+                                         "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql",
+                                         "v17.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

@@ -195,9 +195,9 @@ TEST_F(Measurements, StayWhenARunIsDerivedAgain) {
   EXPECT_TRUE(store_->measurements.part(1)->is_superseded);
   EXPECT_TRUE(store_->measurements.findings({.run = "r1"}, {})->empty());
   EXPECT_EQ(store_->measurements.state("m1"), "after 3") << "untouched";
-  const auto counts = store_->measurements.verdicts("r1");
-  EXPECT_EQ((*counts)[static_cast<std::size_t>(Verdict::Scrap)], 1u);
-  EXPECT_EQ((*counts)[static_cast<std::size_t>(Verdict::Good)], 0u);
+  const auto counts = store_->measurements.parts_of_run("r1")->verdicts;
+  EXPECT_EQ(counts[static_cast<std::size_t>(Verdict::Scrap)], 1u);
+  EXPECT_EQ(counts[static_cast<std::size_t>(Verdict::Good)], 0u);
 }
 
 TEST_F(Measurements, UpdateTheirPart) {

@@ -5,7 +5,7 @@ import { get, pathOf } from '../api/request';
 import { PartTable } from '../measurements/part_list';
 import { Loading } from '../parts/loading';
 import { useLoaded } from '../parts/use_loaded';
-import { dateTimeText, texts } from '../texts/texts';
+import { dateTimeText, numberText, texts } from '../texts/texts';
 import { latestRuns, valueText, type PastValue } from './steps';
 
 /// A request each.
@@ -26,6 +26,8 @@ export function CutUnder({ past, onClose }: { past: PastValue; onClose: () => vo
   return (
     <section class="panel" aria-labelledby="cut-under">
       <div class="head"><h2 id="cut-under">{name}</h2><button type="button" onClick={onClose}>{t.close}</button></div>
+      {past.archived > 0 && <p class="notice">{t.inArchives(numberText(past.archived), past.archives.join(', '))}</p>}
+      {past.uncounted.length > 0 && <p class="notice warn">{t.uncounted(past.uncounted.join(', '))}</p>}
       <Loading of={parts} />
       {parts.value?.length === 0 && <p class="muted">{t.nothingMeasured}</p>}
       {parts.value && parts.value.length > 0 && <PartTable parts={parts.value} label={texts().measurements.tabs.parts} />}

@@ -66,6 +66,7 @@ function HistoryTable({ history }: { history: PastValue[] }) {
                     {past.parts === 0 ? '–' : (
                       <button type="button" aria-pressed={shown === past} onClick={() => setShown(shown === past ? null : past)}>{t.goodOf(numberText(past.good), numberText(past.parts))}</button>
                     )}
+                    {past.archived > 0 && <span class="muted" title={past.archives.join(', ')}> {t.archived(numberText(past.archived))}</span>}
                   </td>
                   <td><Runs runs={past.runs} /></td>
                 </tr>

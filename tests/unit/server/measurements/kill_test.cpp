@@ -86,9 +86,9 @@ TEST_F(KilledMeasurements, LoseAndDoubleNothing) {
   ASSERT_EQ(numbers.size(), std::size_t{2} * kParts);
   EXPECT_TRUE(std::ranges::is_sorted(numbers)) << "in order";
   EXPECT_EQ(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  const auto counts = store_->measurements.verdicts("r1");
-  EXPECT_EQ((*counts)[3], 429u);
-  EXPECT_EQ((*counts)[0], kParts - 429u);
+  const auto counts = store_->measurements.parts_of_run("r1")->verdicts;
+  EXPECT_EQ(counts[3], 429u);
+  EXPECT_EQ(counts[0], kParts - 429u);
 }
 
 }  // namespace

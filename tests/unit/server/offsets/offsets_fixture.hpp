@@ -99,6 +99,7 @@ class OffsetsTest : public server_test::ServerTest {
     part.measurements = 1;
     part.verdict = measurement::Verdict::Good;
     part.begun = record.time;
+    part.ended = record.time;
     measurement::Measurement m;
     m.part_id = part.id;
     m.characteristic = {.name = "D40", .nominal = 40, .lower = 39.95, .upper = 40.05};

@@ -99,8 +99,9 @@ TEST_F(MeasurementRoutes, ShowPartsInTheRun) {
   EXPECT_EQ(parts["parts"][0]["verdict"], "scrap");
   EXPECT_EQ(json(get("/api/v1/parts/1"))["template_version"], 1);
   expect_error(get("/api/v1/parts/9"), 404, "not_found", "part 9");
-  EXPECT_EQ(json(get("/api/v1/runs/run-1"))["parts"],
-            Json::parse(R"({"good":0,"unknown":0,"rework":0,"scrap":1})"));
+  EXPECT_EQ(
+      json(get("/api/v1/runs/run-1"))["parts"],
+      Json::parse(R"({"good":0,"unknown":0,"rework":0,"scrap":1,"archived":0,"archives":[]})"));
   const Json findings = json(get("/api/v1/report-findings?run=run-1"));
   ASSERT_EQ(findings["findings"].size(), 1u);
   EXPECT_EQ(findings["findings"][0]["text"], "LOAD 3");

@@ -54,6 +54,9 @@ TEST_F(OffsetRoutes, ListShowAndApprove) {
   ASSERT_EQ(history["history"].size(), 1U) << history.dump();
   EXPECT_EQ(history["history"][0]["value"], -0.01);
   EXPECT_EQ(history["history"][0]["proposal"]["id"], id);
+  EXPECT_EQ(history["history"][0]["archived"], 0);
+  EXPECT_TRUE(history["history"][0]["archives"].empty());
+  EXPECT_TRUE(history["history"][0]["uncounted"].empty());
 }
 
 TEST_F(OffsetRoutes, RejectWantsAReason) {
