@@ -24,6 +24,21 @@ class RuleReader {
       return refuse(*node, fmt::format("{}: a text is expected", key));
     into = *value;
   }
+  void optional_text(const char* key, std::string& into) {
+    if (table_.contains(key)) text(key, into);
+  }
+  /// T3 in quotes, or the bare number.
+  void tool(const char* key, std::string& into) {
+    const auto* node = take(key);
+    if (node == nullptr) return;
+    const auto number = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+    if (number && *number < 0)
+      return refuse(*node, fmt::format("{}: tool {} is below 0", key, *number));
+    if (!number && !node->is_string())
+      return refuse(*node, fmt::format("{}: a tool is expected, 3 or \"T3\"", key));
+    if (!number) return text(key, into);
+    into = fmt::format("T{}", *number);
+  }
   void number(const char* key, double& into, double low, double high) {
     const auto* node = take(key);
     if (node == nullptr) return;
@@ -85,6 +100,9 @@ Result<OffsetRule> read_rule(const toml::table& table) {
   reader.text("name", rule.name);
   reader.text("characteristic", rule.characteristic);
   reader.text("target", rule.target);
+  reader.optional_text("program", rule.program);
+  reader.tool("tool", rule.tool);
+  reader.optional_text("template", rule.template_name);
   reader.number("scale", rule.scale, -100, 100);
   reader.number("gain", rule.gain, 0.01, 1);
   reader.number("dead_band", rule.dead_band, 0, kMost);
@@ -123,6 +141,32 @@ Result<void> check_distinct(const std::vector<OffsetRule>& rules) {
 }
 
 }  // namespace
+
+std::string scope_text(const OffsetRule& rule) {
+  std::string text;
+  const auto add = [&](std::string_view what, const std::string& name) {
+    if (!name.empty()) text += fmt::format("{}{} {}", text.empty() ? "" : " ", what, name);
+  };
+  add("of program", rule.program);
+  add("by tool", rule.tool);
+  add("read by template", rule.template_name);
+  return text;
+}
+
+bool has_same_scope(const OffsetRule& a, const OffsetRule& b) {
+  return a.characteristic == b.characteristic && a.program == b.program &&
+         bare_tool(a.tool) == bare_tool(b.tool) && a.template_name == b.template_name;
+}
+
+std::string bare_tool(std::string_view tool) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string_view bare = tool;
+  if (bare.size() > 1 && (bare[0] == 'T' || bare[0] == 't') && is_digit(bare[1]))
+    bare.remove_prefix(1);
+  if (!std::ranges::all_of(bare, is_digit)) return std::string(tool);
+  while (bare.size() > 1 && bare[0] == '0') bare.remove_prefix(1);
+  return std::string(bare);
+}
 
 Result<std::vector<OffsetRule>> parse_offset_rules(std::string_view text) {
   if (text.size() > kMaxRuleText)

@@ -1,32 +1,25 @@
 #include "server/offsets/offsets.hpp"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "protocol/process/log.hpp"
+#include "server/offsets/deviations.hpp"
 #include "server/offsets/memory_check.hpp"
 #include "server/offsets/rule_check.hpp"
 
 namespace dripline::offsets {
 namespace {
 
-using measurement::Measurement;
 using storage::OffsetProposal;
 
 constexpr const char* kPolicy = "offset rules";  ///< no user has a blank in his name
 constexpr std::uint64_t kSetupsBack = 200;       ///< that are looked through for the value in force
-constexpr std::uint64_t kMeasurementsBack = 5'000;  ///< under other setups, or without a nominal
-constexpr std::uint64_t kPageSize = 500;
-constexpr double kMillimetersPerInch = 25.4;
 /// The value has its rule's digits already; zeros at the end are not written.
 constexpr int kDecimals = 9;
 
-/// Lengths in the setup's unit; anything else as it is.
-double in_setup_unit(double value, const std::string& unit, const std::string& setup_unit) {
-  if (unit == "mm" && setup_unit == "in") return value / kMillimetersPerInch;
-  if (unit == "inch" && setup_unit == "mm") return value * kMillimetersPerInch;
-  return value;
+std::string reasons_json(const std::vector<std::string>& reasons) {
+  return nlohmann::json(reasons).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string reasons_json(const std::vector<std::string>& reasons) {
@@ -39,24 +32,6 @@ std::string comment_of(const OffsetProposal& proposal, const storage::OffsetDeci
                      proposal.target, proposal.old_value, proposal.new_value, proposal.unit,
                      decision.comment.empty() ? "" : ": ", decision.comment);
 }
-
-/// The runs of measurements, each asked for once.
-class RunSetups {
- public:
-  explicit RunSetups(storage::RunStore& runs) : runs_(runs) {}
-  /// 0: the run had no setup. Nothing: there is no such run.
-  std::optional<std::uint64_t> setup_of(const std::string& run) {
-    const auto [found, is_new] = known_.try_emplace(run);
-    if (is_new) {
-      if (const auto stored = runs_.find(run)) found->second = stored->setup.value_or(0);
-    }
-    return found->second;
-  }
-
- private:
-  storage::RunStore& runs_;
-  std::map<std::string, std::optional<std::uint64_t>> known_;
-};
 
 }  // namespace
 
@@ -97,8 +72,9 @@ Result<void> Offsets::withdraw_of_gone(const std::string& machine,
   for (const OffsetProposal& proposal : *pending) {
     const auto is_its = [&](const OffsetRule& rule) { return is_of_rule(proposal, rule); };
     if (std::ranges::any_of(rules, is_its)) continue;
-    process::log_info("offset proposal {} machine={} is withdrawn: there is no rule {} any more",
-                      proposal.id, machine, proposal.rule);
+    process::log_info(
+        "offset proposal {} machine={} is withdrawn: there is no such rule {} any more",
+        proposal.id, machine, proposal.rule);
     if (auto done = parts_.store.offsets.withdraw(machine, proposal.target, parts_.clock.now());
         !done)
       return done;
@@ -168,32 +144,6 @@ Result<std::uint64_t> Offsets::in_force_since(const Current& now, const OffsetRu
   return since;
 }
 
-/// Of the newest measurements, those of runs under the value in force; oldest first.
-Result<std::vector<Deviation>> Offsets::deviations(const Current& now, const OffsetRule& rule,
-                                                   std::uint64_t since) {
-  RunSetups runs(parts_.store.runs);
-  storage::MeasurementFilter filter;
-  filter.machine = now.machine;
-  filter.characteristic = rule.characteristic;
-  std::vector<Deviation> found;
-  std::optional<storage::MeasurementPlace> before;
-  for (std::uint64_t seen = 0; seen < kMeasurementsBack && found.size() < rule.window;) {
-    const auto rows = parts_.store.measurements.list_newest(filter, before, kPageSize);
-    if (!rows) return fail(rows.error());
-    for (const Measurement& m : *rows) {
-      const auto off = measurement::deviation(m);
-      const auto setup = m.run.empty() ? std::nullopt : runs.setup_of(m.run);
-      if (!off || !setup || *setup < since || found.size() == rule.window) continue;
-      found.push_back({m.id, in_setup_unit(*off, m.characteristic.unit, now.unit)});
-    }
-    seen += rows->size();
-    if (rows->size() < kPageSize) break;
-    before = storage::MeasurementPlace{rows->back().time, rows->back().id};
-  }
-  std::ranges::reverse(found);
-  return found;
-}
-
 /// Why the value is not to be written into the setup; empty: nothing speaks against it.
 Result<std::string> Offsets::doubt_of(const Current& now, const OffsetRule& rule, double value) {
   const auto target = parse_setup_target(rule.target);
@@ -212,20 +162,24 @@ Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule)
   if (!value) return fail(value.error());
   const auto since = in_force_since(now, rule, *value);
   if (!since) return fail(since.error());
-  const auto measured = deviations(now, rule, *since);
-  if (!measured) return fail(measured.error());
+  const auto found = find_deviations(
+      parts_.store, {.machine = now.machine, .unit = now.unit, .rule = rule, .since = *since});
+  if (!found) return fail(found.error());
+  const auto& measured = found->deviations;
   Evaluation evaluation{.rule = rule,
                         .unit = now.unit,
                         .value = *value,
                         .since = *since,
-                        .outcome = propose(*measured, *value, rule),
+                        .outcome = propose(measured, *value, rule),
                         .proposal = {}};
   Outcome& outcome = evaluation.outcome;
+  if (const auto left = words_of_others(*found, rule); !left.empty())
+    outcome.reasons.insert(outcome.reasons.begin(), left);
   if (!outcome.new_value) return evaluation;
   auto doubt = doubt_of(now, rule, *outcome.new_value);
   if (doubt && doubt->empty())
     doubt = was_rejected(parts_.store.offsets,
-                         {now.machine, rule, *value, *outcome.new_value, *measured});
+                         {now.machine, rule, *value, *outcome.new_value, measured});
   if (!doubt) return fail(doubt.error());
   if (!doubt->empty()) {
     outcome.reasons.push_back("nothing is proposed: " + *doubt);
@@ -274,6 +228,8 @@ Result<storage::OffsetRules> Offsets::save_rules(const std::string& machine,
   const auto rules = parse_offset_rules(text);
   if (!rules) return fail(rules.error());
   if (auto good = check_rules(*now, *rules); !good) return fail(good.error());
+  const auto before = parts_.store.offsets.rules(machine);
+  if (!before && before.error().code != Errc::NotFound) return fail(before.error());
   auto saved = parts_.store.offsets.save_rules({.machine = machine,
                                                 .version = 0,
                                                 .text = text,
@@ -282,7 +238,16 @@ Result<storage::OffsetRules> Offsets::save_rules(const std::string& machine,
                                                who);
   if (!saved) return saved;
   note(machine);
-  if (auto done = withdraw_of_gone(machine, *rules); !done) return fail(done.error());
+  auto still_there = *rules;
+  if (const auto old = before ? parse_offset_rules(before->text) : rules; old) {
+    // What it proposed when it was for others is not its proposal: it is made anew, or not.
+    std::erase_if(still_there, [&](const OffsetRule& rule) {
+      return std::ranges::any_of(*old, [&](const OffsetRule& one) {
+        return one.name == rule.name && !has_same_scope(one, rule);
+      });
+    });
+  }
+  if (auto done = withdraw_of_gone(machine, still_there); !done) return fail(done.error());
   return saved;
 }
 

@@ -77,8 +77,6 @@ class Offsets {
   struct Current;
   Result<Current> current_of(const std::string& machine);
   Result<std::uint64_t> in_force_since(const Current& now, const OffsetRule& rule, double value);
-  Result<std::vector<Deviation>> deviations(const Current& now, const OffsetRule& rule,
-                                            std::uint64_t since);
   Result<void> check_rule(const storage::OffsetProposal& proposal);
   Result<void> withdraw_of_gone(const std::string& machine, const std::vector<OffsetRule>& rules);
   Result<std::string> doubt_of(const Current& now, const OffsetRule& rule, double value);

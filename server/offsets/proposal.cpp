@@ -59,7 +59,9 @@ class Reasoning {
 
   bool is_enough(std::size_t count) {
     if (count >= rule_.min_count) return true;
-    say("{} measurements under the value in force, {} are needed", count, rule_.min_count);
+    const std::string scope = scope_text(rule_);
+    say("{} measurements {}{}under the value in force, {} are needed", count, scope,
+        scope.empty() ? "" : " ", rule_.min_count);
     return false;
   }
 

@@ -280,6 +280,8 @@ void add_rules(Command group, Context& context) {
   push.footer(
       "A rule:\n  [[rule]]\n  name = \"D40\"\n  characteristic = \"D40\"\n  target = "
       "\"T3.wear.X\"\n"
+      "  program = \"O0900\"  # no other program's measurements; also: tool = 3, template = "
+      "\"bore\"\n"
       "  scale = 0.5        # X is a radius, D40 a diameter\n  gain = 0.7\n  dead_band = 0.003\n"
       "  max_step = 0.02\n  min_count = 3\n  automatic = 0.005  # smaller steps without approval; "
       "0: none");

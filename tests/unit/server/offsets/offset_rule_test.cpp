@@ -32,6 +32,18 @@ TEST(OffsetRule, IsReadWithItsDefaults) {
   EXPECT_TRUE(parse_offset_rules("")->empty());
 }
 
+TEST(OffsetRule, IsLimitedToAProgramAToolAndATemplate) {
+  EXPECT_EQ(scope_text(parse_offset_rules(kRule)->front()), "") << "it is for all";
+  const auto limited = parse_offset_rules(std::string(kRule) +
+                                          "program = \"O0900\"\ntool = 3\ntemplate = \"bore\"\n");
+  ASSERT_TRUE(limited) << limited.error().what;
+  EXPECT_EQ(scope_text(limited->front()), "of program O0900 by tool T3 read by template bore");
+  for (const char* tool : {"T3", "3", "03", "T03", "t3"}) EXPECT_EQ(bare_tool(tool), "3") << tool;
+  EXPECT_EQ(bare_tool("TOUCH"), "TOUCH");
+  EXPECT_EQ(bare_tool("T3A"), "T3A");
+  EXPECT_EQ(bare_tool("000"), "0");
+}
+
 struct BadRule {
   const char* name;
   const char* added;
@@ -50,6 +62,11 @@ INSTANTIATE_TEST_SUITE_P(
                     BadRule{"kind", "min_count = \"3\"\n", "min_count: a number is expected"},
                     BadRule{"whole", "min_count = 2.5\n", "a whole number is expected"},
                     BadRule{"window", "window = 2\n", "window 2 is less than min_count 3"},
+                    BadRule{"program", "program = 900\n", "program: a text is expected"},
+                    BadRule{"no_program", "program = \"\"\n", "program: a text is expected"},
+                    BadRule{"tool", "tool = -3\n", "tool: tool -3 is below 0"},
+                    BadRule{"half_tool", "tool = 3.5\n", "tool: a tool is expected, 3 or"},
+                    BadRule{"template", "template = true\n", "template: a text is expected"},
                     BadRule{"infinite", "highest = inf\n", "highest: a number is expected"},
                     BadRule{"bounds", "highest = -0.4\n", "lowest is not below highest"},
                     BadRule{"toml", "x = = 1\n", "line 10"},

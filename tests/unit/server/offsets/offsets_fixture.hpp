@@ -19,9 +19,11 @@ class OffsetsTest : public server_test::ServerTest {
   OffsetsTest() {
     add_machine("lathe-1");
     revision_ = push("O0100", "O0100\nM30\n");
-    EXPECT_TRUE(store_->report_templates.push(
-        {.name = "bore", .version = 0, .text = "x", .author = "anna", .created = clock_.now()},
-        "anna"));
+    for (const char* name : {"bore", "gauge"}) {
+      EXPECT_TRUE(store_->report_templates.push(
+          {.name = name, .version = 0, .text = "x", .author = "anna", .created = clock_.now()},
+          "anna"));
+    }
     save_setup(kSetup);
     start();
   }
@@ -83,6 +85,7 @@ class OffsetsTest : public server_test::ServerTest {
 
   storage::Revision revision_;
   std::uint64_t measured_ = 0;
+  std::string program_ = "O0100", template_ = "bore", tool_ = "T3";  ///< of what is measured
   std::vector<storage::OffsetProposal> changes_;
   std::unique_ptr<Offsets> offsets_;
 
@@ -92,9 +95,9 @@ class OffsetsTest : public server_test::ServerTest {
     part.id = record.number;
     part.machine = "lathe-1";
     part.run = record.run;
-    part.program = "O0100";
+    part.program = program_;
     part.revision = 1;
-    part.template_name = "bore";
+    part.template_name = template_;
     part.template_version = 1;
     part.measurements = 1;
     part.verdict = measurement::Verdict::Good;
@@ -104,6 +107,7 @@ class OffsetsTest : public server_test::ServerTest {
     m.part_id = part.id;
     m.characteristic = {.name = "D40", .nominal = 40, .lower = 39.95, .upper = 40.05};
     m.actual = actual;
+    m.tool = tool_;
     m.time = record.time;
     m.record = {record.epoch, record.number};
     m.verdict = measurement::Verdict::Good;
