@@ -42,12 +42,13 @@ struct Offsets::Current {
   SetupText place() const { return {machine, setup, text}; }
 };
 
-/// Of a machine that has a setup.
 Result<void> Offsets::check_rules(const Current& now, const std::vector<OffsetRule>& rules) {
-  if (now.setup == 0) return {};  // it may come later: until then nothing is proposed
   for (const OffsetRule& rule : rules) {
     const auto target = parse_setup_target(rule.target);
     if (!target) return fail(target.error());
+    if (const auto lack = what_control_lacks(now.control, *target); !lack.empty())
+      return fail(Errc::Unsupported, "rule {}: target {}: {}", rule.name, rule.target, lack);
+    if (now.setup == 0) continue;  // it may come later: until then nothing is proposed
     const auto absent = what_is_absent(now.place(), *target);
     if (!absent) return fail(absent.error());
     if (!absent->empty()) return fail(Errc::Conflict, "rule {}: {}", rule.name, *absent);
@@ -148,6 +149,7 @@ Result<std::uint64_t> Offsets::in_force_since(const Current& now, const OffsetRu
 Result<std::string> Offsets::doubt_of(const Current& now, const OffsetRule& rule, double value) {
   const auto target = parse_setup_target(rule.target);
   if (!target) return fail(target.error());
+  if (auto lack = what_control_lacks(now.control, *target); !lack.empty()) return lack;
   auto absent = what_is_absent(now.place(), *target);
   if (!absent || !absent->empty()) return absent;
   const auto changed = with_value(now.text, *target, value, kDecimals);
@@ -303,6 +305,8 @@ Result<OffsetProposal> Offsets::approve(const storage::OffsetDecision& given) {
   }
   const auto target = parse_setup_target(proposal->target);
   if (!target) return fail(target.error());
+  if (const auto lack = what_control_lacks(now->control, *target); !lack.empty())
+    return fail(Errc::Conflict, "offset proposal {}: {}", proposal->id, lack);
   const auto absent = what_is_absent(now->place(), *target);
   if (!absent) return fail(absent.error());
   if (!absent->empty())

@@ -52,8 +52,8 @@ class Offsets {
   void note(const std::string& machine);
 
   /// Pending proposals of rules that are gone are withdrawn. Errors: those of parse_offset_rules
-  /// and the store; NotFound (the machine), Conflict (the machine's setup has not what a rule
-  /// corrects).
+  /// and the store; NotFound (the machine), Unsupported (the machine's control has no such value),
+  /// Conflict (the machine's setup has not what a rule corrects).
   Result<storage::OffsetRules> save_rules(const std::string& machine, const std::string& text,
                                           const storage::Actor& who);
   /// Evaluates all rules of the machine and keeps what follows. Errors: those of the store; a

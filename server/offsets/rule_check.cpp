@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/setup_values.hpp"
+
 namespace dripline::offsets {
 
 bool is_of_rule(const storage::OffsetProposal& proposal, const OffsetRule& rule) {
@@ -50,6 +52,24 @@ Result<std::string> was_rejected(storage::OffsetStore& store, const NextStep& st
       "{} rejected it as offset proposal {}: {}. It comes again with another value, or after {} "
       "measurements more; there are {}",
       last.who, last.id, last.comment, rule.min_count, newer);
+}
+
+std::string what_control_lacks(std::string_view control, const SetupTarget& target) {
+  using Kind = SetupTarget::Kind;
+  const auto values = interpreter::setup_values(control);
+  switch (target.kind) {
+    case Kind::Variable:
+      return values.has_variables ? "" : fmt::format("{} has no variables in its setup", control);
+    case Kind::Offset:
+      return values.has_offsets ? "" : fmt::format("{} has no offsets in its setup", control);
+    default:
+      break;
+  }
+  const std::string key = (target.kind == Kind::Wear ? "wear." : "") + target.key;
+  if (std::ranges::find(values.tool, key) != values.tool.end()) return {};
+  if (values.tool.empty()) return fmt::format("{} has no tools in its setup", control);
+  return fmt::format("{} has no {} of a tool, so a correction of it would do nothing; it has {}",
+                     control, key, fmt::join(values.tool, ", "));
 }
 
 Result<std::string> what_is_absent(const SetupText& setup, const SetupTarget& target) {

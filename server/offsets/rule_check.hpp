@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/offsets/offset_rule.hpp"
@@ -32,6 +33,10 @@ struct SetupText {
   std::uint64_t number = 0;  ///< 0: there is none
   const std::string& text;
 };
+/// Why a correction of the target would have no effect at the machine, whatever its setup says;
+/// empty: the control has such a value.
+std::string what_control_lacks(std::string_view control, const SetupTarget& target);
+
 /// What a correction would have to add to the setup, in words; empty: its tool, offset or variable
 /// is there. A slip of the pen must not make a tool. Errors: Syntax.
 Result<std::string> what_is_absent(const SetupText& setup, const SetupTarget& target);
