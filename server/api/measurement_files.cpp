@@ -12,31 +12,35 @@ namespace dripline::api {
 namespace {
 
 using measurement_files::MeasurementSource;
+using measurement_files::PointX;
 using measurement_files::Sink;
 
-Result<void> write_dfq(MeasurementSource& source, const Sink& sink) {
+Result<void> write_dfq(MeasurementSource& source, const Sink& sink, PointX) {
   return measurement_files::write_dfq(source, {}, sink);
 }
-Result<void> write_dfd(MeasurementSource& source, const Sink& sink) {
+Result<void> write_dfd(MeasurementSource& source, const Sink& sink, PointX) {
   return measurement_files::write_dfd(source, {}, sink);
 }
-Result<void> write_dfx(MeasurementSource& source, const Sink& sink) {
+Result<void> write_dfx(MeasurementSource& source, const Sink& sink, PointX) {
   return measurement_files::write_dfx(source, {}, sink);
 }
-Result<void> write_html(MeasurementSource& source, const Sink& sink) {
+Result<void> write_html(MeasurementSource& source, const Sink& sink, PointX) {
   return measurement_files::write_part_report(source, {}, sink);
 }
-Result<void> write_points(MeasurementSource& source, const Sink& sink) {
-  const auto found = measurement_files::points_of(source);
+Result<void> write_qif(MeasurementSource& source, const Sink& sink, PointX) {
+  return measurement_files::write_qif(source, sink);
+}
+Result<void> write_points(MeasurementSource& source, const Sink& sink, PointX x) {
+  const auto found = measurement_files::points_of(source, x);
   return found ? measurement_files::write_points_csv(*found, sink) : fail(found.error());
 }
-Result<void> write_dxf(MeasurementSource& source, const Sink& sink) {
-  const auto found = measurement_files::points_of(source);
+Result<void> write_dxf(MeasurementSource& source, const Sink& sink, PointX x) {
+  const auto found = measurement_files::points_of(source, x);
   return found ? measurement_files::write_dxf(*found, 0, sink) : fail(found.error());
 }
-Result<void> write_stl(MeasurementSource& source, const Sink& sink) {
+Result<void> write_stl(MeasurementSource& source, const Sink& sink, PointX x) {
   constexpr double kBase = 5;  // mm below the lowest point, as `dnc report export` has it
-  const auto found = measurement_files::points_of(source);
+  const auto found = measurement_files::points_of(source, x);
   if (!found) return fail(found.error());
   const auto grid = measurement_files::make_height_grid(*found, 0);
   if (!grid) return fail(grid.error());
@@ -45,14 +49,14 @@ Result<void> write_stl(MeasurementSource& source, const Sink& sink) {
 
 struct FileFormat {
   std::string_view name, content_type;
-  Result<void> (*write)(MeasurementSource& source, const Sink& sink);
+  Result<void> (*write)(MeasurementSource& source, const Sink& sink, PointX x);
 };
 
 constexpr std::array kFormats{
     FileFormat{"dfq", "text/plain; charset=windows-1252", write_dfq},
     FileFormat{"dfd", "text/plain; charset=windows-1252", write_dfd},
     FileFormat{"dfx", "application/octet-stream", write_dfx},
-    FileFormat{"qif", "application/xml", measurement_files::write_qif},
+    FileFormat{"qif", "application/xml", write_qif},
     FileFormat{"html", "text/html; charset=utf-8", write_html},
     FileFormat{"points", "text/csv; charset=utf-8", write_points},
     FileFormat{"dxf", "application/dxf", write_dxf},
@@ -62,7 +66,9 @@ constexpr std::array kFormats{
 }  // namespace
 
 Response file_response(storage::MeasurementStore& store, const storage::MeasurementFilter& filter,
-                       const std::string& format) {
+                       const std::string& format, const std::string& x) {
+  const auto point_x = measurement_files::parse_point_x(x);
+  if (!point_x) return error_response(point_x.error());
   const FileFormat* found = nullptr;
   for (const auto& one : kFormats) {
     if (one.name == format) found = &one;
@@ -81,10 +87,11 @@ Response file_response(storage::MeasurementStore& store, const storage::Measurem
   response.content_type = found->content_type;
   // What others have written is in it: a file to be saved, never a page of this server.
   response.headers.emplace_back("Content-Disposition", "attachment");
-  const auto done = found->write(source, [&](std::string_view bytes) -> Result<void> {
+  const Sink sink = [&](std::string_view bytes) -> Result<void> {
     response.body += bytes;
     return {};
-  });
+  };
+  const auto done = found->write(source, sink, *point_x);
   return done ? response : error_response(done.error());
 }
 

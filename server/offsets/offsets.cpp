@@ -22,8 +22,26 @@ std::string reasons_json(const std::vector<std::string>& reasons) {
   return nlohmann::json(reasons).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string reasons_json(const std::vector<std::string>& reasons) {
-  return nlohmann::json(reasons).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+/// What was not looked at because the rule is not for it; empty: nothing.
+std::string words_of_others(const Measured& found, const OffsetRule& rule) {
+  std::string words;
+  if (found.of_others > 0) {
+    words = fmt::format("{} measurements of {} under the value in force are left out: not {}",
+                        found.of_others, rule.characteristic, scope_text(rule));
+  }
+  if (found.is_cut)
+    words +=
+        words.empty() ? "older measurements were not looked at" : "; older ones were not looked at";
+  return words;
+}
+
+/// Half of a step, or twice, is what a wrong scale makes: whoever approves it should see it.
+std::string words_of_x(const OffsetRule& rule, const std::string& kind) {
+  const bool is_radius = kind == "radius";
+  return fmt::format(
+      "{} is a {} in the setup: the scale is {} for a characteristic that is a diameter and {} for "
+      "one that is a radius, below 0 where they go against each other; this rule's is {:g}",
+      rule.target, kind, is_radius ? "0.5" : "1", is_radius ? "1" : "2", rule.scale);
 }
 
 /// Why the setup has this value, in its comment; the whole reasons are in the proposal.
@@ -178,6 +196,9 @@ Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule)
   if (const auto left = words_of_others(*found, rule); !left.empty())
     outcome.reasons.insert(outcome.reasons.begin(), left);
   if (!outcome.new_value) return evaluation;
+  const auto kind = kind_of_x(now.text, now.control, *target);
+  if (!kind) return fail(kind.error());
+  if (!kind->empty()) outcome.reasons.push_back(words_of_x(rule, *kind));
   auto doubt = doubt_of(now, rule, *outcome.new_value);
   if (doubt && doubt->empty())
     doubt = was_rejected(parts_.store.offsets,

@@ -257,6 +257,21 @@ Result<std::vector<NamedValue>> values_in_setup(std::string_view text) {
   return values;
 }
 
+/// deploy/docs/setup-format.md: X of a lathe is a radius, unless a Centurion's `stored_x` says
+/// otherwise of offsets.
+Result<std::string> kind_of_x(std::string_view text, std::string_view control,
+                              const SetupTarget& target) {
+  if (target.key == "radius") return std::string("radius");
+  const auto dialect = interpreter::find_dialect(control);
+  const bool is_lathe = dialect && (*dialect)->machine == interpreter::MachineKind::Lathe;
+  if (!is_lathe || target.key != "X") return std::string();
+  const auto setup = parse(text);
+  if (!setup) return fail(setup.error());
+  const bool is_diameter = target.kind == Kind::Offset &&
+                           (*setup)["control"]["stored_x"].value<std::string>() == "diameter";
+  return std::string(is_diameter ? "diameter" : "radius");
+}
+
 Result<std::string> unit_of_setup(std::string_view text) {
   const auto setup = parse(text);
   if (!setup) return fail(setup.error());

@@ -43,6 +43,11 @@ struct NamedValue {
 /// In the order of the text. Errors: Syntax.
 Result<std::vector<NamedValue>> values_in_setup(std::string_view toml);
 
+/// What a value along X or a radius is in the setup: "radius" or "diameter", where there is a
+/// difference; empty for any other. Errors: Syntax.
+Result<std::string> kind_of_x(std::string_view toml, std::string_view control,
+                              const SetupTarget& target);
+
 /// "mm" or "in" as the setup states it; empty: it is the control's. Errors: Syntax.
 Result<std::string> unit_of_setup(std::string_view toml);
 /// The same, or the control's own. Errors: those of find_dialect too.

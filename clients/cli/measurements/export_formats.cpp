@@ -26,7 +26,9 @@ using measurement_files::Sink;
 
 Result<void> write_points(const MeasurementExport& request, MeasurementSource& source,
                           const Sink& sink) {
-  const auto found = measurement_files::points_of(source);
+  const auto x = measurement_files::parse_point_x(request.x);
+  if (!x) return fail(x.error());
+  const auto found = measurement_files::points_of(source, *x);
   if (!found) return fail(found.error());
   if (request.format == "points") return measurement_files::write_points_csv(*found, sink);
   if (request.format == "dxf") return measurement_files::write_dxf(*found, 0, sink);

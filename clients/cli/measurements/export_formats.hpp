@@ -14,6 +14,7 @@ struct MeasurementExport {
   std::string title = "Measurement report";
   bool is_utf8 = false;  ///< AQDEF
   double cell = 0, base = 5;
+  std::string x = "radius";  ///< points: what their X is
 };
 
 /// dfq, dfd, dfx, qif, html, pdf, measurements, jsonl, points, dxf, stl.

@@ -19,16 +19,20 @@ struct ReportChartCommand {
   std::map<std::string, std::string> texts;
   std::vector<std::string> tool_changes;
   std::optional<double> lower, upper, magnification;
-  std::string axes = "XZ";
+  std::string axes = "XZ", x = "radius";
 };
 
-Result<std::vector<charts::ContourPoint>> read_contour(const std::string& path) {
+/// `axes`: two letters, of the first coordinate and of the second; diameters become radii.
+Result<std::vector<charts::ContourPoint>> read_contour(const std::string& path,
+                                                       const std::string& axes, bool is_diameter) {
   const auto file = MappedFile::open(path);
   if (!file) return fail(file.error());
   const auto points = measurement_files::read_points(file->text());
   if (!points) return fail(points.error().code, "{}: {}", path, points.error().what);
+  const double first = is_diameter && axes[0] == 'X' ? 0.5 : 1;
+  const double second = is_diameter && axes[1] == 'X' ? 0.5 : 1;
   std::vector<charts::ContourPoint> contour;
-  for (const auto& point : *points) contour.push_back({point.x, point.y});
+  for (const auto& point : *points) contour.push_back({point.x * first, point.y * second});
   return contour;
 }
 
@@ -36,12 +40,15 @@ Result<charts::ProfilePicture> profile_of(const ReportChartCommand& command) {
   if (command.choice.file.empty() || command.nominal.empty()) {
     return fail(Errc::Syntax, "a profile needs a FILE of points and --nominal");
   }
-  auto actual = read_contour(command.choice.file);
-  if (!actual) return fail(actual.error());
-  auto nominal = read_contour(command.nominal);
-  if (!nominal) return fail(nominal.error());
   if (command.axes.size() != 2)
     return fail(Errc::Syntax, "--axes {}: two letters, as XZ", command.axes);
+  const bool is_diameter = command.x == "diameter";
+  if (is_diameter && command.axes.find('X') == std::string::npos)
+    return fail(Errc::Syntax, "--x diameter: none of the axes {} is X", command.axes);
+  auto actual = read_contour(command.choice.file, command.axes, is_diameter);
+  if (!actual) return fail(actual.error());
+  auto nominal = read_contour(command.nominal, command.axes, is_diameter);
+  if (!nominal) return fail(nominal.error());
   return charts::ProfilePicture{.nominal = *std::move(nominal),
                                 .actual = *std::move(actual),
                                 .first_axis = command.axes.substr(0, 1),
@@ -143,6 +150,11 @@ void add_report_chart_command(Command group, Context& context) {
   command.add_option("--magnify", options->magnification,
                      "Profile: draw deviations so many times as large");
   command.add_option("--axes", options->axes, "Profile: names of the axes [XZ]");
+  command
+      .add_option("--x", options->x,
+                  "Profile: what X is in both files, radius or diameter; deviations are those of "
+                  "radii [radius]")
+      .check(one_of({"radius", "diameter"}));
   command.footer(
       "A deviation of a profile is above 0 to the left of the nominal contour's "
       "direction.\n\nExamples:\n"

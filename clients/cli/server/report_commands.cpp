@@ -219,6 +219,11 @@ void add_export(Command group, Context& context) {
   command.add_flag("--utf8", measurements.is_utf8, "dfq, dfd: UTF-8 in place of Windows-1252");
   command.add_option("--cell", measurements.cell, "stl: cell, mm [distance of the points]");
   command.add_option("--base", measurements.base, "stl: base below the lowest point, mm [5]");
+  command
+      .add_option("--x", measurements.x,
+                  "points, dxf, stl: what X of the measured points is, radius or diameter (a "
+                  "lathe's program prints diameters); written are radii [radius]")
+      .check(one_of({"radius", "diameter"}));
   command.footer(
       "Report lines: text holds exactly the lines that the machine put out, in order; csv and json "
       "add time,\ndevice, block and line.\nMeasurements: measurements (CSV), jsonl, dfq, dfd, dfx "

@@ -54,7 +54,18 @@ struct PendingPoint {
 
 }  // namespace
 
-Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source) {
+Result<PointX> parse_point_x(std::string_view text) {
+  if (text == "radius") return PointX::Radius;
+  if (text == "diameter") return PointX::Diameter;
+  return fail(Errc::Syntax, "x is '{}': radius or diameter", text);
+}
+
+void make_radii(std::vector<DigitizedPoint>& points, PointX x) {
+  if (x == PointX::Radius) return;
+  for (DigitizedPoint& point : points) point.x /= 2;
+}
+
+Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source, PointX x) {
   std::vector<DigitizedPoint> points;
   PendingPoint pending;
   const auto close = [&] {
@@ -77,6 +88,7 @@ Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source) {
   });
   if (!done) return fail(done.error());
   close();
+  make_radii(points, x);
   if (!points.empty()) return points;
   return fail(Errc::NotFound,
               "no measurement is a point: their characteristics end with X, Y or Z");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,10 +14,20 @@ struct DigitizedPoint {
   double x = 0, y = 0, z = 0;
 };
 
+/// What X of measured points is. A lathe's program prints diameters where its control programs
+/// them; probe records of its gateway are radii. A contour is one of radii: nothing else is a
+/// shape.
+enum class PointX : std::uint8_t { Radius, Diameter };
+/// "radius", "diameter". Errors: Syntax.
+Result<PointX> parse_point_x(std::string_view text);
+/// Diameters become radii.
+void make_radii(std::vector<DigitizedPoint>& points, PointX x);
+
 /// Of measurements: those of one record whose characteristics end with X, Y and Z are a point. Z
-/// may be missing (then 0): a contour in a plane. Errors: those of the source; NotFound (no
-/// measurement is a point), LimitExceeded (over kMaxPoints).
-Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source);
+/// may be missing (then 0): a contour in a plane. X is a radius in them, whatever it is in the
+/// measurements. Errors: those of the source; NotFound (no measurement is a point), LimitExceeded
+/// (over kMaxPoints).
+Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source, PointX x = PointX::Radius);
 inline constexpr std::size_t kMaxPoints = 4'000'000;
 
 /// Two or three numbers a line, separated by comma, semicolon, tab or space; a first line of names

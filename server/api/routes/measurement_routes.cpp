@@ -80,6 +80,7 @@ Response list_measurements(Services& services, const Request& request) {
   const auto limit = query.number("limit", kMaxLimit).value_or(100);
   const std::string order = query.text("order").value_or("oldest");
   const std::string format = query.text("format").value_or("json");
+  const std::string x = query.text("x").value_or("radius");
   if (auto good = query.finish(); !good) return error_response(good.error());
   if (order != "oldest" && order != "newest") {
     return error_response(
@@ -88,7 +89,7 @@ Response list_measurements(Services& services, const Request& request) {
   auto& store = services.measurements->stored();
   if (format == "csv" || format == "jsonl")
     return export_measurements(store, *filter, format == "csv");
-  if (format != "json") return file_response(store, *filter, format);
+  if (format != "json") return file_response(store, *filter, format, x);
   const auto rows = order == "newest" ? store.list_newest(*filter, *place, limit)
                                       : store.list(*filter, *place, limit);
   if (!rows) return error_response(rows.error());

@@ -23,6 +23,10 @@ TEST_F(OffsetsTest, ProposesWithReasonsAndChangesNothing) {
   EXPECT_EQ(proposal.state, OffsetState::Pending);
   EXPECT_NE(proposal.reasons.find("mean deviation +0.02 of 3 measurements"), std::string::npos)
       << proposal.reasons;
+  EXPECT_NE(proposal.reasons.find("T3.wear.X is a radius in the setup: the scale is 0.5 for a "
+                                  "characteristic that is a diameter"),
+            std::string::npos)
+      << proposal.reasons;
   EXPECT_EQ(wear(), 0.1);
   ASSERT_EQ(changes_.size(), 1U);
   // Looking again at the same measurements is the same proposal.

@@ -106,5 +106,21 @@ TEST(SetupTarget, RefusesWhatNoSetupHas) {
   EXPECT_EQ(target("T12.wear.radius").tool, 12);
 }
 
+TEST(SetupValue, XOfALatheIsARadiusUnlessTheControlStoresDiameters) {
+  const auto kind = [](const char* setup, const char* control, const char* target) {
+    return kind_of_x(setup, control, parse_setup_target(target).value()).value();
+  };
+  constexpr const char* kDiameter = "[control]\nstored_x = \"diameter\"\n";
+  EXPECT_EQ(kind("", "centurion", "T3.wear.X"), "radius");
+  EXPECT_EQ(kind("", "fanuc-t", "T3.wear.X"), "radius");
+  EXPECT_EQ(kind("", "centurion", "G54.X"), "radius");
+  EXPECT_EQ(kind(kDiameter, "centurion", "G54.X"), "diameter");
+  EXPECT_EQ(kind(kDiameter, "centurion", "T3.wear.X"), "radius") << "of tools always";
+  EXPECT_EQ(kind("", "tnc155", "T3.radius"), "radius");
+  EXPECT_EQ(kind("", "centurion", "T3.wear.Z"), "");
+  EXPECT_EQ(kind("", "fanuc", "G54.X"), "") << "a mill has no diameters";
+  EXPECT_EQ(kind("", "centurion", "#500"), "");
+}
+
 }  // namespace
 }  // namespace dripline::offsets

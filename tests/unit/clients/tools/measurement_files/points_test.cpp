@@ -46,6 +46,27 @@ TEST(Points, ComeFromTheMeasurementsOfOneRecord) {
   EXPECT_EQ((*points)[2].y, 12);  // a contour in X and Z lies in the plane
 }
 
+/// A program of a lathe prints X as it is programmed; a contour of diameters is no shape.
+TEST(Points, OfDiametersAreRadii) {
+  std::vector<measurement::Measurement> all;
+  for (const auto& [axis, value] : {std::pair("X", 40.0), std::pair("Z", -5.0)}) {
+    measurement::Measurement m;
+    m.record = {1, 1};
+    m.characteristic.name = axis;
+    m.actual = value;
+    all.push_back(m);
+  }
+  ListSource diameters(all);
+  const auto radii = points_of(diameters, PointX::Diameter);
+  ASSERT_TRUE(radii);
+  EXPECT_EQ(radii->front().x, 20);
+  EXPECT_EQ(radii->front().y, -5);
+  ListSource as_they_are(all);
+  EXPECT_EQ(points_of(as_they_are)->front().x, 40);
+  EXPECT_EQ(parse_point_x("diameter").value(), PointX::Diameter);
+  EXPECT_EQ(parse_point_x("both").error().what, "x is 'both': radius or diameter");
+}
+
 TEST(Points, CsvComesBack) {
   const std::string file =
       written([&](const Sink& sink) { return write_points_csv(dome(), sink); });
