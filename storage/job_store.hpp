@@ -72,6 +72,8 @@ class JobStore {
   /// Errors: NotFound (it is not held).
   virtual Result<void> release(const std::string& machine, const Actor& who, UtcTime time) = 0;
   virtual Result<std::optional<JobHold>> hold_of(const std::string& machine) = 0;
+  /// Of all machines that are held.
+  virtual Result<std::vector<JobHold>> holds() = 0;
 
   static constexpr std::uint64_t kMaxJobs = 1000;
 };

@@ -19,6 +19,14 @@ struct Machine {
   UtcTime first_seen, last_seen;
 };
 
+/// Who holds the motion of a machine, and why.
+struct MachineHold {
+  std::string machine;
+  std::string run;          ///< empty: of no run
+  std::string who, reason;  ///< reason empty: none was given
+  UtcTime since;
+};
+
 /// Promises of every store: storage/store.hpp.
 class MachineStore {
  public:
@@ -31,6 +39,12 @@ class MachineStore {
   virtual Result<Machine> find(const std::string& name) = 0;
   /// In order of their names.
   virtual Result<std::vector<Machine>> list() = 0;
+
+  /// A later hold replaces the earlier one. Errors: NotFound (the machine).
+  virtual Result<void> hold(const MachineHold& hold) = 0;
+  /// One that is not held stays so.
+  virtual Result<void> release(const std::string& machine) = 0;
+  virtual Result<std::vector<MachineHold>> holds() = 0;
 };
 
 }  // namespace dripline::storage

@@ -285,6 +285,13 @@ struct Starts {
   bool head = false, memory = false, pass = false;
 };
 
+/// Who holds a machine or its job queue, and why.
+struct Hold {
+  std::string who, reason;  ///< reason empty: none was given
+  std::string run;          ///< of a machine; empty: of none
+  std::string since;
+};
+
 struct Machine {
   std::string name, control, description, gateway_version;
   bool connected = false;
@@ -293,6 +300,8 @@ struct Machine {
   /// What is wrong between server and gateway.
   std::vector<std::string> notices;
   std::string first_seen, last_seen;
+  std::optional<Hold> held = {};        ///< absent: nothing is known to hold it
+  std::optional<Hold> queue_hold = {};  ///< absent: its queue is not held
   std::optional<Display> display = {};  ///< absent: the control is not known
   std::optional<Starts> starts = {};    ///< absent: an older server
   std::optional<MachineStatus> status;
@@ -315,6 +324,20 @@ struct Run {
   std::string allowed_as;                 ///< open, released, prove_out
   std::optional<std::uint64_t> approval;  ///< the Decision that released its revision
   std::optional<std::uint64_t> job;       ///< of the machine's queue
+};
+
+/// A run that is asked for by itself.
+struct ShownRun {
+  Run run;
+  std::optional<Hold> held = {};  ///< absent: nothing is known to hold it
+  /// Its measured parts by verdict.
+  struct Parts {
+    std::uint64_t good = 0, unknown = 0, rework = 0, scrap = 0;
+    std::uint64_t archived = 0;         ///< of them, those in archives alone
+    std::vector<std::string> archives;  ///< their files
+    std::uint64_t all() const { return good + unknown + rework + scrap; }
+  };
+  std::optional<Parts> parts = {};  ///< absent: a server that measures nothing
 };
 
 /// The tools, offsets and parameters that a machine's control has before a program starts.

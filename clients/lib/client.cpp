@@ -168,6 +168,7 @@ template Reply<AuditState> Client::fetch(HttpRequest, std::string_view);
 template Reply<Backups> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<MachineGroup>> Client::fetch_list(const std::string&, const char*);
 template Reply<Run> Client::fetch(HttpRequest, std::string_view);
+template Reply<ShownRun> Client::fetch(HttpRequest, std::string_view);
 template Reply<Webhook> Client::fetch(HttpRequest, std::string_view);
 template Reply<WebhookTest> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<Webhook>> Client::fetch_list(const std::string&, const char*);
@@ -348,6 +349,10 @@ Reply<std::vector<Run>> Client::runs(const RunQuery& query) {
 
 Reply<Run> Client::run(std::string_view id) {
   return fetch<Run>(get(path_of("runs", id)));
+}
+
+Reply<ShownRun> Client::shown_run(std::string_view id) {
+  return fetch<ShownRun>(get(path_of("runs", id)));
 }
 
 Reply<void> Client::command(std::string_view run, const CommandRequest& request) {

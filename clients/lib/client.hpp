@@ -341,6 +341,8 @@ class Client {
   Reply<Run> restart_run(std::string_view run, std::string_view at);
   Reply<std::vector<Run>> runs(const RunQuery& query);
   Reply<Run> run(std::string_view id);
+  /// With what was measured of it, and who holds it.
+  Reply<ShownRun> shown_run(std::string_view id);
   /// Passes the text to `sink`; false from it ends the call.
   Reply<void> run_attestation(std::string_view id,
                               const std::function<bool(std::string_view)>& sink);

@@ -208,6 +208,19 @@ json starts_json(const machines::MachineView& view) {
 
 }  // namespace
 
+json hold_json(const std::optional<storage::MachineHold>& hold) {
+  if (!hold) return nullptr;
+  return {{"who", hold->who},
+          {"reason", text_or_null(hold->reason)},
+          {"run", text_or_null(hold->run)},
+          {"since", to_iso8601(hold->since)}};
+}
+
+json hold_json(const std::optional<storage::JobHold>& hold) {
+  if (!hold) return nullptr;
+  return {{"who", hold->who}, {"reason", hold->reason}, {"since", to_iso8601(hold->since)}};
+}
+
 json machine_json(const machines::MachineView& view) {
   const auto seconds = [](std::chrono::microseconds time) {
     return std::chrono::duration<double>(time).count();
@@ -222,6 +235,8 @@ json machine_json(const machines::MachineView& view) {
       {"notices", machines::notices_of(view)},
       {"first_seen", to_iso8601(view.machine.first_seen)},
       {"last_seen", to_iso8601(view.machine.last_seen)},
+      {"held", hold_json(view.held)},
+      {"queue_hold", hold_json(view.queue_hold)},
       {"starts", starts_json(view)},
       {"display", display_json(view)},
       {"status", view.status ? status_json(*view.status) : json(nullptr)}};

@@ -15,6 +15,9 @@ nlohmann::json revision_json(const storage::Revision& revision, const std::strin
 nlohmann::json fields_json(const storage::ProgramFields& fields);
 nlohmann::json program_json(const storage::ProgramSummary& program, const std::string& title);
 nlohmann::json machine_json(const machines::MachineView& view);
+/// null: it is not held.
+nlohmann::json hold_json(const std::optional<storage::MachineHold>& hold);
+nlohmann::json hold_json(const std::optional<storage::JobHold>& hold);
 nlohmann::json run_json(const storage::Run& run);
 /// Without the text.
 nlohmann::json setup_json(const storage::SetupRevision& setup);

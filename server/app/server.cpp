@@ -109,6 +109,8 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
     return fail(used.error());
   if (auto read = parts.revoke_certificates(); !read) return fail(read.error());
   parts.programs.on_held([&parts](const auto& revision) { parts.imports.note(revision); });
+  if (auto loaded_holds = parts.hold_reasons.load(); !loaded_holds)
+    return fail(loaded_holds.error());
   parts.imports.begin();
   parts.folders.begin();
   parts.webhooks.begin();

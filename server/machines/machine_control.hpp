@@ -24,6 +24,9 @@ struct MachineView {
   /// How far the gateway's time of day is ahead of the server's; absent: not known yet.
   std::optional<std::chrono::microseconds> clock_ahead = {};
   std::optional<UtcTime> certificate_expires = {};  ///< of its gateway; absent: it has none
+  /// Why it is in feed hold, and why its queue starts nothing (HeldMachines).
+  std::optional<storage::MachineHold> held = {};
+  std::optional<storage::JobHold> queue_hold = {};
 };
 
 /// Where a run begins when it does not begin at the program's first byte. At most one is given.
@@ -89,6 +92,8 @@ struct CommandRequest {
   std::string argument;                                  ///< answer: its text; switch: its name
   double value = 0;                                      ///< overrides: factor; switch: 0 or 1
   std::string machine = {};                              ///< where `run` is empty: its panel
+  /// Of a hold: shown with the machine while it is held.
+  std::string who = {}, reason = {};
 };
 
 /// Receives what happens at the machines. Called on worker threads, never two calls for one machine

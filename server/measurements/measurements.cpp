@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "protocol/process/log.hpp"
+#include "server/measurements/hold_reason.hpp"
 
 namespace dripline::measurements {
 namespace {
@@ -237,9 +238,7 @@ void Measurements::carry_out(const DueAction& due) {
   if (!part) return;
   const Hold& hold =
       due.action == report_template::Action::HoldMachine ? parts_.hold_machine : parts_.hold_queue;
-  const std::string reason =
-      fmt::format("part {}{} is {}", part->id, part->serial.empty() ? "" : " " + part->serial,
-                  measurement::to_string(part->verdict));
+  const std::string reason = hold_reason(parts_.store.measurements, *part);
   const auto held =
       hold ? hold(*part, reason) : Result<void>(fail(Errc::Unsupported, "this server holds none"));
   if (held) {

@@ -86,19 +86,22 @@ Result<void> put_at(sqlite::Database& database, const Job& job, std::uint64_t pl
 }
 
 std::string words_of(const Job& job) {
-  return fmt::format("job {}: {}{}, {} parts", job.id, job.program,
-                     job.revision ? fmt::format(" revision {}", *job.revision) : "", job.quantity);
+  return fmt::format("job {}: {}{}, {} {}parts", job.id, job.program,
+                     job.revision ? fmt::format(" revision {}", *job.revision) : "", job.quantity,
+                     job.counts == JobCount::Good ? "good " : "");
+}
+
+const std::string kSelectHold =
+    "SELECT machine.name, who, reason, since_us FROM job_hold JOIN machine ON machine.id = "
+    "job_hold.machine ";
+
+JobHold read_hold(const sqlite::Statement& row) {
+  return {row.text(0), row.text(1), row.text(2), row.time(3)};
 }
 
 Result<std::optional<JobHold>> find_hold(sqlite::Database& database, const std::string& machine) {
-  return sqlite::first_row(
-      database,
-      "SELECT machine.name, who, reason, since_us FROM job_hold JOIN machine ON machine.id = "
-      "job_hold.machine WHERE machine.name = ?1",
-      [](const sqlite::Statement& row) {
-        return JobHold{row.text(0), row.text(1), row.text(2), row.time(3)};
-      },
-      machine);
+  static const std::string kSql = kSelectHold + "WHERE machine.name = ?1";
+  return sqlite::first_row(database, kSql, read_hold, machine);
 }
 
 }  // namespace
@@ -233,6 +236,12 @@ Result<void> JobRepository::release(const std::string& machine, const Actor& who
 Result<std::optional<JobHold>> JobRepository::hold_of(const std::string& machine) {
   return connections_.read(
       [&](sqlite::Database& database) { return find_hold(database, machine); });
+}
+
+Result<std::vector<JobHold>> JobRepository::holds() {
+  static const std::string kSql = kSelectHold + "ORDER BY machine.name";
+  return connections_.read(
+      [&](sqlite::Database& database) { return sqlite::all_rows(database, kSql, read_hold); });
 }
 
 }  // namespace dripline::storage

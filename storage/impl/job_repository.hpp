@@ -23,6 +23,7 @@ class JobRepository final : public JobStore {
   Result<void> hold(const JobHold& hold, const Actor& who) override;
   Result<void> release(const std::string& machine, const Actor& who, UtcTime time) override;
   Result<std::optional<JobHold>> hold_of(const std::string& machine) override;
+  Result<std::vector<JobHold>> holds() override;
 
  private:
   Connections& connections_;

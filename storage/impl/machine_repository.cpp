@@ -77,4 +77,37 @@ Result<std::vector<Machine>> MachineRepository::list() {
       [&](sqlite::Database& database) { return sqlite::all_rows(database, kSql, read_machine); });
 }
 
+Result<void> MachineRepository::hold(const MachineHold& hold) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto machine = known_machine(database, hold.machine);
+    if (!machine) return fail(machine.error());
+    return sqlite::run(database,
+                       "INSERT INTO machine_hold (machine, run, who, reason, since_us) VALUES (?1, "
+                       "?2, ?3, ?4, ?5) ON CONFLICT (machine) DO UPDATE SET run = excluded.run, "
+                       "who = excluded.who, reason = excluded.reason, since_us = excluded.since_us",
+                       *machine, hold.run, hold.who, hold.reason, hold.since);
+  });
+}
+
+Result<void> MachineRepository::release(const std::string& machine) {
+  return connections_.write([&](sqlite::Database& database) {
+    return sqlite::run(database,
+                       "DELETE FROM machine_hold WHERE machine = (SELECT id FROM machine WHERE "
+                       "name = ?1)",
+                       machine);
+  });
+}
+
+Result<std::vector<MachineHold>> MachineRepository::holds() {
+  return connections_.read([](sqlite::Database& database) {
+    return sqlite::all_rows(
+        database,
+        "SELECT machine.name, run, who, reason, since_us FROM machine_hold JOIN machine ON "
+        "machine.id = machine_hold.machine ORDER BY machine.name",
+        [](const sqlite::Statement& row) {
+          return MachineHold{row.text(0), row.text(1), row.text(2), row.text(3), row.time(4)};
+        });
+  });
+}
+
 }  // namespace dripline::storage

@@ -28,6 +28,9 @@ class MachineRepository final : public MachineStore {
   Result<void> save(const Machine& machine) override;
   Result<Machine> find(const std::string& name) override;
   Result<std::vector<Machine>> list() override;
+  Result<void> hold(const MachineHold& hold) override;
+  Result<void> release(const std::string& machine) override;
+  Result<std::vector<MachineHold>> holds() override;
 
  private:
   Connections& connections_;

@@ -71,7 +71,7 @@ class MachineWatch {
   }
 
   void print_change(const client::Machine& machine, const std::string& line) {
-    const auto status = machine.status.value_or(client::MachineStatus{});
+    const auto status = status_of(machine);
     const std::string key =
         fmt::format("{}|{}|{}|{}", machine.connected, status.execution, status.run, status.message);
     if (!logs_[machine.name].is_worth_a_line(key, line, clock_.steady_now())) return;
@@ -109,7 +109,7 @@ int watch_machines(Context& context, client::Client& client, const std::string& 
 }
 
 void add_row(Table& table, const client::Machine& machine) {
-  const auto status = machine.status.value_or(client::MachineStatus{});
+  const auto status = status_of(machine);
   const bool has_run = !status.run.empty();
   table.add({machine.name, machine.control,
              machine.connected ? Cell("yes", Style::Good) : Cell("no", Style::Bad),

@@ -194,10 +194,21 @@ double fraction_executed(const client::MachineStatus& status) {
                   static_cast<double>(status.offset) / static_cast<double>(status.total_bytes));
 }
 
+std::string hold_text(const client::Hold& hold) {
+  return "by " + printable(hold.who) + (hold.reason.empty() ? "" : ": " + printable(hold.reason));
+}
+
+client::MachineStatus status_of(const client::Machine& machine) {
+  auto status = machine.status.value_or(client::MachineStatus{});
+  if (!machine.held) return status;
+  status.message += (status.message.empty() ? "held " : "; held ") + hold_text(*machine.held);
+  return status;
+}
+
 std::string status_line(const client::Machine& machine) {
   if (!machine.connected) return fmt::format("{}  not connected", machine.name);
   if (!machine.status) return fmt::format("{}  connected, no status yet", machine.name);
-  const auto& status = *machine.status;
+  const auto status = status_of(machine);
   std::string line = fmt::format("{}  {}", machine.name, status.execution);
   if (!status.run.empty()) {
     line += fmt::format("  {} {:3.0f} %  {}", status.program, fraction_executed(status) * 100,
@@ -218,6 +229,9 @@ Details machine_details(const client::Machine& machine) {
   details.add("connected", machine.connected ? Cell("yes", Style::Good) : Cell("no", Style::Bad));
   details.add("last seen", time_text(machine.last_seen));
   for (const std::string& notice : machine.notices) details.add("notice", Cell(notice, Style::Bad));
+  if (machine.held) details.add("held", Cell(hold_text(*machine.held), Style::Bad));
+  if (machine.queue_hold)
+    details.add("queue held", Cell(hold_text(*machine.queue_hold), Style::Bad));
   if (!machine.status) return details;
   const auto& status = *machine.status;
   details.add("execution", execution_cell(machine));

@@ -23,6 +23,10 @@ std::string position_text(const client::MachineStatus& status, const client::Dis
 std::string place_text(const client::MachineStatus& status);
 /// How much of the program's text the machine has executed, 0 to 1.
 double fraction_executed(const client::MachineStatus& status);
+/// "by anna", "by report template bore version 1: part 12 is scrap: D40 is ..."
+std::string hold_text(const client::Hold& hold);
+/// What its gateway reported last; where it is held, the message says by whom and why.
+client::MachineStatus status_of(const client::Machine& machine);
 /// One line of what the machine does now.
 std::string status_line(const client::Machine& machine);
 /// What the machine executes; of one that is not connected, the last that it reported.

@@ -74,10 +74,27 @@ std::string allowance_text(const client::Run& run) {
   return run.approval ? fmt::format("released by step {}", *run.approval) : "";
 }
 
-Details run_details(const client::Run& run) {
+/// Nothing of a server that measures nothing, or of a run that nothing was measured of.
+std::string parts_text(const std::optional<client::ShownRun::Parts>& parts) {
+  if (!parts || parts->all() == 0) return "";
+  std::string text;
+  const auto add = [&](std::uint64_t count, std::string_view verdict) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, verdict);
+  };
+  add(parts->good, "good");
+  add(parts->unknown, "unknown");
+  add(parts->rework, "rework");
+  add(parts->scrap, "scrap");
+  if (parts->archived > 0) text += fmt::format(" ({} in archives)", parts->archived);
+  return text;
+}
+
+Details run_details(const client::ShownRun& shown) {
+  const client::Run& run = shown.run;
   Details details;
   details.add("run", run.id);
   details.add("state", Cell(run.state, style_of_state(run.state)));
+  if (shown.held) details.add("held", Cell(hold_text(*shown.held), Style::Bad));
   details.add("reason", run.reason);
   details.add("machine", run.machine);
   details.add("program", fmt::format("{} revision {}", run.program, run.revision));
@@ -92,6 +109,7 @@ Details run_details(const client::Run& run) {
   details.add("last line", run.line ? std::to_string(*run.line) : "");
   details.add("last N", run.sequence ? std::to_string(*run.sequence) : "");
   details.add("report lines", std::to_string(run.outputs));
+  details.add("parts", parts_text(shown.parts));
   details.add("author", run.author);
   details.add("created", time_text(run.created));
   details.add("started", time_text(run.started));
@@ -100,7 +118,9 @@ Details run_details(const client::Run& run) {
 }
 
 int show(Context& context, client::Client& client, const std::string& reference) {
-  auto run = find_run(client, reference);
+  const auto found = find_run(client, reference);
+  if (!found) return complain(found.error());
+  const auto run = client.shown_run(found->id);
   if (const auto status = finished(context, run)) return *status;
   context.print(run_details(*run));
   return kExitOk;

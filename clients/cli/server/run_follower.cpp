@@ -66,7 +66,8 @@ class RunFollower {
 
   void take_status(const client::Machine& machine) {
     if (machine.name != run_.machine) return;
-    status_ = machine.status;
+    status_.reset();
+    if (machine.status) status_ = status_of(machine);
     display_ = display_of(machine);
     show();
   }

@@ -183,10 +183,19 @@ void members(V& v, Is<Starts> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Hold> auto& x) {
+  DRIPLINE_MEMBERS(who, reason);
+  v.later("run", x.run);
+  DRIPLINE_MEMBERS(since);
+}
+
+template <class V>
 void members(V& v, Is<Machine> auto& x) {
   DRIPLINE_MEMBERS(name, control, description, gateway_version, connected, clock_ahead_seconds);
   v.later("notices", x.notices);
   DRIPLINE_MEMBERS(first_seen, last_seen);
+  v.later("held", x.held);
+  v.later("queue_hold", x.queue_hold);
   v.later("display", x.display);
   v.later("starts", x.starts);
   DRIPLINE_MEMBERS(status);
@@ -200,6 +209,20 @@ void members(V& v, Is<Run> auto& x) {
   v.later("allowed_as", x.allowed_as);
   v.later("approval", x.approval);
   v.later("job", x.job);
+}
+
+template <class V>
+void members(V& v, Is<ShownRun::Parts> auto& x) {
+  DRIPLINE_MEMBERS(good, unknown, rework, scrap);
+  v.later("archived", x.archived);
+  v.later("archives", x.archives);
+}
+
+template <class V>
+void members(V& v, Is<ShownRun> auto& x) {
+  members(v, x.run);
+  v.later("held", x.held);
+  v.later("parts", x.parts);
 }
 
 template <class V>

@@ -27,11 +27,6 @@ json job_json(const storage::Job& job) {
           {"created", to_iso8601(job.created)}};
 }
 
-json hold_json(const std::optional<storage::JobHold>& hold) {
-  if (!hold) return nullptr;
-  return {{"who", hold->who}, {"reason", hold->reason}, {"since", to_iso8601(hold->since)}};
-}
-
 Response list_jobs(Services& services, const Request& request) {
   QueryReader query(request);
   const storage::Page page = read_page(query);

@@ -150,6 +150,9 @@ Response show_run(Services& services, const Request& request) {
   const auto run = services.runs.run(request.parameter("id"));
   if (!run) return error_response(run.error());
   nlohmann::json view = run_json(*run);
+  const auto machine = services.machines.machine(run->machine);
+  const bool is_held = machine && machine->held && machine->held->run == run->id;
+  view["held"] = is_held ? hold_json(machine->held) : nlohmann::json(nullptr);
   view["parts"] = nullptr;
   if (services.measurements != nullptr) {
     const auto parts = services.measurements->stored().parts_of_run(run->id);
@@ -219,7 +222,9 @@ std::string detail_of(const machines::CommandRequest& command) {
 
 /// The entry comes first. When it cannot be written only what stops a machine goes out.
 Response carry_out(Services& services, const Request& request,
-                   const machines::CommandRequest& command) {
+                   const machines::CommandRequest& given) {
+  machines::CommandRequest command = given;
+  command.who = request.who.name;
   const bool is_of_run = !command.run.empty();
   library::AuditTrail::Change change{
       .who = request.who,

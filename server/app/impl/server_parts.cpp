@@ -50,10 +50,13 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
       attachments(*store),
       search(*store),
       runs(*store),
+      hold_reasons({.store = *store,
+                    .clock = clock,
+                    .on_change = [this](const std::string& machine) { show_machine(machine); }}),
       jobs({.store = *store,
             .releases = releases,
             .clock = clock,
-            .on_change = api::publish_jobs_to(events)}),
+            .on_change = [this](const library::JobChange& change) { show_jobs(change); }}),
       paths({.store = *store, .releases = releases, .clock = clock}),
       imports({.store = *store,
                .paths = paths,
@@ -112,7 +115,8 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
                          },
                      .machines = machine_service}),
       port_router(ports, gateway_lines),
-      machines(store->runs, machine_service, ports.machines()),
+      all_machines(store->runs, machine_service, ports.machines()),
+      machines(store->runs, all_machines, hold_reasons),
       api({.programs = programs,
            .releases = releases,
            .attachments = attachments,
@@ -239,52 +243,6 @@ std::vector<storage::Record> ServerParts::last_alarms(const std::string& machine
   if (!last || last->empty() || last->front().state != storage::RunState::Alarmed) return {};
   auto alarms = store->records.of_run(last->front().id, "alarm", {.limit = kMaxAlarms});
   return alarms ? *std::move(alarms) : std::vector<storage::Record>();
-}
-
-machines::MachineListener ServerParts::published() {
-  machines::MachineListener listener = api::publish_to(events);
-  listener.on_record = [this, publish = listener.on_record](const auto& record) {
-    measurements.note();
-    if (publisher) publisher->note_record();
-    publish(record);
-  };
-  if (publisher) {
-    listener.on_machine = [this, publish = listener.on_machine](const auto& view) {
-      publisher->note(view);
-      if (sparkplug) sparkplug->note(view);
-      publish(view);
-    };
-  }
-  if (!mtconnect) return listener;
-  auto& observer = mtconnect->observer();
-  listener.on_machine = [&observer, publish = listener.on_machine](const auto& view) {
-    observer.observe(view);
-    publish(view);
-  };
-  listener.on_record = [&observer, publish = listener.on_record](const auto& record) {
-    observer.observe(record);
-    publish(record);
-  };
-  return listener;
-}
-
-machines::MachineListener ServerParts::machine_listener() {
-  machines::MachineListener listener = published();
-  listener.on_machine = [this, publish = listener.on_machine](const machines::MachineView& view) {
-    using Level = library::Health::Level;
-    const auto notices = machines::notices_of(view);
-    health.report(view.machine.name, {.level = notices.empty() ? Level::Ok : Level::Degraded,
-                                      .subject = "gateway",
-                                      .what = "server and a gateway do not agree",
-                                      .detail = fmt::format("machine={}: {}", view.machine.name,
-                                                            fmt::join(notices, "; "))});
-    publish(view);
-  };
-  listener.on_run = [this, publish = listener.on_run](const storage::Run& run) {
-    publish(run);
-    if (storage::is_finished(run.state)) offsets.note(run.machine);  // its memory is known now
-  };
-  return listener;
 }
 
 void ServerParts::announce() {

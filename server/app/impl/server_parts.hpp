@@ -27,6 +27,7 @@
 #include "server/library/programs.hpp"
 #include "server/library/releases.hpp"
 #include "server/library/retention.hpp"
+#include "server/machines/held_machines.hpp"
 #include "server/machines/machine_service.hpp"
 #include "server/measurements/measurements.hpp"
 #include "server/mqtt/publisher.hpp"
@@ -85,6 +86,10 @@ struct ServerParts {
   Result<void> hold_machine(const storage::MeasuredPart& part, const std::string& reason);
   Result<void> hold_motion(const storage::MeasuredPart& part, const std::string& reason);
   machines::MachineListener machine_listener();
+  /// To the listeners of events and to the broker: something besides its status has changed.
+  void show_machine(const std::string& machine);
+  /// The same of its queue, with what is known of the hold.
+  void show_jobs(const library::JobChange& change);
   /// A full disk only keeps the server from storing: clients should still find it.
   void announce();
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
@@ -117,6 +122,7 @@ struct ServerParts {
   library::ProgramSearch search;
   library::RunHistory runs;
   api::EventHub events;
+  machines::HoldReasons hold_reasons;
   library::JobQueue jobs;
   paths::ProgramPaths paths;
   imports::Imports imports;
@@ -136,7 +142,8 @@ struct ServerParts {
   ports::PortService ports;
   ports::GatewayLines gateway_lines;
   ports::PortRouter port_router;
-  ports::MachineRouter machines;
+  ports::MachineRouter all_machines;
+  machines::HeldMachines machines;
   api::Api api;
   web::Page page{web::embedded_assets()};
   std::unique_ptr<library::HealthWatch> watch;

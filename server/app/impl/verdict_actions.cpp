@@ -39,6 +39,8 @@ Result<void> ServerParts::hold_motion(const storage::MeasuredPart& part,
   machines::CommandRequest hold;
   hold.action = dds::CommandAction::Hold;
   (is_of_run ? hold.run : hold.machine) = is_of_run ? part.run : part.machine;
+  hold.who = template_of(part);
+  hold.reason = reason;
   auto done = machines.command(hold);
   if (done) return done;
   change.detail += ": refused, " + done.error().what;

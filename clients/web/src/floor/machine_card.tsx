@@ -40,6 +40,8 @@ export const MachineCard = memo(function MachineCard({ name }: { name: string })
       )}
       {!machine.connected && <p class="muted">{t.lastSeen(dateTimeText(machine.last_seen))}</p>}
       {message && <p class="message">{message}</p>}
+      {machine.held && <p class="message">{t.heldBy(machine.held.who, machine.held.reason)}</p>}
+      {machine.queue_hold && <p class="message">{t.queueHeldBy(machine.queue_hold.reason)}</p>}
       {machine.notices.map((notice) => <p key={notice} class="message">{notice}</p>)}
       {machine.connected && status?.run && (
         <dl class="facts">

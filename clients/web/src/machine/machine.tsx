@@ -67,6 +67,8 @@ function Head({ name }: { name: string }) {
         </span>
       )}
       {state.message && <p class="message">{state.message}</p>}
+      {machine.held && <p class="notice warn">{t.heldBy(machine.held.who, machine.held.reason, dateTimeText(machine.held.since))}</p>}
+      {machine.queue_hold && <p class="notice warn">{t.queueHeldBy(machine.queue_hold.who, machine.queue_hold.reason, dateTimeText(machine.queue_hold.since))}</p>}
       {machine.notices.map((notice) => <p key={notice} class="notice warn">{t.notice}: {notice}</p>)}
     </div>
   );

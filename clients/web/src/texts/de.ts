@@ -98,6 +98,8 @@ export const de: Texts = {
     feedOverride: 'Vorschub',
     open: (machine) => `Maschine ${machine} öffnen`,
     lastSeen: (time) => `zuletzt gesehen ${time}`,
+    heldBy: (who, reason) => `angehalten von ${who}${reason === null ? '' : `: ${reason}`}`,
+    queueHeldBy: (reason) => `Auftragsliste angehalten: ${reason}`,
   },
   runStates: {
     ordered: 'Gestartet', active: 'Läuft', completed: 'Beendet', aborted: 'Abgebrochen', alarmed: 'Alarm', interrupted: 'Unterbrochen', refused: 'Abgelehnt',

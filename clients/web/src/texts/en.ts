@@ -100,6 +100,8 @@ export const en = {
     feedOverride: 'Feed',
     open: (machine: string) => `Open machine ${machine}`,
     lastSeen: (time: string) => `last seen ${time}`,
+    heldBy: (who: string, reason: string | null) => `held by ${who}${reason === null ? '' : `: ${reason}`}`,
+    queueHeldBy: (reason: string) => `queue held: ${reason}`,
   },
   runStates: {
     ordered: 'Started', active: 'Running', completed: 'Completed', aborted: 'Aborted', alarmed: 'Alarm', interrupted: 'Interrupted', refused: 'Refused',

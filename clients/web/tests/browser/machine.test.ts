@@ -29,8 +29,10 @@ test('a program is started, held, continued, slowed down and aborted', async () 
   assert.match((await page.locator('.blocks [aria-current="step"] .text').textContent()) ?? '', /^N\d+ G1 X/);
   await page.getByRole('button', { name: 'Feed hold' }).click();
   await state(page, 'Feed hold').waitFor();
+  await page.getByText(/^Held by \S+ since /).waitFor();
   await page.getByRole('button', { name: 'Resume' }).click();
   await state(page, 'Running').waitFor();
+  await page.getByText(/^Held by /).waitFor({ state: 'detached' });
   await page.getByRole('group', { name: 'Feed', exact: true }).getByRole('button', { name: 'Less' }).click();
   await page.getByRole('group', { name: 'Feed', exact: true }).getByText('90 %', { exact: true }).waitFor();
   assert.deepEqual(await findBarriers(page), []);

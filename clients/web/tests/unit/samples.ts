@@ -12,7 +12,7 @@ export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<
 
 export function machine(changed: Partial<Machine> = {}, changedStatus: Partial<NonNullable<Status>> = {}): Machine {
   return {
-    name: 'lathe-1', control: 'centurion', description: null, gateway_version: '0.1.0', connected: true, clock_ahead_seconds: 0, notices: [],
+    name: 'lathe-1', control: 'centurion', description: null, gateway_version: '0.1.0', connected: true, clock_ahead_seconds: 0, notices: [], held: null, queue_hold: null,
     first_seen: '2026-11-23T10:00:00Z', last_seen: '2026-11-23T12:00:00Z',
     starts: { at: ['block', 'line', 'byte', 'tool', 'count'], head: false, memory: true, pass: true }, display: { units: 'inch', x: 'diameter' }, status: status(changedStatus), ...changed,
   };

@@ -47,6 +47,41 @@ TEST(RunLine, ShowsAllThreeCountersAndThePlace) {
             "sent 1.5 MB  accepted 120000  executed 100000  X 12.500 Z -3.000  F 200");
 }
 
+client::Machine held_machine() {
+  client::Machine machine;
+  machine.name = "lathe-1";
+  machine.connected = true;
+  machine.status = status();
+  machine.status->execution = "FEED_HOLD";
+  machine.held = client::Hold{"report template bore version 1",
+                              "part 12 is scrap: D40 is 40.300 mm", "0192aabbccdd", ""};
+  return machine;
+}
+
+TEST(HeldMachine, SaysByWhomAndWhyWhereverItsStatusIsShown) {
+  client::Machine machine = held_machine();
+  const std::string why =
+      "held by report template bore version 1: part 12 is scrap: D40 is 40.300 mm";
+  EXPECT_EQ(status_of(machine).message, why);
+  EXPECT_NE(status_line(machine).find(why), std::string::npos);
+  const auto shown = status_of(machine);
+  EXPECT_NE(run_line(run(), &shown).find(why), std::string::npos);
+  EXPECT_NE(waiting_line(run(), shown).find(why), std::string::npos);
+  machine.queue_hold = client::Hold{"quality", "bore is wide", "", ""};
+  const std::string details = machine_details(machine).render(false);
+  EXPECT_NE(details.find(why.substr(5)), std::string::npos) << details;
+  EXPECT_NE(details.find("by quality: bore is wide"), std::string::npos) << details;
+}
+
+TEST(HeldMachine, KeepsWhatTheControlItselfReports) {
+  client::Machine machine = held_machine();
+  machine.status->message = "door is open";
+  machine.held->reason.clear();
+  EXPECT_EQ(status_of(machine).message, "door is open; held by report template bore version 1");
+  machine.held.reset();
+  EXPECT_EQ(status_of(machine).message, "door is open");
+}
+
 TEST(RunLine, IsInTheUnitsOfTheControlWithXAsItShowsIt) {
   auto machine = status();
   machine.position = {{"X", 12.7}, {"Z", -25.4}, {"C", 90}};

@@ -65,6 +65,8 @@ TEST(ApiJson, GivesBackWhatItRead) {
   machine["status"] = status_json();
   machine["display"] = nullptr;  // from a server before it
   machine["starts"] = nullptr;
+  machine["held"] = nullptr;
+  machine["queue_hold"] = nullptr;
   EXPECT_EQ(nlohmann::json(to_json_value(*from_json<client::Machine>(machine))), machine);
   auto run = test_support::run_json("r1", "completed");
   run["job"] = nullptr;

@@ -82,6 +82,10 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<Coordinates>(), described("Coordinates"));
   EXPECT_EQ(read_by_the_client<ProgramFrame>(), described("ProgramFrame"));
   EXPECT_EQ(read_by_the_client<client::Run>(), described("Run"));
+  EXPECT_EQ(read_by_the_client<client::ShownRun>(), described("RunWithParts"));
+  EXPECT_EQ(read_by_the_client<client::ShownRun::Parts>(),
+            described("RunWithParts/properties/parts"));
+  EXPECT_EQ(read_by_the_client<client::Hold>(), described("MachineHold"));
   EXPECT_EQ(read_by_the_client<client::Setup>(), described("Setup"));
   EXPECT_EQ(read_by_the_client<client::Job>(), described("Job"));
   EXPECT_EQ(read_by_the_client<client::JobList>(), described("JobList"));

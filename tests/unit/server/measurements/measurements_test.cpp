@@ -145,12 +145,28 @@ TEST_F(MeasurementsTest, JudgeAPartAtOnceAndHold) {
   print({"PART 1", "D 39.9"});
   wait_until_derived();
   EXPECT_EQ(judged(), (Texts{"1 rework so far"}));
-  EXPECT_EQ(held(1), (Texts{"queue of lathe-1: part 1 1 is rework"}));
+  EXPECT_EQ(held(1),
+            (Texts{"queue of lathe-1: part 1, serial 1, is rework: D is 39.9 mm, 0.08 below the "
+                   "lower limit 39.98"}));
   print({"D 40.5", "D 40.6", "run_ended"});
   wait_until_derived();
   EXPECT_EQ(judged(), (Texts{"1 rework so far", "1 scrap so far", "1 scrap"}));
-  EXPECT_EQ(held(2).at(1), "machine of lathe-1: part 1 1 is scrap");
+  EXPECT_EQ(held(2).at(1),
+            "machine of lathe-1: part 1, serial 1, is scrap: D is 40.5 mm, 0.48 above the upper "
+            "limit 40.02; 1 more value is scrap");
   EXPECT_EQ(store_->measurements.parts({}, {})->at(0).verdict, Verdict::Scrap);
+}
+
+/// What was found wrong with the report is why a part is unknown.
+TEST_F(MeasurementsTest, AHoldForAnUnknownPartSaysWhatIsMissing) {
+  start();
+  use("expected = 2\n[[line]]\nform = \"D {actual}\"\ncharacteristic = \"D\"\nnominal = "
+      "40\ntolerance = 1\n[verdict]\nunknown = \"hold_queue\"\n");
+  make_run("r1");
+  print({"D 40", "run_ended"});
+  wait_until_derived();
+  const std::string why = held(1).at(0);
+  EXPECT_TRUE(why.starts_with("queue of lathe-1: part 1 is unknown: missing: ")) << why;
 }
 
 /// A kill between the commit and the hold: it is carried out by the next server.

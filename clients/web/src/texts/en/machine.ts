@@ -5,6 +5,8 @@ export const machine = {
     parts: 'Parts of this machine',
     tabs: { now: 'Now', queue: 'Queue', setup: 'Setup', memory: 'Memory', runs: 'Runs' },
     notice: 'Between server and gateway',
+    heldBy: (who: string, reason: string | null, since: string) => `Held by ${who} since ${since}${reason === null ? '' : `: ${reason}`}`,
+    queueHeldBy: (who: string, reason: string, since: string) => `The queue is held by ${who} since ${since}: ${reason}`,
     run: 'Run',
     hold: 'Feed hold',
     resume: 'Resume',
