@@ -21,6 +21,15 @@ enum class JobState : std::uint8_t {
 };
 std::string_view to_string(JobState state);
 
+/// Which parts count up to a job's quantity.
+enum class JobCount : std::uint8_t {
+  Made,  ///< those of its completed runs, whatever they measure
+  Good,  ///< of these, those that all report templates find good
+};
+std::string_view to_string(JobCount count);  ///< made, good
+/// Errors: Syntax.
+Result<JobCount> parse_job_count(std::string_view text);
+
 /// A program that a machine is to run, until so many parts are made.
 struct Job {
   std::uint64_t id = 0;  ///< the store gives it
@@ -28,11 +37,17 @@ struct Job {
   std::optional<std::uint64_t> revision;  ///< absent: the latest that may run when it is started
   std::uint64_t quantity = 1;             ///< parts that are wanted
   std::uint64_t parts_per_run = 1;
+  JobCount counts = JobCount::Made;
   std::string comment, author;
   UtcTime created;
   JobState state = JobState::Waiting;  ///< the store determines it
   std::uint64_t completed = 0;         ///< parts: of its completed runs
   std::uint64_t runs = 0;              ///< all of it, refused ones left out
+  std::uint64_t counted = 0;           ///< up to the quantity: completed, or good
+  // By what was measured, archived parts too; of `list` and `find` alone.
+  std::uint64_t good = 0;               ///< of the completed ones
+  std::uint64_t unknown = 0;            ///< of the completed ones: not measured, or not known
+  std::uint64_t rework = 0, scrap = 0;  ///< of all its runs, those that were cut off too
 };
 
 /// Why a machine's queue starts nothing.

@@ -288,6 +288,7 @@ class Client {
     std::string machine, program;
     std::optional<std::uint64_t> revision;
     std::uint64_t quantity = 1, parts_per_run = 1;
+    std::string counts;  ///< made or good; empty: made
     std::string comment;
     std::optional<std::uint64_t> place;  ///< 1: the first; absent: at the end
   };

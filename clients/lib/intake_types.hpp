@@ -15,6 +15,8 @@ struct Job {
   std::string machine, program;
   std::optional<std::uint64_t> revision;  ///< absent: the latest that may run
   std::uint64_t quantity = 0, parts_per_run = 0, completed = 0, runs = 0;
+  std::string counts = "made";  ///< or good: what is counted up to the quantity
+  std::uint64_t good = 0, unknown = 0, rework = 0, scrap = 0;
   std::string state, comment, author, created;
 };
 struct JobList {

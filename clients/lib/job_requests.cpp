@@ -37,6 +37,7 @@ Reply<Job> Client::add_job(const JobRequest& request) {
                       {"quantity", request.quantity},
                       {"parts_per_run", request.parts_per_run}};
   if (request.revision) body["revision"] = *request.revision;
+  if (!request.counts.empty()) body["counts"] = request.counts;
   if (!request.comment.empty()) body["comment"] = request.comment;
   if (request.place) body["place"] = *request.place;
   return fetch<Job>(with_method("POST", jobs_path(request.machine)), dumped(body));

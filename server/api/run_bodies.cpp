@@ -106,9 +106,15 @@ Result<JobBody> decode_job(std::string_view body) {
   read.job.revision = object->optional_unsigned("revision");
   read.job.quantity = object->optional_unsigned("quantity").value_or(1);
   read.job.parts_per_run = object->optional_unsigned("parts_per_run").value_or(1);
+  const auto counts = object->optional_text("counts", kMaxName);
   read.job.comment = object->optional_text("comment", library::JobQueue::kMaxText).value_or("");
   read.place = object->optional_unsigned("place");
   if (auto good = object->finish(); !good) return fail(good.error());
+  if (counts) {
+    const auto parsed = storage::parse_job_count(*counts);
+    if (!parsed) return fail(parsed.error());
+    read.job.counts = *parsed;
+  }
   if (auto good = check_program_name(read.job.program); !good) return fail(good.error());
   return read;
 }

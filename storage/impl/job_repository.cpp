@@ -10,18 +10,35 @@
 namespace dripline::storage {
 namespace {
 
-/// Each job with what its runs say; a condition follows.
-const std::string kSelect =
-    "SELECT * FROM (SELECT job.id, machine.name AS machine, program.name, job.revision, "
-    "job.quantity, job.parts_per_run, job.comment, job.author, job.created_us, job.removed_us, "
-    "job.position, "
-    "job.parts_per_run * (SELECT count(*) FROM run WHERE run.job = job.id AND run.state = "
-    "'completed') AS completed, "
-    "(SELECT count(*) FROM run WHERE run.job = job.id AND run.state <> 'refused') AS runs, "
-    "EXISTS (SELECT 1 FROM run WHERE run.job = job.id AND run.state IN ('ordered', 'active')) AS "
-    "is_active "
-    "FROM job JOIN machine ON machine.id = job.machine JOIN program ON program.id = job.program) ";
-const std::string kOpen = "removed_us IS NULL AND (completed < quantity OR is_active) ";
+/// Each job with what its runs say; `verdicts`: what was measured of them, which takes a time in
+/// proportion to the runs.
+std::string select_with(const std::string& verdicts) {
+  return "SELECT * FROM (SELECT job.id, machine.name AS machine, program.name, job.revision, "
+         "job.quantity, job.parts_per_run, job.comment, job.author, job.created_us, "
+         "job.removed_us, job.position, c.made AS completed, "
+         "(SELECT count(*) FROM run WHERE run.job = job.id AND run.state <> 'refused') AS runs, "
+         "EXISTS (SELECT 1 FROM run WHERE run.job = job.id AND run.state IN ('ordered', "
+         "'active')) AS is_active, job.counts, iif(job.counts = 'good', c.good, c.made) AS "
+         "counted, " +
+         verdicts +
+         " FROM job JOIN job_count AS c ON c.job = job.id JOIN machine ON machine.id = "
+         "job.machine JOIN program ON program.id = job.program) ";
+}
+
+std::string sum_of_runs(const char* parts, const char* runs) {
+  return fmt::format(
+      "(SELECT coalesce(sum(min({}, job.parts_per_run)), 0) FROM run_verdicts AS v WHERE v.job = "
+      "job.id AND v.state {})",
+      parts, runs);
+}
+
+// A condition follows.
+const std::string kSelect = select_with("0, 0, 0, 0");
+const std::string kSelectShown =
+    select_with("c.good, " + sum_of_runs("v.rework", "<> 'refused'") + ", " +
+                sum_of_runs("v.scrap", "<> 'refused'") + ", " +
+                sum_of_runs("v.good + v.rework + v.scrap", "= 'completed'"));
+const std::string kOpen = "removed_us IS NULL AND (counted < quantity OR is_active) ";
 const std::string kInOrder = "ORDER BY position, id ";
 
 Job read_job(const sqlite::Statement& row) {
@@ -38,28 +55,39 @@ Job read_job(const sqlite::Statement& row) {
   job.created = row.time(8);
   job.completed = row.number(11);
   job.runs = row.number(12);
+  job.counts = row.text(14) == "good" ? JobCount::Good : JobCount::Made;
+  job.counted = row.number(15);
+  job.good = row.number(16);
+  job.rework = row.number(17);
+  job.scrap = row.number(18);
+  job.unknown = job.completed - std::min(job.completed, row.number(19));
   if (row.optional_time(9)) {
     job.state = JobState::Removed;
   } else if (row.integer(13) != 0) {
     job.state = JobState::Active;
-  } else if (job.completed >= job.quantity) {
+  } else if (job.counted >= job.quantity) {
     job.state = JobState::Done;
   }
   return job;
 }
 
-Result<Job> find_job(sqlite::Database& database, std::uint64_t id) {
-  static const std::string kSql = kSelect + "WHERE id = ?1";
-  auto job = sqlite::first_row(database, kSql, read_job, id);
+Result<Job> one_job(std::uint64_t id, Result<std::optional<Job>> job) {
   if (!job) return fail(job.error());
   if (!*job) return fail(Errc::NotFound, "job {} is not known", id);
   return std::move(**job);
 }
 
+Result<Job> find_job(sqlite::Database& database, std::uint64_t id) {
+  static const std::string kSql = kSelect + "WHERE id = ?1";
+  return one_job(id, sqlite::first_row(database, kSql, read_job, id));
+}
+
+const std::string kOpenOfMachine =
+    "WHERE machine = ?1 AND " + kOpen + kInOrder + "LIMIT ?2 OFFSET ?3";
+
 Result<std::vector<Job>> open_jobs(sqlite::Database& database, const std::string& machine,
                                    Page page) {
-  static const std::string kSql =
-      kSelect + "WHERE machine = ?1 AND " + kOpen + kInOrder + "LIMIT ?2 OFFSET ?3";
+  static const std::string kSql = kSelect + kOpenOfMachine;
   return sqlite::all_rows(database, kSql, read_job, machine, page.limit, page.offset);
 }
 
@@ -116,8 +144,10 @@ Result<void> check_job(sqlite::Database& database, const Run& run) {
                 job->program, job->machine, run.program, run.revision, run.machine);
   }
   if (auto open = check_open(*job); !open) return open;
-  if (job->completed >= job->quantity)
-    return fail(Errc::Conflict, "job {} has all its {} parts", job->id, job->quantity);
+  if (job->counted >= job->quantity) {
+    return fail(Errc::Conflict, "job {} has all its {} {}parts", job->id, job->quantity,
+                job->counts == JobCount::Good ? "good " : "");
+  }
   const auto held = find_hold(database, run.machine);
   if (!held) return fail(held.error());
   if (!*held) return {};
@@ -126,16 +156,20 @@ Result<void> check_job(sqlite::Database& database, const Run& run) {
 }
 
 Result<std::vector<Job>> JobRepository::list(const std::string& machine, bool is_open, Page page) {
-  static const std::string kClosed =
-      kSelect + "WHERE machine = ?1 AND NOT (" + kOpen + ") ORDER BY id DESC LIMIT ?2 OFFSET ?3";
-  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<Job>> {
-    if (is_open) return open_jobs(database, machine, page);
-    return sqlite::all_rows(database, kClosed, read_job, machine, page.limit, page.offset);
+  static const std::string kClosed = kSelectShown + "WHERE machine = ?1 AND NOT (" + kOpen +
+                                     ") ORDER BY id DESC LIMIT ?2 OFFSET ?3";
+  static const std::string kOpenShown = kSelectShown + kOpenOfMachine;
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::all_rows(database, is_open ? kOpenShown : kClosed, read_job, machine, page.limit,
+                            page.offset);
   });
 }
 
 Result<Job> JobRepository::find(std::uint64_t id) {
-  return connections_.read([&](sqlite::Database& database) { return find_job(database, id); });
+  static const std::string kSql = kSelectShown + "WHERE id = ?1";
+  return connections_.read([&](sqlite::Database& database) {
+    return one_job(id, sqlite::first_row(database, kSql, read_job, id));
+  });
 }
 
 Result<Job> JobRepository::add(const Job& job, const Actor& who,
@@ -153,10 +187,10 @@ Result<Job> JobRepository::add(const Job& job, const Actor& who,
     const auto inserted = sqlite::run(
         database,
         "INSERT INTO job (machine, position, program, revision, quantity, parts_per_run, comment, "
-        "author, created_us) SELECT ?1, coalesce((SELECT max(position) FROM job WHERE machine = "
-        "?1), 0) + 1, id, ?3, ?4, ?5, ?6, ?7, ?8 FROM program WHERE name = ?2",
+        "author, created_us, counts) SELECT ?1, coalesce((SELECT max(position) FROM job WHERE "
+        "machine = ?1), 0) + 1, id, ?3, ?4, ?5, ?6, ?7, ?8, ?9 FROM program WHERE name = ?2",
         *machine, job.program, job.revision, job.quantity, job.parts_per_run, job.comment,
-        job.author, job.created);
+        job.author, job.created, to_string(job.counts));
     if (!inserted) return fail(inserted.error());
     auto added = find_job(database, static_cast<std::uint64_t>(database.last_insert_id()));
     if (!added) return added;
@@ -199,7 +233,7 @@ Result<void> JobRepository::remove(std::uint64_t id, const Actor& who, UtcTime t
 
 Result<std::optional<Job>> JobRepository::next(const std::string& machine) {
   static const std::string kSql =
-      kSelect + "WHERE machine = ?1 AND removed_us IS NULL AND completed < quantity " + kInOrder +
+      kSelect + "WHERE machine = ?1 AND removed_us IS NULL AND counted < quantity " + kInOrder +
       "LIMIT 1";
   return connections_.read([&](sqlite::Database& database) {
     return sqlite::first_row(database, kSql, read_job, machine);

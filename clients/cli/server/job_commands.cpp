@@ -40,13 +40,21 @@ void print_jobs(const Context& context, const client::JobList& list) {
     context.print(fmt::format("Held by {} since {}: {}\n\n", printable(hold->who),
                               time_text(hold->since), printable(hold->reason)));
   }
-  Table table({right("JOB"), "PROGRAM", right("REV"), right("PARTS"), right("RUNS"), "STATE",
-               "AUTHOR", "COMMENT"});
+  Table table({right("JOB"), "PROGRAM", right("REV"), right("PARTS"), right("GOOD"),
+               right("REWORK"), right("SCRAP"), right("UNKNOWN"), right("RUNS"), "STATE", "AUTHOR",
+               "COMMENT"});
   for (const auto& job : list.jobs) {
+    const bool counts_good = job.counts == "good";
+    const auto of_quantity = [&](std::uint64_t parts) {
+      return fmt::format("{}/{}", parts, job.quantity);
+    };
     table.add({std::to_string(job.id), printable(job.program),
                job.revision ? std::to_string(*job.revision) : "latest",
-               fmt::format("{}/{}", job.completed, job.quantity), std::to_string(job.runs),
-               state_cell(job), printable(job.author), printable(job.comment)});
+               counts_good ? std::to_string(job.completed) : of_quantity(job.completed),
+               counts_good ? of_quantity(job.good) : std::to_string(job.good),
+               std::to_string(job.rework), std::to_string(job.scrap), std::to_string(job.unknown),
+               std::to_string(job.runs), state_cell(job), printable(job.author),
+               printable(job.comment)});
   }
   context.print(table);
 }
@@ -68,8 +76,8 @@ int list_jobs(Context& context, client::Client& client, const JobQueueCommand& c
 int add_job(Context& context, client::Client& client, const JobAddition& command) {
   const auto job = client.add_job(command.request);
   if (const auto status = finished(context, job)) return *status;
-  context.print(fmt::format("Job {}: {} parts of {} on {}.\n", job->id, job->quantity, job->program,
-                            job->machine));
+  context.print(fmt::format("Job {}: {} {}parts of {} on {}.\n", job->id, job->quantity,
+                            job->counts == "good" ? "good " : "", job->program, job->machine));
   return kExitOk;
 }
 
@@ -123,13 +131,19 @@ void add_adding(Command group, Context& context) {
   add.add_option("--revision", request.revision,
                  "This revision; without it the latest that may run when it is started");
   add.add_option("--quantity", request.quantity, "Parts that are wanted; the default is 1");
+  add.add_option("--count", request.counts,
+                 "Which parts count up to the quantity: made (of completed runs, the default) or "
+                 "good (of these, those that were measured good)")
+      .check(one_of({"made", "good"}));
   add.add_option("--parts-per-run", request.parts_per_run,
                  "Parts that a run makes (pallets, tombstones); the default is 1");
   add.add_option("--place", request.place, "Place in the queue, 1 is the first; the end without");
   add.add_option("--comment", request.comment, "What the operator should know");
   add_json_flag(add, context);
   add.footer(
-      "The program must be one that the machine may run: under a release policy a released one.\n\n"
+      "The program must be one that the machine may run: under a release policy a released one.\n"
+      "With --count good a report template must measure the parts: without one none is good, and "
+      "the job\nis never done.\n\n"
       "Example:\n  dnc job add mill-3 O0200 --quantity 25 --comment \"steel, fixture 7\"");
   run_at_server(add, context, options, add_job);
 }
@@ -169,6 +183,11 @@ void add_job_commands(Command app, Context& context) {
   group.require_subcommand(1);
 
   auto list = group.add_subcommand("list", "List a machine's jobs in their order");
+  list.footer(
+      "PARTS are those of completed runs, GOOD and UNKNOWN of them by what was measured; REWORK "
+      "and "
+      "SCRAP\nalso those of runs that did not complete. The one that is counted up to the quantity "
+      "is shown with it.");
   auto list_options = std::make_shared<JobQueueCommand>();
   add_machine(list, list_options->machine);
   list.add_flag("--closed", list_options->closed, "List what is done or removed, newest first");

@@ -266,6 +266,11 @@ template <class V>
 void members(V& v, Is<Job> auto& x) {
   DRIPLINE_MEMBERS(id, machine, program, revision, quantity, parts_per_run, completed, runs, state,
                    comment, author, created);
+  v.later("counts", x.counts);
+  v.later("good", x.good);
+  v.later("unknown", x.unknown);
+  v.later("rework", x.rework);
+  v.later("scrap", x.scrap);
 }
 
 template <class V>

@@ -12,6 +12,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::chrono::seconds kVerdictWait{2};
+
 json job_json(const storage::Job& job) {
   return {{"id", job.id},
           {"machine", job.machine},
@@ -19,7 +21,12 @@ json job_json(const storage::Job& job) {
           {"revision", number_or_null(job.revision)},
           {"quantity", job.quantity},
           {"parts_per_run", job.parts_per_run},
+          {"counts", storage::to_string(job.counts)},
           {"completed", job.completed},
+          {"good", job.good},
+          {"unknown", job.unknown},
+          {"rework", job.rework},
+          {"scrap", job.scrap},
           {"runs", job.runs},
           {"state", storage::to_string(job.state)},
           {"comment", text_or_null(job.comment)},
@@ -88,7 +95,12 @@ Response release_queue(Services& services, const Request& request) {
 Response start_job(Services& services, const Request& request) {
   const auto wanted = decode_job_start(request.body);
   if (!wanted) return error_response(wanted.error());
-  const auto job = services.jobs.take(request.parameter("name"), *wanted);
+  auto job = services.jobs.take(request.parameter("name"), *wanted);
+  if (job && job->counts == storage::JobCount::Good && services.measurements != nullptr) {
+    // The verdict on what its last run made may be about to come: it may have all its parts.
+    (void)services.measurements->wait(kVerdictWait);
+    job = services.jobs.take(request.parameter("name"), *wanted);
+  }
   if (!job) return error_response(job.error());
   machines::StartRequest start;
   start.machine = job->machine;

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "tests/unit/storage/store_fixture.hpp"
 
 namespace dripline::storage {
@@ -74,6 +76,142 @@ TEST_F(JobQueueTest, CountsPartsOfCompletedRunsOnly) {
   const auto more = start("r4", job);
   ASSERT_FALSE(more);
   EXPECT_EQ(more.error().code, Errc::Conflict);
+}
+
+/// What runs of a job make, measured by templates.
+class MeasuredJob : public JobQueueTest {
+ protected:
+  void SetUp() override {
+    JobQueueTest::SetUp();
+    for (const char* name : {"bore", "gauge"}) {
+      ASSERT_TRUE(store_->report_templates.push(
+          {.name = name, .version = 0, .text = "x", .author = "anna", .created = clock_.now()},
+          "anna"));
+    }
+  }
+  Job add_good(std::uint64_t quantity, std::uint64_t parts_per_run = 1) {
+    Job job;
+    job.machine = "m1";
+    job.program = "p.nc";
+    job.quantity = quantity;
+    job.parts_per_run = parts_per_run;
+    job.counts = JobCount::Good;
+    job.created = clock_.now();
+    return *store_->jobs.add(job, "anna", {});
+  }
+  void part(const std::string& run, measurement::Verdict verdict,
+            const std::string& name = "bore") {
+    DerivedBatch batch;
+    batch.machine = "m1";
+    batch.epoch = 99;
+    batch.after = std::exchange(through_, through_ + 1);
+    batch.through = through_;
+    MeasuredPart one;
+    one.id = *store_->measurements.next_part_id();
+    one.machine = "m1";
+    one.run = run;
+    one.template_name = name;
+    one.template_version = 1;
+    one.verdict = verdict;
+    one.begun = clock_.now();
+    one.ended = clock_.now();
+    batch.parts = {one};
+    const auto done = store_->measurements.commit(batch);
+    ASSERT_TRUE(done) << done.error().what;
+  }
+  /// A run of the job that makes parts with these verdicts.
+  void make(const std::string& id, std::uint64_t job,
+            const std::vector<measurement::Verdict>& verdicts,
+            RunState state = RunState::Completed) {
+    const auto started = start(id, job);
+    ASSERT_TRUE(started) << started.error().what;
+    for (const auto verdict : verdicts) part(id, verdict);
+    end(id, state);
+  }
+  std::string counts(std::uint64_t id) {
+    const auto job = store_->jobs.find(id);
+    const auto listed = store_->jobs.list("m1", true, {});
+    if (!listed->empty()) {
+      EXPECT_EQ(listed->front().scrap, job->scrap);
+    }
+    return fmt::format("{} made: {} good {} unknown, {} rework {} scrap, {} counted",
+                       job->completed, job->good, job->unknown, job->rework, job->scrap,
+                       job->counted);
+  }
+  std::uint64_t through_ = 0;
+};
+using enum measurement::Verdict;
+
+TEST_F(MeasuredJob, ShowsWhatWasMadeByVerdictAndCountsAllOfIt) {
+  const auto job = add("p.nc", 4).id;
+  make("r1", job, {Good});
+  make("r2", job, {Rework});
+  make("r3", job, {Scrap});
+  EXPECT_EQ(counts(job), "3 made: 1 good 0 unknown, 1 rework 1 scrap, 3 counted");
+  make("r4", job, {});
+  EXPECT_EQ(counts(job), "4 made: 1 good 1 unknown, 1 rework 1 scrap, 4 counted");
+  EXPECT_EQ(store_->jobs.find(job)->state, JobState::Done);
+}
+
+TEST_F(MeasuredJob, ThatCountsGoodPartsIsDoneWithThem) {
+  const auto job = add_good(2).id;
+  EXPECT_EQ(store_->audit.list({.limit = 1})->at(0).detail, "job 1: p.nc, 2 good parts");
+  make("r1", job, {Good});
+  make("r2", job, {Scrap});
+  make("r3", job, {});
+  EXPECT_EQ(counts(job), "3 made: 1 good 1 unknown, 0 rework 1 scrap, 1 counted");
+  EXPECT_EQ(store_->jobs.find(job)->state, JobState::Waiting);
+  EXPECT_EQ(store_->jobs.next("m1").value()->id, job);
+  reopen();
+  make("r4", job, {Good});
+  EXPECT_EQ(store_->jobs.find(job)->state, JobState::Done);
+  EXPECT_EQ(store_->jobs.next("m1").value(), std::nullopt);
+  const auto more = start("r5", job);
+  ASSERT_FALSE(more);
+  EXPECT_EQ(more.error().what, fmt::format("job {} is done", job));
+}
+
+/// Held for scrap, then aborted: no part was made, and the scrap is not hidden.
+TEST_F(MeasuredJob, ScrapOfARunThatWasCutOffIsShown) {
+  const auto job = add_good(1).id;
+  make("r1", job, {Scrap}, RunState::Aborted);
+  EXPECT_EQ(counts(job), "0 made: 0 good 0 unknown, 0 rework 1 scrap, 0 counted");
+  make("r2", job, {Good}, RunState::Aborted);
+  EXPECT_EQ(counts(job), "0 made: 0 good 0 unknown, 0 rework 1 scrap, 0 counted");
+}
+
+TEST_F(MeasuredJob, APartThatTwoTemplatesMeasureIsOneAndGoodForBoth) {
+  const auto job = add_good(3).id;
+  make("r1", job, {Good});
+  part("r1", Good, "gauge");
+  EXPECT_EQ(counts(job), "1 made: 1 good 0 unknown, 0 rework 0 scrap, 1 counted");
+  make("r2", job, {Good});
+  part("r2", Scrap, "gauge");
+  EXPECT_EQ(counts(job), "2 made: 1 good 0 unknown, 0 rework 1 scrap, 1 counted");
+}
+
+TEST_F(MeasuredJob, ARunMakesNoMoreGoodPartsThanItMakes) {
+  const auto job = add_good(8, 2).id;
+  make("r1", job, {Good, Good, Good});
+  EXPECT_EQ(counts(job), "2 made: 2 good 0 unknown, 0 rework 0 scrap, 2 counted");
+  make("r2", job, {Good});
+  EXPECT_EQ(counts(job), "4 made: 3 good 1 unknown, 0 rework 0 scrap, 3 counted");
+}
+
+TEST_F(MeasuredJob, ArchivedPartsStillCount) {
+  const auto job = add_good(3).id;
+  make("r1", job, {Good});
+  make("r2", job, {Scrap});
+  const auto archive = store_->archives.add({.kind = ArchiveKind::Measurements,
+                                             .first = 1,
+                                             .last = 2,
+                                             .file = "measurements-1.jsonl.zst",
+                                             .created = clock_.now()},
+                                            "retention");
+  while (*store_->archives.remove_rows(*archive, 10) > 0) {
+  }
+  ASSERT_TRUE(store_->measurements.parts({}, {})->empty());
+  EXPECT_EQ(counts(job), "2 made: 1 good 0 unknown, 0 rework 1 scrap, 1 counted");
 }
 
 /// The end of a run counts once, however often its record is sent.

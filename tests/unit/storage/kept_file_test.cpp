@@ -230,6 +230,20 @@ TEST_P(KeptFile, HasCountsOfArchivedPartsSinceVersion17) {
   EXPECT_TRUE(store_->archives.uncounted()->empty()) << "an archive of records has no parts";
 }
 
+TEST_P(KeptFile, HasReasonsOfHoldsAndWhatJobsCountSinceVersion17) {
+  reopen();
+  const auto holds = store_->machines.holds();
+  ASSERT_TRUE(holds) << holds.error().what;
+  EXPECT_EQ(holds->size(), version() >= 17 ? 1u : 0u);
+  if (version() >= 14) {
+    EXPECT_EQ(store_->jobs.find(1)->counts, JobCount::Made);
+  }
+  if (version() < 17) return;
+  EXPECT_EQ(holds->at(0).reason, "part 1 S7 is scrap");
+  EXPECT_EQ(holds->at(0).run, "r2");
+  EXPECT_EQ(store_->jobs.find(2)->counts, JobCount::Good);
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",

@@ -85,6 +85,56 @@ TEST_F(WebhookEvents, OfAJobCountItsParts) {
   EXPECT_NE(done->data.find(R"("completed":1)"), std::string::npos);
 }
 
+/// A job that counts good parts is done when the last of them is known: after its run.
+TEST_F(WebhookEvents, OfAJobThatCountsGoodPartsWaitForTheVerdict) {
+  ASSERT_TRUE(store_->report_templates.push(
+      {.name = "bore", .version = 0, .text = "x", .author = "anna", .created = clock_.now()},
+      "anna"));
+  auto run = make_run("r1");
+  Job job;
+  job.machine = "m1";
+  job.program = "p.nc";
+  job.counts = JobCount::Good;
+  run.job = store_->jobs.add(job, "anna", {})->id;
+  add("erp", {"job"});
+  ASSERT_TRUE(store_->runs.create(run));
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Completed, ""));
+  const auto changes = [&] {
+    std::string all;
+    for (const Event& event : events()) {
+      if (event.kind != "job") continue;
+      all += event.data.find(R"("change":"done")") != std::string::npos ? "done " : "progress ";
+    }
+    return all;
+  };
+  EXPECT_EQ(changes(), "progress ");
+  DerivedBatch derived;
+  derived.machine = "m1";
+  derived.epoch = 99;
+  derived.through = 1;
+  MeasuredPart part;
+  part.id = 1;
+  part.machine = "m1";
+  part.run = "r1";
+  part.template_name = "bore";
+  part.template_version = 1;
+  part.verdict = measurement::Verdict::Good;
+  part.begun = clock_.now();
+  derived.parts = {part};
+  ASSERT_TRUE(store_->measurements.commit(derived));
+  EXPECT_EQ(changes(), "progress ") << "so far: lines may follow";
+  derived.after = 1;
+  derived.through = 2;
+  derived.parts[0].ended = clock_.now();
+  ASSERT_TRUE(store_->measurements.commit(derived));
+  EXPECT_EQ(changes(), "progress done ");
+  derived.after = 2;
+  derived.through = 3;
+  derived.parts[0].id = 2;
+  ASSERT_TRUE(store_->measurements.commit(derived));
+  EXPECT_EQ(changes(), "progress done done ") << "a part that is over at once";
+}
+
 TEST_F(WebhookEvents, OfAPartComeAtItsVerdictOrItsEnd) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   ASSERT_TRUE(store_->report_templates.push(

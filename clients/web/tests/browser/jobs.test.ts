@@ -33,8 +33,10 @@ test('jobs are added with quantity and note, and stay in order', async () => {
   await row(page, 'O0200').getByText(kHostile).waitFor();
   assert.equal(await page.locator('main img').count(), 0);
   await page.getByLabel('Program', { exact: true }).fill('O0300');
+  await page.getByLabel('Counted').selectOption('good');
   await page.getByRole('button', { name: 'Add to the queue' }).click();
-  await row(page, 'O0300').waitFor();
+  await row(page, 'O0300').getByText('0 of 2 good parts').waitFor();
+  await row(page, 'O0300').getByText('0 made: 0 good, 0 unknown; rework 0, scrap 0').waitFor();
   assert.deepEqual(await findBarriers(page), []);
   await page.getByRole('button', { name: 'Move O0300 up' }).click();
   await page.locator('.jobs > li:first-child', { hasText: 'O0300' }).waitFor();
@@ -49,7 +51,7 @@ test('a held queue starts nothing and says why, until it is released', async () 
   await page.getByText('Hold the queue').click();
   await page.getByLabel('Reason').fill('fixture is cracked');
   await page.getByRole('button', { name: 'Hold now' }).click();
-  await page.getByText('fixture is cracked').first().waitFor();
+  await page.getByText(/^The queue is held by otto since .*: fixture is cracked$/).waitFor();
   assert.ok(await page.getByRole('button', { name: 'Start next' }).isDisabled());
   assert.deepEqual(await findBarriers(page), []);
   assert.equal((await queue()).hold?.reason, 'fixture is cracked');

@@ -43,7 +43,7 @@ export function importOf(changed: Partial<Import> = {}): Import {
 
 export function job(changed: Partial<Job> = {}): Job {
   return {
-    id: 1, machine: 'mill-1', program: 'O0200', revision: null, quantity: 1, parts_per_run: 1, completed: 0, runs: 0, state: 'waiting', comment: null,
+    id: 1, machine: 'mill-1', program: 'O0200', revision: null, quantity: 1, parts_per_run: 1, counts: 'made', completed: 0, good: 0, unknown: 0, rework: 0, scrap: 0, runs: 0, state: 'waiting', comment: null,
     author: 'admin', created: '2026-11-23T12:00:00Z', ...changed,
   };
 }

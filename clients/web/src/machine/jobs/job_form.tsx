@@ -35,7 +35,7 @@ function ProgramField({ control, value, onChange }: { control: string | null; va
 export function JobForm({ machine, control = null, fixed, onAdded }: Props) {
   const t = texts().jobs;
   const command = useCommand();
-  const [job, setJob] = useState<JobText>({ program: fixed?.program ?? '', revision: '', quantity: 1, partsPerRun: 1, isFirst: false, comment: '' });
+  const [job, setJob] = useState<JobText>({ program: fixed?.program ?? '', revision: '', quantity: 1, partsPerRun: 1, counts: 'made', isFirst: false, comment: '' });
   const set = (changed: Partial<JobText>) => setJob({ ...job, ...changed });
   const add = async (event: Event) => {
     event.preventDefault();
@@ -61,6 +61,13 @@ export function JobForm({ machine, control = null, fixed, onAdded }: Props) {
       )}
       <label>{t.quantity}<input type="number" required min={1} max={kMaxQuantity} step={1} value={job.quantity} onInput={(e) => set({ quantity: e.currentTarget.valueAsNumber })} /></label>
       <label>{t.partsPerRun}<input type="number" required min={1} max={kMaxPartsPerRun} step={1} value={job.partsPerRun} onInput={(e) => set({ partsPerRun: e.currentTarget.valueAsNumber })} /></label>
+      <label>
+        {t.counts}
+        <select value={job.counts} title={t.countsHint} onChange={(e) => set({ counts: e.currentTarget.value as Job['counts'] })}>
+          <option value="made">{t.countsMade}</option>
+          <option value="good">{t.countsGood}</option>
+        </select>
+      </label>
       <label class="wide">{t.comment}<input maxLength={kMaxComment} autocomplete="off" placeholder={t.commentHint} value={job.comment} onInput={(e) => set({ comment: e.currentTarget.value })} /></label>
       <label class="check"><input type="checkbox" checked={job.isFirst} onChange={(e) => set({ isFirst: e.currentTarget.checked })} />{t.asFirst}</label>
       <button type="submit" class="primary" disabled={command.isBusy}>{t.add}</button>

@@ -5,7 +5,7 @@ import { addressOf } from '../../app/route';
 import { CommandFault, useCommand } from '../../parts/command';
 import { SureButton } from '../../parts/sure_button';
 import { dateTimeText, numberText, texts } from '../../texts/texts';
-import { fractionOf, movesOf } from './job_steps';
+import { countedOf, fractionOf, isMeasured, movesOf } from './job_steps';
 import { StartJob } from './start_job';
 
 const kTones = { waiting: 'offline', active: 'running', done: 'done', removed: 'offline' } as const;
@@ -20,6 +20,14 @@ export function JobFacts({ job }: { job: Job }) {
     job.parts_per_run > 1 && t.perRun(numberText(job.parts_per_run)), job.runs > 0 && t.runs(job.runs), `${job.author}, ${dateTimeText(job.created)}`, t.number(job.id),
   ];
   return <p class="muted">{facts.filter(Boolean).join(' · ')}</p>;
+}
+
+/// How many of them are wanted and there, and what was measured of them.
+export function JobParts({ job }: { job: Job }) {
+  const t = texts().jobs;
+  const counted = (job.counts === 'good' ? t.completedGood : t.completed)(numberText(countedOf(job)), numberText(job.quantity));
+  if (!isMeasured(job)) return <>{counted}</>;
+  return <>{counted} <span class="muted">{t.verdicts(numberText(job.completed), numberText(job.good), numberText(job.rework), numberText(job.scrap), numberText(job.unknown))}</span></>;
 }
 
 export function JobTitle({ job }: { job: Job }) {
@@ -54,7 +62,7 @@ export function JobRow({ job, index, count, hold }: Props) {
         {job.comment && <p class="message">{job.comment}</p>}
         <p class="progress-row">
           <progress value={fractionOf(job)} max={1} aria-label={t.progressOf(job.program)} />
-          <span>{t.completed(numberText(job.completed), numberText(job.quantity))}</span>
+          <span><JobParts job={job} /></span>
         </p>
         <JobFacts job={job} />
         <p class="buttons">
@@ -63,7 +71,7 @@ export function JobRow({ job, index, count, hold }: Props) {
             <button key={where} type="button" class="square" aria-label={t.moves[where](job.program)} title={t.moves[where](job.program)}
               disabled={moves[where] === null || command.isBusy} onClick={move(moves[where])}>{sign}</button>
           ))}
-          <SureButton class="danger" label={t.remove} question={t.removeSure(job.program, numberText(job.quantity - Math.min(job.quantity, job.completed)))}
+          <SureButton class="danger" label={t.remove} question={t.removeSure(job.program, numberText(job.quantity - Math.min(job.quantity, countedOf(job))))}
             disabled={job.state === 'active' || command.isBusy} onSure={() => void command.send(() => send('DELETE', path))} />
         </p>
         <CommandFault command={command} />

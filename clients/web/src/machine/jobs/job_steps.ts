@@ -1,14 +1,24 @@
 // What can be seen of a job by its numbers, and where in the queue it may go. Pure.
 import type { Job } from '../../../generated/api';
 
-/// Of its parts, 0 to 1. A last run may make more than are wanted.
-export function fractionOf({ completed, quantity }: Job): number {
-  return Math.min(1, completed / quantity);
+/// What is counted up to the quantity: parts that were made, or good ones.
+export function countedOf({ counts, completed, good }: Job): number {
+  return counts === 'good' ? good : completed;
 }
 
-/// Runs that are still to be started, the one that has not ended included.
-export function runsLeft({ completed, quantity, parts_per_run }: Job): number {
-  return Math.ceil(Math.max(0, quantity - completed) / parts_per_run);
+/// Of its parts, 0 to 1. A last run may make more than are wanted.
+export function fractionOf(job: Job): number {
+  return Math.min(1, countedOf(job) / job.quantity);
+}
+
+/// Runs that are still to be started, the one that has not ended included, if all their parts count.
+export function runsLeft(job: Job): number {
+  return Math.ceil(Math.max(0, job.quantity - countedOf(job)) / job.parts_per_run);
+}
+
+/// Nothing to say of a job whose parts are not measured.
+export function isMeasured({ counts, good, rework, scrap }: Job): boolean {
+  return counts === 'good' || good + rework + scrap > 0;
 }
 
 /// The parts that its next run makes: "3" or "3 to 6"; the first is 1.
@@ -32,14 +42,15 @@ export interface JobText {
   revision: string;
   quantity: number;
   partsPerRun: number;
+  counts: Job['counts'];
   isFirst: boolean;
   comment: string;
 }
 
 /// What is asked of the server; what says nothing is left out.
-export function requestOf({ program, revision, quantity, partsPerRun, isFirst, comment }: JobText) {
+export function requestOf({ program, revision, quantity, partsPerRun, counts, isFirst, comment }: JobText) {
   return {
-    program: program.trim(), quantity, parts_per_run: partsPerRun, ...(revision !== '' && { revision: Number(revision) }), ...(isFirst && { place: 1 }),
+    program: program.trim(), quantity, parts_per_run: partsPerRun, ...(revision !== '' && { revision: Number(revision) }), ...(counts !== 'made' && { counts }), ...(isFirst && { place: 1 }),
     ...(comment.trim() !== '' && { comment: comment.trim() }),
   };
 }

@@ -6,10 +6,10 @@ import { useFeed } from '../../live/use_feed';
 import { Allowed } from '../../parts/allowed';
 import { Loading } from '../../parts/loading';
 import { useLoaded } from '../../parts/use_loaded';
-import { numberText, texts } from '../../texts/texts';
+import { texts } from '../../texts/texts';
 import { Hold } from './hold';
 import { JobForm } from './job_form';
-import { JobFacts, JobPill, JobRow, JobTitle } from './job_row';
+import { JobFacts, JobParts, JobPill, JobRow, JobTitle } from './job_row';
 import { StartJob, startFault } from './start_job';
 import { useJobs } from './use_jobs';
 
@@ -29,7 +29,7 @@ function ClosedJobs({ machine, version }: { machine: string; version: string }) 
         {(closed.value?.jobs ?? []).map((job) => (
           <li key={job.id} class="panel">
             <div class="head"><JobTitle job={job} /><JobPill state={job.state} /></div>
-            <p>{t.completed(numberText(job.completed), numberText(job.quantity))}{job.comment && ` · ${job.comment}`}</p>
+            <p><JobParts job={job} />{job.comment && ` · ${job.comment}`}</p>
             <JobFacts job={job} />
           </li>
         ))}
@@ -78,7 +78,7 @@ export function NextJob({ name }: { name: string }) {
       <h2 id="next-job">{t.next}</h2>
       <JobTitle job={job} />
       {job.comment && <p class="message">{job.comment}</p>}
-      <p>{t.completed(numberText(job.completed), numberText(job.quantity))}</p>
+      <p><JobParts job={job} /></p>
       {hold && <p class="notice warn">{t.isHeld(hold.who, hold.reason)}</p>}
       <Allowed to="operate" machine={name}><p class="buttons"><StartJob class="big primary" job={job} hold={hold} label={t.startNext} /></p></Allowed>
     </section>

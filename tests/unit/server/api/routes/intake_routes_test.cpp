@@ -69,6 +69,17 @@ TEST_F(JobRoutes, StartIsAStartOfTheNextJob) {
   expect_error(post("/api/v1/machines/lathe-1/start-job", {{"job", 99}}), 404, "not_found", "99");
 }
 
+TEST_F(JobRoutes, SayWhatTheyCountAndWhatWasMeasured) {
+  add();
+  EXPECT_EQ(queue()["jobs"][0]["counts"], "made");
+  add({{"program", "O1"}, {"quantity", 5}, {"counts", "good"}});
+  const Json good = queue()["jobs"][1];
+  EXPECT_EQ(good["counts"], "good");
+  for (const char* verdict : {"good", "rework", "scrap", "unknown"}) EXPECT_EQ(good[verdict], 0);
+  expect_error(post(path_, {{"program", "O1"}, {"counts", "bad"}}), 400, "syntax",
+               "counts is 'bad': made or good");
+}
+
 TEST_F(JobRoutes, AHeldQueueIsShownAndStartsNothing) {
   add();
   const std::string hold = "/api/v1/machines/lathe-1/job-hold";
