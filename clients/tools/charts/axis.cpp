@@ -7,6 +7,33 @@
 #include "clients/tools/statistics/histogram.hpp"
 
 namespace dripline::charts {
+namespace {
+
+constexpr int kMaxDecimals = 9;
+constexpr double kMaxPlain = 1e9;  ///< from here labels have an exponent
+/// Shorter than this, relative to its place or at 0, no axis is.
+constexpr double kLeastRelative = 1e-9, kLeastLength = 1e-30;
+constexpr double kWidest = 1e300;
+
+struct Ends {
+  double low = 0, high = 0;
+};
+
+double bounded(double value) {
+  return std::isnan(value) ? 0 : std::clamp(value, -kWidest, kWidest);
+}
+
+Ends separate_ends(double low, double high) {
+  const double magnitude = std::max(std::abs(low), std::abs(high));
+  const double least = std::max(magnitude * kLeastRelative, kLeastLength);
+  if (high - low >= least) return {low, high};
+  double room = least;
+  if (!(high > low)) room = low == 0 ? 1 : std::max(std::abs(low) * 1e-3, kLeastLength);
+  const double middle = low / 2 + high / 2;
+  return {middle - room, middle + room};
+}
+
+}  // namespace
 
 std::vector<double> Axis::ticks() const {
   std::vector<double> values;
@@ -17,23 +44,27 @@ std::vector<double> Axis::ticks() const {
   return values;
 }
 
-std::string Axis::label(double value) const {
+std::string Axis::label(double value, int more) const {
   const double rounded = std::abs(value) < step * 1e-6 ? 0 : value;  // no -0
-  return fmt::format("{:.{}f}", rounded, decimals);
+  return digits > 0 ? fmt::format("{:.{}g}", rounded, digits + more)
+                    : fmt::format("{:.{}f}", rounded, decimals + more);
 }
 
 Axis make_axis(double low, double high, int count) {
-  if (!(high > low)) {
-    const double room = low == 0 ? 1 : std::abs(low) * 1e-3;
-    low -= room;
-    high = low + 2 * room;
-  }
+  const Ends ends = separate_ends(bounded(low), bounded(high));
+  low = ends.low;
+  high = ends.high;
   Axis axis;
   const double room = (high - low) * 0.04;
   axis.low = low - room;
   axis.high = high + room;
   axis.step = statistics::round_step((axis.high - axis.low) / std::max(1, count));
-  axis.decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(axis.step) - 1e-9)), 0, 12);
+  const int decimals = static_cast<int>(std::ceil(-std::log10(axis.step) - 1e-9));
+  const double magnitude = std::max(std::abs(axis.low), std::abs(axis.high));
+  axis.decimals = std::clamp(decimals, 0, kMaxDecimals);
+  if (decimals > kMaxDecimals || magnitude >= kMaxPlain) {
+    axis.digits = 1 + std::max(1, static_cast<int>(std::ceil(std::log10(magnitude / axis.step))));
+  }
   return axis;
 }
 
@@ -84,7 +115,7 @@ void draw_axes(Canvas& canvas, const Plot& plot, const AxisTitles& titles, doubl
 void label_level(Canvas& canvas, const Plot& plot, double value, Color color, std::string_view name,
                  double text_size) {
   canvas.text({plot.box.right() + 5, plot.place_y(value) + text_size * 0.35},
-              fmt::format("{} {:.{}f}", name, value, plot.y.decimals + 1),
+              fmt::format("{} {}", name, plot.y.label(value, 1)),
               {text_size, Anchor::Start, false, false, color});
 }
 

@@ -11,12 +11,16 @@ namespace dripline::charts {
 struct Axis {
   double low = 0, high = 1, step = 1;
   int decimals = 0;
+  /// Above 0: labels have so many significant digits and an exponent, as decimals would fill the
+  /// picture.
+  int digits = 0;
   std::vector<double> ticks() const;
-  std::string label(double value) const;
+  /// With so many digits more than a tick needs.
+  std::string label(double value, int more = 0) const;
 };
 
-/// A scale over `low` to `high` and a little more, with about `count` ticks. Equal ends get some
-/// room.
+/// A scale over `low` to `high` and a little more, with about `count` ticks. Ends that are equal,
+/// or so close that a double cannot tell ticks between them apart, get some room. Always finite.
 Axis make_axis(double low, double high, int count);
 /// Of whole numbers from `first` to `last`, which lie half a step inside.
 Axis make_index_axis(std::size_t first, std::size_t last, int count);

@@ -1,8 +1,11 @@
 #include "clients/tools/charts/contour.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "clients/tools/charts/pictures.hpp"
 
 namespace dripline::charts {
 namespace {
@@ -45,22 +48,28 @@ ContourDeviation nearest(const std::vector<Segment>& segments, const ContourPoin
   return best;
 }
 
+Result<void> check_points(const char* name, std::span<const ContourPoint> points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const double value : {points[i].u, points[i].v}) {
+      if (auto good = check_magnitude(fmt::format("{} point {}", name, i + 1), value); !good)
+        return good;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<ContourDeviation>> deviations(std::span<const ContourPoint> nominal,
                                                  std::span<const ContourPoint> actual) {
-  const auto is_finite = [](const ContourPoint& point) {
-    return std::isfinite(point.u) && std::isfinite(point.v);
-  };
   if (nominal.size() > kMaxContourPoints || actual.size() > kMaxContourPoints) {
     return fail(Errc::LimitExceeded,
                 "a contour of {} nominal and {} actual points, at most {} each", nominal.size(),
                 actual.size(), kMaxContourPoints);
   }
   if (actual.empty()) return fail(Errc::LimitExceeded, "a contour without actual points");
-  if (!std::ranges::all_of(nominal, is_finite) || !std::ranges::all_of(actual, is_finite)) {
-    return fail(Errc::LimitExceeded, "a contour with a point that is not finite");
-  }
+  if (auto good = check_points("nominal", nominal); !good) return fail(good.error());
+  if (auto good = check_points("actual", actual); !good) return fail(good.error());
   const auto segments = segments_of(nominal);
   if (segments.empty()) return fail(Errc::LimitExceeded, "a nominal contour without length");
   std::vector<ContourDeviation> result;

@@ -22,7 +22,7 @@ struct ContourDeviation {
 inline constexpr std::size_t kMaxContourPoints = 20'000;
 
 /// One for each actual point, in their order. Errors: LimitExceeded (fewer than 2 nominal points,
-/// no actual one, too many, one that is not finite, a contour without length).
+/// no actual one, too many, one beyond kMaxMagnitude, a contour without length).
 Result<std::vector<ContourDeviation>> deviations(std::span<const ContourPoint> nominal,
                                                  std::span<const ContourPoint> actual);
 

@@ -123,8 +123,8 @@ void draw_control_chart(Canvas& canvas, const ControlChart& chart, const Caption
   for (const Panel& panel : chart.panels) {
     axes.push_back(
         y_axis_of(panel, frame.inside.height / static_cast<double>(chart.panels.size()), text));
-    const std::string widest = fmt::format(
-        "UCL {:.{}f}", panel.upper.empty() ? 0 : panel.upper.back(), axes.back().decimals + 1);
+    const std::string widest =
+        "UCL " + axes.back().label(panel.upper.empty() ? 0 : panel.upper.back(), 1);
     right = std::max(right, text_width(widest, text) + 8);
     left = std::max(left, left_margin(axes.back(), text));
   }

@@ -11,11 +11,18 @@ namespace {
 using statistics::Capability;
 using statistics::Index;
 
+/// Limits that are far wider than the values vary would make a hundred digits.
+std::string ratio_text(double value) {
+  return std::abs(value) < 1e6 ? fmt::format("{:.2f}", value) : fmt::format("{:.3g}", value);
+}
+
 std::string index_text(const char* name, const std::optional<Index>& index) {
   if (!index) return {};
-  std::string text = fmt::format("{} {:.2f}", name, index->value);
-  if (index->interval)
-    text += fmt::format(" ({:.2f} to {:.2f})", index->interval->low, index->interval->high);
+  std::string text = fmt::format("{} {}", name, ratio_text(index->value));
+  if (index->interval) {
+    text += fmt::format(" ({} to {})", ratio_text(index->interval->low),
+                        ratio_text(index->interval->high));
+  }
   return text;
 }
 
@@ -33,12 +40,12 @@ std::string ppm_text(double ppm) {
   return ppm >= 10 ? fmt::format("{:.0f}", ppm) : fmt::format("{:.2f}", ppm);
 }
 
-std::vector<std::string> notes_of(const HistogramPicture& picture, int decimals) {
+std::vector<std::string> notes_of(const HistogramPicture& picture, const Axis& x) {
   const auto& summary = picture.summary;
   std::vector<std::string> notes{
-      fmt::format("{} values, mean {:.{}f}, standard deviation {:.{}f}, {:.{}f} to {:.{}f}",
-                  summary.count, summary.mean, decimals + 2, summary.standard_deviation,
-                  decimals + 3, summary.minimum, decimals + 1, summary.maximum, decimals + 1)};
+      fmt::format("{} values, mean {}, standard deviation {}, {} to {}", summary.count,
+                  x.label(summary.mean, 2), x.label(summary.standard_deviation, 3),
+                  x.label(summary.minimum, 1), x.label(summary.maximum, 1))};
   if (const auto& capability = picture.capability) {
     notes.push_back(capability_note(*capability));
     std::string note = fmt::format(
@@ -71,8 +78,13 @@ double normal_count(const HistogramPicture& picture, double value) {
          static_cast<double>(summary.count);
 }
 
+/// Of values that hardly vary within a cell the curve would be a needle that flattens the bars.
+bool has_curve(const HistogramPicture& picture) {
+  return picture.summary.standard_deviation > picture.histogram.width / 20;
+}
+
 void draw_curve(Canvas& canvas, const Plot& plot, const HistogramPicture& picture) {
-  if (!(picture.summary.standard_deviation > 0)) return;
+  if (!has_curve(picture)) return;
   constexpr int kPieces = 160;
   std::vector<Point> points;
   for (int i = 0; i <= kPieces; ++i) {
@@ -99,7 +111,7 @@ void draw_marks(Canvas& canvas, const Plot& plot, const HistogramPicture& pictur
     if (!mark.value) continue;
     const double x = plot.place_x(*mark.value);
     canvas.line({x, plot.box.top}, {x, plot.box.bottom()}, {mark.color, 1.6, mark.dash});
-    const std::string label = fmt::format("{} {:.{}f}", mark.name, *mark.value, plot.x.decimals);
+    const std::string label = fmt::format("{} {}", mark.name, plot.x.label(*mark.value));
     const double half = text_width(label, text) / 2;
     const bool is_covered = x - half < taken;
     canvas.text({x, plot.box.top - text * (is_covered ? 1.7 : 0.4)}, label,
@@ -118,15 +130,14 @@ void draw_histogram(Canvas& canvas, const HistogramPicture& picture, const Capti
   }
   const double rough_text = text_size_of(canvas);
   const Axis x = make_axis(low, high, tick_count(canvas.width(), rough_text, 8));
-  const Frame frame = draw_frame(canvas, caption, notes_of(picture, x.decimals));
-  double most =
-      picture.summary.standard_deviation > 0 ? normal_count(picture, picture.summary.mean) : 0;
+  const Frame frame = draw_frame(canvas, caption, notes_of(picture, x));
+  double most = has_curve(picture) ? normal_count(picture, picture.summary.mean) : 0;
   for (const std::size_t count : picture.histogram.counts)
     most = std::max(most, static_cast<double>(count));
   Axis y = make_axis(0, most, tick_count(frame.inside.height, frame.text, 2.5));
   y.low = 0;
   y.step = std::max(1.0, y.step);
-  y.decimals = 0;
+  y.decimals = y.digits = 0;
   Box area = frame.inside;
   area.top += frame.text * 2;  // the names of the limits
   area.height -= frame.text * 2;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "clients/tools/charts/svg_canvas.hpp"
 #include "clients/tools/statistics/chart_constants.hpp"
@@ -20,6 +21,24 @@ std::vector<double> values_of(std::span<const Measurement> measurements) {
   return values;
 }
 
+Result<void> check_numbers(std::span<const Measurement> measurements) {
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const auto& of = measurements[i].characteristic;
+    const std::pair<const char*, std::optional<double>> numbers[]{{"value", measurements[i].actual},
+                                                                  {"nominal value", of.nominal},
+                                                                  {"lower limit", of.lower},
+                                                                  {"upper limit", of.upper}};
+    for (const auto& [name, number] : numbers) {
+      if (!number || std::abs(*number) <= kMaxMagnitude) continue;
+      return check_magnitude(
+          fmt::format("{} {} of {}: {}", of.name.empty() ? "measurement" : of.name, i + 1,
+                      measurements.size(), name),
+          *number);
+    }
+  }
+  return {};
+}
+
 Result<void> check_one_characteristic(std::span<const Measurement> measurements) {
   if (measurements.empty()) return fail(Errc::LimitExceeded, "a chart of no measurement");
   const auto& first = measurements.front().characteristic;
@@ -33,7 +52,7 @@ Result<void> check_one_characteristic(std::span<const Measurement> measurements)
                   m.characteristic.unit);
     }
   }
-  return {};
+  return check_numbers(measurements);
 }
 
 std::string day_text(UtcTime time) {
@@ -190,8 +209,6 @@ class Texts {
   std::optional<Error> error_;
 };
 
-constexpr double kAny = 1e300;
-
 void read_settings(Texts& texts, ChartRequest& request) {
   auto& settings = request.settings;
   if (const auto rules = texts.text("rules"))
@@ -220,8 +237,8 @@ Result<ChartRequest> parse_chart_request(const std::map<std::string, std::string
     request.settings.kind = *kind;
   }
   read_settings(texts, request);
-  request.center = texts.number("center", -kAny, kAny);
-  request.sigma = texts.number("sigma", 0, kAny);
+  request.center = texts.number("center", -kMaxMagnitude, kMaxMagnitude);
+  request.sigma = texts.number("sigma", 0, kMaxMagnitude);
   request.limits_note = texts.text("limits_note").value_or("");
   request.baseline = static_cast<std::size_t>(texts.number("baseline", 0, 1e9).value_or(0));
   if (const auto shape = texts.text("shape"))

@@ -33,8 +33,9 @@ struct ChartRequest {
 /// Errors: Syntax (an unknown name, no number), LimitExceeded.
 Result<ChartRequest> parse_chart_request(const std::map<std::string, std::string>& texts);
 
-/// The values must be of one characteristic, in the order of time. Errors: LimitExceeded (too few),
-/// Conflict (of several characteristics or units), Syntax (the kind), those of statistics.
+/// The values must be of one characteristic, in the order of time. Errors: LimitExceeded (too few,
+/// a number beyond kMaxMagnitude), Conflict (of several characteristics or units), Syntax (the
+/// kind), those of statistics.
 Result<void> draw_measurements(Canvas& canvas,
                                std::span<const measurement::Measurement> measurements,
                                const ChartRequest& request);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clients/tools/charts/canvas.hpp"
@@ -10,6 +11,7 @@
 #include "clients/tools/statistics/capability.hpp"
 #include "clients/tools/statistics/control_chart.hpp"
 #include "clients/tools/statistics/histogram.hpp"
+#include "protocol/base/result.hpp"
 
 namespace dripline::charts {
 
@@ -23,6 +25,10 @@ struct Caption {
 /// Below this nothing can be read.
 inline constexpr double kMinWidth = 320, kMinHeight = 240;
 inline constexpr double kMaxSide = 8192;
+/// Larger numbers, of either sign, are in no picture: squares and sums of them leave a double.
+inline constexpr double kMaxMagnitude = 1e15;
+/// Errors: LimitExceeded, which names `what` and the value.
+Result<void> check_magnitude(std::string_view what, double value);
 
 /// Its panels one below the other, limits and center with their values; count, origin of the limits
 /// and what the rules found in words below.
@@ -64,7 +70,7 @@ struct ProfilePicture {
   std::optional<double> magnification;  ///< of the deviation; absent: a round one
 };
 /// The nominal contour with the magnified deviations on it, and below the deviations along the
-/// contour. Errors: as deviations().
+/// contour. Errors: as deviations(); LimitExceeded (limits or a magnification that are too large).
 Result<void> draw_profile(Canvas& canvas, const ProfilePicture& picture, const Caption& caption);
 
 }  // namespace dripline::charts

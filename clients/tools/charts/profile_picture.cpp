@@ -8,6 +8,8 @@
 namespace dripline::charts {
 namespace {
 
+constexpr double kMaxMagnification = 1e9;
+
 struct Extent {
   double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u;
   double low_v = low_u, high_v = -low_u;
@@ -35,7 +37,7 @@ Extremes extremes_of(const std::vector<ContourDeviation>& found) {
 double usual_magnification(const Extent& extent, const Extremes& extremes) {
   const double largest = std::max(std::abs(extremes.lowest), std::abs(extremes.highest));
   const double size = std::max(extent.high_u - extent.low_u, extent.high_v - extent.low_v);
-  if (!(largest > 0) || !(size > 0)) return 1;
+  if (!(largest > size / kMaxMagnification)) return 1;  // none that could be seen
   const double wanted = size / 15 / largest;
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double factor = wanted / power >= 5 ? 5 : wanted / power >= 2 ? 2 : 1;
@@ -118,6 +120,19 @@ void draw_along(Canvas& canvas, const Plot& plot, const ProfilePicture& picture,
   }
 }
 
+Result<void> check_numbers(const ProfilePicture& picture) {
+  if (picture.lower) {
+    if (auto good = check_magnitude("the lower limit", *picture.lower); !good) return good;
+  }
+  if (picture.upper) {
+    if (auto good = check_magnitude("the upper limit", *picture.upper); !good) return good;
+  }
+  const double magnification = picture.magnification.value_or(1);
+  if (magnification > 0 && magnification <= kMaxMagnification) return {};
+  return fail(Errc::LimitExceeded, "deviations magnified {:g} times: above 0, at most {:g}",
+              magnification, kMaxMagnification);
+}
+
 std::vector<std::string> notes_of(const ProfilePicture& picture,
                                   const std::vector<ContourDeviation>& found,
                                   const Extremes& extremes, double magnification,
@@ -136,6 +151,7 @@ std::vector<std::string> notes_of(const ProfilePicture& picture,
 }  // namespace
 
 Result<void> draw_profile(Canvas& canvas, const ProfilePicture& picture, const Caption& caption) {
+  if (auto good = check_numbers(picture); !good) return good;
   const auto found = deviations(picture.nominal, picture.actual);
   if (!found) return fail(found.error());
   Extent extent = extent_of(picture.nominal);
@@ -167,7 +183,7 @@ Result<void> draw_profile(Canvas& canvas, const ProfilePicture& picture, const C
   below.top = above.bottom() + text;
   below.height = frame.inside.bottom() - below.top;
   const Axis y = make_axis(low, high, tick_count(below.height, text, 3));
-  const double right = text_width(fmt::format("upper {:+.{}f}", high, y.decimals + 1), text) + 8;
+  const double right = text_width("upper +" + y.label(high, 1), text) + 8;
   const Plot along =
       plot_in(below, make_axis(0, longest, tick_count(below.width, text, 8)), y, text, right, true);
   draw_axes(canvas, along,

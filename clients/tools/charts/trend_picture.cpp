@@ -36,7 +36,7 @@ std::optional<Slope> slope_of(const std::vector<TrendPoint>& points) {
 }
 
 std::vector<std::string> notes_of(const TrendPicture& picture, const std::string& unit,
-                                  int decimals) {
+                                  const Axis& y) {
   std::size_t count = 0;
   for (const ToolLife& life : picture.lives) count += life.points.size();
   std::vector<std::string> notes{
@@ -51,9 +51,11 @@ std::vector<std::string> notes_of(const TrendPicture& picture, const std::string
     include(flattest, steepest, slope->per_life);
   }
   if (has_slope) {
-    notes.push_back(fmt::format("slope {:+.{}f} to {:+.{}f} {} per 100 {}", flattest * 100,
-                                decimals + 2, steepest * 100, decimals + 2, unit,
-                                picture.life_unit));
+    const auto signed_text = [&](double value) {
+      return (value < 0 ? "" : "+") + y.label(value * 100, 2);
+    };
+    notes.push_back(fmt::format("slope {} to {} {} per 100 {}", signed_text(flattest),
+                                signed_text(steepest), unit, picture.life_unit));
   }
   return notes;
 }
@@ -101,15 +103,14 @@ void draw_trend(Canvas& canvas, const TrendPicture& picture, const Caption& capt
   if (!(low <= high)) low = high = 0;
   const double rough_text = text_size_of(canvas);
   const Axis y = make_axis(low, high, tick_count(canvas.height() * 0.6, rough_text, 2.5));
-  const Frame frame = draw_frame(canvas, caption, notes_of(picture, caption.unit, y.decimals));
+  const Frame frame = draw_frame(canvas, caption, notes_of(picture, caption.unit, y));
   Axis x = make_axis(0, longest, tick_count(frame.inside.width, frame.text, 6));
   x.low = std::min(0.0, x.low);
   draw_names(canvas, frame.inside, picture.lives, frame.text);
   Box area = frame.inside;
   area.top += frame.text * 2;
   area.height -= frame.text * 2;
-  const double right =
-      text_width(fmt::format("nominal {:.{}f}", high, y.decimals + 1), frame.text) + 8;
+  const double right = text_width("nominal " + y.label(high, 1), frame.text) + 8;
   const Plot plot = plot_in(area, x, y, frame.text, right, true);
   draw_axes(canvas, plot, {picture.life_unit, with_unit("measured value", caption.unit)},
             frame.text);

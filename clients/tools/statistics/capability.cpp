@@ -42,7 +42,13 @@ Result<void> check(std::span<const double> values, const Tolerance& tolerance,
     return fail(Errc::LimitExceeded, "lower limit {} is not below the upper {}", *tolerance.lower,
                 *tolerance.upper);
   }
-  if (settings.confidence > 0.5 && settings.confidence < 1) return {};
+  for (const auto& limit : {tolerance.lower, tolerance.upper}) {
+    if (limit && !(std::abs(*limit) <= kMaxMagnitude)) {
+      return fail(Errc::LimitExceeded, "a limit of {:g}: {:g} to {:g} can be computed with", *limit,
+                  -kMaxMagnitude, kMaxMagnitude);
+    }
+  }
+  if (settings.confidence > 0.5 && settings.confidence < 1) return check_values(values);
   return fail(Errc::LimitExceeded, "a confidence of {}: between 0.5 and 1", settings.confidence);
 }
 
@@ -61,6 +67,12 @@ Fit fit(const Tolerance& tolerance, const Percentiles& at) {
     result.both = (*tolerance.upper - *tolerance.lower) / (at.high - at.low);
   }
   return result;
+}
+
+/// What a double cannot tell apart has no index.
+Result<void> check_spread(const Percentiles& at) {
+  if (at.low < at.median && at.median < at.high && std::isfinite(at.high)) return {};
+  return fail(Errc::Unsupported, "the values about {:g} vary too little", at.median);
 }
 
 Percentiles normal_percentiles(double mean, double sigma) {
@@ -89,12 +101,16 @@ Result<void> add_normal_indices(Capability& result, std::span<const double> valu
   const auto constants = chart_constants(std::max<std::size_t>(2, settings.subgroup));
   if (!constants) return fail(constants.error());
   const Summary& summary = result.summary;
+  result.percentiles = normal_percentiles(summary.mean, summary.standard_deviation);
+  const Percentiles of_within = normal_percentiles(summary.mean, within->sigma);
+  for (const Percentiles& at : {result.percentiles, of_within}) {
+    if (auto good = check_spread(at); !good) return good;
+  }
   result.sigma_within = within->sigma;
   result.within_by = within->origin.estimator;
   result.degrees_within = degrees_within(within->origin.values, settings.subgroup, *constants);
-  result.percentiles = normal_percentiles(summary.mean, summary.standard_deviation);
-  add_normal(result.cp, result.cpk, fit(tolerance, normal_percentiles(summary.mean, within->sigma)),
-             summary.count, result.degrees_within, settings.confidence);
+  add_normal(result.cp, result.cpk, fit(tolerance, of_within), summary.count, result.degrees_within,
+             settings.confidence);
   add_normal(result.pp, result.ppk, fit(tolerance, result.percentiles), summary.count,
              static_cast<double>(summary.count - 1), settings.confidence);
   result.expected_outside = normal_outside(tolerance, summary.mean, summary.standard_deviation);
@@ -118,6 +134,7 @@ Result<void> add_lognormal(Capability& result, std::span<const double> values,
   const Summary of = summarize(logarithms);
   result.percentiles = {std::exp(of.mean - 3 * of.standard_deviation), std::exp(of.mean),
                         std::exp(of.mean + 3 * of.standard_deviation)};
+  if (auto good = check_spread(result.percentiles); !good) return good;
   Tolerance scaled;
   if (tolerance.upper && *tolerance.upper > 0) scaled.upper = std::log(*tolerance.upper);
   if (tolerance.lower && *tolerance.lower > 0) scaled.lower = std::log(*tolerance.lower);

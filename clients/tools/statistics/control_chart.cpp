@@ -48,13 +48,6 @@ std::vector<double> moving_ranges(std::span<const double> values) {
   return ranges;
 }
 
-Result<void> check_values(std::span<const double> values) {
-  const auto bad = std::ranges::find_if_not(values, [](double v) { return std::isfinite(v); });
-  if (bad == values.end()) return {};
-  return fail(Errc::LimitExceeded, "value {} of {} is not finite", bad - values.begin() + 1,
-              values.size());
-}
-
 Result<void> check_subgroup(ChartKind kind, std::size_t subgroup) {
   const std::size_t least = is_mean_chart(kind) ? 2 : 1;
   const std::size_t most = kind == ChartKind::Individuals ? 1 : kMaxSubgroup;

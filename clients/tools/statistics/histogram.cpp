@@ -16,7 +16,11 @@ double usual_width(std::span<const double> values, const Summary& summary) {
   double width = 2 * spread / std::cbrt(n);
   if (!(width > 0)) width = summary.range() / (1 + std::log2(n));  // half of all values are equal
   if (!(width > 0)) width = std::max(std::abs(summary.mean) * 1e-3, 1e-6);
-  return round_step(std::max(width, summary.range() / 100));
+  // Narrower cells than this would have edges that a double cannot tell apart.
+  const double magnitude = std::max(std::abs(summary.minimum), std::abs(summary.maximum));
+  constexpr double kLeastRelative = 1e-12, kLeastWidth = 1e-30;
+  return round_step(
+      std::max({width, summary.range() / 100, magnitude * kLeastRelative, kLeastWidth}));
 }
 
 }  // namespace
@@ -32,9 +36,7 @@ double round_step(double step) {
 
 Result<Histogram> make_histogram(std::span<const double> values, std::optional<double> width) {
   if (values.empty()) return fail(Errc::LimitExceeded, "a histogram of no values");
-  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) {
-    return fail(Errc::LimitExceeded, "a histogram of values that are not finite");
-  }
+  if (auto good = check_values(values); !good) return fail(good.error());
   const Summary summary = summarize(values);
   Histogram histogram;
   histogram.width = width.value_or(0) > 0 ? *width : usual_width(values, summary);

@@ -21,8 +21,8 @@ struct Histogram {
 inline constexpr std::size_t kMaxCells = 200;
 
 /// Cell width by Freedman and Diaconis (2 IQR / cube root of n), rounded to 1, 2 or 5 times a power
-/// of ten, unless `width` is given. Errors: LimitExceeded (no value, one that is not finite, more
-/// than kMaxCells cells).
+/// of ten, unless `width` is given. Errors: LimitExceeded (no value, one beyond
+/// kMaxMagnitude, more than kMaxCells cells).
 Result<Histogram> make_histogram(std::span<const double> values,
                                  std::optional<double> width = std::nullopt);
 

@@ -5,6 +5,14 @@
 
 namespace dripline::statistics {
 
+Result<void> check_values(std::span<const double> values) {
+  const auto bad = std::ranges::find_if_not(
+      values, [](double value) { return std::abs(value) <= kMaxMagnitude; });
+  if (bad == values.end()) return {};
+  return fail(Errc::LimitExceeded, "value {} of {} is {:g}: {:g} to {:g} can be computed with",
+              bad - values.begin() + 1, values.size(), *bad, -kMaxMagnitude, kMaxMagnitude);
+}
+
 void CompensatedSum::add(double term) {
   const double sum = sum_ + term;
   compensation_ += std::abs(sum_) >= std::abs(term) ? (sum_ - sum) + term : (term - sum) + sum_;

@@ -4,9 +4,16 @@
 #include <limits>
 #include <span>
 
+#include "protocol/base/result.hpp"
+
 /// Statistics of measured values. Pure: no file, clock or lock; any thread. Values are plain
 /// doubles in the unit of their characteristic; the caller keeps the unit.
 namespace dripline::statistics {
+
+/// Squares of larger numbers, and sums of them, leave a double.
+inline constexpr double kMaxMagnitude = 1e100;
+/// Errors: LimitExceeded, which names the first value that is too large or is no number.
+Result<void> check_values(std::span<const double> values);
 
 struct Summary {
   std::size_t count = 0;

@@ -35,6 +35,12 @@ std::vector<std::string> broken(const std::vector<std::string>& notes, double wi
 
 }  // namespace
 
+Result<void> check_magnitude(std::string_view what, double value) {
+  if (std::abs(value) <= kMaxMagnitude) return {};
+  return fail(Errc::LimitExceeded, "{} is {:g}: a picture has numbers from {:g} to {:g}", what,
+              value, -kMaxMagnitude, kMaxMagnitude);
+}
+
 double text_size_of(const Canvas& canvas) {
   return std::clamp(canvas.width() / 75, 9.0, 14.0);
 }

@@ -131,5 +131,19 @@ TEST(Capability, Refuses) {
   EXPECT_FALSE(parse_shape("gauss"));
 }
 
+TEST(Capability, HasNoInfiniteIndex) {
+  std::vector<double> values(200, 1e15);
+  values[3] += 0.125;  // the spread is lost beside the mean
+  const auto lost = capability(values, {0.0, 2e15}, {});
+  ASSERT_FALSE(lost);
+  EXPECT_EQ(lost.error().what, "the values about 1e+15 vary too little");
+  values[3] = 1e308;
+  EXPECT_EQ(capability(values, {0.0, 2e15}, {}).error().what,
+            "value 4 of 200 is 1e+308: -1e+100 to 1e+100 can be computed with");
+  values[3] = 2e15;
+  EXPECT_EQ(capability(values, {0.0, 1e200}, {}).error().what,
+            "a limit of 1e+200: -1e+100 to 1e+100 can be computed with");
+}
+
 }  // namespace
 }  // namespace dripline::statistics

@@ -77,5 +77,21 @@ TEST(AndersonDarling, RefusesWhatItCannotTest) {
   EXPECT_FALSE(anderson_darling(std::vector<double>(20, 3.5)));
 }
 
+// The formula of the p-value has its lowest point far out and rises again; a tail of 0 has no
+// logarithm.
+TEST(AndersonDarling, FindsNoNormalityFarOut) {
+  std::vector<double> values(4000, 40.0);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] += 1e-6 * static_cast<double>(i % 7);
+  values.back() = 4e6;
+  const auto test = anderson_darling(values);
+  ASSERT_TRUE(test);
+  EXPECT_TRUE(std::isfinite(test->statistic));
+  EXPECT_GT(test->statistic, 200);
+  EXPECT_EQ(test->p_value, 0);
+  values.back() = 1e308;
+  EXPECT_EQ(anderson_darling(values).error().what,
+            "value 4000 of 4000 is 1e+308: -1e+100 to 1e+100 can be computed with");
+}
+
 }  // namespace
 }  // namespace dripline::statistics
