@@ -78,6 +78,24 @@ Result<ChartConstants> chart_constants(std::size_t size) {
   return *known[size];
 }
 
+Result<double> gauge_factor(GaugeFactor factor, std::size_t size) {
+  constexpr std::array kTrials{0.8862, 0.5908};
+  constexpr std::array kRange{0.7071, 0.5231, 0.4467, 0.4030, 0.3742,
+                              0.3534, 0.3375, 0.3249, 0.3146};
+  const std::size_t tabulated =
+      factor == GaugeFactor::Parts ? kRange.size() : kTrials.size();  // from size 2 on
+  if (size >= 2 && size - 2 < tabulated)
+    return factor == GaugeFactor::Trials ? kTrials[size - 2] : kRange[size - 2];
+  if (factor == GaugeFactor::Trials) {
+    const auto constants = chart_constants(size);
+    if (!constants) return fail(constants.error());
+    return 1 / constants->d2;
+  }
+  const auto d2 = d2_of_few_ranges(size, 1);
+  if (!d2) return d2;
+  return 1 / *d2;
+}
+
 Result<double> d2_of_few_ranges(std::size_t size, std::size_t ranges) {
   if (ranges == 0) return fail(Errc::LimitExceeded, "a mean of no ranges");
   const auto constants = chart_constants(size);

@@ -27,4 +27,15 @@ Result<ChartConstants> chart_constants(std::size_t size);
 /// inverse. Errors: LimitExceeded (as above; no range).
 Result<double> d2_of_few_ranges(std::size_t size, std::size_t ranges);
 
+/// Which K of the AIAG's average and range method.
+enum class GaugeFactor {
+  Trials,      ///< K1: of the mean range of many cells
+  Appraisers,  ///< K2: of the range of their means
+  Parts,       ///< K3: the same
+};
+/// With the four digits of the AIAG's form (Measurement Systems Analysis, 4th edition, figure III-B
+/// 16) where it has them (2 and 3 trials, 2 and 3 appraisers, 2 to 10 parts), so that a study
+/// agrees with the form filled in by hand; computed beyond. Errors: LimitExceeded.
+Result<double> gauge_factor(GaugeFactor factor, std::size_t size);
+
 }  // namespace dripline::statistics

@@ -117,9 +117,9 @@ Result<GaugeStudy> make_gauge_study(std::span<const GaugeReading> readings) {
   std::vector<std::string_view> appraisers, parts;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<double>> cells;
   for (const auto& reading : readings) {
-    if (!std::isfinite(reading.value)) {
-      return fail(Errc::LimitExceeded, "appraiser {} part {}: a value that is not finite",
-                  reading.appraiser, reading.part);
+    if (!(std::abs(reading.value) <= kMaxMagnitude)) {
+      return fail(Errc::LimitExceeded, "appraiser {} part {}: the value {:g}, at most {:g}",
+                  reading.appraiser, reading.part, reading.value, kMaxMagnitude);
     }
     cells[{index_of(appraisers, reading.appraiser), index_of(parts, reading.part)}].push_back(
         reading.value);
@@ -140,30 +140,40 @@ Result<GaugeStudy> make_gauge_study(std::span<const GaugeReading> readings) {
   return study;
 }
 
+Result<GaugeResult> average_and_range(const RangeSummary& summary,
+                                      std::optional<double> tolerance) {
+  const auto k1 = gauge_factor(GaugeFactor::Trials, summary.trials);
+  const auto k2 = gauge_factor(GaugeFactor::Appraisers, summary.appraisers);
+  const auto k3 = gauge_factor(GaugeFactor::Parts, summary.parts);
+  for (const auto* factor : {&k1, &k2, &k3}) {
+    if (!*factor) return fail(factor->error());
+  }
+  const double repeatability = summary.mean_range * *k1;
+  const double between = summary.appraiser_difference * *k2;
+  const double part = summary.part_range * *k3;
+  const double share =
+      repeatability * repeatability / static_cast<double>(summary.parts * summary.trials);
+  if (repeatability + between + part <= 0)
+    return fail(Errc::Unsupported, "the values of the gauge study do not vary");
+  return assemble(repeatability * repeatability, std::max(0.0, between * between - share),
+                  part * part, tolerance);
+}
+
 Result<GaugeResult> average_and_range(const GaugeStudy& study, std::optional<double> tolerance) {
   if (auto good = check(study); !good) return fail(good.error());
-  // The AIAG's K1, K2 and K3 are the inverses: very many ranges for K1, a single one for K2 and K3.
-  const auto by_trials = chart_constants(study.trials);
-  const auto by_appraisers = d2_of_few_ranges(study.appraisers, 1);
-  const auto by_parts = d2_of_few_ranges(study.parts, 1);
-  if (!by_trials) return fail(by_trials.error());
-  if (!by_appraisers) return fail(by_appraisers.error());
-  if (!by_parts) return fail(by_parts.error());
   RunningSummary ranges, of_appraisers, of_parts;
   for (std::size_t a = 0; a < study.appraisers; ++a) {
     of_appraisers.add(mean_of_appraiser(study, a));
     for (std::size_t p = 0; p < study.parts; ++p) ranges.add(cell(study, a, p).range());
   }
   for (std::size_t p = 0; p < study.parts; ++p) of_parts.add(mean_of_part(study, p));
-  const double repeatability = ranges.summary().mean / by_trials->d2;
-  const double between = of_appraisers.summary().range() / *by_appraisers;
-  const double share =
-      repeatability * repeatability / static_cast<double>(study.parts * study.trials);
-  const double part = of_parts.summary().range() / *by_parts;
-  if (repeatability + between + part <= 0)
-    return fail(Errc::Unsupported, "the values of the gauge study do not vary");
-  return assemble(repeatability * repeatability, std::max(0.0, between * between - share),
-                  part * part, tolerance);
+  return average_and_range({.appraisers = study.appraisers,
+                            .parts = study.parts,
+                            .trials = study.trials,
+                            .mean_range = ranges.summary().mean,
+                            .appraiser_difference = of_appraisers.summary().range(),
+                            .part_range = of_parts.summary().range()},
+                           tolerance);
 }
 
 Result<GaugeResult> gauge_anova(const GaugeStudy& study, std::optional<double> tolerance,

@@ -26,7 +26,7 @@ struct GaugeReading {
   double value = 0;
 };
 /// From readings in any order; those of one appraiser and part are its trials in their order.
-/// Errors: LimitExceeded (fewer than 2 appraisers, parts or trials; a value that is not finite),
+/// Errors: LimitExceeded (fewer than 2 appraisers, parts or trials; a value beyond kMaxMagnitude),
 /// Conflict (a combination with other trials than the first).
 Result<GaugeStudy> make_gauge_study(std::span<const GaugeReading> readings);
 
@@ -56,6 +56,17 @@ struct GaugeResult {
   std::optional<VarianceTable> table;       ///< ANOVA alone
   bool is_interaction_kept = false;         ///< ANOVA alone
 };
+
+/// What the average and range method is computed from.
+struct RangeSummary {
+  std::size_t appraisers = 0, parts = 0, trials = 0;
+  double mean_range = 0;            ///< of the trials of a part by an appraiser, over all of them
+  double appraiser_difference = 0;  ///< largest mean of an appraiser minus the smallest
+  double part_range = 0;            ///< largest mean of a part minus the smallest
+};
+/// The last lines of the AIAG's form. Errors: LimitExceeded (a number of them for which there is no
+/// factor), Unsupported (no variation).
+Result<GaugeResult> average_and_range(const RangeSummary& summary, std::optional<double> tolerance);
 
 /// Average and range method (AIAG, Measurement Systems Analysis, 4th edition, chapter III B).
 /// `tolerance`: its full width. Errors: LimitExceeded (the study's shape).

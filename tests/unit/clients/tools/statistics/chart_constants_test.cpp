@@ -52,13 +52,39 @@ TEST(ChartConstants, AreExactWhereThereIsAFormula) {
   EXPECT_NEAR(three->d2, 3 / std::sqrt(pi), 1e-10);
 }
 
-// AIAG, Measurement Systems Analysis, 4th edition: K1 of 3 trials, K2 of 3 appraisers, K3 of 10
-// parts.
-TEST(ChartConstants, InverseD2OfFewRangesIsTheKOfTheAiag) {
-  EXPECT_NEAR(1 / d2_of_few_ranges(3, 1000000).value(), 0.5908, 0.00005);
-  EXPECT_NEAR(1 / d2_of_few_ranges(3, 1).value(), 0.5231, 0.00005);
-  EXPECT_NEAR(1 / d2_of_few_ranges(2, 1).value(), 0.7071, 0.00005);
-  EXPECT_NEAR(1 / d2_of_few_ranges(10, 1).value(), 0.3146, 0.00005);
+// AIAG, Measurement Systems Analysis, 4th edition, appendix C: d2* of 1, 2 and 3 ranges of 2 to 10
+// values.
+TEST(ChartConstants, D2OfFewRangesIsTheTableOfTheAiag) {
+  constexpr double kPrinted[3][9] = {
+      {1.41421, 1.91155, 2.23887, 2.48124, 2.67253, 2.82981, 2.96288, 3.07794, 3.17905},
+      {1.27931, 1.80538, 2.15069, 2.40484, 2.60438, 2.76779, 2.90562, 3.02446, 3.12869},
+      {1.23105, 1.76858, 2.12049, 2.37883, 2.58127, 2.74681, 2.88628, 3.00643, 3.11173}};
+  for (std::size_t ranges = 1; ranges <= 3; ++ranges) {
+    for (std::size_t size = 2; size <= 10; ++size) {
+      EXPECT_NEAR(d2_of_few_ranges(size, ranges).value(), kPrinted[ranges - 1][size - 2], 0.000015)
+          << size << " " << ranges;
+    }
+  }
+}
+
+// Figure III-B 16 of the same: they are 1 / d2* with four digits.
+TEST(ChartConstants, GaugeFactorsAreThoseOfTheAiagsForm) {
+  EXPECT_EQ(gauge_factor(GaugeFactor::Trials, 2).value(), 0.8862);
+  EXPECT_EQ(gauge_factor(GaugeFactor::Trials, 3).value(), 0.5908);
+  EXPECT_EQ(gauge_factor(GaugeFactor::Appraisers, 2).value(), 0.7071);
+  EXPECT_EQ(gauge_factor(GaugeFactor::Appraisers, 3).value(), 0.5231);
+  EXPECT_EQ(gauge_factor(GaugeFactor::Parts, 10).value(), 0.3146);
+  for (std::size_t size = 2; size <= 12; ++size) {
+    EXPECT_NEAR(gauge_factor(GaugeFactor::Trials, size).value(), 1 / chart_constants(size)->d2,
+                0.00005);
+    for (const auto factor : {GaugeFactor::Appraisers, GaugeFactor::Parts}) {
+      EXPECT_NEAR(gauge_factor(factor, size).value(), 1 / d2_of_few_ranges(size, 1).value(),
+                  0.00005)
+          << size;
+    }
+  }
+  EXPECT_FALSE(gauge_factor(GaugeFactor::Parts, 1));
+  EXPECT_FALSE(gauge_factor(GaugeFactor::Trials, 101));
 }
 
 TEST(ChartConstants, RefusesSizesWithoutAMeaning) {

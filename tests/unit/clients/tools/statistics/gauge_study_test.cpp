@@ -32,18 +32,41 @@ GaugeStudy aiag_study() {
   return make_gauge_study(readings).value();
 }
 
-// Its report, figure III-B 16.
+// Its report, figure III-B 16, from the terms as the manual rounds them: to the printed digits.
 TEST(AverageAndRange, AgreesWithTheAiagsReport) {
+  const auto result = average_and_range({.appraisers = 3,
+                                         .parts = 10,
+                                         .trials = 3,
+                                         .mean_range = 0.3417,
+                                         .appraiser_difference = 0.4446,
+                                         .part_range = 3.511},
+                                        std::nullopt);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->repeatability.deviation, 0.20188, 0.000005);
+  EXPECT_NEAR(result->reproducibility.deviation, 0.22963, 0.000005);
+  EXPECT_NEAR(result->gauge.deviation, 0.30575, 0.000005);
+  EXPECT_NEAR(result->parts.deviation, 1.10456, 0.000005);
+  EXPECT_NEAR(result->total, 1.14610, 0.000005);
+  EXPECT_NEAR(result->repeatability.study_percent, 17.62, 0.006);  // 17.614: the manual rounds up
+  EXPECT_NEAR(result->reproducibility.study_percent, 20.04, 0.005);
+  EXPECT_NEAR(result->gauge.study_percent, 26.68, 0.005);
+  EXPECT_NEAR(result->parts.study_percent, 96.38, 0.005);
+  EXPECT_EQ(result->distinct_categories, 5);
+}
+
+// The same from the readings: the terms are 0.341667, 0.444667 and 3.511111, which the manual
+// rounds before it goes on; 3.511111 * 0.3146 is 1.10460.
+TEST(AverageAndRange, OfTheAiagsReadingsDiffersByTheManualsRounding) {
   const auto result = average_and_range(aiag_study(), std::nullopt);
   ASSERT_TRUE(result);
-  EXPECT_NEAR(result->repeatability.deviation, 0.20188, 0.00002);
-  // The manual computes with rounded terms: a difference of 0.4446 where it is 0.44467, and K3
-  // 0.3146.
-  EXPECT_NEAR(result->reproducibility.deviation, 0.22963, 0.00006);
-  EXPECT_NEAR(result->gauge.deviation, 0.30575, 0.00004);
-  EXPECT_NEAR(result->parts.deviation * 0.3146 / 0.314559, 1.10456, 0.00006);
-  EXPECT_NEAR(result->total, 1.14610, 0.00012);
-  EXPECT_NEAR(result->repeatability.study_percent, 17.62, 0.006);
+  EXPECT_NEAR(result->repeatability.deviation, 0.341667 * 0.5908, 0.000001);
+  EXPECT_NEAR(result->repeatability.deviation, 0.20188, 0.00003);
+  EXPECT_NEAR(result->reproducibility.deviation, 0.22963, 0.00004);
+  EXPECT_NEAR(result->gauge.deviation, 0.30575, 0.00002);
+  EXPECT_NEAR(result->parts.deviation, 3.511111 * 0.3146, 0.000001);
+  EXPECT_NEAR(result->parts.deviation, 1.10456, 0.00004);
+  EXPECT_NEAR(result->total, 1.14610, 0.00004);
+  EXPECT_NEAR(result->repeatability.study_percent, 17.62, 0.009);
   EXPECT_NEAR(result->reproducibility.study_percent, 20.04, 0.006);
   EXPECT_NEAR(result->gauge.study_percent, 26.68, 0.006);
   EXPECT_NEAR(result->parts.study_percent, 96.38, 0.006);
