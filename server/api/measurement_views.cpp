@@ -1,11 +1,9 @@
 #include "server/api/measurement_views.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "protocol/measurement/measurement_json.hpp"
 #include "server/api/nullable_json.hpp"
-#include "server/library/report_reader.hpp"
 
 namespace dripline::api {
 namespace {
@@ -14,10 +12,6 @@ using nlohmann::json;
 
 json unless_zero(std::uint64_t number) {
   return number == 0 ? json(nullptr) : json(number);
-}
-
-std::string number_text(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : std::string();
 }
 
 }  // namespace
@@ -70,24 +64,6 @@ json assignment_json(const storage::TemplateAssignment& assignment) {
           {"version", number_or_null(assignment.version)},
           {"author", assignment.author},
           {"created", to_iso8601(assignment.created)}};
-}
-
-std::string measurement_csv_head() {
-  return "id,time,machine,run,program,revision,part,part_number,serial,tool,characteristic,"
-         "nominal,lower,upper,unit,actual,deviation,verdict,block,line,epoch,number,item\r\n";
-}
-
-std::string measurement_csv(const measurement::Measurement& one) {
-  using library::csv_field;
-  const auto& characteristic = one.characteristic;
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n",
-                     one.id, to_iso8601(one.time), csv_field(one.machine), csv_field(one.run),
-                     csv_field(one.program), one.revision, one.part_id, csv_field(one.part),
-                     csv_field(one.serial), csv_field(one.tool), csv_field(characteristic.name),
-                     number_text(characteristic.nominal), number_text(characteristic.lower),
-                     number_text(characteristic.upper), csv_field(characteristic.unit), one.actual,
-                     number_text(measurement::deviation(one)), measurement::to_string(one.verdict),
-                     one.block, one.line, one.record.epoch, one.record.number, one.item);
 }
 
 }  // namespace dripline::api

@@ -16,8 +16,4 @@ nlohmann::json finding_json(const storage::ReportFinding& finding);
 nlohmann::json report_template_json(const storage::ReportTemplateVersion& version);
 nlohmann::json assignment_json(const storage::TemplateAssignment& assignment);
 
-/// RFC 4180, with its line end.
-std::string measurement_csv_head();
-std::string measurement_csv(const measurement::Measurement& measurement);
-
 }  // namespace dripline::api

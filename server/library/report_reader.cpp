@@ -3,37 +3,18 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "protocol/base/csv.hpp"
+
 namespace dripline::library {
 namespace {
 
 constexpr std::uint64_t kLinesPerPiece = 1000;
-
-/// A spreadsheet takes such text for a formula, which can send the rest of the sheet away. A number
-/// keeps its sign.
-bool looks_like_formula(const std::string& text) {
-  if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos) {
-    return false;
-  }
-  return text.size() < 2 || text.front() == '=' || text.front() == '@' ||
-         text.find_first_not_of("0123456789.", 1) != std::string::npos;
-}
 
 std::string json_text(const nlohmann::json& value) {
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace
-
-std::string csv_field(const std::string& line) {
-  const std::string text = looks_like_formula(line) ? "'" + line : line;
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
 
 Result<ReportFormat> parse_report_format(std::string_view text) {
   if (text == "text") return ReportFormat::Text;

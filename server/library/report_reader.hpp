@@ -12,10 +12,6 @@ enum class ReportFormat { Text, Csv, Json };
 /// Errors: Unsupported, naming the known ones.
 Result<ReportFormat> parse_report_format(std::string_view text);
 
-/// RFC 4180: quoted when it has to be, quotes doubled. What looks like a formula begins with an
-/// apostrophe.
-std::string csv_field(const std::string& text);
-
 /// The output lines of one run, or what a machine printed outside any, rendered piece by piece so
 /// that a report of any length needs constant memory and time in proportion to its length. One
 /// thread at a time; the store must outlive it.

@@ -8,46 +8,16 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "protocol/base/csv.hpp"
+
 namespace dripline::measurement_files {
 namespace {
 
 using measurement::Measurement;
 using nlohmann::ordered_json;
 
-constexpr std::string_view kHead =
-    "id,time,machine,run,program,revision,part,part_number,serial,tool,characteristic,nominal,"
-    "lower,"
-    "upper,unit,actual,deviation,verdict,block,line,epoch,number,item\r\n";
-
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
-  for (const char c : text) {
-    if (c == '"') field += '"';
-    field += c;
-  }
-  return field + '"';
-}
-
 std::string optional_text(const std::optional<double>& value, unsigned decimals) {
   return value ? decimal_text(*value, decimals) : std::string();
-}
-
-std::string csv_line(const Measurement& m) {
-  const auto& of = m.characteristic;
-  const auto number = [&](const std::optional<double>& value) {
-    return optional_text(value, of.decimals);
-  };
-  std::optional<double> off = deviation(m);
-  // 39.98 - 40 is not -0.02 in binary; the deviation has the decimals of its terms.
-  const double scale = std::pow(10.0, of.decimals + 3);
-  if (off) off = std::round(*off * scale) / scale;
-  return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", m.id,
-      to_iso8601(m.time), csv_field(m.machine), csv_field(m.run), csv_field(m.program), m.revision,
-      m.part_id, csv_field(m.part), csv_field(m.serial), csv_field(m.tool), csv_field(of.name),
-      number(of.nominal), number(of.lower), number(of.upper), csv_field(of.unit), number(m.actual),
-      number(off), to_string(m.verdict), m.block, m.line, m.record.epoch, m.record.number, m.item);
 }
 
 ordered_json json_of(const std::optional<double>& value) {
@@ -111,7 +81,7 @@ class CsvFields final : public Fields {
   Result<std::string> text(const char* name) const override {
     const auto found = columns_.find(name);
     if (found == columns_.end() || found->second >= fields_.size()) return std::string();
-    return fields_[found->second];
+    return unguarded(fields_[found->second]);
   }
   Result<std::optional<double>> number(const char* name) const override {
     const auto field = text(name);
@@ -302,8 +272,30 @@ Result<void> read_json_lines(std::string_view file, const Visitor& visit) {
 
 }  // namespace
 
+std::string_view csv_head() {
+  return "id,time,machine,run,program,revision,part,part_number,serial,tool,characteristic,nominal,"
+         "lower,upper,unit,actual,deviation,verdict,block,line,epoch,number,item\r\n";
+}
+
+std::string csv_line(const Measurement& m) {
+  const auto& of = m.characteristic;
+  const auto number = [&](const std::optional<double>& value) {
+    return optional_text(value, of.decimals);
+  };
+  std::optional<double> off = deviation(m);
+  // 39.98 - 40 is not -0.02 in binary; the deviation has the decimals of its terms.
+  const double scale = std::pow(10.0, of.decimals + 3);
+  if (off) off = std::round(*off * scale) / scale;
+  return fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", m.id,
+      to_iso8601(m.time), csv_field(m.machine), csv_field(m.run), csv_field(m.program), m.revision,
+      m.part_id, csv_field(m.part), csv_field(m.serial), csv_field(m.tool), csv_field(of.name),
+      number(of.nominal), number(of.lower), number(of.upper), csv_field(of.unit), number(m.actual),
+      number(off), to_string(m.verdict), m.block, m.line, m.record.epoch, m.record.number, m.item);
+}
+
 Result<void> write_csv(MeasurementSource& source, const Sink& sink) {
-  if (auto written = sink(kHead); !written) return written;
+  if (auto written = sink(csv_head()); !written) return written;
   return source.each([&](const Measurement& m) { return sink(csv_line(m)); });
 }
 

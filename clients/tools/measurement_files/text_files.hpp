@@ -6,7 +6,11 @@
 
 namespace dripline::measurement_files {
 
-/// RFC 4180 with a head line; the columns are those of the server's export.
+/// RFC 4180: the line of names, and one measurement's. Texts are guarded (protocol/base/csv.hpp);
+/// the reader takes the guard off.
+std::string_view csv_head();
+std::string csv_line(const measurement::Measurement& measurement);
+/// Both, of all of them.
 Result<void> write_csv(MeasurementSource& source, const Sink& sink);
 /// One JSON object a line, with the same names.
 Result<void> write_json_lines(MeasurementSource& source, const Sink& sink);

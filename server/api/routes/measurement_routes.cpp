@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "clients/tools/measurement_files/text_files.hpp"
 #include "protocol/base/names.hpp"
 #include "server/api/api.hpp"
 #include "server/api/json_object.hpp"
@@ -43,11 +44,11 @@ class MeasurementExport {
   Result<std::optional<std::string>> next() {
     if (is_done_) return std::nullopt;
     std::string text;
-    if (!place_ && is_csv_) text = measurement_csv_head();
+    if (!place_ && is_csv_) text = measurement_files::csv_head();
     const auto rows = store_.list(filter_, place_, kMaxLimit);
     if (!rows) return fail(rows.error());
     for (const Measurement& row : *rows)
-      text += is_csv_ ? measurement_csv(row) : to_text(measurement_json(row)) + "\n";
+      text += is_csv_ ? measurement_files::csv_line(row) : to_text(measurement_json(row)) + "\n";
     is_done_ = rows->size() < kMaxLimit;
     if (!rows->empty()) place_ = storage::MeasurementPlace{rows->back().time, rows->back().id};
     return text;

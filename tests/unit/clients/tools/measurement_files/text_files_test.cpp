@@ -59,6 +59,33 @@ TEST(TextFiles, CsvHasTheReportsDecimalsAndQuotes) {
   EXPECT_NE(file.find(",-0.0000001,"), std::string::npos);  // no exponent
 }
 
+// A machine prints what it likes: a spreadsheet must not calculate with it, and it comes back as it
+// was printed. JSON has no formulas.
+TEST(TextFiles, FormulasOfMachinesAreTextsAndComeBack) {
+  auto all = sample();
+  all.resize(1);
+  Measurement& one = all.front();
+  one.program = "=HYPERLINK(\"http://x\")";
+  one.serial = "-0042-A";
+  one.part = "'=7";
+  one.tool = "@T3";
+  one.characteristic.name = "\t+cmd|' /C calc'!A0";
+  one.actual = -40.25;
+  ListSource source(all);
+  const std::string csv = written([&](const Sink& sink) { return write_csv(source, sink); });
+  EXPECT_NE(csv.find(",\"'=HYPERLINK(\"\"http://x\"\")\",3,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",''=7,'-0042-A,'@T3,\"'\t+cmd|' /C calc'!A0\","), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",-40.250,-80.250,"), std::string::npos) << "numbers stay numbers";
+  const std::string lines =
+      written([&](const Sink& sink) { return write_json_lines(source, sink); });
+  EXPECT_NE(lines.find("\"serial\":\"-0042-A\""), std::string::npos) << lines;
+  for (const std::string& file : {csv, lines}) {
+    const auto back = read(file);
+    ASSERT_EQ(back.size(), 1U);
+    expect_same(back.front(), one);
+  }
+}
+
 TEST(TextFiles, ReadsTablesOfOthers) {
   const auto all = read(
       "\xEF\xBB\xBFpart;value;characteristic;lower;upper\r\n1;40.01;D;39.98;40.02\r\n\r\n2;40.03;D;"

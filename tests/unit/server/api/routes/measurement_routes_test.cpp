@@ -86,7 +86,7 @@ TEST_F(MeasurementRoutes, ExportAllOfThem) {
   EXPECT_EQ(csv.content_type, "text/csv; charset=utf-8");
   const std::string text = body(csv);
   EXPECT_EQ(std::ranges::count(text, '\n'), 4);
-  EXPECT_NE(text.find(",\"D, bore\",40,39.98,40.02,mm,40.001,"), std::string::npos) << text;
+  EXPECT_NE(text.find(",\"D, bore\",40.000,39.980,40.020,mm,40.001,"), std::string::npos) << text;
   const std::string lines = body(get("/api/v1/measurements?format=jsonl"));
   EXPECT_EQ(std::ranges::count(lines, '\n'), 3);
   EXPECT_EQ(Json::parse(lines.substr(0, lines.find('\n')))["actual"], 40.001);

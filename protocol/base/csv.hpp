@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace dripline {
+
+/// One text cell of a CSV file (RFC 4180): in quotes where it needs them. What a spreadsheet would
+/// take for a formula, which can send the rest of the sheet away, gets an apostrophe before it, as
+/// OWASP's "CSV injection" recommends: a text that begins with = + - @, a tab or a line end and is
+/// no plain number. A number keeps its sign. For cells of numbers this is not needed.
+std::string csv_field(std::string_view text);
+/// The text of a cell that csv_field wrote, its quotes already taken off: without that apostrophe.
+std::string unguarded(std::string_view cell);
+
+}  // namespace dripline
