@@ -86,8 +86,18 @@ struct AuditState {
     std::string time, sha256;
     std::string text;  ///< a file to be kept elsewhere
   };
+  struct ArchiveFault {
+    std::string file, what;
+  };
+  struct Archives {
+    std::string time;
+    std::uint64_t archives = 0;
+    bool intact = false;
+    std::vector<ArchiveFault> faults;
+  };
   std::optional<Verification> verification;
   std::optional<Checkpoint> checkpoint;
+  std::optional<Archives> archives;  ///< absent: the server has no folder of them
   std::string public_key;
 };
 

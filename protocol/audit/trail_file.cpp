@@ -116,6 +116,7 @@ Result<void> TrailReader::take_record(std::string_view line) {
     if (!entry) return fail(entry.error());
     if (kept_ && entry->number == kept_->checkpoint.entry) at_kept_ = *digest;
     verifier_->take(*entry, *digest);
+    if (on_entry) on_entry(*entry);
     return {};
   }
   if (line.starts_with(kCheckpoint)) {

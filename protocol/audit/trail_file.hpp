@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,9 @@ Result<KeptCheckpoint> parse_kept_checkpoint(std::string_view text);
 class TrailReader {
  public:
   static constexpr std::size_t kMaxLine = 1024 * 1024;
+
+  /// Sees every entry as it comes; only after `finish`, without a fault, it is as it was written.
+  std::function<void(const Entry&)> on_entry = {};
 
   TrailReader() = default;
   explicit TrailReader(KeptCheckpoint kept) : kept_(std::move(kept)) {}

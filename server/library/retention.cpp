@@ -84,9 +84,19 @@ void Retention::work(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     if (const auto made = apply(stop); !made)
       process::log_error("retention: {}", made.error().what);
+    check_archives(stop);
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, stop, options_.every, [&stop] { return stop.stop_requested(); });
   }
+}
+
+void Retention::check_archives(const std::stop_token& stop) {
+  constexpr std::chrono::hours kEvery{24};
+  const auto last = check_.state();
+  if (last && parts_.clock.now() - last->at < kEvery) return;
+  const auto checked = check_.check(stop);
+  if (!checked && !stop.stop_requested())
+    process::log_error("the check of the archives: {}", checked.error().what);
 }
 
 Result<Archive> Retention::find(std::uint64_t id) {

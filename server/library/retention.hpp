@@ -12,6 +12,7 @@
 
 #include "protocol/archive/archive_writer.hpp"
 #include "protocol/base/clock.hpp"
+#include "server/library/archive_check.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::library {
@@ -45,12 +46,15 @@ class Retention {
     std::uint64_t piece = 2000;        ///< rows read, or removed, at a time
     std::chrono::milliseconds every = std::chrono::hours(1);
   };
-  Retention(Parts parts, Options options) : parts_(std::move(parts)), options_(options) {}
+  Retention(Parts parts, Options options)
+      : parts_(std::move(parts)),
+        options_(options),
+        check_({.store = parts_.store, .clock = parts_.clock, .folder = parts_.folder}) {}
   ~Retention();
   Retention(const Retention&) = delete;
   Retention& operator=(const Retention&) = delete;
 
-  /// From now on, in the background.
+  /// From now on, in the background; the archives are checked at once, and each day.
   void begin();
   void end();
   /// One pass now. Returns how many archives were made. Errors: Io, those of the store.
@@ -64,11 +68,13 @@ class Retention {
   /// not the file that was listed).
   Result<void> read(const storage::Archive& archive,
                     const std::function<Result<void>(const std::string& row)>& take);
+  ArchiveCheck& archive_check() { return check_; }
   const Options& options() const { return options_; }
   const std::filesystem::path& folder() const { return parts_.folder; }
 
  private:
   void work(const std::stop_token& stop);
+  void check_archives(const std::stop_token& stop);
   Result<void> finish(const std::stop_token& stop);
   Result<void> remove_rows(const storage::Archive& archive, const std::stop_token& stop);
   Result<std::vector<storage::ArchivableRecords>> archivable_records();
@@ -84,6 +90,7 @@ class Retention {
 
   const Parts parts_;
   const Options options_;
+  ArchiveCheck check_;
   std::mutex apply_mutex_;  ///< one pass at a time
   std::mutex mutex_;
   std::condition_variable_any changed_;

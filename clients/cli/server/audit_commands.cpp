@@ -1,17 +1,23 @@
+#include <filesystem>
+#include <map>
 #include <memory>
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
+#include "protocol/archive/archive_entry.hpp"
 #include "protocol/audit/trail_file.hpp"
 
 namespace dripline::cli {
 namespace {
 
 struct AuditCommand {
-  std::string file, checkpoint, output;
+  std::string file, checkpoint, archives, output;
 };
+
+/// The archives that an exported trail has entries of, by file.
+using Archives = std::map<std::string, Digest>;
 
 Result<audit::TrailReader> reader_for(const AuditCommand& command) {
   if (command.checkpoint.empty()) return audit::TrailReader();
@@ -43,12 +49,38 @@ int print_trail(Context& context, audit::TrailReader& reader, const Result<void>
   return kExitOk;
 }
 
+/// The files of a folder against the trail's digests, without a server.
+int verify_archives(Context& context, const std::filesystem::path& folder,
+                    const Archives& archives) {
+  int status = kExitOk;
+  for (const auto& [name, sha256] : archives) {
+    const auto is = archive::digest_of(folder / std::filesystem::path(name).filename());
+    if (is && *is == sha256) continue;
+    const std::string what =
+        is ? fmt::format("it was changed: its SHA-256 is {}, the audit trail has {}", is->hex(),
+                         sha256.hex())
+           : is.error().what;
+    complain(Error{Errc::Corrupt, fmt::format("archive {}: {}", printable(name), what)});
+    status = kExitNo;
+  }
+  if (status == kExitOk)
+    context.print(fmt::format("{} archives, each as it was written.\n", archives.size()));
+  return status;
+}
+
 int verify_file(Context& context, const AuditCommand& command) {
   auto reader = reader_for(command);
   if (!reader) return complain(reader.error());
   const auto file = MappedFile::open(command.file);
   if (!file) return complain(file.error());
-  return print_trail(context, *reader, reader->feed(file->text()));
+  Archives archives;
+  reader->on_entry = [&archives](const audit::Entry& entry) {
+    if (entry.action != archive::kMadeAction) return;
+    if (const auto sha256 = archive::digest_in(entry.detail)) archives[entry.subject] = *sha256;
+  };
+  const int status = print_trail(context, *reader, reader->feed(file->text()));
+  if (status != kExitOk || command.archives.empty()) return status;
+  return verify_archives(context, command.archives, archives);
 }
 
 /// Here, so that it does not depend on what the server makes of its own trail.
@@ -64,13 +96,30 @@ int verify_exported(Context& context, client::Client& client, const AuditCommand
   return print_trail(context, *reader, read);
 }
 
+/// Of the trail, then of each archive.
+int print_faults(const client::AuditState& state) {
+  if (state.verification && state.verification->fault) {
+    print_fault({state.verification->fault->entry, printable(state.verification->fault->what)});
+  }
+  if (!state.archives) return kExitNo;
+  for (const auto& fault : state.archives->faults) {
+    complain(Error{Errc::Corrupt,
+                   fmt::format("archive {}: {}", printable(fault.file), printable(fault.what))});
+  }
+  return kExitNo;
+}
+
 int verify_at_server(Context& context, client::Client& client) {
   const auto state = client.verify_audit();
-  if (const auto status = finished(context, state)) return *status;
+  if (!state) return complain(state.error());
   const auto& verification = state->verification;
-  if (verification && verification->fault) {
-    return print_fault({verification->fault->entry, printable(verification->fault->what)});
+  const bool is_whole =
+      !(verification && verification->fault) && (!state->archives || state->archives->intact);
+  if (context.wants_json) {
+    context.print(json_text(*state));
+    return is_whole ? kExitOk : kExitNo;
   }
+  if (!is_whole) return print_faults(*state);
   context.print(fmt::format("{} entries and the runs that ended, each as it was written.",
                             verification ? verification->entries : 0));
   if (state->checkpoint) {
@@ -78,10 +127,19 @@ int verify_at_server(Context& context, client::Client& client) {
                               state->checkpoint->entry, time_text(state->checkpoint->time)));
   }
   context.print("\n");
+  if (const auto& archives = state->archives) {
+    context.print(fmt::format("{} archives, each as it was written.\n", archives->archives));
+  }
   return kExitOk;
 }
 
 void verify(Context& context, const AuditCommand& command) {
+  if (!command.archives.empty() && command.file.empty()) {
+    complain(Error{Errc::Syntax,
+                   "--archives needs an exported trail: FILE; the server checks its own archives"});
+    context.status = kExitUsage;
+    return;
+  }
   if (!command.file.empty()) {
     context.status = verify_file(context, command);
     return;
@@ -115,10 +173,14 @@ void add_verify(Command group, Context& context) {
   command.add_option("FILE", options->file, "An exported trail; needs no server");
   command.add_option("--checkpoint", options->checkpoint,
                      "A checkpoint that was kept elsewhere, from dnc audit checkpoint");
+  command.add_option("--archives", options->archives,
+                     "Folder of archives: compare each that FILE has an entry of");
   add_json_flag(command, context);
   command.footer(
       "Names the first place that was changed, removed or inserted. Without FILE and --checkpoint "
-      "the server\nverifies its own trail and compares the runs that ended with their entries. "
+      "the server\nverifies its own trail, compares the runs that ended with their entries, and "
+      "reads "
+      "the archives\nthat the trail names. "
       "Only a checkpoint that was\nkept elsewhere shows that the end was cut off, or that someone "
       "who has the server's key wrote\nanother trail.\n\nExample:\n  dnc audit verify trail.txt "
       "--checkpoint monday.txt");

@@ -72,8 +72,19 @@ void members(V& v, Is<AuditState::Checkpoint> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<AuditState::ArchiveFault> auto& x) {
+  DRIPLINE_MEMBERS(file, what);
+}
+
+template <class V>
+void members(V& v, Is<AuditState::Archives> auto& x) {
+  DRIPLINE_MEMBERS(time, archives, intact, faults);
+}
+
+template <class V>
 void members(V& v, Is<AuditState> auto& x) {
   DRIPLINE_MEMBERS(verification, checkpoint, public_key);
+  v.later("archives", x.archives);
 }
 
 template <class V>

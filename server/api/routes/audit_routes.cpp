@@ -29,10 +29,26 @@ json checkpoint_json(const library::AuditChain& chain, const audit::Checkpoint& 
           {"text", audit::header_line(chain.header()) + audit::checkpoint_line(checkpoint)}};
 }
 
-Response state_response(const library::AuditChain& chain, const library::AuditChain::State& state) {
+/// Null: this server has no folder of archives, or they were not checked yet.
+json archives_json(const Services& services) {
+  if (services.retention == nullptr) return nullptr;
+  const auto state = services.retention->archive_check().state();
+  if (!state) return nullptr;
+  auto faults = json::array();
+  for (const auto& fault : state->faults)
+    faults.push_back({{"file", fault.file}, {"what", fault.what}});
+  return {{"time", to_iso8601(state->at)},
+          {"archives", state->archives},
+          {"intact", state->faults.empty()},
+          {"faults", std::move(faults)}};
+}
+
+Response state_response(const Services& services, const library::AuditChain::State& state) {
+  const library::AuditChain& chain = services.chain;
   return json_response(
       200,
-      {{"verification",
+      {{"archives", archives_json(services)},
+       {"verification",
         state.verification ? verification_json(*state.verification) : json(nullptr)},
        {"checkpoint", state.checkpoint ? checkpoint_json(chain, *state.checkpoint) : json(nullptr)},
        {"public_key", chain.header().key.hex()}});
@@ -48,14 +64,19 @@ Response list_audit(Services& services, const Request& request) {
 Response show_verification(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
-  return state_response(services.chain, services.chain.state());
+  return state_response(services, services.chain.state());
 }
 
 Response verify(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
   const auto state = services.chain.verify();
-  return state ? state_response(services.chain, *state) : error_response(state.error());
+  if (!state) return error_response(state.error());
+  if (services.retention != nullptr) {
+    const auto checked = services.retention->archive_check().check();
+    if (!checked) return error_response(checked.error());
+  }
+  return state_response(services, *state);
 }
 
 Response export_trail(Services& services, const Request& request) {

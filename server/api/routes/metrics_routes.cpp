@@ -87,6 +87,16 @@ void add_audit(MetricsText& out, const library::AuditChain::State& state) {
   }
 }
 
+/// Nothing before the archives were checked once.
+void add_archives(MetricsText& out, library::Retention& retention) {
+  const auto state = retention.archive_check().state();
+  if (!state) return;
+  out.gauge("dripline_archives", "Archives that the audit trail has.",
+            static_cast<double>(state->archives));
+  out.gauge("dripline_archives_damaged", "Archives that are missing or were changed.",
+            static_cast<double>(state->faults.size()));
+}
+
 void add_webhooks(MetricsText& out, webhooks::Webhooks& all) {
   const auto webhooks = all.list();
   if (!webhooks || webhooks->empty()) return;
@@ -241,6 +251,7 @@ Response list_metrics(Services& services, const RequestTimes& times, const Reque
   add_certificates(out, services);
   if (services.backups != nullptr) add_backups(out, services.backups->state());
   add_audit(out, services.chain.state());
+  if (services.retention != nullptr) add_archives(out, *services.retention);
   if (services.webhooks != nullptr) add_webhooks(out, *services.webhooks);
   if (services.publisher != nullptr) add_publisher(out, *services.publisher);
   if (services.sparkplug != nullptr) add_sparkplug(out, *services.sparkplug);

@@ -265,6 +265,10 @@ Result<void> ServerParts::look() {
     machine_service.lose_gateways();
   sound = chain.look();
   health.report("", chain.finding());
+  if (retention && sound) {
+    sound = retention->archive_check().look();
+    health.report("", retention->archive_check().finding());
+  }
   return sound;
 }
 

@@ -4,7 +4,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "protocol/archive/archive_entry.hpp"
 #include "protocol/archive/archive_reader.hpp"
+#include "protocol/archive/verified_archive.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::archive {
@@ -109,6 +111,47 @@ TEST_F(Archive, RefusesOtherFiles) {
   auto writer = ArchiveWriter::begin(file_, {"records", "lathe-1", "db", "test"});
   EXPECT_EQ(writer->add("a\nb").error().code, Errc::LimitExceeded);
   EXPECT_EQ(writer->add(std::string(kMaxLine, 'x')).error().code, Errc::LimitExceeded);
+}
+
+TEST_F(Archive, IsVerifiedBeforeItsRowsArePassedOn) {
+  const auto written = write({R"({"n":1})", R"({"n":2})"});
+  const auto verified = VerifiedArchive::open(file_);
+  ASSERT_TRUE(verified) << verified.error().what;
+  EXPECT_EQ(verified->head().kind, "records");
+  EXPECT_EQ(verified->sha256(), written.sha256);
+  EXPECT_EQ(verified->rows(), 2u);
+  std::string all;
+  const auto take = [&all](const std::string& row) -> Result<void> {
+    all += row;
+    return {};
+  };
+  ASSERT_TRUE(verified->each(take));
+  ASSERT_TRUE(verified->each(take)) << "as often as it is asked for";
+  EXPECT_EQ(all, R"({"n":1}{"n":2}{"n":1}{"n":2})");
+  const auto stopped =
+      verified->each([](const std::string&) -> Result<void> { return fail(Errc::Io, "full"); });
+  EXPECT_EQ(stopped.error().what, "full");
+
+  // Another file under its name does not matter; a change of this one does.
+  const std::string whole = bytes();
+  std::filesystem::rename(file_, folder_.path() / "kept");
+  write({R"({"n":3})"});
+  all.clear();
+  ASSERT_TRUE(verified->each(take));
+  EXPECT_EQ(all, R"({"n":1}{"n":2})");
+  std::ofstream(folder_.path() / "kept", std::ios::binary) << bytes();
+  EXPECT_EQ(verified->each(take).error().code, Errc::Corrupt);
+  std::ofstream(file_, std::ios::binary) << whole.substr(0, whole.size() - 1);
+  EXPECT_EQ(VerifiedArchive::open(file_).error().code, Errc::Corrupt);
+}
+
+TEST_F(Archive, HasItsDigestInTheAuditTrail) {
+  const auto written = write({R"({"n":1})"});
+  EXPECT_EQ(*digest_of(file_), written.sha256);
+  EXPECT_EQ(digest_in("1 records, sha256 " + written.sha256.hex()), written.sha256);
+  EXPECT_FALSE(digest_in("1 records, sha256 12"));
+  EXPECT_FALSE(digest_in(""));
+  EXPECT_EQ(digest_of(folder_.path() / "absent").error().code, Errc::Io);
 }
 
 }  // namespace

@@ -134,5 +134,28 @@ TEST_F(AuditRoutes, VerifyTheTrailAndNameTheFirstPlace) {
   EXPECT_EQ(reader.verifier()->first_fault()->entry, 2u);
 }
 
+TEST_F(AuditRoutes, VerifyTheArchivesAndNameThem) {
+  EXPECT_TRUE(json(call("POST", "/api/v1/audit/verification"))["archives"].is_null());
+  set_up_archives();
+  stored_run(3);
+  ASSERT_TRUE(store_->runs.set_state("run-1", storage::RunState::Aborted, "test"));
+  EXPECT_EQ(get("/api/v1/metrics").body.find("dripline_archives"), std::string::npos);
+  clock_.advance(std::chrono::hours(48));
+  ASSERT_EQ(json(call("POST", "/api/v1/archives"))["made"], 1);
+  Json state = json(call("POST", "/api/v1/audit/verification"));
+  EXPECT_EQ(state["archives"]["archives"], 1) << state;
+  EXPECT_EQ(state["archives"]["intact"], true) << state;
+  EXPECT_NE(get("/api/v1/metrics").body.find("\ndripline_archives_damaged 0\n"), std::string::npos);
+  const std::string file = json(get("/api/v1/archives"))["archives"][0]["file"];
+  std::filesystem::remove(folder_.path() / file);
+  state = json(call("POST", "/api/v1/audit/verification"));
+  EXPECT_EQ(state["verification"]["intact"], true) << "the trail itself is";
+  EXPECT_EQ(state["archives"]["intact"], false);
+  EXPECT_EQ(state["archives"]["faults"],
+            Json::parse(R"([{"file":")" + file + R"(","what":"it is missing"}])"));
+  EXPECT_EQ(audit_state(), state);
+  EXPECT_NE(get("/api/v1/metrics").body.find("\ndripline_archives_damaged 1\n"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace dripline::server_test

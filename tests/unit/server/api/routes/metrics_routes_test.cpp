@@ -126,6 +126,8 @@ TEST_F(MetricsRoute, GivesTheTimesOfAnswersByRoute) {
 /// Dashboard and alert rules ask for nothing that the server does not give.
 TEST_F(MetricsRoute, GivesWhatDashboardAndAlertsAskFor) {
   set_up_backups();
+  set_up_archives();
+  ASSERT_TRUE(retention_->archive_check().check());
   show_machine("mill-3");
   machines_.views.back().status = dds::Status{};
   machines_.views.back().clock_ahead = std::chrono::milliseconds(3);
