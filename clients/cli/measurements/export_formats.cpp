@@ -24,17 +24,19 @@ using measurement_files::AqdefEncoding;
 using measurement_files::MeasurementSource;
 using measurement_files::Sink;
 
+constexpr double kBase = 5;  // mm below the lowest point
+
 Result<void> write_points(const MeasurementExport& request, MeasurementSource& source,
                           const Sink& sink) {
-  const auto x = measurement_files::parse_point_x(request.x);
+  const auto x = measurement_files::parse_point_x(request.x.empty() ? "radius" : request.x);
   if (!x) return fail(x.error());
   const auto found = measurement_files::points_of(source, *x);
   if (!found) return fail(found.error());
   if (request.format == "points") return measurement_files::write_points_csv(*found, sink);
   if (request.format == "dxf") return measurement_files::write_dxf(*found, 0, sink);
-  const auto grid = measurement_files::make_height_grid(*found, request.cell);
+  const auto grid = measurement_files::make_height_grid(*found, request.cell.value_or(0));
   if (!grid) return fail(grid.error());
-  return measurement_files::write_stl(*grid, request.base, sink);
+  return measurement_files::write_stl(*grid, request.base.value_or(kBase), sink);
 }
 
 Result<void> write(const MeasurementExport& request, MeasurementSource& source, const Sink& sink) {
@@ -47,8 +49,10 @@ Result<void> write(const MeasurementExport& request, MeasurementSource& source, 
   if (format == "qif") return measurement_files::write_qif(source, sink);
   if (format == "measurements") return measurement_files::write_csv(source, sink);
   if (format == "jsonl") return measurement_files::write_json_lines(source, sink);
-  if (format == "html" || format == "pdf")
-    return measurement_files::write_part_report(source, {request.title, ""}, sink);
+  if (format == "html" || format == "pdf") {
+    const std::string title = request.title.empty() ? "Measurement report" : request.title;
+    return measurement_files::write_part_report(source, {title, ""}, sink);
+  }
   return write_points(request, source, sink);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,10 @@ namespace dripline::cli {
 struct MeasurementExport {
   MeasurementChoice choice;
   std::string format, output;
-  std::string title = "Measurement report";
-  bool is_utf8 = false;  ///< AQDEF
-  double cell = 0, base = 5;
-  std::string x = "radius";  ///< points: what their X is
+  std::string title;                 ///< html, pdf; empty: the usual one
+  bool is_utf8 = false;              ///< AQDEF
+  std::optional<double> cell, base;  ///< stl, mm
+  std::string x;                     ///< points: what their X is; empty: radius
 };
 
 /// dfq, dfd, dfx, qif, html, pdf, measurements, jsonl, points, dxf, stl.

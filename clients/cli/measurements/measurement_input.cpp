@@ -26,6 +26,14 @@ class Filter {
   static Result<Filter> of(const MeasurementChoice& choice) {
     Filter filter;
     filter.choice_ = choice;
+    if (choice.query.run == "latest") {
+      return fail(Errc::Syntax, "--run latest needs the server: name the run by its id");
+    }
+    if (!choice.query.verdict.empty()) {
+      const auto verdict = measurement::parse_verdict(choice.query.verdict);
+      if (!verdict) return fail(verdict.error());
+      filter.verdict_ = *verdict;
+    }
     for (const auto& [text, time] : {std::pair{&choice.query.since, &filter.since_},
                                      std::pair{&choice.query.until, &filter.until_}}) {
       if (text->empty()) continue;
@@ -42,11 +50,13 @@ class Filter {
     const auto& query = choice_.query;
     return same(query.machine, m.machine) && same(query.characteristic, m.characteristic.name) &&
            same(choice_.tool, m.tool) && (query.run.empty() || m.run.starts_with(query.run)) &&
-           (!since_ || m.time >= *since_) && (!until_ || m.time < *until_);
+           (!verdict_ || m.verdict == *verdict_) && (!since_ || m.time >= *since_) &&
+           (!until_ || m.time < *until_);
   }
 
  private:
   MeasurementChoice choice_;
+  std::optional<measurement::Verdict> verdict_;
   std::optional<UtcTime> since_, until_;
 };
 
@@ -65,9 +75,32 @@ class TextSource final : public MeasurementSource {
   Filter filter_;
 };
 
+/// Of an archive.
+class FilteredSource final : public MeasurementSource {
+ public:
+  FilteredSource(std::unique_ptr<MeasurementSource> all, Filter filter)
+      : all_(std::move(all)), filter_(std::move(filter)) {}
+  Result<void> each(const Visitor& visit) override {
+    return all_->each([&](const Measurement& m) -> Result<void> {
+      return filter_.takes(m) ? visit(m) : Result<void>{};
+    });
+  }
+
+ private:
+  std::unique_ptr<MeasurementSource> all_;
+  Filter filter_;
+};
+
 Result<std::unique_ptr<MeasurementSource>> open_file(const MeasurementChoice& choice) {
   auto filter = Filter::of(choice);
   if (!filter) return fail(filter.error());
+  ArchiveChoice archive = choice.archive;
+  if (archive.file.empty() && is_archive_name(choice.file)) archive.file = choice.file;
+  if (!archive.file.empty()) {
+    auto all = open_archived_measurements(archive, choice.query.with_superseded);
+    if (!all) return fail(all.error());
+    return std::make_unique<FilteredSource>(*std::move(all), *std::move(filter));
+  }
   auto file = MappedFile::open(choice.file);
   if (!file) return fail(file.error());
   if (!has_suffix(choice.file, ".dfq"))
@@ -131,18 +164,21 @@ bool has_suffix(std::string_view path, std::string_view suffix) {
 }
 
 void add_measurement_choice(Command command, MeasurementChoice& choice) {
-  command.add_option("--characteristic", choice.query.characteristic, "Only this characteristic");
-  command.add_option("--machine", choice.query.machine, "Only this machine");
-  command.add_option("--run", choice.query.run, "Only this run: id, beginning of it, or latest");
-  command.add_option("--tool", choice.tool, "Only what this tool cut, e.g. T3");
-  command.add_option("--since", choice.query.since,
-                     "Not before this time, UTC: 2026-11-21 or 2026-11-21T07:40:06Z");
-  command.add_option("--until", choice.query.until, "Before this time");
+  command.add_option("--characteristic", choice.query.characteristic,
+                     "Take only this characteristic");
+  command.add_option("--machine", choice.query.machine, "Take only this machine");
+  command.add_option("--run", choice.query.run,
+                     "Take only this run: its id, the beginning of it, or latest");
+  command.add_option("--tool", choice.tool, "Take only what this tool cut, e.g. T3");
+  command.add_option(
+      "--since", choice.query.since,
+      "Take only what is from this time on, UTC: 2026-11-21 or 2026-11-21T07:40:06Z");
+  command.add_option("--until", choice.query.until, "Take only what is earlier than this time");
 }
 
 std::unique_ptr<MeasurementSource> open_measurements(Context& context,
                                                      const MeasurementChoice& choice) {
-  if (choice.file.empty()) return download(context, choice);
+  if (choice.file.empty() && choice.archive.file.empty()) return download(context, choice);
   auto source = open_file(choice);
   if (source) return *std::move(source);
   context.status = complain(source.error());

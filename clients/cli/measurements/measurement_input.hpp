@@ -5,15 +5,18 @@
 #include <vector>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/measurements/archive_source.hpp"
 #include "clients/tools/measurement_files/source.hpp"
 
 namespace dripline::cli {
 
 /// Which measurements a command is for: those of a file, or the server's.
 struct MeasurementChoice {
-  std::string file;  ///< CSV, JSON Lines, or AQDEF by its suffix (.dfq); empty: the server's
+  /// CSV, JSON Lines; by its suffix AQDEF (.dfq) or an archive (.jsonl.zst); empty: the server's
+  std::string file;
   client::MeasurementQuery query;
   std::string tool;
+  ArchiveChoice archive = {};  ///< with a file: its measurements
 };
 
 /// --machine, --run, --characteristic, --tool, --since, --until.

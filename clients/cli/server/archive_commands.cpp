@@ -1,20 +1,13 @@
 #include "clients/cli/server/archive_commands.hpp"
 
-#include "clients/cli/measurements/measurement_text.hpp"
 #include "clients/cli/server/json_answer.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
-#include "protocol/archive/archive_reader.hpp"
 
 namespace dripline::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// An empty text allows everything; an id may be shortened.
-bool is_wanted(const std::string& wanted, const std::string& found) {
-  return wanted.empty() || found.starts_with(wanted);
-}
 
 int list_archives(Context& context, client::Client& client) {
   const auto answer = client.archives({.limit = 1000});
@@ -37,56 +30,6 @@ int make_archives(Context& context, client::Client& client) {
 }
 
 }  // namespace
-
-int read_archive(const std::string& file, const std::string& kind,
-                 const std::function<void(const ordered_json&)>& take) {
-  auto reader = archive::ArchiveReader::open(file);
-  if (!reader) return complain(reader.error());
-  if (reader->head().kind != kind)
-    return complain(Error{Errc::Unsupported, fmt::format("archive {} holds {}, not {}", file,
-                                                         printable(reader->head().kind), kind)});
-  for (;;) {
-    const auto row = reader->next();
-    if (!row) return complain(row.error());
-    if (!*row) return kExitOk;
-    const auto read = ordered_json::parse(**row, nullptr, false);
-    if (!read.is_object())
-      return complain(Error{Errc::Corrupt, fmt::format("archive {}: a row is no JSON", file)});
-    take(read);
-  }
-}
-
-int show_archived_report(Context& context, const std::string& file, const std::string& run) {
-  StandardOutput output;
-  const int status = read_archive(file, "records", [&](const ordered_json& record) {
-    if (text_at(record, "kind") != "output" || !is_wanted(run, text_at(record, "run"))) return;
-    (void)output.write(context.wants_json ? json_line(record)
-                                          : printable(text_at(record, "text")) + "\n");
-  });
-  return output.error() ? output.complain() : status;
-}
-
-int show_archived_measurements(Context& context, const std::string& file,
-                               const ArchivedChoice& choice) {
-  auto rows = ordered_json::array();
-  const int status = read_archive(file, "measurements", [&](const ordered_json& row) {
-    const auto found = row.find("measurement");
-    if (found == row.end() || !found->is_object()) return;
-    const ordered_json& one = *found;
-    if (!is_wanted(choice.run, text_at(one, "run"))) return;
-    if (!choice.machine.empty() && choice.machine != text_at(one, "machine")) return;
-    if (!choice.characteristic.empty() && choice.characteristic != text_at(one, "characteristic"))
-      return;
-    if (!choice.verdict.empty() && choice.verdict != text_at(one, "verdict")) return;
-    if (context.wants_json) {
-      context.print(json_line(one));
-    } else {
-      rows.push_back(one);
-    }
-  });
-  if (!context.wants_json) context.print(measurement_table(rows));
-  return status;
-}
 
 void add_archive_commands(Command server, Context& context) {
   auto made = server.add_subcommand("archive", "Move old records into archives now");

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/measurements/archived_listing.hpp"
 #include "clients/cli/measurements/export_formats.hpp"
-#include "clients/cli/server/archive_commands.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
@@ -130,7 +130,8 @@ int print_report(client::Client& client, const ReportOf& report, const std::stri
 }
 
 struct ShowCommand {
-  std::string run, archive;
+  std::string run;
+  ArchiveChoice archive;
   bool is_raw = false;
 };
 
@@ -169,9 +170,60 @@ int export_lines(client::Client& client, const ExportCommand& command) {
   return print_report(client, *report, command.format, Controls::AsTheyAre);
 }
 
+/// An option that a format does not use is refused by its name.
+Result<void> check_format_options(const ExportCommand& command) {
+  const MeasurementExport& of = command.measurements;
+  struct Row {
+    const char* option;
+    bool is_given;
+    std::vector<std::string_view> formats;
+  };
+  for (const Row& row :
+       {Row{"--title", !of.title.empty(), {"html", "pdf"}},
+        Row{"--utf8", of.is_utf8, {"dfq", "dfd"}}, Row{"--cell", of.cell.has_value(), {"stl"}},
+        Row{"--base", of.base.has_value(), {"stl"}},
+        Row{"--x", !of.x.empty(), {"points", "dxf", "stl"}}}) {
+    if (!row.is_given || std::ranges::count(row.formats, command.format) > 0) continue;
+    return fail(Errc::Syntax, "{} is for --format {}, not {}", row.option,
+                fmt::join(row.formats, " and "), command.format);
+  }
+  return {};
+}
+
+Result<void> check_choice_options(const ExportCommand& command, bool is_lines) {
+  const auto& choice = command.measurements.choice;
+  const auto& query = choice.query;
+  const std::pair<const char*, const std::string&> options[]{
+      {"--characteristic", query.characteristic},
+      {"--tool", choice.tool},
+      {"--since", query.since},
+      {"--until", query.until},
+      {"--run", query.run},
+      {"--machine", query.machine}};
+  for (const auto& [name, value] : options) {
+    if (is_lines && !value.empty()) {
+      return fail(Errc::Syntax,
+                  "{} is for measurements: --format {} exports all report lines of RUN|MACHINE",
+                  name, command.format);
+    }
+  }
+  if (command.run.empty()) return {};
+  if (!choice.file.empty())
+    return fail(Errc::Syntax, "--from and {}: the file or the server's", command.run);
+  if (query.run.empty() && query.machine.empty()) return {};
+  return fail(Errc::Syntax, "{} and {}: give RUN|MACHINE, or --run and --machine", command.run,
+              query.run.empty() ? "--machine" : "--run");
+}
+
 int export_report(Context& context, const ExportCommand& command) {
   const bool has_file = !command.measurements.choice.file.empty();
   const bool is_lines = !std::ranges::count(measurement_formats(), command.format);
+  for (const auto& checked :
+       {check_format_options(command), check_choice_options(command, is_lines)}) {
+    if (checked) continue;
+    complain(checked.error());
+    return kExitUsage;
+  }
   if (is_lines && (has_file || command.run.empty())) {
     complain(
         Error{Errc::Syntax, "--format " + command.format +
@@ -201,24 +253,27 @@ constexpr const char* kReportHelp =
 
 void add_export(Command group, Context& context) {
   auto command = group.add_subcommand(
-      "export", "Export report lines, measurements, digitized points, or a report to print");
+      "export", "Export report lines, measurements, digitized points or a printable part report");
   auto options = std::make_shared<ExportCommand>();
   options->format = "text";
   std::vector<std::string> formats{"text", "csv", "json"};
   formats.insert(formats.end(), measurement_formats().begin(), measurement_formats().end());
   command.add_option("RUN|MACHINE", options->run, kReportHelp);
-  command.add_option("--format", options->format, "What to write, see below (default: text)")
+  command.add_option("--format", options->format, "Format to write, see below [text]")
       .check(one_of(formats));
-  command.add_option("-o,--output", options->output,
-                     "File to write, - for standard output (default: -)");
+  command.add_option("-o,--output", options->output, "File to write, - for standard output [-]");
   auto& measurements = options->measurements;
-  command.add_option("--from", measurements.choice.file,
-                     "Measurements of this file (CSV, JSON Lines, .dfq), without a server");
+  command.add_option(
+      "--from", measurements.choice.file,
+      "Measurements of this file (CSV, JSON Lines, .dfq, archive), without a server");
   add_measurement_choice(command, measurements.choice);
-  command.add_option("--title", measurements.title, "html, pdf: title [Measurement report]");
-  command.add_flag("--utf8", measurements.is_utf8, "dfq, dfd: UTF-8 in place of Windows-1252");
-  command.add_option("--cell", measurements.cell, "stl: cell, mm [distance of the points]");
-  command.add_option("--base", measurements.base, "stl: base below the lowest point, mm [5]");
+  command.add_option("--title", measurements.title,
+                     "html, pdf: title of the report [Measurement report]");
+  command.add_flag("--utf8", measurements.is_utf8, "dfq, dfd: write UTF-8 instead of Windows-1252");
+  command.add_option("--cell", measurements.cell,
+                     "stl: width of a cell, mm [distance of the points]");
+  command.add_option("--base", measurements.base,
+                     "stl: height of the base below the lowest point, mm [5]");
   command
       .add_option("--x", measurements.x,
                   "points, dxf, stl: what X of the measured points is, radius or diameter (a "
@@ -227,7 +282,8 @@ void add_export(Command group, Context& context) {
   command.footer(
       "Report lines: text holds exactly the lines that the machine put out, in order; csv and json "
       "add time,\ndevice, block and line.\nMeasurements: measurements (CSV), jsonl, dfq, dfd, dfx "
-      "(Q-DAS), qif (QIF 3.0), html and pdf (a page a part).\nDigitized points: points (CSV), dxf, "
+      "(Q-DAS), qif (QIF 3.0), html and pdf (a page for each part).\nDigitized points: points "
+      "(CSV), dxf, "
       "stl (a solid).\n\nExamples:\n  dnc report export latest --format csv -o profile.csv\n  dnc "
       "report export lathe-1 --since 2026-11-01 --format dfq -o november.dfq");
   command.callback([&context, options] { context.status = export_report(context, *options); });
@@ -236,7 +292,8 @@ void add_export(Command group, Context& context) {
 }  // namespace
 
 void add_report_commands(Command app, Context& context) {
-  auto group = app.add_subcommand("report", "Output of machines: DPRNT and other lines");
+  auto group = app.add_subcommand(
+      "report", "What machines print and measure: report lines, measurements, statistics");
   group.require_subcommand(1);
 
   auto list_command = group.add_subcommand(
@@ -256,11 +313,13 @@ void add_report_commands(Command app, Context& context) {
       "--raw", shown->is_raw,
       "Print control characters unchanged, also on a terminal (otherwise as \\x1b)");
   add_json_flag(show_command, context);
-  show_command.add_option("--archive", shown->archive,
-                          "Read it from this archive instead; needs no server");
+  add_archive_choice(show_command, shown->archive);
   show_command.callback([&context, shown] {
-    if (!shown->archive.empty()) {
-      context.status = show_archived_report(context, shown->archive, shown->run);
+    if (!shown->archive.file.empty()) {
+      context.status = show_archived_report(
+          context, {.archive = shown->archive, .of = shown->run, .is_raw = shown->is_raw});
+    } else if (!shown->archive.sha256.empty()) {
+      context.status = complain(Error{Errc::Syntax, "--sha256 is of an archive: --archive FILE"});
     } else if (auto client = context.connect()) {
       context.status = show(context, *client, *shown);
     }

@@ -49,6 +49,13 @@ int write_to(const std::string& path, std::string_view text) {
 
 int save_content(const std::string& path,
                  const std::function<client::Reply<void>(const ContentSink&)>& fetch) {
+  if (path.empty() || path == "-") {
+    StandardOutput output;
+    const auto fetched =
+        fetch([&](std::string_view bytes) { return output.write(bytes).has_value(); });
+    if (output.error()) return output.complain();
+    return fetched ? kExitOk : cli::complain(fetched.error());
+  }
   auto file = client::OutputFile::create(path);
   if (!file) return complain(file.error());
   Result<void> written;

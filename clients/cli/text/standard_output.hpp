@@ -35,8 +35,8 @@ Result<void> write_file(const std::string& path, std::string_view bytes);
 /// Writes to a file, or to standard output for "-" and "". Gives the exit status.
 int write_to(const std::string& path, std::string_view text);
 
-/// The whole file or none of it, piece by piece as `fetch` passes them to its argument. Gives the
-/// exit status.
+/// The whole file or none of it, piece by piece as `fetch` passes them to its argument; "-" and "":
+/// to standard output. Gives the exit status.
 using ContentSink = std::function<bool(std::string_view)>;
 int save_content(const std::string& path,
                  const std::function<client::Reply<void>(const ContentSink&)>& fetch);
