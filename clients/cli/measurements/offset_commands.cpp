@@ -231,25 +231,25 @@ using Shared = std::shared_ptr<OffsetChoice>;
 void add_decisions(Command group, Context& context) {
   auto list = group.add_subcommand("list", "List proposed corrections, newest first");
   const Shared listed = std::make_shared<OffsetChoice>();
-  list.add_option("--machine", listed->query.machine, "Only this machine");
-  list.add_option("--target", listed->query.target, "Only this value, e.g. T3.wear.X");
-  list.add_option("--state", listed->query.state, "Only this state")
+  list.add_option("--machine", listed->query.machine, "List only this machine");
+  list.add_option("--target", listed->query.target, "List only this value, e.g. T3.wear.X");
+  list.add_option("--state", listed->query.state, "List only this state")
       .check(one_of({"pending", "applied", "rejected", "superseded"}));
-  list.add_option("--limit", listed->query.limit, "At most this many, up to 1000 [100]")
+  list.add_option("--limit", listed->query.limit, "List at most this many, up to 1000 [100]")
       .check(in_range(1, 1000));
   add_json_flag(list, context);
   run_at_server(list, context, listed, list_offsets);
 
   auto show = group.add_subcommand("show", "Show a proposal with its reasons");
   const Shared shown = std::make_shared<OffsetChoice>();
-  show.add_option("ID", shown->id, "The proposal").required();
+  show.add_option("ID", shown->id, "Number of the proposal (dnc offset list)").required();
   add_json_flag(show, context);
   run_at_server(show, context, shown, show_offset);
 
-  auto yes =
-      group.add_subcommand("approve", "Apply a proposal: the machine's next setup has the value");
+  auto yes = group.add_subcommand(
+      "approve", "Approve a proposal: the machine's next setup version has the value");
   const Shared approved = std::make_shared<OffsetChoice>();
-  yes.add_option("ID", approved->id, "The proposal").required();
+  yes.add_option("ID", approved->id, "Number of the proposal").required();
   yes.add_option("--comment", approved->comment, "State why; kept with the setup and the decision");
   add_json_flag(yes, context);
   yes.footer(
@@ -259,7 +259,7 @@ void add_decisions(Command group, Context& context) {
 
   auto no = group.add_subcommand("reject", "Reject a proposal");
   const Shared rejected = std::make_shared<OffsetChoice>();
-  no.add_option("ID", rejected->id, "The proposal").required();
+  no.add_option("ID", rejected->id, "Number of the proposal").required();
   no.add_option("--reason", rejected->comment, "State why; kept with the decision").required();
   add_json_flag(no, context);
   run_at_server(no, context, rejected, reject);
@@ -272,7 +272,8 @@ void add_rules(Command group, Context& context) {
   add_json_flag(rules, context);
   run_at_server(rules, context, shown, show_rules);
 
-  auto push = group.add_subcommand("push-rules", "Make a file the machine's newest offset rules");
+  auto push =
+      group.add_subcommand("push-rules", "Store a file as the machine's newest offset rules");
   const Shared pushed = std::make_shared<OffsetChoice>();
   push.add_option("MACHINE", pushed->machine, "The machine").required();
   push.add_option("FILE", pushed->file, "TOML with [[rule]] tables").required();
@@ -304,19 +305,19 @@ void add_offset_commands(Command app, Context& context) {
   add_decisions(group, context);
   add_rules(group, context);
 
-  auto past =
-      group.add_subcommand("history", "List every value: why, who, and what was cut under it");
+  auto past = group.add_subcommand(
+      "history", "List every value of an offset: who set it, why, and what was cut with it");
   const Shared of = std::make_shared<OffsetChoice>();
   past.add_option("MACHINE", of->machine, "The machine").required();
-  past.add_option("TARGET", of->target, "T3, T3.wear.X, G54 [all]");
+  past.add_option("TARGET", of->target, "Tool or offset: T3, T3.wear.X, G54 [all]");
   past.add_option("--setups", of->limit, "Look through this many setups, newest first [200]")
       .check(in_range(1, 1000));
   add_json_flag(past, context);
   past.footer("Example:\n  dnc offset history lathe-1 T3");
   run_at_server(past, context, of, history);
 
-  auto force =
-      group.add_subcommand("in-force", "List the values in force for a run, at all of its blocks");
+  auto force = group.add_subcommand("in-force",
+                                    "List the tools and offsets that were in force during a run");
   const Shared of_run = std::make_shared<OffsetChoice>();
   force.add_option("RUN", of_run->run, kRunHelp).required();
   add_json_flag(force, context);

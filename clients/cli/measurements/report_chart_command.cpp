@@ -11,6 +11,9 @@
 namespace dripline::cli {
 namespace {
 
+constexpr const char* kUsualAxes = "XZ";
+constexpr const char* kUsualX = "radius";
+
 struct ReportChartCommand {
   std::string kind, nominal;
   MeasurementChoice choice;
@@ -19,7 +22,7 @@ struct ReportChartCommand {
   std::map<std::string, std::string> texts;
   std::vector<std::string> tool_changes;
   std::optional<double> lower, upper, magnification;
-  std::string axes = "XZ", x = "radius";
+  std::string axes = kUsualAxes, x = kUsualX;
 };
 
 /// `axes`: two letters, of the first coordinate and of the second; diameters become radii.
@@ -76,7 +79,47 @@ Result<void> add_tool_changes(const ReportChartCommand& command, charts::ChartRe
   return {};
 }
 
+/// An option that a kind does not use is refused by its name.
+Result<void> check_kind_options(const ReportChartCommand& command) {
+  const auto is_given = [&](const char* name) { return !command.texts.at(name).empty(); };
+  const auto& choice = command.choice;
+  const bool is_chosen = !choice.query.characteristic.empty() || !choice.query.machine.empty() ||
+                         !choice.query.run.empty() || !choice.tool.empty() ||
+                         !choice.query.since.empty() || !choice.query.until.empty();
+  constexpr const char* kControl = "individuals, xbar-r, xbar-s, ewma, cusum";
+  struct Row {
+    const char* option;
+    bool is_given;
+    const char* kinds;
+  };
+  for (const Row& row :
+       {Row{"--nominal", !command.nominal.empty(), "profile"},
+        Row{"--magnify", command.magnification.has_value(), "profile"},
+        Row{"--axes", command.axes != kUsualAxes, "profile"},
+        Row{"--x", command.x != kUsualX, "profile"},
+        Row{"--tool-change", !command.tool_changes.empty(), "trend"},
+        Row{"--shape", is_given("shape"), "histogram"},
+        Row{"--confidence", is_given("confidence"), "histogram"},
+        Row{"--lambda", is_given("lambda"), "ewma"}, Row{"--slack", is_given("slack"), "cusum"},
+        Row{"--decision", is_given("decision"), "cusum"},
+        Row{"--rules", is_given("rules"), kControl},
+        Row{"--baseline", is_given("baseline"), kControl},
+        Row{"--center", is_given("center"), kControl}, Row{"--sigma", is_given("sigma"), kControl},
+        Row{"--limits-note", is_given("limits_note"), kControl}}) {
+    const std::string_view kinds = row.kinds;
+    if (!row.is_given || kinds.find(command.kind) != std::string_view::npos) continue;
+    return fail(Errc::Syntax, "{} is for {}, not for {}", row.option, kinds, command.kind);
+  }
+  if (command.kind != "profile" || !is_chosen) return {};
+  return fail(Errc::Syntax,
+              "a profile has all points of its FILE: it takes no --machine, --since ...");
+}
+
 int draw_chart(Context& context, const ReportChartCommand& command) {
+  if (const auto good = check_kind_options(command); !good) {
+    complain(good.error());
+    return kExitUsage;
+  }
   std::map<std::string, std::string> texts;
   for (const auto& [name, text] : command.texts) {
     if (!text.empty()) texts[name] = text;
@@ -105,21 +148,23 @@ void add_limit_options(Command command, ReportChartCommand& options) {
   const auto add = [&](const char* option, const char* name, const char* help) {
     command.add_option(option, options.texts[name], help).group(kGroup);
   };
-  add("--subgroup", "subgroup", "Values a point [1; X-bar: 5]");
+  add("--subgroup", "subgroup", "Values in a subgroup, which makes one point [1; X-bar: 5]");
   add("--rules", "rules", "limits, western_electric or nelson [limits]");
-  add("--baseline", "baseline", "Compute limits from this many values at the beginning [all]");
-  add("--center", "center", "Fix the center; with --sigma");
+  add("--baseline", "baseline", "Compute the limits from the first so many values [all]");
+  add("--center", "center", "Fix the center line; with --sigma");
   add("--sigma", "sigma", "Fix sigma of single values; with --center");
-  add("--limits-note", "limits_note", "Who fixed the limits and why; is part of the picture");
-  add("--lambda", "lambda", "Weight of an EWMA [0.2]");
-  add("--slack", "slack", "k of a CUSUM, in sigma [0.5]");
-  add("--decision", "decision", "h of a CUSUM, in sigma [5]");
+  add("--limits-note", "limits_note",
+      "State who fixed the limits and why; it is part of the picture");
+  add("--lambda", "lambda", "Weight lambda of the EWMA [0.2]");
+  add("--slack", "slack", "Reference value k of the CUSUM, in sigma [0.5]");
+  add("--decision", "decision", "Decision interval h of the CUSUM, in sigma [5]");
 }
 
 }  // namespace
 
 void add_report_chart_command(Command group, Context& context) {
-  auto command = group.add_subcommand("chart", "Draw measured values: control charts and more");
+  auto command = group.add_subcommand(
+      "chart", "Draw measured values: control chart, histogram, trend, profile");
   auto options = std::make_shared<ReportChartCommand>();
   command
       .add_option(
@@ -128,28 +173,31 @@ void add_report_chart_command(Command group, Context& context) {
       .required()
       .check(one_of(
           {"individuals", "xbar-r", "xbar-s", "ewma", "cusum", "histogram", "trend", "profile"}));
-  command.add_option("FILE", options->choice.file,
-                     "Measurements as CSV, JSON Lines or .dfq; points of a profile [the server's]");
+  command.add_option(
+      "FILE", options->choice.file,
+      "Measurements as CSV, JSON Lines, .dfq or an archive; points of a profile [the "
+      "server's]");
   add_measurement_choice(command, options->choice);
   add_picture_output(command, options->output);
   command.add_option("--width", options->texts["width"], "Width, pixels [960]");
   command.add_option("--height", options->texts["height"], "Height, pixels [600]");
   command.add_option("--title", options->texts["title"], "Title [characteristic and machine]");
   command.add_option("--lower", options->lower,
-                     "Lower limit; of a profile: of the deviation [as stored]");
-  command.add_option("--upper", options->upper, "Upper limit [as stored]");
+                     "Lower limit; profile: of the deviation [as measured]");
+  command.add_option("--upper", options->upper,
+                     "Upper limit; profile: of the deviation [as measured]");
   add_limit_options(command, *options);
   command.add_option("--shape", options->texts["shape"],
                      "Histogram: normal, lognormal or empirical [normal]");
   command.add_option("--confidence", options->texts["confidence"],
-                     "Histogram: of the intervals [0.95]");
+                     "Histogram: confidence of the intervals [0.95]");
   command.add_option("--tool-change", options->tool_changes,
-                     "Trend: a tool was changed at this time; may be repeated");
+                     "Trend: a tool was changed at this time, UTC; may be repeated");
   command.add_option("--nominal", options->nominal,
-                     "Profile: file of the nominal contour's points");
+                     "Profile: file with the points of the nominal contour");
   command.add_option("--magnify", options->magnification,
-                     "Profile: draw deviations so many times as large");
-  command.add_option("--axes", options->axes, "Profile: names of the axes [XZ]");
+                     "Profile: magnify deviations so many times [a round number]");
+  command.add_option("--axes", options->axes, "Profile: names of its two axes [XZ]");
   command
       .add_option("--x", options->x,
                   "Profile: what X is in both files, radius or diameter; deviations are those of "

@@ -122,18 +122,18 @@ int show_gauge(Context& context, const GaugeCommand& command) {
 
 void add_statistics_commands(Command group, Context& context) {
   auto command =
-      group.add_subcommand("capability", "Cp, Cpk, Pp, Ppk of measured values, with intervals");
+      group.add_subcommand("capability", "Compute Cp, Cpk, Pp and Ppk of measured values");
   auto options = std::make_shared<CapabilityCommand>();
   command.add_option("FILE", options->choice.file,
-                     "Measurements as CSV, JSON Lines or .dfq [the server's]");
+                     "Measurements as CSV, JSON Lines, .dfq or an archive [the server's]");
   add_measurement_choice(command, options->choice);
-  command.add_option("--lower", options->lower, "Lower limit [as stored]");
-  command.add_option("--upper", options->upper, "Upper limit [as stored]");
+  command.add_option("--lower", options->lower, "Lower limit [as measured]");
+  command.add_option("--upper", options->upper, "Upper limit [as measured]");
   command
       .add_option("--subgroup", options->subgroup,
-                  "Values measured together; sigma within is theirs [1]")
+                  "Values in a subgroup; sigma within is that of the subgroups [1: moving range]")
       .check(in_range(1, 100));
-  command.add_option("--confidence", options->confidence, "Of the intervals [0.95]")
+  command.add_option("--confidence", options->confidence, "Confidence of the intervals [0.95]")
       .check(in_range(0.5, 0.9999));
   command
       .add_option("--shape", options->shape,
@@ -145,18 +145,22 @@ void add_statistics_commands(Command group, Context& context) {
       "  dnc report capability --machine lathe-1 --characteristic D40 --since 2026-11-01");
   command.callback([&context, options] { context.status = show_capability(context, *options); });
 
-  auto gauge = group.add_subcommand("gauge", "Repeatability and reproducibility of a gauge (AIAG)");
+  auto gauge =
+      group.add_subcommand("gauge", "Compute gauge R&R: repeatability and reproducibility (AIAG)");
   auto gauge_options = std::make_shared<GaugeCommand>();
   gauge.add_option("FILE", gauge_options->choice.file,
                    "CSV with the columns appraiser (or machine), part and value [the server's]");
   add_measurement_choice(gauge, gauge_options->choice);
   gauge.add_option("--method", gauge_options->method, "anova or ranges (average and range) [anova]")
       .check(one_of({"anova", "ranges"}));
-  gauge.add_option("--tolerance", gauge_options->tolerance, "Full width of the tolerance")
+  gauge
+      .add_option("--tolerance", gauge_options->tolerance,
+                  "Full width of the tolerance, upper minus lower limit")
       .check(positive_number());
   add_json_flag(gauge, context);
   gauge.footer(
-      "Each appraiser measures each part equally often.\n\nExample:\n  dnc report gauge study.csv "
+      "Each appraiser measures each part the same number of times.\n\nExample:\n  dnc report gauge "
+      "study.csv "
       "--tolerance 0.04");
   gauge.callback(
       [&context, gauge_options] { context.status = show_gauge(context, *gauge_options); });

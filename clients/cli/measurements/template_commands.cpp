@@ -74,7 +74,8 @@ int push_template(Context& context, client::Client& client, const TemplateChoice
 int remove_template(Context& context, client::Client& client, const TemplateChoice& command) {
   const auto removed = client.remove_report_template(command.name);
   if (!removed) return complain(removed.error());
-  context.print(fmt::format("Removed {}; what it has measured stays.\n", printable(command.name)));
+  context.print(
+      fmt::format("Removed template {}; its measurements stay.\n", printable(command.name)));
   return kExitOk;
 }
 
@@ -92,7 +93,7 @@ std::optional<client::TemplateAssignment> assignment_of(const AssignmentChoice& 
   take("machine", command.machine);
   take("macro", command.macro);
   if (given == 1) return made;
-  complain(Error{Errc::Syntax, "give one of --program, --machine, --macro"});
+  complain(Error{Errc::Syntax, "give one of --program, --machine and --macro"});
   return std::nullopt;
 }
 
@@ -111,7 +112,7 @@ int unassign_template(Context& context, client::Client& client, const Assignment
   if (!assignment) return kExitUsage;
   const auto done = client.unassign_report_template(*assignment);
   if (!done) return complain(done.error());
-  context.print(fmt::format("{} is not for {} {} any more.\n", printable(assignment->name),
+  context.print(fmt::format("{} is no longer for {} {}.\n", printable(assignment->name),
                             assignment->scope, printable(assignment->subject)));
   return kExitOk;
 }
@@ -204,43 +205,47 @@ int try_template(Context& context, const TemplateChoice& command) {
 }
 
 void add_try(Command group, Context& context) {
-  auto command = group.add_subcommand("try", "Show line by line what a template understands");
+  auto command =
+      group.add_subcommand("try", "Try a template: show line by line what it understands");
   auto options = std::make_shared<TemplateChoice>();
-  command.add_option("FILE", options->file, "The template").required();
+  command.add_option("FILE", options->file, "File of the template (TOML)").required();
   command.add_option("RUN", options->run, "Run: its id, the beginning of it, or latest");
-  command.add_option("--lines", options->lines, "Take the lines of this file; needs no server");
+  command.add_option("--lines", options->lines,
+                     "Try it on the lines of this file; needs no server");
   add_json_flag(command, context);
   command.footer(
-      "Nothing is stored. The status is 1 if a line is not understood.\n\nExamples:\n  dnc report "
+      "Nothing is stored. The exit status is 1 if a line is not understood.\n\nExamples:\n  dnc "
+      "report "
       "template try bore.toml latest\n  dnc report template try bore.toml --lines printed.txt");
   command.callback([&context, options] { context.status = try_template(context, *options); });
 }
 
 void add_assignment(Command command, const std::shared_ptr<AssignmentChoice>& options) {
   command.add_option("NAME", options->assignment.name, "The template").required();
-  command.add_option("--program", options->program, "For the runs of this program");
+  command.add_option("--program", options->program, "Assign it to the runs of this program");
   command.add_option("--machine", options->machine,
-                     "For what this machine reports, also outside runs");
+                     "Assign it to what this machine reports, also outside runs");
   command.add_option("--macro", options->macro,
-                     "For what this printing macro prints, on any machine");
+                     "Assign it to what this printing macro prints, on any machine");
 }
 
 }  // namespace
 
 void add_template_commands(Command report, Context& context) {
-  auto group = report.add_subcommand("template", "Templates: what report lines mean");
+  auto group =
+      report.add_subcommand("template", "Report templates: how report lines become measurements");
   group.require_subcommand(1);
   add_try(group, context);
 
-  auto push = group.add_subcommand("push", "Save a file as a template's newest version");
+  auto push = group.add_subcommand("push", "Store a file as the template's newest version");
   auto pushed = std::make_shared<TemplateChoice>();
   push.add_option("NAME", pushed->name, "The template").required();
-  push.add_option("FILE", pushed->file, "Its text (TOML)").required();
+  push.add_option("FILE", pushed->file, "File of the template (TOML)").required();
   add_json_flag(push, context);
   push.footer("Example:\n  dnc report template push bore bore.toml");
   run_at_server(push, context, pushed, push_template);
 
-  auto list = group.add_subcommand("list", "List templates and whose reports they are for");
+  auto list = group.add_subcommand("list", "List templates and what they are assigned to");
   auto listed = std::make_shared<TemplateChoice>();
   add_json_flag(list, context);
   run_at_server(list, context, listed, list_templates);
@@ -248,21 +253,21 @@ void add_template_commands(Command report, Context& context) {
   auto show = group.add_subcommand("show", "Print a template");
   auto shown = std::make_shared<TemplateChoice>();
   show.add_option("NAME", shown->name, "The template").required();
-  show.add_option("--version", shown->version, "Its version; otherwise the newest");
+  show.add_option("--version", shown->version, "Print this version [the newest]");
   add_json_flag(show, context);
   run_at_server(show, context, shown, show_template);
 
-  auto assign = group.add_subcommand("assign", "Use a template for a program, machine or macro");
+  auto assign = group.add_subcommand("assign", "Assign a template to a program, machine or macro");
   auto assigned = std::make_shared<AssignmentChoice>();
   add_assignment(assign, assigned);
   assign.add_option("--version", assigned->assignment.version,
-                    "Always this version; otherwise the newest");
+                    "Always use this version [the newest]");
   assign.footer(
       "It applies from the next run on. `dnc report derive` applies it to a run that has "
       "ended.\n\nExample:\n  dnc report template assign bore --program O0100");
   run_at_server(assign, context, assigned, assign_template);
 
-  auto unassign = group.add_subcommand("unassign", "Take an assignment back");
+  auto unassign = group.add_subcommand("unassign", "Remove an assignment");
   auto unassigned = std::make_shared<AssignmentChoice>();
   add_assignment(unassign, unassigned);
   run_at_server(unassign, context, unassigned, unassign_template);

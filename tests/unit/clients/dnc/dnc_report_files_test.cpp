@@ -32,7 +32,7 @@ TEST_F(DncReportFiles, DrawsEveryKindInEveryFormat) {
        {"individuals", "xbar-r", "xbar-s", "ewma", "cusum", "histogram", "trend"}) {
     for (const char* suffix : {"svg", "png", "pdf"}) {
       const std::string file = fmt::format("{}.{}", kind, suffix);
-      const auto drawn = dnc({"report", "chart", kind, "d40.csv", "--rules", "nelson", "-o", file});
+      const auto drawn = dnc({"report", "chart", kind, "d40.csv", "-o", file});
       ASSERT_EQ(drawn.status, 0) << file << drawn.err;
       const std::string bytes = dnc.read(file);
       EXPECT_TRUE(bytes.starts_with("<svg") || bytes.starts_with("\x89PNG") ||
@@ -79,6 +79,77 @@ TEST_F(DncReportFiles, RefusesWhatItCannotDraw) {
   EXPECT_NE(none.err.find("a chart of no measurement"), std::string::npos) << none.err;
   EXPECT_EQ(dnc({"report", "chart", "individuals", "absent.csv", "-o", "a.svg"}).status, 2);
   EXPECT_NE(dnc({"report", "chart", "profile", "d40.csv", "-o", "a.svg"}).status, 0);
+}
+
+struct RefusedOption {
+  const char* name;
+  std::vector<std::string> words;
+  const char* error;
+};
+
+/// Before anything is read: what an option asks for would not be in the file.
+TEST_F(DncReportFiles, RefusesOptionsThatWouldBeIgnored) {
+  const std::vector<RefusedOption> kRefused{
+      {"title",
+       {"export", "--from", "d40.csv", "--format", "dfq", "--title", "T"},
+       "--title is for --format html and pdf, not dfq"},
+      {"cell",
+       {"export", "--from", "d40.csv", "--format", "dxf", "--cell", "2"},
+       "--cell is for --format stl, not dxf"},
+      {"utf8",
+       {"export", "--from", "d40.csv", "--format", "qif", "--utf8"},
+       "--utf8 is for --format dfq and dfd, not qif"},
+      {"since",
+       {"export", "latest", "--format", "csv", "--since", "2026-11-01"},
+       "--since is for measurements: --format csv exports all report lines of RUN|MACHINE"},
+      {"run_twice",
+       {"export", "latest", "--format", "dfq", "--run", "3f"},
+       "latest and --run: give RUN|MACHINE, or --run and --machine"},
+      {"two_sources",
+       {"export", "latest", "--from", "d40.csv", "--format", "dfq"},
+       "--from and latest: the file or the server's"},
+      {"lambda",
+       {"chart", "cusum", "d40.csv", "--lambda", "0.3", "-o", "a.svg"},
+       "--lambda is for ewma, not for cusum"},
+      {"rules",
+       {"chart", "histogram", "d40.csv", "--rules", "nelson", "-o", "a.svg"},
+       "--rules is for individuals, xbar-r, xbar-s, ewma, cusum, not for histogram"},
+      {"nominal",
+       {"chart", "trend", "d40.csv", "--nominal", "n.csv", "-o", "a.svg"},
+       "--nominal is for profile, not for trend"},
+      {"machine",
+       {"chart", "profile", "p.csv", "--machine", "lathe-1", "--nominal", "n.csv", "-o", "a.svg"},
+       "it takes no --machine"}};
+  for (const auto& refused : kRefused) {
+    std::vector<std::string> words = refused.words;
+    words.insert(words.begin(), "report");
+    const auto result = dnc(words);
+    EXPECT_EQ(result.status, 2) << refused.name;
+    EXPECT_NE(result.err.find(refused.error), std::string::npos) << refused.name << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(dnc.folder() / "a.svg"));
+}
+
+TEST_F(DncReportFiles, RefusesNumbersThatNoPictureHolds) {
+  dnc.write("large.csv", "characteristic,actual\nD12,1\nD12,1e308\nD12,2\n");
+  for (const char* file : {"large.svg", "large.png"}) {
+    const auto refused = dnc({"report", "chart", "individuals", "large.csv", "-o", file});
+    EXPECT_NE(refused.status, 0);
+    EXPECT_NE(refused.err.find("D12 2 of 3: value is 1e+308"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(dnc.folder() / file));
+  }
+}
+
+/// Texts of machines are no formulas for a spreadsheet, and come back from the file.
+TEST_F(DncReportFiles, ExportsCsvWithoutFormulas) {
+  dnc.write("ugly.csv", "serial,characteristic,actual\n\"=1+1\",D12,-1.5\n");
+  const auto csv =
+      dnc({"report", "export", "--from", "ugly.csv", "--format", "measurements", "-o", "b.csv"});
+  ASSERT_EQ(csv.status, 0) << csv.err;
+  EXPECT_NE(dnc.read("b.csv").find(",'=1+1,,D12,,,,mm,-1.5,"), std::string::npos)
+      << dnc.read("b.csv");
+  const auto back = dnc({"report", "export", "--from", "b.csv", "--format", "jsonl"});
+  EXPECT_EQ(json::parse(back.out).at("serial"), "=1+1");
 }
 
 TEST_F(DncReportFiles, GivesCapabilityWithIntervals) {
