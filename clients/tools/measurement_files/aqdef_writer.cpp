@@ -84,6 +84,7 @@ Result<Catalog> catalog_of(MeasurementSource& source) {
   Catalog catalog;
   auto done = source.each([&](const Measurement& m) { return catalog.add(m); });
   if (!done) return fail(done.error());
+  if (catalog.count() == 0) return fail(Errc::LimitExceeded, "AQDEF of no measurement");
   catalog.number_parts();
   return catalog;
 }

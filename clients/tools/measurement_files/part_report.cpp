@@ -39,6 +39,7 @@ std::string bar(const Measurement& m) {
   if (!of.lower || !of.upper || !(*of.lower < *of.upper)) return "";
   constexpr double kWidth = 100, kRoom = 15;
   const double part = (m.actual - *of.lower) / (*of.upper - *of.lower);
+  if (std::isnan(part)) return "";  // of limits as wide as a double
   const double x = kRoom + std::clamp(part, -0.2, 1.2) * (kWidth - 2 * kRoom);
   const bool is_inside = part >= 0 && part <= 1;
   return fmt::format(
@@ -55,7 +56,8 @@ std::string row(const Measurement& m) {
   const auto& of = m.characteristic;
   const auto off = deviation(m);
   const std::string deviation_text =
-      off ? fmt::format("{:+.{}f}", *off, std::max<unsigned>(of.decimals, 3)) : std::string("-");
+      off && std::isfinite(*off) ? fmt::format("{:+.{}f}", *off, std::max<unsigned>(of.decimals, 3))
+                                 : std::string("-");
   return fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td "
       "class=\"word\">{}</td>"
@@ -63,6 +65,13 @@ std::string row(const Measurement& m) {
       xml_text(of.name), cell(of.nominal, of.decimals), cell(of.lower, of.decimals),
       cell(of.upper, of.decimals), decimal_text(m.actual, of.decimals), deviation_text,
       xml_text(of.unit), xml_text(m.tool), bar(m), to_string(m.verdict), to_string(m.verdict));
+}
+
+/// To the second, for a reader.
+std::string second_text(UtcTime time) {
+  std::string text = to_iso8601(time).substr(0, 19);
+  text[10] = ' ';
+  return text + " UTC";
 }
 
 std::string facts(const Measurement& m, Verdict verdict, std::size_t count) {
@@ -75,20 +84,35 @@ std::string facts(const Measurement& m, Verdict verdict, std::size_t count) {
   add("Program", m.revision > 0 ? fmt::format("{} revision {}", m.program, m.revision) : m.program);
   add("Machine", m.machine);
   add("Run", m.run);
-  add("First value", to_iso8601(std::chrono::floor<std::chrono::seconds>(m.time)));
-  add("Measured", fmt::format("{} values", count));
-  return text +
-         fmt::format("<dt>Verdict</dt><dd class=\"{0}\">{0}</dd></dl>\n", to_string(verdict));
+  if (m.time > UtcTime{}) add("First value", second_text(m.time));
+  add("Measured", fmt::format("{} {}", count, count == 1 ? "value" : "values"));
+  return text + fmt::format("<dt>Verdict of these values</dt><dd class=\"{0}\">{0}</dd></dl>\n",
+                            to_string(verdict));
+}
+
+/// As of a part: values without limits do not matter while another has some.
+Verdict verdict_of(const std::vector<Measurement>& part) {
+  std::optional<Verdict> worst;
+  for (const Measurement& m : part) {
+    if (!m.characteristic.lower && !m.characteristic.upper) continue;
+    worst = measurement::worse(worst.value_or(Verdict::Good), m.verdict);
+  }
+  return worst.value_or(Verdict::Unknown);
+}
+
+/// What identifies it best of what is known.
+std::string name_of(const Measurement& m) {
+  if (!m.serial.empty()) return m.serial;
+  if (!m.part.empty()) return m.part;
+  if (m.part_id > 0) return fmt::format("{}", m.part_id);
+  return m.run.empty() ? "without a number" : "of run " + m.run.substr(0, 8);
 }
 
 std::string section(const std::vector<Measurement>& part) {
-  Verdict worst = Verdict::Good;
-  for (const Measurement& m : part) worst = measurement::worse(worst, m.verdict);
   const Measurement& first = part.front();
-  const std::string name = !first.serial.empty() ? first.serial : first.part;
   std::string text =
-      fmt::format("<section>\n<h2>Workpiece {}</h2>\n", xml_text(name)) +
-      facts(first, worst, part.size()) +
+      fmt::format("<section>\n<h2>Workpiece {}</h2>\n", xml_text(name_of(first))) +
+      facts(first, verdict_of(part), part.size()) +
       "<table><thead><tr><th>Characteristic</th><th>Nominal</th><th>Lower</th><th>Upper</"
       "th><th>Actual</th>"
       "<th>Deviation</th><th class=\"word\">Unit</th><th class=\"word\">Tool</th><th></th>"
@@ -117,7 +141,8 @@ Result<void> write_part_report(MeasurementSource& source, const PartReportHead& 
   if (is_empty) return fail(Errc::LimitExceeded, "a report of no measurement");
   return sink(
       "<footer>Limits are as they were when the part was measured. Values are as the machine "
-      "reported them.</footer>\n"
+      "reported them. Whether a report was complete is part of the part's own verdict, not of its "
+      "values: dnc report parts.</footer>\n"
       "</body></html>\n");
 }
 

@@ -46,6 +46,15 @@ class Pieces {
   const Sink& sink_;
 };
 
+Result<void> check_place(const DigitizedPoint& point) {
+  for (const double value : {point.x, point.y, point.z}) {
+    if (std::abs(value) <= kMaxPlace) continue;
+    return fail(Errc::LimitExceeded, "a digitized point at {:g} mm: {:g} to {:g} are possible",
+                value, -kMaxPlace, kMaxPlace);
+  }
+  return {};
+}
+
 struct PendingPoint {
   measurement::RecordKey record;
   std::string machine;
@@ -89,6 +98,9 @@ Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source, PointX 
   if (!done) return fail(done.error());
   close();
   make_radii(points, x);
+  for (const DigitizedPoint& point : points) {
+    if (auto good = check_place(point); !good) return fail(good.error());
+  }
   if (!points.empty()) return points;
   return fail(Errc::NotFound,
               "no measurement is a point: their characteristics end with X, Y or Z");
@@ -139,54 +151,74 @@ Result<void> write_dxf(std::span<const DigitizedPoint> points, double gap, const
 
 namespace {
 
+/// The cells beside one, as far as there are some.
+template <class Visit>
+void each_neighbor(const HeightGrid& grid, std::size_t cell, Visit visit) {
+  const std::size_t column = cell % grid.columns, row = cell / grid.columns;
+  if (column > 0) visit(cell - 1);
+  if (column + 1 < grid.columns) visit(cell + 1);
+  if (row > 0) visit(cell - grid.columns);
+  if (row + 1 < grid.rows) visit(cell + grid.columns);
+}
+
 /// Cells without a point take the mean of neighbors that have a height, in rounds from the outside
-/// of each hole.
+/// of each hole. Only neighbors of what the round before filled can be filled: linear time.
 std::size_t fill_holes(HeightGrid& grid, std::vector<std::uint32_t>& counts) {
-  std::vector<std::size_t> empty;
+  std::vector<std::size_t> edge;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == 0) empty.push_back(i);
+    if (counts[i] > 0) edge.push_back(i);
   }
-  const std::size_t filled = empty.size();
-  while (!empty.empty()) {
-    std::vector<std::pair<std::size_t, double>> found;
-    std::vector<std::size_t> left;
-    for (const std::size_t i : empty) {
-      const std::size_t column = i % grid.columns, row = i / grid.columns;
+  const std::size_t filled = counts.size() - edge.size();
+  std::vector<bool> is_next(counts.size());
+  while (!edge.empty()) {
+    std::vector<std::size_t> next;
+    for (const std::size_t i : edge) {
+      each_neighbor(grid, i, [&](std::size_t at) {
+        if (counts[at] > 0 || is_next[at]) return;
+        is_next[at] = true;
+        next.push_back(at);
+      });
+    }
+    std::vector<double> heights;
+    for (const std::size_t i : next) {
       double sum = 0;
       int neighbors = 0;
-      const auto take = [&](bool is_inside, std::size_t at) {
-        if (!is_inside || counts[at] == 0) return;
+      each_neighbor(grid, i, [&](std::size_t at) {
+        if (counts[at] == 0) return;
         sum += grid.heights[at];
         ++neighbors;
-      };
-      take(column > 0, i - 1);
-      take(column + 1 < grid.columns, i + 1);
-      take(row > 0, i - grid.columns);
-      take(row + 1 < grid.rows, i + grid.columns);
-      if (neighbors > 0) {
-        found.emplace_back(i, sum / neighbors);
-      } else {
-        left.push_back(i);
-      }
+      });
+      heights.push_back(sum / neighbors);
     }
-    for (const auto& [i, height] : found) {
-      grid.heights[i] = height;
-      counts[i] = 1;
+    for (std::size_t n = 0; n < next.size(); ++n) {
+      grid.heights[next[n]] = heights[n];
+      counts[next[n]] = 1;
     }
-    empty = std::move(left);
+    edge = std::move(next);
   }
   return filled;
+}
+
+/// Most of a field that rests on hardly any points would be invented.
+Result<void> check_cover(const HeightGrid& grid, const std::vector<std::uint32_t>& counts) {
+  constexpr std::size_t kLeastOf = 200, kSmall = 10'000;
+  const auto known = static_cast<std::size_t>(
+      std::ranges::count_if(counts, [](std::uint32_t count) { return count > 0; }));
+  if (counts.size() <= kSmall || known * kLeastOf >= counts.size()) return {};
+  return fail(Errc::LimitExceeded,
+              "a height field of {} x {} cells, {} of them with a point: one of {} is needed, with "
+              "larger cells it has more",
+              grid.columns, grid.rows, known, kLeastOf);
 }
 
 }  // namespace
 
 Result<HeightGrid> make_height_grid(std::span<const DigitizedPoint> points, double cell) {
-  const auto is_finite = [](const DigitizedPoint& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-  };
-  if (points.size() < 4 || !std::ranges::all_of(points, is_finite))
-    return fail(Errc::LimitExceeded, "a height field of {} points: 4 finite ones are needed",
-                points.size());
+  if (points.size() < 4)
+    return fail(Errc::LimitExceeded, "a height field of {} points: 4 are needed", points.size());
+  for (const DigitizedPoint& point : points) {
+    if (auto good = check_place(point); !good) return fail(good.error());
+  }
   if (!(cell > 0)) cell = median_distance(points);
   const auto [low_x, high_x] = std::ranges::minmax(points, {}, &DigitizedPoint::x);
   const auto [low_y, high_y] = std::ranges::minmax(points, {}, &DigitizedPoint::y);
@@ -212,6 +244,7 @@ Result<HeightGrid> make_height_grid(std::span<const DigitizedPoint> points, doub
     ++counts[at];
     grid.heights[at] += (p.z - grid.heights[at]) / counts[at];  // a running mean
   }
+  if (auto good = check_cover(grid, counts); !good) return fail(good.error());
   grid.filled = fill_holes(grid, counts);
   return grid;
 }

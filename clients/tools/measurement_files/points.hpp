@@ -26,9 +26,10 @@ void make_radii(std::vector<DigitizedPoint>& points, PointX x);
 /// Of measurements: those of one record whose characteristics end with X, Y and Z are a point. Z
 /// may be missing (then 0): a contour in a plane. X is a radius in them, whatever it is in the
 /// measurements. Errors: those of the source; NotFound (no measurement is a point), LimitExceeded
-/// (over kMaxPoints).
+/// (over kMaxPoints, a value beyond kMaxPlace).
 Result<std::vector<DigitizedPoint>> points_of(MeasurementSource& source, PointX x = PointX::Radius);
 inline constexpr std::size_t kMaxPoints = 4'000'000;
+inline constexpr double kMaxPlace = 1e9;  ///< mm; a float of an STL has 7 digits
 
 /// Two or three numbers a line, separated by comma, semicolon, tab or space; a first line of names
 /// is skipped. Errors: Syntax (with the line), LimitExceeded (over kMaxPoints).
@@ -52,7 +53,8 @@ struct HeightGrid {
 inline constexpr std::size_t kMaxGridCells = 4'000'000;
 
 /// `cell` 0: the median distance of neighboring points. Errors: LimitExceeded (fewer than 4 points,
-/// all on a line, over kMaxGridCells, a value that is not finite).
+/// all on a line, over kMaxGridCells, a value beyond kMaxPlace, a large field of which less than
+/// one cell in 200 has a point).
 Result<HeightGrid> make_height_grid(std::span<const DigitizedPoint> points, double cell);
 
 /// A closed solid: the surface, a flat base `base` below its lowest point, and the sides. Binary

@@ -286,6 +286,7 @@ std::string csv_line(const Measurement& m) {
   // 39.98 - 40 is not -0.02 in binary; the deviation has the decimals of its terms.
   const double scale = std::pow(10.0, of.decimals + 3);
   if (off) off = std::round(*off * scale) / scale;
+  if (off && !std::isfinite(*off)) off.reset();  // of numbers as large as a double
   return fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", m.id,
       to_iso8601(m.time), csv_field(m.machine), csv_field(m.run), csv_field(m.program), m.revision,

@@ -151,5 +151,13 @@ TEST(Aqdef, RefusesWithTheLine) {
             "40: a value that is not finite");
 }
 
+TEST(Aqdef, OfNothingIsAnError) {
+  ListSource source({});
+  for (const auto write : {write_dfq, write_dfd, write_dfx}) {
+    EXPECT_EQ(written([&](const Sink& sink) { return write(source, {}, sink); }),
+              "error: AQDEF of no measurement");
+  }
+}
+
 }  // namespace
 }  // namespace dripline::measurement_files

@@ -151,5 +151,66 @@ TEST(Stl, IsAClosedSolid) {
             "error: an STL of 0 x 0 heights on a base of 1");
 }
 
+TEST(HeightGrid, FillsALongHoleFromItsEdges) {
+  // Two rows of points, 40 cells apart: the middle is between them.
+  std::vector<DigitizedPoint> points;
+  for (int x = 0; x <= 20; ++x) {
+    points.push_back({double(x), 0, 1});
+    points.push_back({double(x), 40, 3});
+  }
+  const auto grid = make_height_grid(points, 1);
+  ASSERT_TRUE(grid) << grid.error().what;
+  EXPECT_EQ(grid->filled, 39U * 21U);
+  EXPECT_NEAR(grid->heights[10], 1, 1e-9);
+  EXPECT_NEAR(grid->heights[19 * 21 + 10], 1, 1e-9) << "nearer to the first row";
+  EXPECT_NEAR(grid->heights[20 * 21 + 10], 2, 1e-9);
+  EXPECT_NEAR(grid->heights[21 * 21 + 10], 3, 1e-9);
+}
+
+TEST(HeightGrid, RestsOnPoints) {
+  const std::vector<DigitizedPoint> far{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {150, 150, 1}};
+  EXPECT_EQ(make_height_grid(far, 0.1).error().what,
+            "a height field of 1501 x 1501 cells, 4 of them with a point: one of 200 is needed, "
+            "with larger cells it has more");
+  EXPECT_TRUE(make_height_grid(far, 10)) << "a small one is filled";
+}
+
+TEST(Points, BeyondAMachineAreRefusedByTheirValue) {
+  std::vector<measurement::Measurement> all;
+  for (const auto& [name, value] :
+       {std::pair("X", 1.0), std::pair("Y", 2.0), std::pair("Z", 1e308)}) {
+    auto& one = all.emplace_back();
+    one.characteristic.name = name;
+    one.actual = value;
+  }
+  ListSource source(all);
+  EXPECT_EQ(points_of(source).error().what,
+            "a digitized point at 1e+308 mm: -1e+09 to 1e+09 are possible");
+  EXPECT_FALSE(make_height_grid(
+      std::vector<DigitizedPoint>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e10}}, 1));
+}
+
+// 200,000 points: a pass through each output takes well under a second.
+TEST(Points, ManyOfThemAreWrittenInLinearTime) {
+  std::vector<DigitizedPoint> points;
+  for (int i = 0; i < 200'000; ++i)
+    points.push_back({i % 500 * 0.1, i / 500 * 0.1, 0.001 * (i % 7)});
+  std::size_t bytes = 0, pieces = 0;
+  const Sink sink = [&](std::string_view piece) -> Result<void> {
+    bytes += piece.size();
+    ++pieces;
+    return {};
+  };
+  ASSERT_TRUE(write_dxf(points, 0, sink));
+  EXPECT_GT(bytes, 20'000'000U);
+  EXPECT_GT(pieces, 100U) << "memory does not grow with the file";
+  const auto grid = make_height_grid(points, 0);
+  ASSERT_TRUE(grid) << grid.error().what;
+  EXPECT_EQ(grid->filled, 0U);
+  bytes = 0;
+  ASSERT_TRUE(write_stl(*grid, 5, sink));
+  EXPECT_EQ(bytes, 84 + 50U * (4U * 499 * 399 + 4U * (499 + 399)));
+}
+
 }  // namespace
 }  // namespace dripline::measurement_files
