@@ -40,7 +40,8 @@ bool ReportInterpreter::is_for(const ReportLine& line) const {
 Taken ReportInterpreter::take(const ReportLine& line) {
   Taken taken;
   if (!is_for(line)) return taken;
-  const std::string made = line.kind == "probe" ? line_of_probe(line.text) : std::string();
+  const std::string made =
+      line.kind == "probe" ? line_of_probe(line.text, template_->probe_axes) : std::string();
   const std::string_view text = line.kind == "probe" ? std::string_view(made) : line.text;
   if (state_.partial && take_partial(text, taken)) return taken;
   take_rule(text, taken);
@@ -227,13 +228,18 @@ void ReportInterpreter::take_values(const LineRule& rule, const Fields& fields,
     if (of.empty()) {
       add_missing(numbers, state_.pending);
       state_.pending = {};
-    } else {
-      add_missing(numbers, common);
+    } else if (const auto before = state_.pending_of.extract(of)) {
+      add_missing(numbers, before.mapped());
     }
     if (!numbers.actual && !numbers.deviation) {
-      if (of.empty()) (has_named ? common : state_.pending) = numbers;
+      if (of.empty()) {
+        (has_named ? common : state_.pending) = numbers;
+      } else {
+        state_.pending_of[of] = numbers;
+      }
       continue;
     }
+    if (!of.empty()) add_missing(numbers, common);
     open_part(events);
     has_values = true;
     ValueParts parts{.raw = of.empty() ? text_of("characteristic") : of,

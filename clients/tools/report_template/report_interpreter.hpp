@@ -109,8 +109,10 @@ class ReportInterpreter {
   ReportState state_;
 };
 
-/// A probe record (JSON, as gateways write it) as a line: `PROBE contact X 1.25 Z -3`. Numbers are
-/// shortest. Text that is no such JSON is taken as it is: serial machines print their own.
-std::string line_of_probe(std::string_view text);
+/// A probe record (JSON, as gateways write it) as a line: `PROBE contact X 1.250000 Z -3.000000`.
+/// Moved: only the axes in which the contact is before the end that the move would have had; all,
+/// where there is none. Text that is no such JSON is taken as it is: serial machines print their
+/// own.
+std::string line_of_probe(std::string_view text, ProbeAxes axes = ProbeAxes::All);
 
 }  // namespace dripline::report_template

@@ -51,6 +51,10 @@ ReportState state_of(const json& text) {
   state.part = part_of(text.at("part"));
   state.context = text.at("context").get<std::map<std::string, std::string>>();
   state.pending = numbers_of(text.at("pending"));
+  if (text.contains("pending_of")) {  // a state of an older version has none
+    for (const auto& [name, numbers] : text.at("pending_of").items())
+      state.pending_of[name] = numbers_of(numbers);
+  }
   if (const auto& partial = text.at("partial"); !partial.is_null()) {
     state.partial = ReportState::Partial{
         .rule = partial.at("rule").get<std::size_t>(),
@@ -86,6 +90,7 @@ bool is_sound(const ReportState& state) {
   if (state.partial && state.partial->texts.empty()) return false;
   if (state.highest ? !is_count(*state.highest) : !state.missing.empty()) return false;
   if (state.kept.size() > ReportState::kMaxKept) return false;
+  if (state.pending_of.size() > ReportState::kMaxPending) return false;
   return !state.expected || *state.expected <= std::uint64_t{kMaxCount};
 }
 
@@ -94,6 +99,8 @@ bool is_sound(const ReportState& state) {
 std::string to_json(const ReportState& state) {
   json ordinals = json::array();
   json kept = json::array();
+  json pending_of = json::object();
+  for (const auto& [name, numbers] : state.pending_of) pending_of[name] = numbers_json(numbers);
   for (const auto& [count, line] : state.kept) kept.push_back({count, line});
   for (const auto& [rule, count] : state.ordinals) ordinals.push_back({rule, count});
   const json text = {
@@ -101,6 +108,7 @@ std::string to_json(const ReportState& state) {
       {"part", part_json(state.part)},
       {"context", state.context},
       {"pending", numbers_json(state.pending)},
+      {"pending_of", pending_of},
       {"partial", state.partial ? json{{"rule", state.partial->rule},
                                        {"step", state.partial->step},
                                        {"texts", state.partial->texts}}

@@ -63,8 +63,10 @@ struct ReportState {
   };
   bool is_open = false;  ///< a part is
   PartSummary part;
-  std::map<std::string, std::string> context;  ///< texts in force
-  LineNumbers pending;                         ///< for the next value
+  std::map<std::string, std::string> context;       ///< texts in force
+  LineNumbers pending;                              ///< for the next value
+  std::map<std::string, LineNumbers> pending_of;    ///< for the next value of a characteristic
+  static constexpr std::size_t kMaxPending = 2048;  ///< no template has more names
   std::optional<Partial> partial;
   std::map<std::size_t, std::uint64_t> ordinals;  ///< how often a rule applied, in this part
   std::set<std::string> seen;                     ///< required characteristics that came

@@ -43,11 +43,15 @@ struct LineRule {
 enum class Action : std::uint8_t { None, HoldQueue, HoldMachine };
 std::string_view to_string(Action action);  ///< none, hold_queue, hold_machine
 
+/// Which axes the line of a probe record has.
+enum class ProbeAxes : std::uint8_t { All, Moved };
+
 /// How lines of a report become measurements. Immutable; any thread.
 struct ReportTemplate {
   std::string title;
   std::vector<std::string> sources{"output", "probe"};  ///< kinds of records
   std::string device;                                   ///< of the output; empty: any
+  ProbeAxes probe_axes = ProbeAxes::All;
   Definition defaults;
   std::vector<LineRule> rules;
   std::map<std::string, Definition, std::less<>> characteristics;  ///< by their name in lines

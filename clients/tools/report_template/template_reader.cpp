@@ -64,6 +64,7 @@ Result<std::size_t> read_choice(std::string_view key, const toml::node& node,
 
 constexpr std::array<std::string_view, 4> kSides{"none", "below", "above", "both"};
 constexpr std::array<std::string_view, 3> kActions{"none", "hold_queue", "hold_machine"};
+constexpr std::array<std::string_view, 2> kProbeAxes{"all", "moved"};
 constexpr std::array<std::string_view, 3> kSources{"output", "probe", "message"};
 
 struct NumberRow {
@@ -224,6 +225,12 @@ class FileReader {
     if (key == "characteristic") return read_characteristics(node);
     if (key == "verdict") return read_actions(node);
     if (key == "sources") return read_sources(node);
+    if (key == "probe_axes") {
+      const auto axes = read_choice(key, node, kProbeAxes);
+      if (!axes) return fail(axes.error());
+      made_.probe_axes = static_cast<ProbeAxes>(*axes);
+      return {};
+    }
     if (key == "title" || key == "device") {
       auto text = read_text(key, node);
       if (!text) return fail(text.error());
