@@ -17,6 +17,19 @@ function Verification({ state }: { state: AuditVerification }) {
   return <p class="notice bad" role="alert"><b>{t.damaged}</b> {done.fault ? t.fault(numberText(done.fault.entry), done.fault.what) : ''} {t.verified(numberText(done.entries), at)}</p>;
 }
 
+/// The trail can be whole while an archive that it names is not.
+function Archives({ state }: { state: NonNullable<AuditVerification['archives']> }) {
+  const t = texts().audit;
+  const at = dateTimeText(state.time);
+  if (state.intact) return <p class="notice"><b>{t.archivesIntact}</b> {t.archivesRead(state.archives, at)}</p>;
+  return (
+    <div class="notice bad" role="alert">
+      <b>{t.archivesDamaged}</b> {t.archivesRead(state.archives, at)}
+      <ul>{state.faults.map((fault) => <li key={fault.file + fault.what}><span class="mono">{fault.file}</span>: {fault.what}</li>)}</ul>
+    </div>
+  );
+}
+
 export function AuditState() {
   const t = texts().audit;
   const command = useCommand();
@@ -30,6 +43,7 @@ export function AuditState() {
       <h2 id="audit-state">{t.title}</h2>
       <Loading of={loaded} />
       {state && <Verification state={state} />}
+      {state?.archives && <Archives state={state.archives} />}
       {checkpoint && <p>{t.checkpoint(numberText(checkpoint.number), numberText(checkpoint.entry), dateTimeText(checkpoint.time))}</p>}
       <p class="hint">{t.hint}</p>
       <p class="buttons">

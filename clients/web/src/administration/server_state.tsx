@@ -1,9 +1,10 @@
-// How the server is: its health with every reason, and what it keeps.
+// How the server is: its health with every reason, what it keeps, and its MQTT broker.
 import type { Server } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { Loading } from '../parts/loading';
 import { Rows } from '../parts/rows';
 import { useRefreshed } from '../parts/use_refreshed';
+import { MqttState } from './mqtt_state';
 import { durationText } from '../live/progress';
 import { dateTimeText, numberText, texts } from '../texts/texts';
 
@@ -22,12 +23,15 @@ export function ServerState() {
     [t.ddsDomain, String(value.dds.domain)], [t.rejected, numberText(value.dds.rejected)],
   ];
   return (
-    <section class="panel" aria-labelledby="server">
-      <div class="head"><h2 id="server">{t.server}</h2><span class={`pill ${kTones[value.health.status]}`}>{t.health[value.health.status]}</span></div>
-      {value.health.reasons.map((reason) => (
-        <p key={reason.subject + reason.detail} class={`notice ${reason.status === 'failed' ? 'bad' : 'warn'}`}><b>{reason.message}</b> {reason.detail}</p>
-      ))}
-      <Rows of={rows} />
-    </section>
+    <>
+      <section class="panel" aria-labelledby="server">
+        <div class="head"><h2 id="server">{t.server}</h2><span class={`pill ${kTones[value.health.status]}`}>{t.health[value.health.status]}</span></div>
+        {value.health.reasons.map((reason) => (
+          <p key={reason.subject + reason.detail} class={`notice ${reason.status === 'failed' ? 'bad' : 'warn'}`}><b>{reason.message}</b> {reason.detail}</p>
+        ))}
+        <Rows of={rows} />
+      </section>
+      <MqttState mqtt={value.mqtt} />
+    </>
   );
 }

@@ -27,7 +27,8 @@ export function stepLine(newestFirst: number[], { width, height }: { width: numb
   if (values.length < 2) return null;
   const lowest = Math.min(...values);
   const highest = Math.max(...values);
-  const y = (value: number) => (highest === lowest ? height / 2 : height - ((value - lowest) / (highest - lowest)) * height);
+  const range = highest - lowest;
+  const y = (value: number) => (range === 0 || !Number.isFinite(range) ? height / 2 : height - ((value - lowest) / range) * height);
   const step = width / values.length;
   const points = values.flatMap((value, i) => [`${round(i * step)},${round(y(value))}`, `${round((i + 1) * step)},${round(y(value))}`]);
   return { points: points.join(' '), lowest, highest };

@@ -11,9 +11,9 @@ export interface TolerancePlace {
 
 const kEdge = 0.25;
 
-/// null: it has not both limits, or no width between them.
+/// null: it has not both limits, or no width between them that is a number.
 export function placeOf({ lower, upper, nominal, actual }: Pick<Measurement, 'lower' | 'upper' | 'nominal' | 'actual'>): TolerancePlace | null {
-  if (lower === null || upper === null || upper <= lower) return null;
+  if (lower === null || upper === null || upper <= lower || !Number.isFinite(upper - lower)) return null;
   const scale = (value: number) => Math.min(1, Math.max(0, kEdge + ((1 - 2 * kEdge) * (value - lower)) / (upper - lower)));
   return { actual: scale(actual), nominal: nominal === null ? null : scale(nominal), isOut: actual < lower || actual > upper };
 }

@@ -42,6 +42,38 @@ test('the audit trail is verified again, exported, and its checkpoint kept', asy
   assertNoComplaints(complaints);
 });
 
+test('an archive that is missing or was changed is named beside the trail', async () => {
+  const { page, complaints } = await visit('#/administration/audit');
+  const state = await shop.api('GET', 'audit/verification') as object;
+  const archives = { time: '2026-11-21T07:40:06Z', archives: 2, intact: false, faults: [{ file: 'records-lathe-1-7-1.jsonl.zst', what: 'it is missing' }] };
+  await page.route('**/api/v1/audit/verification', (route) => route.fulfill({ json: { ...state, archives } }));
+  await page.reload();
+  await page.getByText('Archives are missing or were changed.').waitFor();
+  await page.getByText('records-lathe-1-7-1.jsonl.zst: it is missing').waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  assertNoComplaints(complaints);
+});
+
+test('the state of the MQTT broker is shown, also without one', async () => {
+  const { page, complaints } = await visit('#/administration/server');
+  await page.getByText('No broker is configured').waitFor();
+  const server = await shop.api('GET', 'server') as object;
+  const mqtt = { broker: 'tls://broker:8883', connected: false, since: '2026-11-21T07:40:06Z', fault: 'connection refused', records_waiting: 1200, records_published: 7, states_published: 9, records_missing: 3 };
+  await page.route('**/api/v1/server', (route) => route.fulfill({ json: { ...server, mqtt } }));
+  await page.reload();
+  await page.getByText('Not connected since').waitFor();
+  await page.getByText('connection refused').waitFor();
+  await page.getByText('1,200', { exact: true }).waitFor();
+  await page.getByText('3 records went into archives before they were published').waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  await page.unroute('**/api/v1/server');
+  await page.route('**/api/v1/server', (route) => route.fulfill({ json: { ...server, mqtt: { ...mqtt, connected: true, records_missing: 0 } } }));
+  await page.reload();
+  await page.getByText('Connected since').waitFor();
+  await page.getByText('Last fault').waitFor();
+  assertNoComplaints(complaints);
+});
+
 test('certificates and the release policy are shown', async () => {
   const { page, complaints } = await visit('#/administration/certificates');
   await page.getByText('Nothing is encrypted').waitFor();

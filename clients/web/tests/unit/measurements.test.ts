@@ -13,7 +13,8 @@ test('the limits are at a quarter and three quarters, and a value on one is in',
 });
 
 test('a value without both limits has no place', () => {
-  assert.deepEqual([{ lower: null }, { upper: null }, { lower: 1, upper: 1 }].map((limits) => placeOf(measurement(limits))), [null, null, null]);
+  assert.deepEqual([{ lower: null }, { upper: null }, { lower: 1, upper: 1 }, { lower: -1e308, upper: 1e308 }].map((limits) => placeOf(measurement(limits))), [null, null, null, null]);
+  assert.equal(placeOf(measurement({ lower: 0, upper: 2, nominal: 1e308, actual: 1e308 }))?.actual, 1);
 });
 
 test('a time of the page is sent in UTC, and what is none is left out', () => {
@@ -39,6 +40,7 @@ test('a change is from the value that the same target had before', () => {
 test('values are steps from the oldest to the newest', () => {
   assert.deepEqual(stepLine([2, 0], { width: 100, height: 10 }), { points: '0,10 50,10 50,0 100,0', lowest: 0, highest: 2 });
   assert.equal(stepLine([1, 1], { width: 100, height: 10 })?.points, '0,5 50,5 50,5 100,5');
+  assert.equal(stepLine([-1e308, 1e308], { width: 100, height: 10 })?.points, '0,5 50,5 50,5 100,5');
   assert.equal(stepLine([1], { width: 100, height: 10 }), null);
 });
 
