@@ -94,7 +94,8 @@ void add_audit_routes(Router& router, Services& services) {
   router.add("GET", "/api/v1/audit", with(services, list_audit));
   router.add("GET", "/api/v1/audit/export", with(services, export_trail));
   router.add("GET", "/api/v1/audit/verification", with(services, show_verification));
-  router.add("POST", "/api/v1/audit/verification", with(services, verify));
+  // A thread of its own: every archive is read.
+  router.add("POST", "/api/v1/audit/verification", with(services, verify), Waits::ForMachine);
 }
 
 }  // namespace dripline::api
