@@ -15,6 +15,27 @@ export function mqttRows(mqtt: Mqtt): Array<[string, string]> {
   return rows;
 }
 
+type Sparkplug = NonNullable<Mqtt['sparkplug']>;
+
+/// The machines as devices of a node: a connection of its own.
+function SparkplugState({ node }: { node: Sparkplug }) {
+  const t = texts().mqtt;
+  const rows: Array<[string, string]> = [[t.node, node.node]];
+  if (node.since) rows.push([node.connected ? t.connectedSince : t.awaySince, dateTimeText(node.since)]);
+  rows.push([t.published, t.messages(numberText(node.messages_published))], [t.rebirths, numberText(node.rebirths)]);
+  if (node.connected && node.fault) rows.push([t.lastFault, node.fault]);
+  return (
+    <>
+      <div class="head">
+        <h3>{t.sparkplug}</h3>
+        <span class={`pill ${node.connected ? 'running' : 'waiting'}`}>{node.connected ? t.connected : t.away}</span>
+      </div>
+      {!node.connected && node.fault && <p class="notice warn" role="alert">{node.fault}</p>}
+      <Rows of={rows} />
+    </>
+  );
+}
+
 /// null: the server has no broker.
 export function MqttState({ mqtt }: { mqtt: Mqtt | null }) {
   const t = texts().mqtt;
@@ -28,6 +49,7 @@ export function MqttState({ mqtt }: { mqtt: Mqtt | null }) {
       {mqtt && !mqtt.connected && mqtt.fault && <p class="notice warn" role="alert">{mqtt.fault}</p>}
       {mqtt && mqtt.records_missing > 0 && <p class="notice bad">{t.missing(numberText(mqtt.records_missing))}</p>}
       {mqtt && <Rows of={mqttRows(mqtt)} />}
+      {mqtt?.sparkplug && <SparkplugState node={mqtt.sparkplug} />}
     </section>
   );
 }

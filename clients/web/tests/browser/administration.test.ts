@@ -58,7 +58,7 @@ test('the state of the MQTT broker is shown, also without one', async () => {
   const { page, complaints } = await visit('#/administration/server');
   await page.getByText('No broker is configured').waitFor();
   const server = await shop.api('GET', 'server') as object;
-  const mqtt = { broker: 'tls://broker:8883', connected: false, since: '2026-11-21T07:40:06Z', fault: 'connection refused', records_waiting: 1200, records_published: 7, states_published: 9, records_missing: 3 };
+  const mqtt = { broker: 'tls://broker:8883', connected: false, since: '2026-11-21T07:40:06Z', fault: 'connection refused', records_waiting: 1200, records_published: 7, states_published: 9, records_missing: 3, sparkplug: null };
   await page.route('**/api/v1/server', (route) => route.fulfill({ json: { ...server, mqtt } }));
   await page.reload();
   await page.getByText('Not connected since').waitFor();
@@ -71,6 +71,13 @@ test('the state of the MQTT broker is shown, also without one', async () => {
   await page.reload();
   await page.getByText('Connected since').waitFor();
   await page.getByText('Last fault').waitFor();
+  await page.unroute('**/api/v1/server');
+  const sparkplug = { node: 'shop/dncd-1', connected: false, since: '2026-11-21T07:40:06Z', fault: 'no host is online', messages_published: 40, rebirths: 2 };
+  await page.route('**/api/v1/server', (route) => route.fulfill({ json: { ...server, mqtt: { ...mqtt, connected: true, records_missing: 0, sparkplug } } }));
+  await page.reload();
+  await page.getByText('shop/dncd-1').waitFor();
+  await page.getByText('no host is online').waitFor();
+  assert.deepEqual(await findBarriers(page), []);
   assertNoComplaints(complaints);
 });
 

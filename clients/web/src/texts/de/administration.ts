@@ -221,6 +221,10 @@ export const administration: typeof Shape = {
     published: 'Veröffentlicht seit dem Start',
     publishedCounts: (records, states) => `${records} Meldungen, ${states} Maschinenzustände`,
     lastFault: 'Letzter Fehler',
+    sparkplug: 'Sparkplug B',
+    node: 'Knoten',
+    messages: (count) => `${count} Nachrichten`,
+    rebirths: 'Neu verlangte Geburtsmeldungen',
     missing: (count) => `${count} Meldungen kamen in Archive, bevor sie veröffentlicht waren: der Broker erhält sie nie.`,
   },
   administration: {

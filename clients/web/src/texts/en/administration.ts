@@ -219,6 +219,10 @@ export const administration = {
     published: 'Published since the start',
     publishedCounts: (records: string, states: string) => `${records} records, ${states} states of machines`,
     lastFault: 'Last fault',
+    sparkplug: 'Sparkplug B',
+    node: 'Node',
+    messages: (count: string) => `${count} messages`,
+    rebirths: 'Births asked for again',
     missing: (count: string) => `${count} records went into archives before they were published: the broker never gets them.`,
   },
   administration: {
