@@ -19,6 +19,7 @@ void ServerLink::on_server(bool is_connected) {
   process::log_info("server {} machine={}", is_connected ? "connected" : "gone",
                     parts_.options.machine);
   is_connected_ = is_connected;
+  was_connected_ = was_connected_ || is_connected;
   refused_.clear();
   if (is_connected_) is_due_ = true;
   sender_.on_server(is_connected);
@@ -59,9 +60,26 @@ void ServerLink::send_records(SteadyTime now) {
 }
 
 void ServerLink::send_status(SteadyTime now, const std::function<dds::Status()>& make) {
+  log_silence(now);
   if (!publisher_.is_due(now)) return;
   publisher_.offer(make(), now);
   log_rejected(now);
+}
+
+/// Neither end can know why they do not meet: what both have to agree on is named, once.
+void ServerLink::log_silence(SteadyTime now) {
+  constexpr std::chrono::seconds kPatience{10};
+  if (was_connected_ || !parts_.options.has_server) return;
+  if (!begun_) begun_ = now;
+  if (now - *begun_ < kPatience) return;
+  was_connected_ = true;
+  const auto& network = parts_.options.network;
+  process::log_warning(
+      "no server has answered in 10 s machine={} server={} dds-domain={} dds-tag='{}' "
+      "dds-cells={}: it must run there with this domain and tag and at least as many cells (an "
+      "earlier version has {}), and its UDP ports be open to this computer",
+      parts_.options.machine, network.server, network.domain, network.tag, network.cells,
+      dds::kFewestCells);
 }
 
 /// Dropped messages are logged once a minute at most: their sender must not fill the log.

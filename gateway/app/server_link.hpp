@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "gateway/app/options.hpp"
@@ -50,12 +51,15 @@ class ServerLink {
 
  private:
   void log_rejected(SteadyTime now);
+  void log_silence(SteadyTime now);
 
   Parts parts_;
   report::RecordSender sender_;
   report::StatusPublisher publisher_;
   bool is_due_ = true, is_connected_ = false;
   std::string refused_;
+  std::optional<SteadyTime> begun_;  ///< of the first turn
+  bool was_connected_ = false;       ///< once, or its silence is in the log
   SteadyTime next_log_{};
   std::uint64_t logged_ = 0;
 };

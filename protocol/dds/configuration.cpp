@@ -64,6 +64,10 @@ Result<void> check_options(const NetworkOptions& options) {
                 "lease {} ms, from twice the discovery interval ({} ms) to 600000",
                 options.lease_ms, options.discovery_interval_ms);
   }
+  const std::uint32_t cells = options.cells;
+  if (cells < kFewestCells || cells > kMostCells || (cells & (cells - 1)) != 0) {
+    return fail(Errc::LimitExceeded, "{} DDS cells: 8, 16, 32 or 64 are possible", cells);
+  }
   return {};
 }
 
@@ -96,7 +100,7 @@ Result<std::string> server_place(const NetworkOptions& options, std::uint32_t ce
   const char* const end = options.server.data() + options.server.size();
   std::uint16_t port = 0;
   const auto read = std::from_chars(options.server.data() + colon + 1, end, port);
-  if (read.ec != std::errc{} || read.ptr != end || port == 0 || port > 65535 - 2 * kCells) {
+  if (read.ec != std::errc{} || read.ptr != end || port == 0 || port > 65535 - 2 * options.cells) {
     return fail(Errc::Syntax, "DDS server '{}' is not host or host:port", options.server);
   }
   return fmt::format("{}:{}", options.server.substr(0, colon), port + 2 * cell);
@@ -124,8 +128,15 @@ Result<void> check_exposure(const NetworkOptions& options) {
       options.interface);
 }
 
-std::uint32_t cell_of(const std::string& machine) {
-  return crc32(std::as_bytes(std::span(machine))) % kCells;
+std::uint32_t cell_of(const std::string& machine, std::uint32_t cells) {
+  return crc32(std::as_bytes(std::span(machine))) % cells;
+}
+
+bool takes_machine(const std::string& machine, std::uint32_t cell, std::uint32_t cells) {
+  for (std::uint32_t known = kFewestCells; known <= cells; known *= 2) {
+    if (cell_of(machine, known) == cell) return true;
+  }
+  return false;
 }
 
 Result<std::string> domain_configuration(const NetworkOptions& options, Role role,

@@ -10,13 +10,11 @@ namespace dripline::dds {
 
 enum class Role { Server, Gateway };
 
-/// A server consists of this many cells, each with its own port and participant; every machine
-/// belongs to one cell. In DDS each gateway learns of all endpoints of its peer that it could
-/// match, so one peer for n machines announces n * n endpoints (200 machines: 16 s of computing
-/// time and 800 MB); eight cells reduce that to an eighth. Part of the protocol: both ends must
-/// agree.
-inline constexpr std::uint32_t kCells = 8;
-std::uint32_t cell_of(const std::string& machine);
+/// The cell of a machine where there are so many (NetworkOptions::cells). Part of the protocol.
+std::uint32_t cell_of(const std::string& machine, std::uint32_t cells = kFewestCells);
+/// Whether a server with so many cells takes this machine in cell `cell`: its gateway may know of
+/// fewer cells than the server has.
+bool takes_machine(const std::string& machine, std::uint32_t cell, std::uint32_t cells);
 
 /// The default UDP port of a server's cell; the next port is its second.
 constexpr std::uint16_t server_port(std::uint32_t domain, std::uint32_t cell = 0) {

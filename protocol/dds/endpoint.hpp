@@ -22,15 +22,24 @@ struct SecurityFiles {
   std::optional<std::string> revocation_list;
 };
 
+/// A server consists of cells, each with two ports and a participant; every machine belongs to one.
+/// In DDS each gateway learns of all endpoints of its peer that it could match, so one peer for n
+/// machines announces n * n endpoints; c cells reduce that to a c-th.
+inline constexpr std::uint32_t kFewestCells = 8, kMostCells = 64;
+
 struct NetworkOptions {
   std::uint32_t domain =
       0;  ///< 0..230; at most 100 for a server: above that are the system's ephemeral ports
   std::string interface = "lo";  ///< network interface name or address
-  /// For gateways: the address of the server, host or host:port. It uses 16 ports from there.
+  /// For gateways: the address of the server, host or host:port. It uses two ports for each cell
+  /// from there.
   std::string server = "127.0.0.1";
   std::string tag;  ///< systems with different tags ignore each other
   std::uint32_t discovery_interval_ms = 250;
   std::uint32_t lease_ms = 2000;  ///< a peer that is silent for longer is lost
+  /// 8, 16, 32 or 64. A server takes gateways that have as many cells as it has, or fewer; one that
+  /// has more does not find it. What is gained comes when both have many.
+  std::uint32_t cells = kFewestCells;
   std::optional<SecurityFiles> security;
   bool is_open_network_allowed =
       false;  ///< permits other networks than loopback without `security`

@@ -248,7 +248,7 @@ Result<std::unique_ptr<GatewayEndpoint>> GatewayEndpoint::open(const NetworkOpti
                                                                const std::string& machine,
                                                                GatewayHandlers handlers) {
   if (auto checked = check_machine_name(machine); !checked) return fail(checked.error());
-  auto domain = open_domain(options, Role::Gateway, cell_of(machine));
+  auto domain = open_domain(options, Role::Gateway, cell_of(machine, options.cells));
   if (!domain) return fail(domain.error());
   auto gateway = std::make_unique<Gateway>(std::move(*domain), machine, std::move(handlers));
   if (auto started = gateway->start(); !started) return fail(started.error());

@@ -1,4 +1,4 @@
-#include <array>
+#include <vector>
 
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/dds/impl/cell.hpp"
@@ -6,16 +6,19 @@
 namespace dripline::dds {
 namespace {
 
-/// Passes each message to the cell of its machine.
+/// Passes each message to the cell that its machine is in.
 class Server final : public ServerEndpoint {
  public:
-  explicit Server(ServerHandlers handlers) { shared_.handlers = std::move(handlers); }
+  Server(ServerHandlers handlers, std::uint32_t cells) {
+    shared_.handlers = std::move(handlers);
+    shared_.cells = cells;
+  }
 
   Result<void> start(const NetworkOptions& options) {
-    for (std::uint32_t number = 0; number < kCells; ++number) {
+    for (std::uint32_t number = 0; number < options.cells; ++number) {
       auto cell = Cell::open(options, number, shared_);
       if (!cell) return fail(cell.error());
-      cells_[number] = std::move(*cell);
+      cells_.push_back(std::move(*cell));
     }
     return {};
   }
@@ -28,18 +31,18 @@ class Server final : public ServerEndpoint {
  private:
   template <class Message>
   Result<void> write_to_cell(const Message& message) {
-    return cells_[cell_of(message.machine)]->write(message);
+    return cells_[shared_.cell_with(message.machine)]->write(message);
   }
 
   ServerShared shared_;  // first: the cells use it
-  std::array<std::unique_ptr<Cell>, kCells> cells_;
+  std::vector<std::unique_ptr<Cell>> cells_;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<ServerEndpoint>> ServerEndpoint::open(const NetworkOptions& options,
                                                              ServerHandlers handlers) {
-  auto server = std::make_unique<Server>(std::move(handlers));
+  auto server = std::make_unique<Server>(std::move(handlers), options.cells);
   if (auto started = server->start(options); !started) return fail(started.error());
   return server;
 }

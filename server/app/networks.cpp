@@ -15,6 +15,7 @@ Result<DdsNetwork> dds_network(const Settings& settings, UtcTime now) {
   network.domain = settings.dds_domain;
   network.interface = settings.dds_interface;
   network.tag = settings.dds_tag;
+  network.cells = settings.dds_cells;
   network.discovery_interval_ms = settings.discovery_interval_ms;
   network.lease_ms = settings.lease_ms;
   network.is_open_network_allowed = settings.dds_open_network;

@@ -13,6 +13,7 @@
 
 #include "protocol/base/private_folder.hpp"
 #include "protocol/base/result.hpp"
+#include "protocol/dds/endpoint.hpp"
 #include "protocol/process/settings_reader.hpp"
 #include "storage/port_store.hpp"
 
@@ -181,6 +182,10 @@ constexpr std::array kRows{
         number_value<0, 230, &Settings::dds_domain>()},
     Row{"dds-tag", "TEXT", "", "", "Name of this system; systems with different tags are separate",
         text_value<&Settings::dds_tag>()},
+    Row{"dds-cells", "NUMBER", "", "",
+        "Parts of the DDS side, two UDP ports each: 8, or 16, 32, 64 for hundreds of machines; as "
+        "many as the gateways have, or more",
+        number_value<dds::kFewestCells, dds::kMostCells, &Settings::dds_cells>()},
     Row{"dds-interface", "NAME", "", "", "Network interface or address that leads to the gateways",
         text_value<&Settings::dds_interface>()},
     Row{"dds-security", "DIR", "", "none: no authentication",

@@ -28,7 +28,8 @@ struct Settings {
   std::uint32_t dds_domain = 0;
   std::string dds_tag;
   std::string dds_interface = "lo";
-  std::string dds_security;       ///< folder of `dnc pki`; empty: none
+  std::string dds_security;  ///< folder of `dnc pki`; empty: none
+  std::uint32_t dds_cells = 8;
   bool dds_open_network = false;  ///< DDS beyond this machine, although it has no authentication
   std::uint32_t discovery_interval_ms = 250;
   std::uint32_t lease_ms = 2000;

@@ -7,6 +7,34 @@
 
 namespace dripline::dds {
 
+bool ServerShared::claim(const std::string& machine, std::uint32_t cell,
+                         const std::function<void()>& wake) {
+  const std::lock_guard lock(mutex_);
+  Place& place = places_.try_emplace(machine, Place{.cell = cell, .waiting = {}}).first->second;
+  if (place.cell == cell) return true;
+  place.waiting.insert_or_assign(cell, wake);
+  return false;
+}
+
+void ServerShared::release(const std::string& machine, std::uint32_t cell) {
+  const std::lock_guard lock(mutex_);
+  const auto found = places_.find(machine);
+  if (found == places_.end() || found->second.cell != cell) return;
+  for (const auto& [other, wake] : found->second.waiting) wake();
+  places_.erase(found);
+}
+
+void ServerShared::forget(std::uint32_t cell) {
+  const std::lock_guard lock(mutex_);
+  for (auto& [machine, place] : places_) place.waiting.erase(cell);
+}
+
+std::uint32_t ServerShared::cell_with(const std::string& machine) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = places_.find(machine);
+  return found != places_.end() ? found->second.cell : cell_of(machine, cells);
+}
+
 Result<std::unique_ptr<Cell>> Cell::open(const NetworkOptions& options, std::uint32_t number,
                                          ServerShared& shared) {
   auto domain = open_domain(options, Role::Server, number);
@@ -21,6 +49,7 @@ Result<std::unique_ptr<Cell>> Cell::open(const NetworkOptions& options, std::uin
 Cell::~Cell() {
   watcher_.request_stop();
   if (watcher_.joinable()) watcher_.join();
+  shared_.forget(number_);
 }
 
 Result<void> Cell::start() {
@@ -111,6 +140,7 @@ void Cell::handle_lost(const std::string& machine) {
   if (attached == nullptr) return;
   set_rival(machine, *attached, std::nullopt);
   attached->set_gateway({});
+  shared_.release(machine, number_);
   const bool was_ever_ready = attached->delivered.has_value();
   lose(*attached, machine);
   if (!was_ever_ready) drop(machine);
@@ -149,7 +179,7 @@ void Cell::handle_announced(const std::string& machine, Arrived arrived) {
   const auto attached = attach(machine, arrived.announce.has_line);
   if (attached == nullptr) return;
   look_at_rival(machine, *attached);
-  if (attached->gateway.empty()) attached->set_gateway(arrived.participant);
+  if (attached->gateway.empty() && claim(machine)) attached->set_gateway(arrived.participant);
   if (attached->gateway != arrived.participant) {
     return set_rival(machine, *attached, std::move(arrived));
   }
@@ -172,6 +202,7 @@ void Cell::look_at_rival(const std::string& machine, Attachment& attached) {
   const bool is_there = publication(announces_->get(), attached.rival->writer).has_value();
   if (!is_there) return set_rival(machine, attached, std::nullopt);
   if (publication(announces_->get(), attached.announcer)) return;
+  if (!claim(machine)) return;  // its gateway is in another cell
   Arrived successor = std::move(*attached.rival);
   set_rival(machine, attached, std::nullopt);
   attached.set_gateway(successor.participant);
@@ -205,6 +236,10 @@ bool Cell::has_room() {
   return true;
 }
 
+bool Cell::claim(const std::string& machine) {
+  return shared_.claim(machine, number_, [this] { wake_watcher(); });
+}
+
 /// A machine that has a line now and had none is attached anew: its entities are all there, or none
 /// are.
 std::shared_ptr<Attachment> Cell::attach(const std::string& machine, bool has_line) {
@@ -213,7 +248,7 @@ std::shared_ptr<Attachment> Cell::attach(const std::string& machine, bool has_li
     handle_lost(machine);
     drop(machine);
   }
-  if (cell_of(machine) != number_) {
+  if (!takes_machine(machine, number_, shared_.cells)) {
     shared_.rejections.add(Topic<Announce>::kName, "announced to another cell than the machine's");
     return nullptr;
   }

@@ -16,10 +16,29 @@ namespace dripline::dds {
 struct ServerShared {
   ServerHandlers handlers;
   Rejections rejections;
+  std::uint32_t cells = kFewestCells;
   std::atomic<std::size_t> machines = 0;  ///< attached so far
+
+  /// A machine is in one cell at a time: that of its gateway, which may know of fewer cells than
+  /// the server has. False: it is in another one; `wake` is called, with a lock held, when it has
+  /// left that.
+  bool claim(const std::string& machine, std::uint32_t cell, const std::function<void()>& wake);
+  void release(const std::string& machine, std::uint32_t cell);
+  /// The cell ends: it is not woken any more.
+  void forget(std::uint32_t cell);
+  /// The cell that has the machine; without one, where it is expected.
+  std::uint32_t cell_with(const std::string& machine) const;
+
+ private:
+  struct Place {
+    std::uint32_t cell = 0;
+    std::map<std::uint32_t, std::function<void()>> waiting;  ///< by cell
+  };
+  mutable std::mutex mutex_;
+  std::map<std::string, Place> places_;
 };
 
-/// One of the kCells parts of a server: a domain of its own, with the machines that belong to it.
+/// One of the parts of a server: a domain of its own, with the machines that belong to it.
 ///
 /// Threads: DDS threads deliver status, records, results and requests. `watcher_` does what must
 /// not be done in a listener: it attaches machines, checks matched participants, and calls
@@ -86,6 +105,7 @@ class Cell {
   void look_at_rival(const std::string& machine, Attachment& attached);
   bool speaks_for_another(const std::string& participant, const std::string& machine) const;
   bool has_room();
+  bool claim(const std::string& machine);
   std::shared_ptr<Attachment> attach(const std::string& machine, bool has_line);
   void try_ready(Attachment& machine);
 

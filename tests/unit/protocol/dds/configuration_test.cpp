@@ -51,7 +51,26 @@ TEST(CellOf, StaysWhatItAlwaysWas) {
 TEST(CellOf, UsesEveryCell) {
   std::set<std::uint32_t> cells;
   for (int i = 0; i < 100; ++i) cells.insert(cell_of(fmt::format("m{}", i)));
-  EXPECT_EQ(cells.size(), kCells);
+  EXPECT_EQ(cells.size(), kFewestCells);
+}
+
+TEST(CellOf, ASixtyFourthHasAsManyPortsAsADomainHas) {
+  NetworkOptions options;
+  options.cells = kMostCells;
+  EXPECT_TRUE(contains(*domain_configuration(options, Role::Gateway, 63), "\"127.0.0.1:7536\""));
+  EXPECT_LT(server_port(0, kMostCells - 1) + 1, server_port(1, 0));
+}
+
+TEST(TakesMachine, AlsoWhereAGatewayWithFewerCellsLooksForIt) {
+  for (int i = 0; i < 100; ++i) {
+    const std::string machine = fmt::format("m{}", i);
+    std::set<std::uint32_t> expected, taken;
+    for (const std::uint32_t cells : {8U, 16U, 32U, 64U}) expected.insert(cell_of(machine, cells));
+    for (std::uint32_t cell = 0; cell < kMostCells; ++cell) {
+      if (takes_machine(machine, cell, kMostCells)) taken.insert(cell);
+    }
+    EXPECT_EQ(taken, expected) << machine;
+  }
 }
 
 TEST(DomainConfiguration, NeverUsesMulticastAndStaysOnLoopbackByDefault) {
@@ -102,6 +121,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"tag", [](NetworkOptions& o) { o.tag = "a\nb"; }, Errc::Syntax},
         BadOption{"discovery", [](NetworkOptions& o) { o.discovery_interval_ms = 1; },
                   Errc::LimitExceeded},
+        BadOption{"cells", [](NetworkOptions& o) { o.cells = 9; }, Errc::LimitExceeded},
+        BadOption{"no_cells", [](NetworkOptions& o) { o.cells = 0; }, Errc::LimitExceeded},
+        BadOption{"many_cells", [](NetworkOptions& o) { o.cells = 128; }, Errc::LimitExceeded},
         BadOption{"lease", [](NetworkOptions& o) { o.lease_ms = 300; }, Errc::LimitExceeded}),
     [](const auto& i) { return i.param.name; });
 
