@@ -76,6 +76,20 @@ Qos topic_qos<Status>() {
   return latest_value();
 }
 
+// A reader that asks for no acknowledgment: without it a status costs the server no packet, and a
+// gateway keeps nothing. It is repeated until it is superseded, at least once a second
+// (gateway/report/status_publisher.hpp), so a lost one hides an alarm or a stop for no longer; an
+// older one never follows a newer one. The writer stays as it was: servers and gateways before and
+// after this match.
+template <>
+Qos reader_qos<Status>() {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+  return qos;
+}
+
 // The outbox sends records again until they are acknowledged; the depth is its window.
 template <>
 Qos topic_qos<Record>() {

@@ -13,9 +13,15 @@ std::string partition_of_all();
 /// For a publisher or subscriber: a partition is fixed when it is created.
 Qos partition_qos(const std::string& partition);
 
-/// The same for the reader and the writer of a topic, so they always match.
+/// Of a topic and its writers.
 template <class Message>
 Qos topic_qos();
+
+/// Of a topic's readers: as that of the writers, or with less, so they always match.
+template <class Message>
+Qos reader_qos() {
+  return topic_qos<Message>();
+}
 
 template <>
 Qos topic_qos<Announce>();
@@ -37,5 +43,7 @@ template <>
 Qos topic_qos<LineRequest>();
 template <>
 Qos topic_qos<LineData>();
+template <>
+Qos reader_qos<Status>();
 
 }  // namespace dripline::dds

@@ -58,7 +58,7 @@ class Reader {
           const auto& on_matched = static_cast<Reader*>(self)->handlers_.on_matched;
           if (on_matched) on_matched();
         });
-    auto entity = own(dds_create_reader(subscriber.get(), topic.get(), topic_qos<Message>().get(),
+    auto entity = own(dds_create_reader(subscriber.get(), topic.get(), reader_qos<Message>().get(),
                                         listener.get()),
                       Topic<Message>::kName);
     if (!entity) return fail(entity.error());
