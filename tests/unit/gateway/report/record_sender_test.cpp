@@ -206,6 +206,12 @@ TEST(StatusPublisher, SendsSwitchesAndCoordinatesAsTheyChange) {
   EXPECT_EQ(sent, 3);
   publisher.offer(status, now += milliseconds(200));
   EXPECT_EQ(sent, 3);
+  status.waits_for = dds::WaitsFor::CycleStart;
+  publisher.offer(status, now += milliseconds(200));
+  EXPECT_EQ(sent, 4);
+  status.remote_enable = dds::RemoteEnable::Given;
+  publisher.offer(status, now += milliseconds(200));
+  EXPECT_EQ(sent, 5);
 }
 
 }  // namespace
