@@ -84,6 +84,12 @@ class RecordStore {
   /// machine's run is kept, changes nothing of that run and is not among its records. Errors:
   /// Syntax, LimitExceeded (epoch over 2^63).
   virtual Result<std::uint64_t> store(const RecordBatch& batch) = 0;
+  /// Each as by `store`, with one result each; in one transaction where all can be stored.
+  virtual std::vector<Result<std::uint64_t>> store_all(const std::vector<RecordBatch>& batches) {
+    std::vector<Result<std::uint64_t>> stored;
+    for (const RecordBatch& batch : batches) stored.push_back(store(batch));
+    return stored;
+  }
   /// In order of (epoch, number). `kind` empty: all.
   virtual Result<std::vector<Record>> of_run(const std::string& run, const std::string& kind,
                                              Page page) = 0;

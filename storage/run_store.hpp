@@ -115,6 +115,13 @@ class RunStore {
   /// kill of the process; a power cut may take the last ones. Errors: NotFound, Conflict (the run
   /// is another machine's).
   virtual Result<void> update_counters(const RunProgress& progress) = 0;
+  /// Each as by `update_counters`, with one result each, in one transaction.
+  virtual std::vector<Result<void>> update_all_counters(
+      const std::vector<RunProgress>& progresses) {
+    std::vector<Result<void>> updated;
+    for (const RunProgress& progress : progresses) updated.push_back(update_counters(progress));
+    return updated;
+  }
   /// On disk when it returns; the same call again changes nothing. Errors: NotFound, Conflict (the
   /// run has ended, or the name stands for another revision in it), LimitExceeded (RunCall::kMax).
   virtual Result<void> add_call(const std::string& run, const RunCall& call) = 0;

@@ -113,29 +113,50 @@ Result<void> apply_to_runs(sqlite::Database& database, const RecordBatch& batch,
   return {};
 }
 
+/// Within a transaction.
+Result<std::uint64_t> write_batch(sqlite::Database& database, const RecordBatch& batch,
+                                  UtcTime now) {
+  const auto machine = machine_id(database, batch.machine, batch.epoch, now);
+  if (!machine) return fail(machine.error());
+  const auto before = last_number(database, *machine, batch.epoch);
+  if (!before) return before;
+  const auto last = insert_contiguous(database, batch, {*machine, now}, *before);
+  if (!last) return last;
+  if (*last > *before) {
+    const auto noted =
+        sqlite::run(database,
+                    "INSERT INTO record_epoch (machine, epoch, last) VALUES (?1, ?2, ?3) "
+                    "ON CONFLICT (machine, epoch) DO UPDATE SET last = excluded.last",
+                    *machine, batch.epoch, *last);
+    if (!noted) return fail(noted.error());
+  }
+  if (auto done = apply_to_runs(database, batch, *machine, *last); !done) return fail(done.error());
+  return last;
+}
+
 }  // namespace
 
 Result<std::uint64_t> RecordRepository::store(const RecordBatch& batch) {
   if (auto checked = check(batch); !checked) return fail(checked.error());
-  return connections_.write([&](sqlite::Database& database) -> Result<std::uint64_t> {
-    const auto machine = machine_id(database, batch.machine, batch.epoch, clock_.now());
-    if (!machine) return fail(machine.error());
-    const auto before = last_number(database, *machine, batch.epoch);
-    if (!before) return before;
-    const auto last = insert_contiguous(database, batch, {*machine, clock_.now()}, *before);
-    if (!last) return last;
-    if (*last > *before) {
-      const auto noted =
-          sqlite::run(database,
-                      "INSERT INTO record_epoch (machine, epoch, last) VALUES (?1, ?2, ?3) "
-                      "ON CONFLICT (machine, epoch) DO UPDATE SET last = excluded.last",
-                      *machine, batch.epoch, *last);
-      if (!noted) return fail(noted.error());
+  return connections_.write(
+      [&](sqlite::Database& database) { return write_batch(database, batch, clock_.now()); });
+}
+
+/// What one of them cannot be stored for must not keep the others from the disk: then each has a
+/// transaction of its own.
+std::vector<Result<std::uint64_t>> RecordRepository::store_all(
+    const std::vector<RecordBatch>& batches) {
+  std::vector<Result<std::uint64_t>> stored;
+  const auto written = connections_.write([&](sqlite::Database& database) -> Result<void> {
+    for (const RecordBatch& batch : batches) {
+      if (auto checked = check(batch); !checked) return checked;
+      const auto last = write_batch(database, batch, clock_.now());
+      if (!last) return fail(last.error());
+      stored.emplace_back(*last);
     }
-    if (auto done = apply_to_runs(database, batch, *machine, *last); !done)
-      return fail(done.error());
-    return last;
+    return {};
   });
+  return written ? stored : RecordStore::store_all(batches);
 }
 
 Result<std::vector<Record>> RecordRepository::of_run(const std::string& run,

@@ -54,6 +54,7 @@ class RecordRepository final : public RecordStore {
       : connections_(connections), clock_(clock) {}
 
   Result<std::uint64_t> store(const RecordBatch& batch) override;
+  std::vector<Result<std::uint64_t>> store_all(const std::vector<RecordBatch>& batches) override;
   Result<std::vector<Record>> of_run(const std::string& run, const std::string& kind,
                                      Page page) override;
   Result<std::vector<Record>> of_run_after(const std::string& run, const std::string& kind,
@@ -83,6 +84,8 @@ class RunRepository final : public RunStore {
   Result<std::uint64_t> count(const RunFilter& filter) override;
   Result<void> set_state(const std::string& id, RunState state, const std::string& reason) override;
   Result<void> update_counters(const RunProgress& progress) override;
+  std::vector<Result<void>> update_all_counters(
+      const std::vector<RunProgress>& progresses) override;
   Result<void> add_call(const std::string& run, const RunCall& call) override;
   Result<std::vector<RunCall>> calls(const std::string& run) override;
 

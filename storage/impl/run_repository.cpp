@@ -258,26 +258,48 @@ Result<void> RunRepository::set_state(const std::string& id, RunState state,
   });
 }
 
+namespace {
+
+Result<void> write_counters(sqlite::Database& database, const RunProgress& progress) {
+  const auto updated =
+      sqlite::run(database,
+                  "UPDATE run SET line = iif(?4 >= executed, ?5, line), "
+                  "sequence = iif(?4 >= executed, ?6, sequence), sent = max(sent, ?2), "
+                  "accepted = max(accepted, ?3), executed = max(executed, ?4) "
+                  "WHERE id = ?1 AND machine = (SELECT id FROM machine WHERE name = ?7) "
+                  "AND state IN ('ordered', 'active')",
+                  progress.run, progress.counters.sent, progress.counters.accepted,
+                  progress.counters.executed, progress.line, progress.sequence, progress.machine);
+  if (!updated || database.changes() > 0) return updated;
+  const auto run = find_run(database, progress.run);  // ended: ignored
+  if (!run) return fail(run.error());
+  if (run->machine == progress.machine) return {};
+  return fail(Errc::Conflict, "run {} is machine {}'s, not {}'s", run->id, run->machine,
+              progress.machine);
+}
+
+}  // namespace
+
+// Every few seconds for each machine, and repeated by the next status: not worth a disk flush.
 Result<void> RunRepository::update_counters(const RunProgress& progress) {
-  const auto update = [&](sqlite::Database& database) -> Result<void> {
-    const auto updated =
-        sqlite::run(database,
-                    "UPDATE run SET line = iif(?4 >= executed, ?5, line), "
-                    "sequence = iif(?4 >= executed, ?6, sequence), sent = max(sent, ?2), "
-                    "accepted = max(accepted, ?3), executed = max(executed, ?4) "
-                    "WHERE id = ?1 AND machine = (SELECT id FROM machine WHERE name = ?7) "
-                    "AND state IN ('ordered', 'active')",
-                    progress.run, progress.counters.sent, progress.counters.accepted,
-                    progress.counters.executed, progress.line, progress.sequence, progress.machine);
-    if (!updated || database.changes() > 0) return updated;
-    const auto run = find_run(database, progress.run);  // ended: ignored
-    if (!run) return fail(run.error());
-    if (run->machine == progress.machine) return {};
-    return fail(Errc::Conflict, "run {} is machine {}'s, not {}'s", run->id, run->machine,
-                progress.machine);
-  };
-  // Ten times a second for each machine, and repeated by the next status: not worth a disk flush.
-  return connections_.write(update, sqlite::Synchronous::Normal);
+  return connections_.write(
+      [&](sqlite::Database& database) { return write_counters(database, progress); },
+      sqlite::Synchronous::Normal);
+}
+
+/// One that fails has changed nothing, and does not undo the others.
+std::vector<Result<void>> RunRepository::update_all_counters(
+    const std::vector<RunProgress>& progresses) {
+  std::vector<Result<void>> updated;
+  const auto written = connections_.write(
+      [&](sqlite::Database& database) -> Result<void> {
+        for (const auto& progress : progresses)
+          updated.push_back(write_counters(database, progress));
+        return {};
+      },
+      sqlite::Synchronous::Normal);
+  if (!written) updated.assign(progresses.size(), fail(written.error()));
+  return updated;
 }
 
 namespace {

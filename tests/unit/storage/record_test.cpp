@@ -52,6 +52,29 @@ TEST_F(RecordTest, ComesBackAsItWasReported) {
   EXPECT_EQ(record.text, batch.records[0].text);
 }
 
+TEST_F(RecordTest, OfManyMachinesAreStoredTogether) {
+  RecordBatch first = make_batch(1, 3), second = make_batch(1, 2);
+  second.machine = "m2";
+  for (auto& one : second.records) one.machine = "m2";
+  const auto stored = store_->records.store_all({first, second});
+  ASSERT_EQ(stored.size(), 2U);
+  EXPECT_EQ(stored[0], 3U);
+  EXPECT_EQ(stored[1], 2U);
+  reopen();
+  EXPECT_EQ(store_->records.of_machine_after("m1", {7, 0}, 100)->size(), 3U);
+  EXPECT_EQ(store_->records.of_machine_after("m2", {7, 0}, 100)->size(), 2U);
+}
+
+TEST_F(RecordTest, ThatCannotBeStoredDoNotKeepOthersFromTheDisk) {
+  RecordBatch good = make_batch(1, 3), bad = make_batch(1, 2);
+  bad.machine = "m2";  // and its records another's
+  const auto stored = store_->records.store_all({good, bad});
+  ASSERT_EQ(stored.size(), 2U);
+  EXPECT_EQ(stored[0], 3U);
+  EXPECT_EQ(stored[1].error().code, Errc::Syntax);
+  EXPECT_EQ(store_->records.of_machine_after("m1", {7, 0}, 100)->size(), 3U);
+}
+
 TEST_F(RecordTest, OutsideAnyRunAreTheMachinesReport) {
   RecordBatch batch = make_batch(1, 5);
   for (const std::size_t i : {0u, 1u, 2u, 3u}) batch.records[i].run.clear();

@@ -143,6 +143,16 @@ TEST_F(RunTest, CountersOnlyGoForward) {
   EXPECT_EQ(run->state, RunState::Ordered);
 }
 
+TEST_F(RunTest, CountersOfManyAreUpdatedAtOnce) {
+  const auto updated = store_->runs.update_all_counters(
+      {{"m1", "unknown", {}, 0, 0}, {"m2", "r1", {1, 1, 1}, 1, 1}, {"m1", "r1", {9, 8, 7}, 6, 5}});
+  ASSERT_EQ(updated.size(), 3U);
+  EXPECT_EQ(updated[0].error().code, Errc::NotFound);
+  EXPECT_EQ(updated[1].error().code, Errc::Conflict);
+  EXPECT_TRUE(updated[2]) << "one that fails does not undo the others";
+  EXPECT_EQ(store_->runs.find("r1")->counters.sent, 9U);
+}
+
 TEST_F(RunTest, CountersOfAnEndedRunStay) {
   ASSERT_TRUE(store_->runs.set_state("r1", RunState::Aborted, ""));
   ASSERT_TRUE(store_->runs.update_counters({"m1", "r1", {1000, 50, 40}, 41, 400}));
