@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,15 @@ namespace dripline::machines {
 namespace {
 
 constexpr std::size_t kMaxSessions = 8;
+
+storage::RunProgress progress_of(const dds::Status& status) {
+  return {
+      .machine = status.machine,
+      .run = status.run,
+      .counters = {.sent = status.sent, .accepted = status.accepted, .executed = status.executed},
+      .line = status.line,
+      .sequence = status.sequence};
+}
 
 /// A status may come before the announcement; until then the machine is not shown.
 bool is_known(const MachineView& view) {
@@ -70,8 +80,14 @@ void MachineRegistry::on_status(dds::Status status) {
   if (entry.has_rival) contest(entry);
   compare_clocks(entry, status);
   entry.counters_are_dirty = entry.counters_are_dirty || !status.run.empty();
+  const bool is_urgent = !entry.view.status || is_news(*entry.view.status, status);
   entry.view.status = std::move(status);
-  if (is_known(entry.view)) schedule(entry);
+  if (!is_known(entry.view)) return;
+  if (is_urgent) {
+    schedule(entry);
+  } else {
+    schedule_in_round(entry);
+  }
 }
 
 /// A restarted gateway has a new session, and the old one is never heard again. If it is heard,
@@ -177,6 +193,33 @@ void MachineRegistry::schedule(Entry& entry) {
   parts_.pool.post([this, name = entry.view.machine.name] { publish(name); });
 }
 
+/// One task for all machines whose positions or counters have changed meanwhile.
+void MachineRegistry::schedule_in_round(Entry& entry) {
+  if (entry.is_scheduled || std::exchange(entry.is_in_round, true)) return;
+  if (round_.empty()) parts_.pool.post_after(round(), [this] { publish_round(); });
+  round_.push_back(entry.view.machine.name);
+}
+
+std::chrono::milliseconds MachineRegistry::round() const {
+  return std::clamp(std::chrono::milliseconds(entries_.size() / kMachinesAMillisecond),
+                    kShortestRound, kLongestRound);
+}
+
+void MachineRegistry::publish_round() {
+  std::vector<std::string> names;
+  {
+    const std::lock_guard lock(mutex_);
+    names.swap(round_);
+    // One that is about to be published, or is being told, follows by itself.
+    std::erase_if(names, [this](const std::string& name) {
+      Entry& entry = entries_.at(name);
+      entry.is_in_round = false;
+      return std::exchange(entry.is_scheduled, true) || entry.is_telling;
+    });
+  }
+  for (const auto& name : names) publish(name);
+}
+
 void MachineRegistry::publish(const std::string& name) {
   MachineView view;
   bool is_dirty = false;
@@ -212,25 +255,23 @@ void MachineRegistry::save_machine(const std::string& name) {
 }
 
 void MachineRegistry::save() {
-  std::vector<dds::Status> progressed;
+  std::vector<storage::RunProgress> progressed;
   std::vector<std::string> dirty;
   {
     const std::lock_guard lock(mutex_);
     for (auto& [name, entry] : entries_) {
       if (entry.machine_is_dirty) dirty.push_back(name);
-      if (std::exchange(entry.counters_are_dirty, false)) progressed.push_back(*entry.view.status);
+      if (std::exchange(entry.counters_are_dirty, false))
+        progressed.push_back(progress_of(*entry.view.status));
     }
   }
   for (const auto& name : dirty) save_machine(name);
-  for (const auto& status : progressed) {
-    const storage::Counters counters{
-        .sent = status.sent, .accepted = status.accepted, .executed = status.executed};
-    auto saved = parts_.runs.update_counters(
-        {status.machine, status.run, counters, status.line, status.sequence});
-    if (!saved && saved.error().code != Errc::NotFound) {
-      process::log_debug("progress not saved machine={} run={}: {}", status.machine, status.run,
-                         saved.error().what);
-    }
+  if (progressed.empty()) return;
+  const auto saved = parts_.runs.update_all_counters(progressed);
+  for (std::size_t i = 0; i < saved.size(); ++i) {
+    if (saved[i] || saved[i].error().code == Errc::NotFound) continue;
+    process::log_debug("progress not saved machine={} run={}: {}", progressed[i].machine,
+                       progressed[i].run, saved[i].error().what);
   }
 }
 
@@ -246,6 +287,15 @@ void GatewayClocks::compare(const dds::Status& status, UtcTime now, SteadyTime s
 std::optional<microseconds> GatewayClocks::time_ahead() const {
   if (count_ < kSamples) return std::nullopt;
   return *std::max_element(time_ahead_.begin(), time_ahead_.end());
+}
+
+bool is_news(const dds::Status& before, const dds::Status& now) {
+  const auto said = [](const dds::Status& s) {
+    return std::tie(s.execution, s.mode, s.run, s.program, s.message, s.single_block,
+                    s.emergency_stop, s.remote_enable, s.waits_for, s.feed_override,
+                    s.rapid_override, s.spindle_override, s.session, s.axes);
+  };
+  return said(before) != said(now) || before.serial_line.has_value() != now.serial_line.has_value();
 }
 
 std::string protocol_notice(std::uint32_t protocol) {

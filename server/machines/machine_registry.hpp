@@ -51,6 +51,11 @@ class MachineRegistry {
   /// A machine stays contested this long after the last status of a second gateway; each writes one
   /// a second.
   static constexpr std::chrono::seconds kContested{3};
+  /// What only moves on (positions, counters) is published in rounds, so often at most; what else
+  /// changes goes out at once.
+  static constexpr std::chrono::milliseconds kShortestRound{50}, kLongestRound{250};
+  /// A round is a millisecond longer for so many machines: a thousand are told four times a second.
+  static constexpr std::size_t kMachinesAMillisecond = 4;
 
   struct Parts {
     storage::MachineStore& machines;
@@ -90,6 +95,7 @@ class MachineRegistry {
     GatewayClocks clocks;
     bool clock_is_off = false;  ///< and the log has it
     bool is_scheduled = false;  ///< a change is about to be published
+    bool is_in_round = false;   ///< its name waits for the next round
     bool is_telling = false;
     bool machine_is_dirty = false;  ///< the stored part changed
     bool counters_are_dirty = false;
@@ -100,12 +106,20 @@ class MachineRegistry {
   MachineView shown(const Entry& entry) const;
   void publish(const std::string& name);
   void schedule(Entry& entry);
+  void schedule_in_round(Entry& entry);
+  void publish_round();
+  std::chrono::milliseconds round() const;
   void save_machine(const std::string& name);
 
   Parts parts_;
   mutable std::mutex mutex_;
   std::map<std::string, Entry> entries_;
+  std::vector<std::string> round_;  ///< not empty: a round is due
 };
+
+/// Whether `now` differs from `before` in more than what moves on while a program runs: positions,
+/// counters, speeds. Alarms, prompts and stops do.
+bool is_news(const dds::Status& before, const dds::Status& now);
 
 /// Faults between the server and this machine's gateway, in sentences for people; empty when there
 /// is none. Without what the machine itself reports.

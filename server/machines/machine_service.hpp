@@ -48,8 +48,8 @@ class MachineService final : public MachineControl {
   void lose_gateways();
   /// Callers that wait for a gateway's answer get an error. Called by end().
   void stop_waiting();
-  /// In order: no more from the network, waiting commands fail, what has arrived is stored, DDS is
-  /// left. Called by the destructor at the latest.
+  /// In order: no more from the network, waiting commands fail, what is being stored is stored (the
+  /// gateways keep the rest), DDS is left. Called by the destructor at the latest.
   void end();
 
   std::vector<MachineView> machines() const override;

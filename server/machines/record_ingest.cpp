@@ -7,90 +7,12 @@
 #include "protocol/dds/message.hpp"
 #include "protocol/dds/record_text.hpp"
 #include "protocol/process/log.hpp"
+#include "server/machines/run_ending.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::machines {
 
 namespace {
-
-storage::RunState to_state(dds::RunOutcome outcome) {
-  switch (outcome) {
-    case dds::RunOutcome::Completed:
-      return storage::RunState::Completed;
-    case dds::RunOutcome::Aborted:
-      return storage::RunState::Aborted;
-    case dds::RunOutcome::Alarmed:
-      return storage::RunState::Alarmed;
-    case dds::RunOutcome::Interrupted:
-      return storage::RunState::Interrupted;
-  }
-  return storage::RunState::Interrupted;
-}
-
-/// The SHA-256 of the first `length` bytes of stored content. Errors: LimitExceeded (it is
-/// shorter), NotFound, Corrupt.
-Result<Digest> prefix_digest(storage::ProgramStore& store, const storage::Run& run,
-                             std::uint64_t length) {
-  if (length > run.size) {
-    return fail(Errc::LimitExceeded, "the gateway reports {} bytes of a program of {}", length,
-                run.size);
-  }
-  if (length == run.size) return run.content;
-  constexpr std::uint64_t kPiece = 1024 * 1024;
-  Sha256 hash;
-  for (std::uint64_t offset = 0; offset < length;) {
-    const auto bytes =
-        store.read_content(run.content, offset, std::min<std::uint64_t>(kPiece, length - offset));
-    if (!bytes) return fail(bytes.error());
-    if (bytes->empty()) return fail(Errc::Corrupt, "content {} is short", run.content.hex());
-    hash.update(*bytes);
-    offset += bytes->size();
-  }
-  return hash.digest();
-}
-
-/// nullopt when there is nothing to compare.
-std::optional<bool> verify(const storage::Store& store, const dds::Record& record,
-                           const dds::RunEndText& text) {
-  if (text.content_sha256.empty()) return std::nullopt;
-  const auto run = store.runs.find(record.run);
-  if (!run) return std::nullopt;
-  const auto ours = prefix_digest(store.programs, *run, text.content_length);
-  // When the stored bytes cannot be read, nothing is known of the machine's.
-  if (!ours && ours.error().code != Errc::LimitExceeded) {
-    process::log_error("executed bytes not compared machine={} run={} program={}: {}",
-                       record.machine, record.run, run->program, ours.error().what);
-    return std::nullopt;
-  }
-  const bool is_same = ours && ours->hex() == text.content_sha256;
-  if (!is_same) {
-    process::log_error(
-        "the machine did not execute the revision's bytes machine={} run={} program={}: {}",
-        record.machine, record.run, run->program, ours ? "the digests differ" : ours.error().what);
-  }
-  return is_same;
-}
-
-/// The content of a RunEnded record, with the server's own judgment of the bytes the machine
-/// executed: the gateway reports the SHA-256 of the first bytes of the program it received, and the
-/// server hashes the same bytes of the revision. Reads content when that is only a part of the
-/// program. Errors: Syntax (the text is not what gateways write). An unknown run is no error: then
-/// nothing is compared.
-Result<storage::RunEnding> read_run_ending(const storage::Store& store, const dds::Record& record) {
-  const auto text = dds::decode_run_end(record.text);
-  if (!text) return fail(text.error());
-  storage::RunEnding ending;
-  ending.run = record.run;
-  ending.state = to_state(text->outcome);
-  ending.counters = {.sent = text->sent, .accepted = text->accepted, .executed = text->executed};
-  ending.line = text->line;
-  ending.sequence = text->sequence;
-  ending.reason = text->reason;
-  if (!text->content_sha256.empty()) ending.executed_content = text->content_sha256;
-  ending.content_verified = verify(store, record, *text);
-  ending.ended = record.time;
-  return ending;
-}
 
 /// Nothing where the gateway has no setup of its own, or the text is not what gateways write.
 std::optional<std::string> setup_of_start(const dds::Record& record) {
@@ -144,8 +66,10 @@ void RecordIngest::take(dds::Record record) {
     if (lane.waiting.size() >= kMaxWaiting) return;
     lane.waiting.push_back(std::move(record));
     if (std::exchange(lane.is_scheduled, true)) return;
+    due_.push_back(machine);
+    if (std::exchange(is_gathering_, true)) return;
   }
-  parts_.pool.post([this, machine] { commit(machine); });
+  parts_.pool.post([this] { commit_all(); });
 }
 
 /// Hold the mutex.
@@ -171,8 +95,59 @@ void RecordIngest::greet(const std::string& machine, std::uint64_t epoch) {
   if (stored && *stored > 0) succeed(machine, epoch, *stored);
 }
 
+/// Records of many machines cost one flush of the disk. What begins or ends a run may read a whole
+/// program: that machine is served by itself, and delays no other.
+void RecordIngest::commit_all() {
+  std::vector<Taken> group = take_group();
+  std::vector<storage::RecordBatch> batches;
+  std::size_t records = 0;
+  for (Taken& taken : group) {
+    taken.foreign = foreign_runs(taken.records);
+    batches.push_back(to_batch(taken.records, taken.foreign));
+    records += taken.records.size();
+  }
+  std::vector<Result<std::uint64_t>> stored;
+  if (!group.empty()) stored = parts_.store.records.store_all(batches);
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    RecordWriter* writer = nullptr;  // lives as long as this
+    {
+      const std::lock_guard lock(mutex_);
+      writer = lane(group[i].machine).writer.get();
+    }
+    conclude(std::move(group[i]), std::move(batches[i]), writer->note(stored[i]));
+  }
+  if (group.empty()) {
+    const std::lock_guard lock(mutex_);
+    is_gathering_ = !due_.empty();
+    if (!is_gathering_) return;
+  }
+  const auto pause = records < kWorthACommit ? kGather : std::chrono::milliseconds{0};
+  parts_.pool.post_after(pause, [this] { commit_all(); });
+}
+
+std::vector<RecordIngest::Taken> RecordIngest::take_group() {
+  const auto changes_run = [](const dds::Record& record) {
+    return record.kind == dds::RecordKind::RunStarted || record.kind == dds::RecordKind::RunEnded;
+  };
+  std::vector<Taken> group;
+  const std::lock_guard lock(mutex_);
+  while (!due_.empty() && group.size() < kMaxGroup) {
+    const std::string machine = std::move(due_.front());
+    due_.pop_front();
+    Lane& lane = lanes_[machine];
+    if (lane.waiting.empty()) {
+      lane.is_scheduled = false;
+    } else if (std::ranges::any_of(lane.waiting, changes_run)) {
+      parts_.pool.post([this, machine] { commit(machine); });
+    } else {
+      group.push_back({machine, take_batch(lane), {}});
+    }
+  }
+  return group;
+}
+
 void RecordIngest::commit(const std::string& machine) {
-  std::vector<dds::Record> records;
+  Taken taken{machine, {}, {}};
   {
     const std::lock_guard lock(mutex_);
     Lane& lane = lanes_[machine];
@@ -180,24 +155,33 @@ void RecordIngest::commit(const std::string& machine) {
       lane.is_scheduled = false;
       return;
     }
-    records = take_batch(lane);
+    taken.records = take_batch(lane);
   }
-  const auto foreign = foreign_runs(records);
-  storage::RecordBatch batch = to_batch(records, foreign);
+  taken.foreign = foreign_runs(taken.records);
+  storage::RecordBatch batch = to_batch(taken.records, taken.foreign);
   const auto stored = store(batch);
-  if (!stored && !is_hopeless(stored.error())) {
-    return put_back(machine, std::move(records));
-  }
+  conclude(std::move(taken), std::move(batch), stored);
+}
+
+void RecordIngest::conclude(Taken taken, storage::RecordBatch batch,
+                            const Result<std::uint64_t>& stored) {
+  const std::string& machine = taken.machine;
+  if (!stored && !is_hopeless(stored.error())) return put_back(machine, std::move(taken.records));
   if (stored) {
     leave_out_after(*stored, batch);
-    std::erase_if(batch.records, [&](const auto& r) { return foreign.contains(r.run); });
+    std::erase_if(batch.records, [&](const auto& r) { return taken.foreign.contains(r.run); });
     parts_.on_stored(batch);
     succeed(machine, batch.epoch, *stored);
   } else {  // not acknowledged; records after them are not delayed
     process::log_error("records dropped machine={} epoch={}: {}", machine, batch.epoch,
                        stored.error().what);
   }
-  parts_.pool.post([this, machine] { commit(machine); });
+  const std::lock_guard lock(mutex_);
+  Lane& lane = lanes_[machine];
+  lane.is_scheduled = !lane.waiting.empty();
+  if (!lane.is_scheduled) return;
+  due_.push_back(machine);
+  if (!std::exchange(is_gathering_, true)) parts_.pool.post([this] { commit_all(); });
 }
 
 /// Records of one epoch, ascending, each once: a gateway that heard no acknowledgment repeats.
@@ -218,15 +202,26 @@ std::vector<dds::Record> RecordIngest::take_batch(Lane& lane) {
   return records;
 }
 
+/// Or not known: a gateway may know of more runs than the store. Whose a run is never changes.
+bool RecordIngest::is_own(const std::string& machine, const std::string& id) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (lanes_[machine].own_run == id) return true;
+  }
+  const auto run = parts_.store.runs.find(id);
+  if (!run) return true;
+  if (run->machine != machine) return false;
+  const std::lock_guard lock(mutex_);
+  lanes_[machine].own_run = id;
+  return true;
+}
+
 std::set<std::string> RecordIngest::foreign_runs(const std::vector<dds::Record>& records) {
   std::set<std::string> asked, foreign;
   const std::string& machine = records.front().machine;
   for (const auto& record : records) {
     if (record.run.empty()) continue;
-    if (asked.insert(record.run).second) {
-      const auto run = parts_.store.runs.find(record.run);
-      if (run && run->machine != machine) foreign.insert(record.run);
-    }
+    if (asked.insert(record.run).second && !is_own(machine, record.run)) foreign.insert(record.run);
     if (!foreign.contains(record.run)) continue;
     ++foreign_;
     const std::lock_guard lock(mutex_);
@@ -322,8 +317,7 @@ void RecordIngest::acknowledge(const std::string& machine) {
   parts_.pool.post_after(kAckRetry, [this, machine] { acknowledge(machine); });
 }
 
-Result<std::uint64_t> RecordWriter::store(const storage::RecordBatch& batch) {
-  auto stored = parts_.store.store(batch);
+Result<std::uint64_t> RecordWriter::note(Result<std::uint64_t> stored) {
   if (!stored && is_hopeless(stored.error())) return stored;
   std::chrono::milliseconds before{};
   {

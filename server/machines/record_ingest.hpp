@@ -37,7 +37,11 @@ class RecordWriter {
   explicit RecordWriter(Parts parts) : parts_(std::move(parts)) {}
 
   /// Promises and errors: RecordStore::store.
-  Result<std::uint64_t> store(const storage::RecordBatch& batch);
+  Result<std::uint64_t> store(const storage::RecordBatch& batch) {
+    return note(parts_.store.store(batch));
+  }
+  /// How a try ended that the caller has made; returns it.
+  Result<std::uint64_t> note(Result<std::uint64_t> stored);
   /// Before the next try; 0: the last one succeeded.
   std::chrono::milliseconds pause() const;
 
@@ -52,14 +56,19 @@ inline bool is_hopeless(const Error& error) {
   return error.code == Errc::Syntax || error.code == Errc::LimitExceeded;
 }
 
-/// Puts what the machines report on disk, then acknowledges it. What arrives while a commit runs
-/// is the next commit. While the store refuses (a full disk) nothing is acknowledged and nothing is
+/// Puts what the machines report on disk, then acknowledges it. What arrives of all machines while
+/// a commit runs, and kGather after it, is the next commit; records that begin or end a run have
+/// one of their own. While the store refuses (a full disk) nothing is acknowledged and nothing is
 /// lost: the gateways keep their records, and those that have arrived are tried again.
 class RecordIngest {
  public:
   static constexpr std::size_t kMaxWaiting = 4096;  ///< records of one machine; more are left to
                                                     ///< the gateway, which sends them again
   static constexpr std::size_t kMaxBatch = 1024;
+  static constexpr std::size_t kMaxGroup = 256;  ///< machines in a commit
+  /// A single record is on disk at once; of a stream of them, a hundred commits a second are.
+  static constexpr std::chrono::milliseconds kGather{10};
+  static constexpr std::size_t kWorthACommit = 64;  ///< so many records are not waited for
 
   struct Parts {
     const storage::Store& store;
@@ -92,16 +101,27 @@ class RecordIngest {
     std::unique_ptr<RecordWriter> writer;
     std::deque<dds::Record> waiting;
     bool is_scheduled = false;
+    std::string own_run;      ///< of this machine, as the store has said
     std::string foreign_run;  ///< of another machine, named last
     dds::RecordAck ack;       ///< the last one to be sent
     bool ack_is_owed = false;
   };
+  /// What is taken from a lane to be stored.
+  struct Taken {
+    std::string machine;
+    std::vector<dds::Record> records;
+    std::set<std::string> foreign;
+  };
   Lane& lane(const std::string& machine);
+  void commit_all();
+  std::vector<Taken> take_group();
   void commit(const std::string& machine);
+  void conclude(Taken taken, storage::RecordBatch batch, const Result<std::uint64_t>& stored);
   std::vector<dds::Record> take_batch(Lane& lane);
   void put_back(const std::string& machine, std::vector<dds::Record> records);
   void succeed(const std::string& machine, std::uint64_t epoch, std::uint64_t number);
   void acknowledge(const std::string& machine);
+  bool is_own(const std::string& machine, const std::string& id);
   /// The runs among these that are another machine's.
   std::set<std::string> foreign_runs(const std::vector<dds::Record>& records);
   storage::RecordBatch to_batch(const std::vector<dds::Record>& records,
@@ -112,6 +132,8 @@ class RecordIngest {
   Parts parts_;
   std::mutex mutex_;
   std::map<std::string, Lane> lanes_;
+  std::deque<std::string> due_;  ///< machines whose records wait for the next commit of all
+  bool is_gathering_ = false;    ///< commit_all is posted
   std::atomic<std::uint64_t> foreign_ = 0;
 };
 

@@ -61,6 +61,54 @@ TEST_F(MachineRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsNotified) {
   EXPECT_EQ(service_->command(stop).error().code, Errc::Unsupported);
 }
 
+/// However often a gateway reports it: what a reader gets of it is paced, and is the latest.
+TEST_F(MachineRuns, AreToldInRoundsWhileOnlyPositionsAndCountersMoveOn) {
+  start_service();
+  announce();
+  ASSERT_TRUE(wait_notified(machines_, [](const auto& view) { return view.status.has_value(); }));
+  constexpr std::uint64_t kStatuses = 2000;
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.session = kSession;
+  for (std::uint64_t n = 1; n <= kStatuses; ++n) {
+    status.executed = n;
+    network_.on_status(status);
+  }
+  ASSERT_TRUE(wait_notified(machines_, [](const auto& view) {
+    return view.status && view.status->executed == kStatuses;
+  }));
+  service_->end();
+  EXPECT_LT(machines_.size(), kStatuses / 4);
+}
+
+TEST(IsNews, AreAlarmsPromptsAndStopsAndWhatAnOperatorSets) {
+  const std::vector<void (*)(dds::Status&)> news{
+      [](auto& s) { s.execution = dds::Execution::Stopped; },
+      [](auto& s) { s.mode = dds::ControllerMode::Manual; },
+      [](auto& s) { s.message = "ALARM"; },
+      [](auto& s) { s.emergency_stop = true; },
+      [](auto& s) { s.waits_for = dds::WaitsFor::CycleStart; },
+      [](auto& s) { s.remote_enable = dds::RemoteEnable::NotGiven; },
+      [](auto& s) { s.run = "run-2"; },
+      [](auto& s) { s.program = "O2"; },
+      [](auto& s) { s.feed_override = 0.5; },
+      [](auto& s) { s.rapid_override = 0.5; },
+      [](auto& s) { s.spindle_override = 0.5; },
+      [](auto& s) { s.single_block = true; },
+      [](auto& s) { s.session = 2; },
+      [](auto& s) { s.serial_line.emplace(); }};
+  for (std::size_t i = 0; i < news.size(); ++i) {
+    dds::Status before, now;
+    news[i](now);
+    EXPECT_TRUE(machines::is_news(before, now)) << i;
+  }
+  dds::Status before, now;
+  now.position[0] = 1;
+  ++now.executed;
+  now.feed_mm_per_min = now.buffered_seconds = 3;
+  EXPECT_FALSE(machines::is_news(before, now));
+}
+
 TEST_F(MachineRuns, ShowHowFarTheGatewaysClockIsOff) {
   push("O0100", "M30\n");
   start_service();

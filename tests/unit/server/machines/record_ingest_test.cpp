@@ -101,6 +101,32 @@ TEST_F(RecordIngestTest, AreAcknowledgedOnceTheyAreStored) {
   EXPECT_EQ(stored->back().text, "LINE 100");
 }
 
+/// Of many machines at once: each has its own acknowledgment.
+TEST_F(RecordIngestTest, OfManyMachinesAreStoredTogetherAndAcknowledgedEach) {
+  start_service();
+  constexpr std::uint64_t kMachines = 300, kRecords = 5;
+  for (std::uint64_t n = 1; n <= kRecords; ++n) {
+    for (std::uint64_t m = 1; m <= kMachines; ++m) {
+      dds::Record record;
+      record.machine = fmt::format("mill-{}", m);
+      record.epoch = kEpoch;
+      record.number = n;
+      record.kind = dds::RecordKind::Output;
+      record.text = "X";
+      network_.on_record(record);
+    }
+  }
+  const auto acknowledged = [&] {
+    std::set<std::string> machines;
+    for (const auto& ack : written_->acks) {
+      if (ack.number == kRecords) machines.insert(ack.machine);
+    }
+    return machines.size();
+  };
+  ASSERT_TRUE(written_->wait([&] { return acknowledged() == kMachines; }));
+  EXPECT_EQ(store_->records.of_machine_after("mill-300", {kEpoch, 0}, 100)->size(), kRecords);
+}
+
 TEST_F(RecordIngestTest, AreStoredOnceHoweverOftenTheyCome) {
   const std::string run = running("M30\n");
   for (int i = 0; i < 3; ++i) {
