@@ -111,21 +111,21 @@ storage::Page read_page(QueryReader& query) {
 }
 
 machines::MachineListener publish_to(EventHub& hub) {
-  const auto publish = [&hub](const char* kind, const std::string& machine, const auto& make_json) {
+  const auto publish = [&hub](const char* kind, const std::string& machine, const auto& make_text) {
     if (!hub.has_listeners()) return;
-    hub.publish({.kind = kind, .machine = machine, .data = to_text(make_json())});
+    hub.publish({.kind = kind, .machine = machine, .data = make_text()});
   };
   return {.on_machine =
               [publish](const machines::MachineView& view) {
-                publish("machine", view.machine.name, [&] { return machine_json(view); });
+                publish("machine", view.machine.name, [&] { return machine_text(view); });
               },
           .on_run =
               [publish](const storage::Run& run) {
-                publish("run", run.machine, [&] { return run_json(run); });
+                publish("run", run.machine, [&] { return to_text(run_json(run)); });
               },
           .on_record =
               [publish](const storage::Record& record) {
-                publish("record", record.machine, [&] { return record_json(record); });
+                publish("record", record.machine, [&] { return to_text(record_json(record)); });
               }};
 }
 

@@ -10,19 +10,17 @@ bool EventSubscription::wants(const Event& event) const {
   return !interest_.machine || *interest_.machine == event.machine;
 }
 
-bool EventSubscription::replaces_older(const Event& event) {
-  if (event.kind != "machine") return false;
-  const auto older = std::ranges::find_if(waiting_, [&](const Event& other) {
-    return other.kind == event.kind && other.machine == event.machine;
-  });
-  if (older == waiting_.end()) return false;
-  bytes_ += event.data.size() - older->data.size();
-  older->data = event.data;
-  return true;
+void EventSubscription::push_machine(const Event& event) {
+  const auto [place, is_new] = machines_.try_emplace(event.machine, waiting_.size());
+  if (is_new) {
+    waiting_.push_back(event);
+  } else {
+    waiting_[place->second].data = event.data;
+  }
 }
 
 bool EventSubscription::is_full(const Event& event) const {
-  return waiting_.size() >= kMaxEvents || bytes_ + event.data.size() > kMaxBytes;
+  return waiting_.size() - machines_.size() >= kMaxEvents || bytes_ + event.data.size() > kMaxBytes;
 }
 
 void EventSubscription::push(const Event& event) {
@@ -30,14 +28,16 @@ void EventSubscription::push(const Event& event) {
   std::function<void()> wake;
   {
     const std::lock_guard lock(mutex_);
-    if (is_closed_ || replaces_older(event)) return;
+    if (is_closed_) return;
     const bool is_counted = !event.port.empty();
     if (is_counted && (lost_ > 0 || is_full(event))) {  // adjacent gaps are one gap
       ++lost_;
       return;
     }
     if (waiting_.empty()) wake = wake_;
-    if (is_full(event)) {
+    if (event.kind == "machine") {
+      push_machine(event);
+    } else if (is_full(event)) {
       close_locked();
       wake = wake_;
     } else {
@@ -51,6 +51,7 @@ void EventSubscription::push(const Event& event) {
 void EventSubscription::close_locked() {
   is_closed_ = true;
   waiting_.clear();
+  machines_.clear();
   bytes_ = 0;
   lost_ = 0;
 }
@@ -71,12 +72,13 @@ std::string EventSubscription::take() {
   {
     const std::lock_guard lock(mutex_);
     events.swap(waiting_);
+    machines_.clear();
     bytes_ = 0;
     lost = std::exchange(lost_, 0);
   }
   std::string text;
   for (const auto& event : events) {
-    text += "event: " + event.kind + "\ndata: " + event.data + "\n\n";
+    text.append("event: ").append(event.kind).append("\ndata: ").append(event.data).append("\n\n");
   }
   if (lost > 0) text += "event: lost\ndata: {\"lost\":" + std::to_string(lost) + "}\n\n";
   return text;

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace dripline::api {
@@ -25,13 +26,14 @@ struct Interest {
 };
 
 /// One listener's bounded queue. A listener that is too slow for the events of machines is cut off,
-/// so that it delays no other; of the `machine` events only the latest of each machine waits. A
+/// so that it delays no other; of the `machine` events only the latest of each machine waits, so
+/// that those of thousands fit. A
 /// line does not wait for its listeners: events for which a port's listener has no room are counted
 /// and reported as `lost` {"lost": n}. Any thread.
 class EventSubscription {
  public:
   static constexpr std::size_t kMaxEvents = 2048;
-  static constexpr std::size_t kMaxBytes = 2 * 1024 * 1024;
+  static constexpr std::size_t kMaxBytes = 2 * 1024 * 1024;  ///< both without `machine` events
 
   explicit EventSubscription(Interest interest) : interest_(std::move(interest)) {}
   void push(const Event& event);
@@ -46,15 +48,16 @@ class EventSubscription {
 
  private:
   bool wants(const Event& event) const;
-  bool replaces_older(const Event& event);
+  void push_machine(const Event& event);
   bool is_full(const Event& event) const;
   void close_locked();
 
   const Interest interest_;
   mutable std::mutex mutex_;
   std::deque<Event> waiting_;
-  std::size_t bytes_ = 0;
-  std::uint64_t lost_ = 0;  ///< dropped after the events that wait
+  std::unordered_map<std::string, std::size_t> machines_;  ///< place of each `machine` event
+  std::size_t bytes_ = 0;                                  ///< of the others
+  std::uint64_t lost_ = 0;                                 ///< dropped after the events that wait
   bool is_closed_ = false;
   std::function<void()> wake_;
 };

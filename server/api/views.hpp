@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "server/machines/machine_control.hpp"
 #include "storage/store.hpp"
@@ -14,7 +15,9 @@ nlohmann::json revision_json(const storage::Revision& revision, const std::strin
 /// Of a program.
 nlohmann::json fields_json(const storage::ProgramFields& fields);
 nlohmann::json program_json(const storage::ProgramSummary& program, const std::string& title);
-nlohmann::json machine_json(const machines::MachineView& view);
+/// JSON in one line. Written with every status, so no tree is made of it.
+std::string machine_text(const machines::MachineView& view);
+nlohmann::json machine_json(const machines::MachineView& view);  ///< the same, read
 /// null: it is not held.
 nlohmann::json hold_json(const std::optional<storage::MachineHold>& hold);
 nlohmann::json hold_json(const std::optional<storage::JobHold>& hold);

@@ -106,7 +106,7 @@ Response open_events(Services& services, const Request& request) {
   if (!response.events) return too_many_listeners();
   for (const auto& view : services.machines.machines()) {
     response.events->push(
-        {.kind = "machine", .machine = view.machine.name, .data = to_text(machine_json(view))});
+        {.kind = "machine", .machine = view.machine.name, .data = machine_text(view)});
   }
   response.content_type = "text/event-stream";
   return response;

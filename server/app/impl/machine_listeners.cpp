@@ -60,11 +60,14 @@ machines::MachineListener ServerParts::machine_listener() {
   listener.on_machine = [this, publish = listener.on_machine](const machines::MachineView& view) {
     using Level = library::Health::Level;
     const auto notices = machines::notices_of(view);
-    health.report(view.machine.name, {.level = notices.empty() ? Level::Ok : Level::Degraded,
-                                      .subject = "gateway",
-                                      .what = "server and a gateway do not agree",
-                                      .detail = fmt::format("machine={}: {}", view.machine.name,
-                                                            fmt::join(notices, "; "))});
+    library::Health::Finding finding{
+        .level = Level::Ok, .subject = "gateway", .what = {}, .detail = {}};
+    if (!notices.empty()) {  // else, with every status, no text is made
+      finding.level = Level::Degraded;
+      finding.what = "server and a gateway do not agree";
+      finding.detail = fmt::format("machine={}: {}", view.machine.name, fmt::join(notices, "; "));
+    }
+    health.report(view.machine.name, std::move(finding));
     publish(view);
   };
   listener.on_run = [this, publish = listener.on_run](const storage::Run& run) {

@@ -24,6 +24,26 @@ TEST(EventHub, KeepsOnlyTheLatestStateOfAMachine) {
   EXPECT_EQ(listener->take(), "event: machine\ndata: 9999\n\n");
 }
 
+TEST(EventHub, HasTheStateOfThousandsOfMachinesForASlowListener) {
+  EventHub hub;
+  const auto slow = hub.subscribe({});
+  constexpr int kMachines = 4096;
+  const std::string state(2048, 'x');  // with all of them more than kMaxBytes
+  hub.publish({.kind = "run", .machine = "m1", .data = "{}"});
+  for (const std::string& data : {state, state + "y"}) {
+    for (int i = 0; i < kMachines; ++i)
+      hub.publish({.kind = "machine", .machine = "m" + std::to_string(i), .data = data});
+  }
+  ASSERT_FALSE(slow->is_closed());
+  const std::string text = slow->take();
+  EXPECT_TRUE(text.starts_with("event: run\n")) << "the order stays";
+  const std::size_t frame = std::string("event: machine\ndata: \n\n").size();
+  EXPECT_EQ(text.size(), std::string("event: run\ndata: {}\n\n").size() +
+                             kMachines * (frame + state.size() + 1));
+  hub.publish({.kind = "machine", .machine = "m7", .data = "{}"});
+  EXPECT_EQ(slow->take(), "event: machine\ndata: {}\n\n");
+}
+
 TEST(EventHub, CutsOffAListenerThatIsTooSlow) {
   EventHub hub;
   const auto slow = hub.subscribe({});
