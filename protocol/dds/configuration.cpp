@@ -106,12 +106,20 @@ Result<std::string> server_place(const NetworkOptions& options, std::uint32_t ce
   return fmt::format("{}:{}", options.server.substr(0, colon), port + 2 * cell);
 }
 
+/// Without multicast Cyclone announces a participant at its own address too, at the ports of as
+/// many indexes as MaxAutoParticipantIndex allows: with the usual base and ten of them, all cells
+/// and all gateways of the server's computer would meet each other, and be told of all machines. So
+/// each cell has a base of its own, at which it is the only index.
 Result<std::string> place_elements(const NetworkOptions& options, Role role, std::uint32_t cell) {
-  if (role == Role::Server) return fmt::format("<ParticipantIndex>{}</ParticipantIndex>", cell);
+  constexpr std::uint32_t kMetaOffset = 10;  // Cyclone's, of the first unicast port
+  const std::string ports = fmt::format(
+      "<MaxAutoParticipantIndex>0</MaxAutoParticipantIndex><Ports><Base>{}</Base></Ports>",
+      server_port(0, cell) - kMetaOffset);
+  if (role == Role::Server) return "<ParticipantIndex>0</ParticipantIndex>" + ports;
   const auto place = server_place(options, cell);
   if (!place) return fail(place.error());
   return fmt::format(
-      "<ParticipantIndex>none</ParticipantIndex><Peers><Peer Address=\"{}\"/></Peers>",
+      "<ParticipantIndex>none</ParticipantIndex>{}<Peers><Peer Address=\"{}\"/></Peers>", ports,
       escape_xml(*place));
 }
 

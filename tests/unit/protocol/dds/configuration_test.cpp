@@ -36,7 +36,7 @@ TEST(DomainConfiguration, APortGivenWithTheServerIsKept) {
 
 TEST(DomainConfiguration, EachCellHasItsOwnPorts) {
   NetworkOptions options;
-  EXPECT_TRUE(contains(*domain_configuration(options, Role::Server, 3), "<ParticipantIndex>3<"));
+  EXPECT_TRUE(contains(*domain_configuration(options, Role::Server, 3), "<Base>7406<"));
   EXPECT_TRUE(contains(*domain_configuration(options, Role::Gateway, 3), "\"127.0.0.1:7416\""));
   options.server = "dnc.example:9000";
   EXPECT_TRUE(contains(*domain_configuration(options, Role::Gateway, 3), "\"dnc.example:9006\""));
