@@ -85,8 +85,9 @@ struct GatewayHandlers {
 /// A gateway's end, for one machine. Nothing is delivered before the gateway wrote its Announce;
 /// the endpoint repeats it to every new server. The write functions never wait longer than a few
 /// milliseconds: Errc::Timeout means "not accepted, try later"; any thread. Messages written while
-/// no server is connected are lost, except the last Announce and Status. Errors of writing: Syntax,
-/// LimitExceeded (an impossible member), Timeout, Io.
+/// no server is connected are lost, except the last Announce. A Status is not acknowledged either:
+/// it is to be repeated until another one follows, at least once a second. Errors of writing:
+/// Syntax, LimitExceeded (an impossible member), Timeout, Io.
 class GatewayEndpoint {
  public:
   /// Errors: Syntax, LimitExceeded (options, machine name), NotFound (a security file), Io.
