@@ -78,7 +78,7 @@ void EventWatch::take_event(std::string_view event) {
   }
   if (!event.starts_with("event: machine\n")) return;
   const auto executed = value_of(event, "\"executed\":");
-  const auto machine = value_of(event, "\"machine\":\"");
+  const auto machine = value_of(event, "\"name\":\"");
   const auto time = parse_iso8601(value_of(event, "\"time\":\""));
   std::uint64_t number = 0;
   const auto read = std::from_chars(executed.data(), executed.data() + executed.size(), number);

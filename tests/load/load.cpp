@@ -26,6 +26,8 @@ struct Options {
   std::vector<std::size_t> machines{10, 100, 300, 1000};
   double seconds = 30, changes = 5, records = 1, feeding = 0.1;
   int kills = 0;
+  std::uint32_t cells = 64, discovery_ms = 250;
+  std::string server;  ///< empty: the one beside this program
   std::string events = "/api/v1/events";
   bool has_watch = true, is_json = false;
 };
@@ -85,10 +87,13 @@ void kill_again_and_again(const Options& options, Shop& shop, Figures& figures) 
 }
 
 Figures run(const Options& options, const std::string& programs, std::size_t machines) {
-  Shop shop({.programs = programs,
+  Shop shop({.server = options.server.empty() ? programs + "/dncd" : options.server,
+             .programs = programs,
              .machines = machines,
              .changes = options.changes,
              .records = options.records,
+             .cells = options.cells,
+             .discovery_ms = options.discovery_ms,
              .feeding = options.feeding});
   Figures figures;
   figures.machines = machines;
@@ -176,6 +181,9 @@ int main(int argc, char** argv) {
   app.add_option("--records", options.records, "Records a second of each machine");
   app.add_option("--feeding", options.feeding, "Share of the machines that pull their program");
   app.add_option("--kills", options.kills, "Kill the server so often after the measurement");
+  app.add_option("--cells", options.cells, "Cells of the server and of the gateways");
+  app.add_option("--discovery-ms", options.discovery_ms, "Between two announcements of DDS");
+  app.add_option("--server", options.server, "Another dncd than the one beside this program");
   app.add_option("--events", options.events, "The event stream that is read");
   app.add_flag("--unwatched", is_unwatched, "Nobody reads the events");
   app.add_flag("--json", options.is_json, "One JSON object for each number of machines");

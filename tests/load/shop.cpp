@@ -104,17 +104,21 @@ void Shop::start_server() {
   server_.reset();
   const fs::path state = folder_.path() / "server";
   if (url_.empty()) url_ = "http://127.0.0.1:" + std::to_string(free_port(SOCK_STREAM, 0));
-  const std::vector<std::string> command{options_.programs + "/dncd",
-                                         "--state",
-                                         state,
-                                         "--http",
-                                         url_.substr(7),
-                                         "--log",
-                                         folder_.path() / "dncd.log",
-                                         "--dds-domain",
-                                         std::to_string(domain_),
-                                         "--dds-tag",
-                                         tag_};
+  std::vector<std::string> command{options_.server,
+                                   "--state",
+                                   state,
+                                   "--http",
+                                   url_.substr(7),
+                                   "--log",
+                                   folder_.path() / "dncd.log",
+                                   "--dds-domain",
+                                   std::to_string(domain_),
+                                   "--dds-tag",
+                                   tag_,
+                                   "--discovery-interval-ms",
+                                   std::to_string(options_.discovery_ms)};
+  if (options_.cells != dds::kFewestCells)  // an earlier server does not know the option
+    command.insert(command.end(), {"--dds-cells", std::to_string(options_.cells)});
   server_.emplace(command, folder_.path() / "dncd.out");
   const auto answers = [&] {
     token_ = read_file(state / "token");
@@ -136,6 +140,8 @@ void Shop::start_gateways() {
     const std::vector<std::string> command{options_.programs + "/load_gateways",
                                            std::to_string(domain_),
                                            tag_,
+                                           std::to_string(options_.cells),
+                                           std::to_string(options_.discovery_ms),
                                            std::to_string(first + 1),
                                            std::to_string(count),
                                            std::to_string(options_.changes),

@@ -14,10 +14,13 @@
 namespace dripline::load {
 
 struct ShopOptions {
-  std::string programs;  ///< folder of dncd and load_gateways
+  std::string server;    ///< dncd
+  std::string programs;  ///< folder of load_gateways
   std::size_t machines = 10;
-  double changes = 5, records = 1;  ///< a second, of each machine
-  double feeding = 0.1;             ///< share of the machines that pull a program
+  double changes = 5, records = 1;   ///< a second, of each machine
+  std::uint32_t cells = 64;          ///< NetworkOptions::cells, of both ends
+  std::uint32_t discovery_ms = 250;  ///< between two announcements of DDS, of both ends
+  double feeding = 0.1;              ///< share of the machines that pull a program
 };
 
 /// What became of the records.
