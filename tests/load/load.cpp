@@ -26,7 +26,7 @@ struct Options {
   std::vector<std::size_t> machines{10, 100, 300, 1000};
   double seconds = 30, changes = 5, records = 1, feeding = 0.1;
   int kills = 0;
-  std::uint32_t cells = 64, discovery_ms = 250;
+  std::uint32_t cells = 64, discovery_ms = 250, lease_ms = 2000;
   std::string server;  ///< empty: the one beside this program
   std::string events = "/api/v1/events";
   bool has_watch = true, is_json = false;
@@ -94,6 +94,7 @@ Figures run(const Options& options, const std::string& programs, std::size_t mac
              .records = options.records,
              .cells = options.cells,
              .discovery_ms = options.discovery_ms,
+             .lease_ms = options.lease_ms,
              .feeding = options.feeding});
   Figures figures;
   figures.machines = machines;
@@ -183,6 +184,7 @@ int main(int argc, char** argv) {
   app.add_option("--kills", options.kills, "Kill the server so often after the measurement");
   app.add_option("--cells", options.cells, "Cells of the server and of the gateways");
   app.add_option("--discovery-ms", options.discovery_ms, "Between two announcements of DDS");
+  app.add_option("--lease-ms", options.lease_ms, "Silence after which either end is lost");
   app.add_option("--server", options.server, "Another dncd than the one beside this program");
   app.add_option("--events", options.events, "The event stream that is read");
   app.add_flag("--unwatched", is_unwatched, "Nobody reads the events");

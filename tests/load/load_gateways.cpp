@@ -1,6 +1,6 @@
 // Many gateways in one process, each with a DDS domain, participant, sockets and threads of its
 // own, as a real one has.
-//   load_gateways DOMAIN TAG CELLS DISCOVERY_MS FIRST MACHINES CHANGES RECORDS FEEDING
+//   load_gateways DOMAIN TAG CELLS DISCOVERY_MS LEASE_MS FIRST MACHINES CHANGES RECORDS FEEDING
 // CHANGES of its status and RECORDS a second for each; the first FEEDING of them pull a program.
 // Prints "connected" when all are. SIGUSR1: no more records; when all are acknowledged, one line a
 // machine and "drained". Ends with SIGTERM.
@@ -110,9 +110,10 @@ class Fleet {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 10)
+  if (argc != 11)
     give_up(
-        "usage: load_gateways DOMAIN TAG CELLS DISCOVERY_MS FIRST MACHINES CHANGES RECORDS "
+        "usage: load_gateways DOMAIN TAG CELLS DISCOVERY_MS LEASE_MS FIRST MACHINES CHANGES "
+        "RECORDS "
         "FEEDING");
   std::signal(SIGUSR1, [](int) { is_draining = true; });
   std::signal(SIGTERM, [](int) { is_ending = true; });
@@ -122,9 +123,10 @@ int main(int argc, char** argv) {
   options.network.cells = static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10));
   options.network.discovery_interval_ms =
       static_cast<std::uint32_t>(std::strtoul(argv[4], nullptr, 10));
-  const std::size_t first = std::strtoul(argv[5], nullptr, 10);
-  const std::size_t count = std::strtoul(argv[6], nullptr, 10);
-  const std::size_t feeding = std::strtoul(argv[9], nullptr, 10);
+  options.network.lease_ms = static_cast<std::uint32_t>(std::strtoul(argv[5], nullptr, 10));
+  const std::size_t first = std::strtoul(argv[6], nullptr, 10);
+  const std::size_t count = std::strtoul(argv[7], nullptr, 10);
+  const std::size_t feeding = std::strtoul(argv[10], nullptr, 10);
   Fleet fleet;
   for (std::size_t i = 0; i < count; ++i) {
     options.machine = "mill-" + std::to_string(first + i);
@@ -132,6 +134,6 @@ int main(int argc, char** argv) {
     fleet.open(options);
   }
   fleet.begin();
-  fleet.run({std::strtod(argv[7], nullptr), std::strtod(argv[8], nullptr)});
+  fleet.run({std::strtod(argv[8], nullptr), std::strtod(argv[9], nullptr)});
   std::_Exit(0);  // hundreds of endpoints take long to close, and nothing is left to be saved
 }

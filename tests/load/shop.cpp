@@ -116,7 +116,9 @@ void Shop::start_server() {
                                    "--dds-tag",
                                    tag_,
                                    "--discovery-interval-ms",
-                                   std::to_string(options_.discovery_ms)};
+                                   std::to_string(options_.discovery_ms),
+                                   "--lease-ms",
+                                   std::to_string(options_.lease_ms)};
   if (options_.cells != dds::kFewestCells)  // an earlier server does not know the option
     command.insert(command.end(), {"--dds-cells", std::to_string(options_.cells)});
   server_.emplace(command, folder_.path() / "dncd.out");
@@ -142,6 +144,7 @@ void Shop::start_gateways() {
                                            tag_,
                                            std::to_string(options_.cells),
                                            std::to_string(options_.discovery_ms),
+                                           std::to_string(options_.lease_ms),
                                            std::to_string(first + 1),
                                            std::to_string(count),
                                            std::to_string(options_.changes),

@@ -20,6 +20,7 @@ struct ShopOptions {
   double changes = 5, records = 1;   ///< a second, of each machine
   std::uint32_t cells = 64;          ///< NetworkOptions::cells, of both ends
   std::uint32_t discovery_ms = 250;  ///< between two announcements of DDS, of both ends
+  std::uint32_t lease_ms = 2000;     ///< likewise
   double feeding = 0.1;              ///< share of the machines that pull a program
 };
 
