@@ -2,7 +2,7 @@
 // is not decided yet, and corrections that wait for a decision. Views read it and are notified when their part has changed, at most four times a second,
 // so that a thousand busy machines stay fluid. Of measured parts and job queues it keeps nothing: a view loads
 // what it shows when one has changed.
-import type { Import, Imports, JobChange, Machine, Machines, Offset, Offsets, Record as ReportRecord, Run, Runs } from '../../generated/api';
+import type { Import, Imports, JobChange, Machine, Machines, Offset, Offsets, Part, Record as ReportRecord, Run, Runs } from '../../generated/api';
 import { ApiError, get, pathOf } from '../api/request';
 import type { StreamEvent } from './event_parser';
 import { readEvents } from './event_stream';
@@ -11,8 +11,8 @@ import { stateOf, type MachineState } from './machine_state';
 export type Link = { state: 'connecting' } | { state: 'live' } | { state: 'lost' | 'signedOut'; since: Date };
 
 /// What a view listens to: the list of machines and their states, the link, the import queue, pending corrections,
-/// measured parts; or of one machine its status, its runs, its job queue.
-export type Topic = 'machines' | 'link' | 'runs' | 'imports' | 'offsets' | 'parts' | `${'machine' | 'runs' | 'jobs'}:${string}`;
+/// measured parts; or of one machine its status, its runs, its job queue, its measured parts.
+export type Topic = 'machines' | 'link' | 'runs' | 'imports' | 'offsets' | 'parts' | `${'machine' | 'runs' | 'jobs' | 'parts'}:${string}`;
 
 const kFlushMs = 250;
 const kDelaysMs = [250, 500, 1000, 2000, 4000];
@@ -158,7 +158,10 @@ export class Feed {
       this.fresh.add(offsetKey(offset.id));
       this.takeOffset(offset);
     }
-    if (event.name === 'part') this.note('parts');
+    if (event.name === 'part') {
+      this.note('parts');
+      this.note(`parts:${(JSON.parse(event.data) as Part).machine}`);
+    }
     if (event.name === 'job') this.note(`jobs:${(JSON.parse(event.data) as JobChange).machine}`);
     if (event.name !== 'record') return;
     const record = JSON.parse(event.data) as ReportRecord;

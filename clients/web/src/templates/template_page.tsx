@@ -122,17 +122,18 @@ export function TemplatePage({ name, query }: { name: string; query: URLSearchPa
   const version = Number(query.get('version')) || null;
   const loaded = useLoaded((signal) => load(name, version, signal), [name, version]);
   const assignments = useAssignments();
-  const [text, setText] = useState('');
-  const [base, setBase] = useState<Base>({ text: '', newest: 0 });
+  const [{ text, base }, setEdited] = useState<{ text: string; base: Base }>({ text: '', base: { text: '', newest: 0 } });
+  const setText = (typed: string) => setEdited((now) => ({ ...now, text: typed }));
   const { value } = loaded;
   useEffect(() => {
-    if (!value || text !== base.text) return; // what was typed stays when the template is read again
+    if (!value) return;
     const next = value.shown?.text ?? '';
-    setText(next);
-    setBase({ text: next, newest: value.newest?.version ?? 0 });
+    const read = { text: next, base: { text: next, newest: value.newest?.version ?? 0 } };
+    // What was typed stays when the template is read again; also what was typed since the picture that this belongs to.
+    setEdited((now) => (now.text === now.base.text ? read : now));
   }, [value]);
   const take = (stored: number) => {
-    setBase({ text, newest: stored });
+    setEdited((now) => ({ text: now.text, base: { text, newest: stored } }));
     if (version !== null) location.replace(addressOf('templates', [name])); // the newest is shown, which was stored now
     else loaded.reload();
   };
