@@ -244,10 +244,11 @@ void add_setup_commands(Command app, Context& context) {
 
   auto exporting = add_verb(group, context, "export",
                             "Write a setup in the control's own format: a TNC's tools (program 0), "
-                            "a Centurion's parameters (G10); with --map in the control's numbers",
+                            "tools and offsets of a Fanuc control (G10), a Centurion's parameters "
+                            "(G10; with --map in the control's numbers)",
                             export_form);
   exporting.command.add_option("--control", exporting.options->control,
-                               "tnc155 or centurion [the machine's]");
+                               "tnc155, centurion, fanuc or fanuc-t [the machine's]");
   exporting.command.add_flag("--parameters", exporting.options->wants_parameters,
                              "TNC: export the machine parameters instead: MP0: ...");
   exporting.command.add_option("--map", exporting.options->map,

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gateway/interpreter/dialects/centurion/memory/parameter_text.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/offset_text.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
@@ -95,9 +96,15 @@ Result<std::string> control_form_of(std::string_view toml, std::string_view cont
     if (auto has = check_tool_store(toml); !has) return fail(has.error());
   }
   if (control == "tnc155") return tool_store_of(toml);
+  if (control == "fanuc" || control == "fanuc-t") {
+    const auto data = interpreter::parse_control_data(toml);
+    if (!data) return fail(data.error());
+    return interpreter::fanuc::write_offset_text(*data, control == "fanuc-t");
+  }
   if (control != "centurion") {
     return fail(Errc::Unsupported,
-                "there is no form of a setup that control {} takes; tnc155 and centurion have one",
+                "there is no form of a setup that control {} takes; tnc155, centurion, fanuc and "
+                "fanuc-t have one",
                 control);
   }
   const auto data = interpreter::parse_control_data(toml, interpreter::Units::Inch);

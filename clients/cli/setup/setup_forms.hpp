@@ -17,10 +17,11 @@ Result<std::string> machine_parameters_text(std::string_view toml);
 /// Errors: those of parse_control_data and write_tool_store.
 Result<std::string> tool_store_of(std::string_view toml);
 
-/// A setup as its control takes it over a line: the tool store of a TNC, or a Centurion's
-/// parameters as a program, in the control's numbers where `map` (the text of a parameter map)
-/// gives them; else in our own, marked as such. Errors: those of parse_control_data, of the form
-/// and of the map; Unsupported (a TNC without a tool store).
+/// A setup as its control takes it over a line: the tool store of a TNC, a program of G10 for a
+/// control of the Fanuc class, or a Centurion's parameters as a program, in the control's numbers
+/// where `map` (the text of a parameter map) gives them; else in our own, marked as such. Errors:
+/// those of parse_control_data, of the form and of the map; Unsupported (a TNC without a tool
+/// store).
 Result<std::string> control_form_of(std::string_view toml, std::string_view control,
                                     std::string_view map = {});
 

@@ -86,6 +86,18 @@ TEST(SetupForms, GiveACenturionOnlyNumbersThatAreKnown) {
             "map: line 1: \"P500 7010\": expected a row as P500 = P7012");
 }
 
+TEST(SetupForms, GiveAFanucControlAProgramOfG10) {
+  const std::string toml = "[[tool]]\nnumber = 3\nwear = { X = 0.01, Z = -0.02 }\n";
+  EXPECT_EQ(*control_form_of(toml, "fanuc-t"),
+            "%\n(TOOLS AND OFFSETS)\nG21\nG10 P10003 X0. Z0. R0. Q0\nG10 P3 X0.02 Z-0.02 R0.\n"
+            "M30\n%\n");
+  EXPECT_NE(
+      control_form_of("[[tool]]\nnumber = 3\nlength = 80\n", "fanuc")->find("G10 L11 P3 R80."),
+      std::string::npos);
+  EXPECT_NE(control_form_of(toml, "tektronix-1704").error().what.find("no form of a setup"),
+            std::string::npos);
+}
+
 }  // namespace
 
 TEST(SetupForms, AreNotMadeForAControlThatHasNone) {
