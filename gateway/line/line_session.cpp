@@ -265,7 +265,9 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
     is_receiving_ = true;
     host_.on_incoming({.what = Incoming::What::Began, .text = std::move(began->name)});
   } else if (const auto* ended = std::get_if<wire::TransferEnded>(&event)) {
-    if (ended->is_receiving) return end_receiving({.what = Incoming::What::Ended, .text = {}});
+    if (ended->is_receiving) {
+      return end_receiving({.what = Incoming::What::Ended, .text = {}, .is_cut = ended->is_cut});
+    }
     if (!sending_) return;
     sending_->ledger.advance_to_end();
     finish(SendOutcome::Completed, "");
@@ -308,7 +310,7 @@ void LineSession::lose_text() {
                                 "not held by XOFF or RTS",
                                 backlog_)};
   host_.on_fault(error);
-  host_.on_incoming({.what = Incoming::What::Damaged, .text = error.what});
+  host_.on_incoming({.what = Incoming::What::Damaged, .text = error.what, .is_cut = true});
 }
 
 void LineSession::take_text(std::string text, wire::Discipline& line, wire::LineTime now) {

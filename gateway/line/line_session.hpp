@@ -62,6 +62,8 @@ struct Incoming {
   What what = What::Text;
   std::string text;  ///< Began: the name, when the protocol carries it; Text; Damaged, Failed: why
   bool is_program = false;  ///< Began: a program was requested; it is no printed line
+  /// Ended: by silence, so its last line may not be whole. Damaged: text is missing.
+  bool is_cut = false;
 };
 
 /// What a session asks of its owner. Called on the line's thread; must return soon.

@@ -34,7 +34,7 @@ clients/tools/tnc_probing: protocol/base gateway/interpreter clients/tools/tnc_p
 gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/machine/grbl: protocol/base protocol/wire protocol/serial gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
-gateway/line: protocol/base protocol/wire protocol/process protocol/serial gateway/interpreter gateway/line
+gateway/line: protocol/base protocol/measurement protocol/wire protocol/process protocol/serial gateway/interpreter gateway/line
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite
 server/library: protocol/base protocol/archive protocol/measurement protocol/pki protocol/audit protocol/process storage gateway/interpreter server/library

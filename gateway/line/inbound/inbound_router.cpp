@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "protocol/base/utf8.hpp"
+#include "protocol/measurement/cut_line.hpp"
 
 namespace dripline::line {
 namespace {
@@ -54,9 +55,10 @@ std::vector<InboundSplitter::Item> InboundRouter::split(const Incoming& incoming
     case Incoming::What::Damaged:
       if (has_program_) sink_.damage(incoming.text);
       early_damage_ = incoming.text;
+      if (incoming.is_cut) splitter_.lose();
       break;
     case Incoming::What::Ended:
-      return splitter_.end();
+      return incoming.is_cut ? splitter_.end_silent() : splitter_.end();
     case Incoming::What::Failed:
       return splitter_.fail();
   }
@@ -66,7 +68,7 @@ std::vector<InboundSplitter::Item> InboundRouter::split(const Incoming& incoming
 void InboundRouter::handle(InboundSplitter::Item& item, std::vector<PrintedLine>& lines) {
   switch (item.what) {
     case InboundSplitter::Item::What::Line:
-      return handle_line(item.text, lines);
+      return handle_line(item, lines);
     case InboundSplitter::Item::What::ProgramBegan:
       return begin_program(item.text);
     case InboundSplitter::Item::What::ProgramText:
@@ -80,11 +82,14 @@ void InboundRouter::handle(InboundSplitter::Item& item, std::vector<PrintedLine>
   }
 }
 
-void InboundRouter::handle_line(const std::string& line, std::vector<PrintedLine>& lines) {
-  const RuleHit hit = rules_->judge(TextKind::Line, line);
+void InboundRouter::handle_line(const InboundSplitter::Item& line,
+                                std::vector<PrintedLine>& lines) {
+  const RuleHit hit = rules_->judge(TextKind::Line, line.text);
   if (hit.action == RuleAction::Ignore) return;
   if (hit.action != RuleAction::Report) return call(hit.action, hit.argument);
-  lines.push_back({printed_text(line), hit.is_probe});
+  std::string text = printed_text(line.text);
+  if (line.is_cut) text = measurement::cut_line(std::move(text));
+  lines.push_back({std::move(text), hit.is_probe});
 }
 
 void InboundRouter::begin_program(const std::string& name) {

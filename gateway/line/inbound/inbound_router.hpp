@@ -13,7 +13,8 @@ namespace dripline::line {
 
 /// A line that a control printed.
 struct PrintedLine {
-  std::string text;  ///< control characters other than TAB are escaped
+  /// Control characters other than TAB are escaped; one that is not whole ends with kCutLine.
+  std::string text;
   bool is_probe = false;
 };
 
@@ -66,7 +67,7 @@ class InboundRouter {
   };
   std::vector<InboundSplitter::Item> split(const Incoming& incoming);
   void handle(InboundSplitter::Item& item, std::vector<PrintedLine>& lines);
-  void handle_line(const std::string& line, std::vector<PrintedLine>& lines);
+  void handle_line(const InboundSplitter::Item& line, std::vector<PrintedLine>& lines);
   void begin_program(const std::string& name);
   void end_program(const std::string& head);
   void call(RuleAction action, const std::string& argument);

@@ -40,7 +40,8 @@ std::vector<InboundSplitter::Item> InboundSplitter::take(std::string_view text) 
     if (is_program_) {
       add_to_program(std::exchange(line_, {}));
     } else {
-      items_.push_back({.what = Item::What::Line, .text = std::exchange(line_, {})});
+      items_.push_back(
+          {.what = Item::What::Line, .text = std::exchange(line_, {}), .is_cut = true});
     }
   }
   if (is_program_) flush_program();
@@ -70,8 +71,9 @@ bool InboundSplitter::begins_next(const std::string& line) {
 }
 
 /// What a complete line is depends on what came before it.
-void InboundSplitter::end_line() {
+void InboundSplitter::end_line(bool is_cut) {
   const std::string line = std::exchange(line_, {});
+  is_cut = std::exchange(is_lost_, false) || is_cut;
   if (is_program_) {
     if (begins_next(line)) {
       end_program();
@@ -91,7 +93,7 @@ void InboundSplitter::end_line() {
   if (line.find_first_not_of(" \t") == std::string::npos) return;
   if (!is_program_line(line)) {
     is_printing_ = is_printing_ || std::exchange(is_after_percent_, false);
-    items_.push_back({.what = Item::What::Line, .text = line});
+    items_.push_back({.what = Item::What::Line, .text = line, .is_cut = is_cut});
     return;
   }
   begin_program_with(line);
@@ -148,6 +150,11 @@ std::vector<InboundSplitter::Item> InboundSplitter::end() {
   return taken();
 }
 
+std::vector<InboundSplitter::Item> InboundSplitter::end_silent() {
+  if (!line_.empty()) end_line(true);
+  return end();
+}
+
 std::vector<InboundSplitter::Item> InboundSplitter::fail() {
   // Some controls write a whole program in one line.
   if (!is_program_ && !line_.empty() && is_program_line(line_)) begin_program();
@@ -157,7 +164,7 @@ std::vector<InboundSplitter::Item> InboundSplitter::fail() {
     line_.clear();
     items_.push_back({.what = Item::What::ProgramFailed, .text = {}});
   }
-  return end();
+  return end_silent();
 }
 
 std::vector<InboundSplitter::Item> InboundSplitter::taken() {

@@ -12,9 +12,10 @@ namespace dripline::line {
 class RuleSet;
 
 /// Cuts what a control sends into programs and printed lines while it arrives. A line is an item
-/// when it is complete; a program is several, because it may be of any size. NUL, DEL and CR are
-/// dropped. With `extracts` a program ends where the next one's O line begins, so a text with
-/// several becomes several; nothing is left out. One thread; the rules must outlive it.
+/// when it is complete, or when it is cut off: then it says so. A program is several items, because
+/// it may be of any size. NUL, DEL and CR are dropped. With `extracts` a program ends where the
+/// next one's O line begins, so a text with several becomes several; nothing is left out. One
+/// thread; the rules must outlive it.
 class InboundSplitter {
  public:
   /// A longer line that is printed becomes several items.
@@ -30,6 +31,7 @@ class InboundSplitter {
     };
     What what = What::Line;
     std::string text;
+    bool is_cut = false;  ///< Line: without its end of block, or text of it is missing
   };
 
   explicit InboundSplitter(const RuleSet& rules, bool extracts = false)
@@ -42,13 +44,17 @@ class InboundSplitter {
   std::vector<Item> take(std::string_view text);
   /// The transfer is over, whether one was begun or not.
   std::vector<Item> end();
+  /// Silence ended it: a printed line that has no end of block may not be whole.
+  std::vector<Item> end_silent();
+  /// Text before what comes next is lost.
+  void lose() { is_lost_ = true; }
   /// It was cut off: what was printed stays, a program does not.
   std::vector<Item> fail();
   /// What is coming in is a program, or may turn out to be one; false: it is printed.
   bool may_be_program() const;
 
  private:
-  void end_line();
+  void end_line(bool is_cut = false);
   bool is_program_line(const std::string& line) const;
   bool begins_next(const std::string& line);
   void begin_program();
@@ -67,6 +73,7 @@ class InboundSplitter {
   std::string piece_;  ///< of a program, not yet an item
   std::string head_;
   std::string name_;
+  bool is_lost_ = false;  ///< text of the line in hand, or of the next
   bool is_program_ = false;
   bool is_after_percent_ = false;  ///< a line of % alone came, and nothing since
   bool is_printing_ = false;       ///< what is between two % is printed

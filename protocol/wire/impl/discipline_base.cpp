@@ -73,7 +73,7 @@ void DisciplineBase::begin_transfer(Phase phase, std::string name) {
 
 void DisciplineBase::end_transfer(LineTime now) {
   const bool was_receiving = is_receiving();
-  emit(TransferEnded{was_receiving});
+  emit(TransferEnded{.is_receiving = was_receiving});
   drop_transfer(now);
 }
 

@@ -58,12 +58,13 @@ class PlainLine final : public DisciplineBase, private TextSink {
   void take_data(std::byte character, LineTime now);
   bool is_overrun(LineTime now);
   bool is_stray() const;
-  void drop_stray(LineTime now);
+  void drop_stray();
   void punch_on(LineTime now);
   void punch_off(LineTime now);
   void hold_off();
   void open_reception(std::string name, LineTime now);
-  void end_reception(LineTime now);
+  void end_reception();
+  void cut_reception();
   void close_reception();
   void fail_reception(Error error, LineTime now);
   std::optional<LineTime> silence_deadline() const;

@@ -53,8 +53,15 @@ void PlainLine::close_reception() {
   inbound_ = {};
 }
 
-void PlainLine::end_reception(LineTime /*now*/) {
-  emit(TransferEnded{true});
+void PlainLine::end_reception() {
+  emit(TransferEnded{.is_receiving = true});
+  close_reception();
+  stop_reading();
+}
+
+/// No character ended it.
+void PlainLine::cut_reception() {
+  emit(TransferEnded{.is_receiving = true, .is_cut = true});
   close_reception();
   stop_reading();
 }
@@ -63,7 +70,7 @@ void PlainLine::end_reception(LineTime /*now*/) {
 void PlainLine::fail_reception(Error error, LineTime now) {
   if (role_ == Role::Host && is_sending()) {
     emit_fault(std::move(error));
-    end_reception(now);
+    cut_reception();
     return;
   }
   stop_reading();
@@ -83,7 +90,7 @@ void PlainLine::take_data(std::byte character, LineTime now) {
   if (!read) {
     fail_reception(read.error(), now);
   } else if (*read) {
-    end_reception(now);
+    end_reception();
   } else if (reader_.has_begun()) {
     inbound_.heard = now;
   }
@@ -111,14 +118,14 @@ bool PlainLine::is_stray() const {
 }
 
 /// The text that was received is kept.
-void PlainLine::drop_stray(LineTime now) {
+void PlainLine::drop_stray() {
   reader_.finish();
-  end_reception(now);
+  cut_reception();
 }
 
 void PlainLine::punch_on(LineTime now) {
   const bool follows_stray = inbound_.is_open && !inbound_.is_punch && reader_.has_begun();
-  if (follows_stray) end_reception(now);
+  if (follows_stray) cut_reception();
   if (!inbound_.is_open) open_reception("", now);
   if (!inbound_.is_punch) {  // it begins now, or a host waited for it
     reader_.expect_print();
@@ -135,7 +142,7 @@ void PlainLine::punch_off(LineTime now) {
     return fail_reception({Errc::Corrupt, "DC4 came before the end character"}, now);
   }
   reader_.finish();
-  end_reception(now);
+  end_reception();
 }
 
 /// Silence ends an unframed reception and breaks off one that should end with a character.
@@ -161,7 +168,7 @@ void PlainLine::silent_too_long(LineTime now) {
                           now);
   }
   reader_.finish();
-  end_reception(now);
+  cut_reception();
 }
 
 void PlainLine::hold_off() {
@@ -186,7 +193,7 @@ void PlainLine::set_ready(bool is_ready, LineTime now) {
 }
 
 void PlainLine::next_program(std::string name) {
-  emit(TransferEnded{true});
+  emit(TransferEnded{.is_receiving = true});
   emit(TransferBegan{true, std::move(name)});
 }
 

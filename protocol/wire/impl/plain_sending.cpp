@@ -5,7 +5,7 @@ namespace dripline::wire {
 
 Result<void> PlainLine::begin_send(std::string_view name, LineTime now) {
   if (const auto idle = check_idle(); !idle) return idle;
-  if (is_dc_codes() && is_stray()) drop_stray(now);
+  if (is_dc_codes() && is_stray()) drop_stray();
   // A transfer that only waits continues to wait.
   if (is_dc_codes() && inbound_.is_open && reader_.has_begun()) {
     return fail(Errc::Busy, "the line is receiving");

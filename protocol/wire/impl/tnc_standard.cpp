@@ -150,10 +150,13 @@ void TncStandard::tick(LineTime now) {
                    now);
   }
   if (!is_receiving()) return;
+  is_silent_ = true;
   if (!line_.empty()) end_line(now);
-  if (!is_receiving()) return;
-  emit_fault({Errc::Timeout, "no ETX after the program"});
-  end_program(now);
+  if (is_receiving()) {
+    emit_fault({Errc::Timeout, "no ETX after the program"});
+    end_program(now);
+  }
+  is_silent_ = false;
 }
 
 // Sending
@@ -350,7 +353,9 @@ void TncStandard::take_line(const std::string& line, LineTime now) {
     return;
   }
   check_number(read);
-  emit_text(line + "\n");
+  // Nothing says that a printed line which silence ends is whole; END and a program's blocks are.
+  const bool is_cut = is_silent_ && !is_open_ && !is_end;
+  emit_text(is_cut ? line : line + "\n");
   has_end_ = is_end;
   // A control that wants one program ends the transmission when it has it.
   if (is_end && !wanted_.empty()) end_program(now);
@@ -369,7 +374,8 @@ void TncStandard::end_program(LineTime now) {
     if (!wanted_.empty() && !is_open_) return;  // another program: the wanted one may follow
     return give_up({Errc::Corrupt, "program incomplete: its END line did not come"}, now);
   }
-  end_transfer(now);
+  emit(TransferEnded{.is_receiving = true, .is_cut = is_silent_});
+  drop_transfer(now);
   if (!is_host()) queue_control(settings_.heidenhain.eot);
 }
 

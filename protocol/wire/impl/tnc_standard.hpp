@@ -80,6 +80,7 @@ class TncStandard final : public DisciplineBase {
   std::optional<unsigned> number_;  ///< of the last block
   bool has_received_ = false, is_open_ = false, has_end_ = false, is_skipping_ = false;
   bool is_ready_ = true;
+  bool is_silent_ = false;   ///< silence ends the line in hand and its text
   bool is_holding_ = false;  ///< this end holds the other one in a reception
 };
 

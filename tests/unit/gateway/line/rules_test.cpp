@@ -134,7 +134,7 @@ std::string text_of_items(const std::vector<InboundSplitter::Item>& items) {
   std::string text;
   for (const auto& item : items) {
     using What = InboundSplitter::Item::What;
-    if (item.what == What::Line) text += "L<" + item.text + ">";
+    if (item.what == What::Line) text += "L<" + item.text + (item.is_cut ? "|>" : ">");
     if (item.what == What::ProgramBegan) text += "P<" + item.text + ":";
     if (item.what == What::ProgramText) text += item.text;
     if (item.what == What::ProgramEnded) text += ">";
@@ -182,7 +182,25 @@ TEST(InboundSplitter, DropsAProgramThatIsCutOffAndKeepsPrintedLines) {
   const RuleSet none;
   InboundSplitter splitter(none);
   EXPECT_EQ(cut_off(splitter, "O1\nG0\nG1"), "P<:O1\nG0\n!");
-  EXPECT_EQ(cut_off(splitter, "X1"), "L<X1>");
+  EXPECT_EQ(cut_off(splitter, "X1\nX2"), "L<X1>L<X2|>");
+}
+
+TEST(InboundSplitter, SaysThatALineWhichSilenceEndsMayNotBeWhole) {
+  const RuleSet none;
+  InboundSplitter splitter(none);
+  EXPECT_EQ(text_of_items(splitter.take("D 40\nD 40.0")), "L<D 40>");
+  EXPECT_EQ(text_of_items(splitter.end_silent()), "L<D 40.0|>");
+  EXPECT_EQ(whole(splitter, "9\nEND"), "L<9>L<END>") << "its protocol says that it is whole";
+  EXPECT_EQ(text_of_items(splitter.take("O1\nM30")), "P<:O1\n");
+  EXPECT_EQ(text_of_items(splitter.end_silent()), "M30\n>");
+}
+
+TEST(InboundSplitter, SaysThatTextOfALineIsLost) {
+  const RuleSet none;
+  InboundSplitter splitter(none);
+  (void)splitter.take("D 4");
+  splitter.lose();
+  EXPECT_EQ(text_of_items(splitter.take("9\nD 40\n")), "L<D 49|>L<D 40>");
 }
 
 TEST(InboundSplitter, DropsAProgramThatIsCutOffInItsFirstLine) {
@@ -219,6 +237,7 @@ TEST(InboundSplitter, BoundsALine) {
   const auto items = splitter.take(std::string(10'000, 'X') + "\n");
   ASSERT_EQ(items.size(), 3u);
   for (const auto& item : items) EXPECT_LE(item.text.size(), InboundSplitter::kMaxLine);
+  EXPECT_TRUE(items[0].is_cut && items[1].is_cut) << "the last is the rest of them";
 }
 
 TEST(InboundSplitter, LetsRulesDecideWhatALineIs) {

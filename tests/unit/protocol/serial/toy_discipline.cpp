@@ -37,7 +37,7 @@ std::size_t ToyDiscipline::transmit(std::span<std::byte> room, LineTime) {
   }
   if (text_.empty() && has_last_) {
     phase_ = Phase::Idle;
-    events_.emplace_back(TransferEnded{false});
+    events_.emplace_back(TransferEnded{});
   }
   return count;
 }

@@ -256,6 +256,24 @@ TEST(PlainReceiving, BeginsByItselfAtAHostAndEndsWithSilence) {
   EXPECT_EQ(host.events(), "received\n");
 }
 
+bool is_cut(wire::Discipline& line) {
+  for (const auto& event : line.take_events()) {
+    if (const auto* ended = std::get_if<TransferEnded>(&event)) return ended->is_cut;
+  }
+  ADD_FAILURE() << "it did not end";
+  return false;
+}
+
+TEST(PlainReceiving, SaysWhetherSilenceEndedIt) {
+  TestedLine silent(LineSettings{}, Role::Host);
+  silent.hear("D 40.0");
+  silent.pass(milliseconds(2000));
+  EXPECT_TRUE(is_cut(*silent.line));
+  TestedLine ended(settings_with({{"end_char", "ETX"}, {"flow", "none"}}), Role::Host);
+  ended.hear("D 40.0\x03");
+  EXPECT_FALSE(is_cut(*ended.line));
+}
+
 TEST(PlainReceiving, EndsAtTheEndCharacter) {
   TestedLine host(settings_with({{"start_char", "DC2"}, {"end_char", "ETX"}, {"flow", "none"}}),
                   Role::Host);

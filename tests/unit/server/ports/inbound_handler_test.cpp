@@ -52,6 +52,19 @@ TEST_F(PortServiceTest, PutsPrintedLinesIntoTheReportOfTheRun) {
   EXPECT_EQ(store_->runs.find(run->id)->outputs, 1u);
 }
 
+/// 40.09 with a pause in it is no 40.0.
+TEST_F(PortServiceTest, MarksALineThatSilenceEnds) {
+  start_ports();
+  add_port(mill(kCalls));
+  line().write("D40 40.0");
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 1; }));
+  line().write("9\n");
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 2; }));
+  const auto records = *store_->records.machine_report("mill", {}, 100);
+  EXPECT_EQ(records[0].text, "D40 40.0 \xe2\x80\xa6 (line not ended)");
+  EXPECT_EQ(records[1].text, "9");
+}
+
 std::vector<std::string> texts_of(const std::vector<storage::Record>& records) {
   std::vector<std::string> texts;
   texts.reserve(records.size());

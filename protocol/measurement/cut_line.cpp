@@ -1,0 +1,17 @@
+#include "protocol/measurement/cut_line.hpp"
+
+#include <algorithm>
+
+namespace dripline::measurement {
+namespace {
+
+constexpr std::size_t kMaxText = 4096;  ///< of a record: protocol/dds/message.hpp
+
+}  // namespace
+
+std::string cut_line(std::string line) {
+  line.resize(std::min(line.size(), kMaxText - kCutLine.size()));
+  return line += kCutLine;
+}
+
+}  // namespace dripline::measurement
