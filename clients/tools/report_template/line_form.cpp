@@ -245,7 +245,13 @@ Result<Number> read_number(std::string_view text) {
   }
   const auto decimal = parse_decimal(digits);
   if (!decimal) return fail(decimal.error());
-  return Number{.value = decimal->value(), .decimals = decimal->scale};
+  // More digits than a double has: 99999999999999999 would become 100000000000000000.
+  const double value = decimal->value();
+  const auto kept = parse_decimal(fmt::format("{:.{}f}", value, int{decimal->scale}));
+  if (!kept || kept->digits != decimal->digits) {
+    return fail(Errc::LimitExceeded, "{} has more digits than are kept (15 always are)", digits);
+  }
+  return Number{.value = value, .decimals = decimal->scale};
 }
 
 }  // namespace dripline::report_template

@@ -90,6 +90,13 @@ TEST(ReadNumber, KeepsDecimals) {
   EXPECT_EQ(read_number("12.500")->decimals, 3);
   EXPECT_EQ(read_number("1,25")->value, 1.25);
   EXPECT_EQ(read_number("1.2.3").error().code, Errc::Syntax);
+  EXPECT_EQ(read_number("999999999999999")->value, 999999999999999.0);
+  EXPECT_EQ(read_number("0.5000000000000000")->decimals, 16);
+  const auto changed = read_number("99999999999999999");
+  ASSERT_FALSE(changed);
+  EXPECT_EQ(changed.error().what,
+            "99999999999999999 has more digits than are kept (15 always are)");
+  EXPECT_EQ(read_number("40.0900000000000012").error().code, Errc::LimitExceeded);
   EXPECT_EQ(read_number("1234567890123456789.0").error().code, Errc::LimitExceeded);
 }
 
