@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "protocol/measurement/cut_line.hpp"
+
 namespace dripline::measurements {
 namespace {
 
@@ -144,6 +146,7 @@ Result<void> Derivation::end_parts(const storage::Record& record) {
 void Derivation::take_line(const storage::Record& record) {
   const report_template::ReportLine line{
       .text = record.text, .kind = record.kind, .device = record.device};
+  if (measurement::is_cut(record.text)) return take_cut(record, line);
   bool is_expected = false;
   Session* open = nullptr;
   for (Session& session : state_.sessions) {
@@ -164,6 +167,19 @@ void Derivation::take_line(const storage::Record& record) {
     update_part(*open, open->interpreter.state().part);
   }
   add(open, record, Finding{FindingKind::Unmatched, ""});
+}
+
+/// A line that is not whole: nothing is taken from it, and none of the parts that it may belong to
+/// is known any more.
+void Derivation::take_cut(const storage::Record& record, const report_template::ReportLine& line) {
+  for (Session& session : state_.sessions) {
+    const auto taken = session.interpreter.take(line);
+    const bool is_open = session.part.id != 0 || session.interpreter.state().is_open;
+    if (session.used.is_of_macro && !is_open) continue;  // of no concern
+    apply(session, record, taken.events);
+    update_part(session, session.interpreter.state().part);
+    announce(session, false);
+  }
 }
 
 void Derivation::apply(Session& session, const storage::Record& record,

@@ -90,6 +90,7 @@ class Derivation {
   Result<std::string> cut_of_run() const;
   Result<std::vector<UsedTemplate>> templates();
   void take_line(const storage::Record& record);
+  void take_cut(const storage::Record& record, const report_template::ReportLine& line);
   void apply(Session& session, const storage::Record& record,
              const std::vector<report_template::ReportEvent>& events);
   void begin_part(Session& session, const storage::Record& record);

@@ -1,36 +1,17 @@
 // The part of the interpreter that knows the numbers of counted reports.
 #include <algorithm>
 
+#include "clients/tools/report_template/impl/kept_line.hpp"
 #include "clients/tools/report_template/report_interpreter.hpp"
 
 namespace dripline::report_template {
 namespace {
 
 constexpr std::size_t kMaxGaps = 256;  ///< of counts, in a part; more are reported at once
-constexpr std::size_t kMaxKeptLine = 160;
 
 std::string counts_text(std::int64_t from, std::int64_t to) {
   return from == to ? fmt::format("line {} did not come", from)
                     : fmt::format("lines {} to {} did not come", from, to);
-}
-
-/// A line to be compared with one that has the same count, and to be shown: in plain characters,
-/// each blank once. A hash stands for what is not shown of it.
-std::string kept_line(std::string_view line) {
-  std::string text;
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  bool is_whole = true, is_after_blank = false;
-  for (const char c : line) {
-    const bool is_blank = c == ' ' || c == '\t';
-    if (is_blank && is_after_blank) continue;
-    is_after_blank = is_blank;
-    const char one = is_blank ? ' ' : c;
-    hash = (hash ^ static_cast<unsigned char>(one)) * 1099511628211u;
-    const bool is_plain = one >= ' ' && one <= '~';
-    is_whole = is_whole && is_plain && text.size() < kMaxKeptLine;
-    if (text.size() < kMaxKeptLine) text += is_plain ? one : '?';
-  }
-  return is_whole ? text : fmt::format("{} (#{:016x})", text, hash);
 }
 
 }  // namespace
@@ -50,6 +31,21 @@ bool ReportInterpreter::take_count(std::int64_t count, std::string_view line,
   state_.highest = count;
   keep_line(count, line);
   return true;
+}
+
+/// Which of two different numbers is right is not known. What the template says is for parts whose
+/// lines say nothing.
+void ReportInterpreter::take_expected(std::int64_t expected, std::string_view line,
+                                      std::vector<ReportEvent>& events) {
+  const auto said = static_cast<std::uint64_t>(expected);
+  if (state_.has_expected && state_.expected != said) {
+    return add_fault(FindingKind::BadValue,
+                     fmt::format("expected in '{}' is {}, a line before said {}", kept_line(line),
+                                 said, *state_.expected),
+                     events);
+  }
+  state_.expected = said;
+  state_.has_expected = true;
 }
 
 bool ReportInterpreter::take_earlier(std::int64_t count, std::string_view line,

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "clients/tools/report_template/impl/kept_line.hpp"
 #include "clients/tools/report_template/impl/value_maker.hpp"
+#include "protocol/measurement/cut_line.hpp"
 
 namespace dripline::report_template {
 namespace {
@@ -40,11 +42,18 @@ bool ReportInterpreter::is_for(const ReportLine& line) const {
 Taken ReportInterpreter::take(const ReportLine& line) {
   Taken taken;
   if (!is_for(line)) return taken;
+  if (measurement::is_cut(line.text)) {
+    take_cut(line.text, taken);
+    return taken;
+  }
   const std::string made =
       line.kind == "probe" ? line_of_probe(line.text, template_->probe_axes) : std::string();
   const std::string_view text = line.kind == "probe" ? std::string_view(made) : line.text;
+  if (!state_.last_end.empty() && state_.last_end != kept_line(trimmed(text)))
+    state_.last_end.clear();
   if (state_.partial && take_partial(text, taken)) return taken;
   take_rule(text, taken);
+  state_.is_after_cut = false;
   return taken;
 }
 
@@ -102,13 +111,19 @@ void ReportInterpreter::take_rule(std::string_view line, Taken& taken) {
     taken.is_understood = true;
     taken.rule = i;
     if (rule.is_ignored) return;
-    if (rule.steps.size() > 1) {
-      state_.partial =
-          ReportState::Partial{.rule = i, .step = 1, .texts = {std::string(trimmed(line))}};
-    } else {
-      apply(i, *fields, trimmed(line), taken);
-    }
+    begin_rule(i, *fields, trimmed(line), taken);
     return;
+  }
+}
+
+void ReportInterpreter::begin_rule(std::size_t index, const std::vector<FieldText>& fields,
+                                   std::string_view line, Taken& taken) {
+  const LineRule& rule = template_->rules[index];
+  if (state_.is_after_cut && refuses_rest(rule, fields, line, taken)) return;
+  if (rule.steps.size() > 1) {
+    state_.partial = ReportState::Partial{.rule = index, .step = 1, .texts = {std::string(line)}};
+  } else {
+    apply(index, fields, line, taken);
   }
 }
 
@@ -163,15 +178,26 @@ void ReportInterpreter::apply(std::size_t index, const std::vector<FieldText>& t
     taken.fields.emplace_back(field->of.empty() ? field->name : field->name + "." + field->of,
                               trimmed(text));
   }
-  if (rule.starts_part) break_part("the next part began", events);
+  if (is_end_again(rule, texts, line)) {
+    events.emplace_back(Finding{FindingKind::Doubled,
+                                fmt::format("'{}' came again: its part has ended", trimmed(line))});
+    return;
+  }
+  if (rule.starts_part) {
+    break_part("the next part began", events);
+    state_.cut.clear();  // it was none of this part
+  }
   Fields fields = read_fields(texts);
   fields.line = line;
   if (keep_texts(rule, fields, events)) {
     ++state_.ordinals[index];
-    state_.context["ordinal"] = fmt::to_string(state_.ordinals[index]);
+    // How many came before is not known after a line that is not whole.
+    if (state_.cut.empty()) state_.context["ordinal"] = fmt::to_string(state_.ordinals[index]);
     take_values(rule, fields, events);
   }
-  if (rule.ends_part) close_part(events);
+  if (!rule.ends_part || !state_.is_open) return;
+  close_part(events);
+  state_.last_end = kept_line(line);
 }
 
 /// Texts and counts. False: the line came before, or its count is none, and it gives no values.
@@ -200,7 +226,7 @@ bool ReportInterpreter::keep_texts(const LineRule& rule, const Fields& fields,
   if (serial != fields.texts.end()) state_.part.serial = serial->second;
   if (const auto part = fields.texts.find("part"); part != fields.texts.end())
     state_.part.number = part->second;
-  if (fields.expected) state_.expected = static_cast<std::uint64_t>(*fields.expected);
+  if (fields.expected) take_expected(*fields.expected, fields.line, events);
   if (fields.unusable.contains("count")) return false;
   return !fields.count || take_count(*fields.count, fields.line, events);
 }
@@ -210,6 +236,7 @@ void ReportInterpreter::open_part(std::vector<ReportEvent>& events) {
   state_.is_open = true;
   state_.expected = template_->expected;
   events.emplace_back(PartBegun{});
+  report_cut(events);
 }
 
 void ReportInterpreter::take_values(const LineRule& rule, const Fields& fields,

@@ -25,7 +25,8 @@ enum class FindingKind : std::uint8_t {
   Missing,     ///< lines of a counted report that did not come
   Doubled,     ///< a line that had come already: nothing is taken from it; or more than expected
   Reordered,   ///< a line that came after a later one
-  Incomplete,  ///< a part or lines that follow each other, without all that belongs to them
+  Incomplete,  ///< a line that is not whole; a part, or lines that follow each other, without all
+               ///< that belongs to them
 };
 std::string_view to_string(FindingKind kind);  ///< unmatched, bad_value, missing, ...
 
@@ -84,6 +85,9 @@ class ReportInterpreter {
   bool take_partial(std::string_view line, Taken& taken);
   const LineForm* next_of_partial() const;
   void take_rule(std::string_view line, Taken& taken);
+  /// What one line brings as the first, or as all, of its rule.
+  void begin_rule(std::size_t index, const std::vector<FieldText>& fields, std::string_view line,
+                  Taken& taken);
   void apply(std::size_t rule, const std::vector<FieldText>& texts, std::string_view line,
              Taken& taken);
   Fields read_fields(const std::vector<FieldText>& texts) const;
@@ -97,6 +101,14 @@ class ReportInterpreter {
   bool take_earlier(std::int64_t count, std::string_view line, std::vector<ReportEvent>& events);
   void find_doubled(std::int64_t count, std::string_view line, std::vector<ReportEvent>& events);
   void keep_line(std::int64_t count, std::string_view line);
+  void take_cut(std::string_view line, Taken& taken);
+  void report_cut(std::vector<ReportEvent>& events);
+  bool refuses_rest(const LineRule& rule, const std::vector<FieldText>& fields,
+                    std::string_view line, Taken& taken);
+  bool is_end_again(const LineRule& rule, const std::vector<FieldText>& fields,
+                    std::string_view line) const;
+  void take_expected(std::int64_t expected, std::string_view line,
+                     std::vector<ReportEvent>& events);
   void take_values(const LineRule& rule, const Fields& fields, std::vector<ReportEvent>& events);
   void add_value(Value value, std::vector<ReportEvent>& events);
   void add_finding(FindingKind kind, std::string text, std::vector<ReportEvent>& events);

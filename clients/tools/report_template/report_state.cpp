@@ -78,6 +78,11 @@ ReportState state_of(const json& text) {
   state.is_judged = text.at("is_judged").get<bool>();
   state.worst = verdict_of(text.at("worst"));
   state.is_incomplete = text.at("is_incomplete").get<bool>();
+  // A state of an older version has none of these.
+  state.cut = text.value("cut", std::string());
+  state.is_after_cut = text.value("is_after_cut", false);
+  state.has_expected = text.value("has_expected", false);
+  state.last_end = text.value("last_end", std::string());
   return state;
 }
 
@@ -123,6 +128,10 @@ std::string to_json(const ReportState& state) {
       {"is_judged", state.is_judged},
       {"worst", measurement::to_string(state.worst)},
       {"is_incomplete", state.is_incomplete},
+      {"cut", state.cut},
+      {"is_after_cut", state.is_after_cut},
+      {"has_expected", state.has_expected},
+      {"last_end", state.last_end},
   };
   return text.dump(-1, ' ', false, json::error_handler_t::replace);
 }

@@ -1,3 +1,4 @@
+#include "protocol/measurement/cut_line.hpp"
 #include "tests/unit/server/measurements/measurements_fixture.hpp"
 
 namespace dripline::measurements {
@@ -78,6 +79,21 @@ TEST_F(MeasurementsTest, KnowNoVerdictOfAPartWhoseTemplateIsReplaced) {
   ASSERT_EQ(parts->size(), 2u);
   EXPECT_EQ(parts->at(1).verdict, Verdict::Unknown);
   EXPECT_EQ(parts->at(0).verdict, Verdict::Good);
+}
+
+/// A control paused in 40.09, or its line was lost.
+TEST_F(MeasurementsTest, TakeNothingFromALineThatIsNotWhole) {
+  start();
+  use(kBore);
+  make_run("r1");
+  print({"PART 1", measurement::cut_line("D 40"), "9", "PART 2", "D 40", "run_ended"});
+  wait_until_derived();
+  EXPECT_EQ(all().size(), 1u);
+  EXPECT_EQ(judged(), (Texts{"1 unknown", "2 good"}));
+  EXPECT_EQ(findings({.run = "r1"}),
+            (Texts{"incomplete: 'D 40' is not whole: it ended without its end of block, nothing is "
+                   "taken from it",
+                   "unmatched: 9"}));
 }
 
 TEST_F(MeasurementsTest, ListLinesThatNothingKnows) {
