@@ -1,5 +1,7 @@
 #include "protocol/measurement/measurement.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,6 +37,42 @@ Verdict judge(const Characteristic& characteristic, double actual, ReworkSide re
   if (lower && actual < *lower - slack) return outside(ReworkSide::Below);
   if (upper && actual > *upper + slack) return outside(ReworkSide::Above);
   return lower || upper ? Verdict::Good : Verdict::Unknown;
+}
+
+namespace {
+
+bool is_same(const std::optional<double>& a, const std::optional<double>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return std::abs(*a - *b) <= kSameLimit * std::max(std::abs(*a), std::abs(*b));
+}
+
+}  // namespace
+
+std::string limits_text(const Characteristic& of) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.10g}", *value) : std::string("none");
+  };
+  return fmt::format("nominal {}, limits {} to {} {}", number(of.nominal), number(of.lower),
+                     number(of.upper), of.unit);
+}
+
+Result<void> check_one_tolerance(std::span<const Measurement> all, Limits which) {
+  if (all.empty()) return {};
+  const bool with_lower = which == Limits::All || which == Limits::Lower;
+  const bool with_upper = which == Limits::All || which == Limits::Upper;
+  const Characteristic& newest = all.back().characteristic;
+  for (auto one = all.rbegin(); one != all.rend(); ++one) {
+    const Characteristic& of = one->characteristic;
+    if (is_same(of.nominal, newest.nominal) && (!with_lower || is_same(of.lower, newest.lower)) &&
+        (!with_upper || is_same(of.upper, newest.upper))) {
+      continue;
+    }
+    return fail(Errc::Conflict,
+                "{}: {} at {}, but {} of the newest: choose those of one nominal value and one "
+                "tolerance by since, until or run",
+                newest.name, limits_text(of), to_iso8601(one->time), limits_text(newest));
+  }
+  return {};
 }
 
 }  // namespace dripline::measurement

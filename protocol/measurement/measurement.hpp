@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -68,6 +69,21 @@ struct Measurement {
   std::uint32_t item = 0;  ///< of the record's measurements, from 0
   Verdict verdict = Verdict::Unknown;
 };
+
+/// Limits and nominal values that differ by less than this part of them are the same: they were
+/// computed in different ways.
+inline constexpr double kSameLimit = 1e-12;
+enum class Limits : std::uint8_t {
+  All,      ///< nominal value and both limits
+  Lower,    ///< nominal value and lower limit
+  Upper,    ///< nominal value and upper limit
+  Nominal,  ///< the nominal value alone
+};
+/// `D40: nominal 40, 39.95 to 40.05`, at most ten digits of each.
+std::string limits_text(const Characteristic& characteristic);
+/// Whether all, which are of one characteristic, had to be the same: what is judged by limits that
+/// most of it did not have says nothing. Errors: Conflict, with both and since when.
+Result<void> check_one_tolerance(std::span<const Measurement> all, Limits which);
 
 /// actual - nominal; nullopt without a nominal.
 inline std::optional<double> deviation(const Measurement& measurement) {

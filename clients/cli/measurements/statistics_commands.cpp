@@ -41,6 +41,11 @@ void print_study(const Context& context, const studies::CapabilityStudy& study) 
   Details details;
   details.add("values", fmt::format("{}, mean {:.6g}, standard deviation {:.4g}", c.summary.count,
                                     c.summary.mean, c.summary.standard_deviation));
+  const auto limit = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.10g}", *value) : std::string("none");
+  };
+  details.add("limits", fmt::format("{} to {} {}", limit(study.tolerance.lower),
+                                    limit(study.tolerance.upper), printable(study.unit)));
   details.add("range", fmt::format("{:.6g} to {:.6g}", c.summary.minimum, c.summary.maximum));
   if (c.shape == statistics::Shape::Normal) {
     details.add("sigma within", fmt::format("{:.4g}, by {}", c.sigma_within, c.within_by));

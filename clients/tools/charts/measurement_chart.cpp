@@ -118,6 +118,8 @@ Result<void> draw_control(Canvas& canvas, std::span<const Measurement> measureme
 
 Result<void> draw_cells(Canvas& canvas, std::span<const Measurement> measurements,
                         const ChartRequest& request) {
+  if (auto one = measurement::check_one_tolerance(measurements, measurement::Limits::All); !one)
+    return one;
   const auto values = values_of(measurements);
   auto histogram = statistics::make_histogram(values);
   if (!histogram) return fail(histogram.error());

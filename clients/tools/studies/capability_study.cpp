@@ -40,8 +40,17 @@ Result<CapabilityStudy> study_capability(std::span<const measurement::Measuremen
     }
     values.push_back(one.actual);
   }
+  if (!request.lower || !request.upper) {
+    const auto which = request.lower   ? measurement::Limits::Upper
+                       : request.upper ? measurement::Limits::Lower
+                                       : measurement::Limits::All;
+    if (auto one = measurement::check_one_tolerance(all, which); !one) {
+      return fail(one.error().code, "{}, or give both limits", one.error().what);
+    }
+  }
   const auto& of = all.back().characteristic;
   CapabilityStudy study;
+  study.unit = of.unit;
   study.tolerance = {request.lower ? request.lower : of.lower,
                      request.upper ? request.upper : of.upper};
   auto found = statistics::capability(values, study.tolerance, request.settings);

@@ -105,7 +105,7 @@ export const measured: typeof Shape = {
       cp: 'Toleranz zur Streuung in den Stichproben', cpk: 'Dasselbe, mit der Lage des Mittelwerts', pp: 'Toleranz zur Streuung aller Werte', ppk: 'Dasselbe, mit der Lage des Mittelwerts',
     },
     interval: (value, low, high) => `${value} (${low} bis ${high})`,
-    confidence: (percent) => `In Klammern das Intervall von ${percent} % Vertrauen. Von den Werten des Bildes, höchstens den neuesten 1000, gegen die Grenzen des neuesten.`,
+    confidence: (percent) => `In Klammern das Intervall von ${percent} % Vertrauen. Von den Werten des Bildes, höchstens den neuesten 1000, gegen ihre Grenzen.`,
     notNormal: (p) => `Die Werte sind wohl nicht normalverteilt (p = ${p}): eine andere Verteilung wählen.`,
     fewForPercentiles: 'Weniger als 741 Werte: die äußeren Perzentile sind die Extremwerte.',
     oneLimit: 'Es gibt nur eine Grenze: Cp und Pp brauchen beide.',

@@ -103,7 +103,7 @@ export const measured = {
       cp: 'Tolerance by the variation within subgroups', cpk: 'The same, with the position of the mean', pp: 'Tolerance by the variation of all values', ppk: 'The same, with the position of the mean',
     },
     interval: (value: string, low: string, high: string) => `${value} (${low} to ${high})`,
-    confidence: (percent: string) => `In brackets the interval of ${percent} % confidence. Of the values that the chart shows, at most the newest 1,000, against the limits of the newest.`,
+    confidence: (percent: string) => `In brackets the interval of ${percent} % confidence. Of the values that the chart shows, at most the newest 1,000, against their limits.`,
     notNormal: (p: string) => `The values are not likely to be normal (p = ${p}): choose another distribution.`,
     fewForPercentiles: 'Fewer than 741 values: the outer percentiles are the extremes.',
     oneLimit: 'There is one limit only: Cp and Pp need both.',

@@ -58,6 +58,18 @@ TEST(MeasurementChart, ATrendBeginsAnewWithAnotherToolAndAtAChange) {
   EXPECT_NE(measurements_svg(all, request)->find("30 values of 3 tool lives"), std::string::npos);
 }
 
+TEST(MeasurementChart, HasNoCapabilityOfDifferentLimits) {
+  auto all = diameters(10);
+  const auto request = parse_chart_request({{"kind", "histogram"}}).value();
+  EXPECT_TRUE(measurements_svg(all, request));
+  all[3].characteristic.nominal = 50;
+  const auto mixed = measurements_svg(all, request);
+  ASSERT_FALSE(mixed);
+  EXPECT_NE(mixed.error().what.find("Diameter: nominal 50, limits 39.98 to 40.02 mm at "),
+            std::string::npos)
+      << mixed.error().what;
+}
+
 TEST(MeasurementChart, RefusesAMixture) {
   auto all = diameters(10);
   all.back().characteristic.name = "Length";
