@@ -17,7 +17,8 @@ struct AqdefProfile {
 
 /// Both in one: descriptions, then each value as K0001/n with its fields. A program on a machine is
 /// a part (K1001, K1082); what it has to be is a characteristic, and one whose limits were changed
-/// is another. Errors: LimitExceeded (over kMaxAqdef characteristics, a value that is not finite),
+/// is another. Errors: Unsupported (a text that Windows-1252 cannot hold; nothing is written),
+/// LimitExceeded (over kMaxAqdef characteristics, a value that is not finite),
 /// those of source and sink.
 Result<void> write_dfq(MeasurementSource& source, const AqdefProfile& profile, const Sink& sink);
 /// The descriptions alone.

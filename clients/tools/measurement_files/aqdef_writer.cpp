@@ -80,9 +80,34 @@ class Catalog {
   std::size_t count_ = 0;
 };
 
-Result<Catalog> catalog_of(MeasurementSource& source) {
+/// Serial number, else the number of the part.
+const std::string& ident_of(const Measurement& m) {
+  return m.serial.empty() ? m.part : m.serial;
+}
+
+/// What the code page does not have is not written as something else.
+Result<void> check_characters(const Measurement& m) {
+  for (const std::string* text :
+       {&m.machine, &m.program, &m.characteristic.name, &m.characteristic.unit, &ident_of(m)}) {
+    const std::size_t count = count_outside_windows_1252(*text);
+    if (count == 0) continue;
+    return fail(Errc::Unsupported,
+                "'{}' has {} {} that Windows-1252 does not have: export it with --utf8 (where the "
+                "receiver reads that), or in another format",
+                *text, count, count == 1 ? "character" : "characters");
+  }
+  return {};
+}
+
+Result<Catalog> catalog_of(MeasurementSource& source, const AqdefProfile& profile) {
   Catalog catalog;
-  auto done = source.each([&](const Measurement& m) { return catalog.add(m); });
+  const bool is_limited = profile.encoding == AqdefEncoding::Windows1252;
+  auto done = source.each([&](const Measurement& m) -> Result<void> {
+    if (is_limited) {
+      if (auto good = check_characters(m); !good) return good;
+    }
+    return catalog.add(m);
+  });
   if (!done) return fail(done.error());
   if (catalog.count() == 0) return fail(Errc::LimitExceeded, "AQDEF of no measurement");
   catalog.number_parts();
@@ -117,11 +142,6 @@ class Lines {
 std::string date_text(UtcTime time) {
   return fmt::format("{:%d.%m.%Y/%H:%M:%S}",
                      fmt::gmtime(std::chrono::floor<std::chrono::seconds>(time)));
-}
-
-/// Serial number, else the number of the part.
-const std::string& ident_of(const Measurement& m) {
-  return m.serial.empty() ? m.part : m.serial;
 }
 
 /// K fields in ascending order, which some receivers insist on.
@@ -198,13 +218,13 @@ class ValueLine {
 }  // namespace
 
 Result<void> write_dfd(MeasurementSource& source, const AqdefProfile& profile, const Sink& sink) {
-  const auto catalog = catalog_of(source);
+  const auto catalog = catalog_of(source, profile);
   if (!catalog) return fail(catalog.error());
   return sink(descriptions(*catalog, profile));
 }
 
 Result<void> write_dfq(MeasurementSource& source, const AqdefProfile& profile, const Sink& sink) {
-  const auto catalog = catalog_of(source);
+  const auto catalog = catalog_of(source, profile);
   if (!catalog) return fail(catalog.error());
   if (auto written = sink(descriptions(*catalog, profile)); !written) return written;
   return source.each(
@@ -212,7 +232,7 @@ Result<void> write_dfq(MeasurementSource& source, const AqdefProfile& profile, c
 }
 
 Result<void> write_dfx(MeasurementSource& source, const AqdefProfile&, const Sink& sink) {
-  const auto catalog = catalog_of(source);
+  const auto catalog = catalog_of(source, {AqdefEncoding::Utf8});  // it has no texts
   if (!catalog) return fail(catalog.error());
   ValueLine line(*catalog, sink);
   auto done = source.each([&](const Measurement& m) { return line.add(m); });

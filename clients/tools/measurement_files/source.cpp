@@ -82,21 +82,29 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+namespace {
+
+/// nullopt: the code page does not have it.
+std::optional<char> windows_1252(char32_t code) {
+  if (code < 0x80 || (code >= 0xA0 && code <= 0xFF)) return static_cast<char>(code);
+  const auto upper = std::ranges::find(kUpper, code);
+  if (upper == kUpper.end()) return std::nullopt;
+  return static_cast<char>(0x80 + (upper - kUpper.begin()));
+}
+
+}  // namespace
+
 std::string to_windows_1252(std::string_view utf8) {
   std::string bytes;
   bytes.reserve(utf8.size());
-  while (!utf8.empty()) {
-    const char32_t code = take_character(utf8);
-    const auto upper = code < 0x80 ? kUpper.end() : std::ranges::find(kUpper, code);
-    if (code < 0x80 || (code >= 0xA0 && code <= 0xFF)) {
-      bytes += static_cast<char>(code);
-    } else if (upper != kUpper.end()) {
-      bytes += static_cast<char>(0x80 + (upper - kUpper.begin()));
-    } else {
-      bytes += '?';
-    }
-  }
+  while (!utf8.empty()) bytes += windows_1252(take_character(utf8)).value_or('?');
   return bytes;
+}
+
+std::size_t count_outside_windows_1252(std::string_view utf8) {
+  std::size_t count = 0;
+  while (!utf8.empty()) count += windows_1252(take_character(utf8)) ? 0 : 1;
+  return count;
 }
 
 std::string from_windows_1252(std::string_view bytes) {

@@ -54,6 +54,8 @@ std::string_view take_until(std::string_view& text, char end);
 std::string one_line(std::string_view text);
 /// A character that code page does not have becomes a question mark.
 std::string to_windows_1252(std::string_view utf8);
+/// How many those would be.
+std::size_t count_outside_windows_1252(std::string_view utf8);
 std::string from_windows_1252(std::string_view bytes);
 
 /// What belongs together as a workpiece.

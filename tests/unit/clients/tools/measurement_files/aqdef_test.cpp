@@ -75,6 +75,22 @@ TEST(Aqdef, DfqComesBack) {
   }
 }
 
+TEST(Aqdef, WritesNothingElseForWhatTheCodePageDoesNotHave) {
+  auto all = sample();
+  all.back().serial = "\xCE\xA9\xE4\xB8\xAD 7";
+  ListSource source(all);
+  const Sink none = [](std::string_view) -> Result<void> {
+    ADD_FAILURE() << "something was written";
+    return {};
+  };
+  const auto refused = write_dfq(source, {}, none);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("has 2 characters that Windows-1252 does not have"),
+            std::string::npos)
+      << refused.error().what;
+  EXPECT_NE(dfq(all, {AqdefEncoding::Utf8}).find(all.back().serial), std::string::npos);
+}
+
 TEST(Aqdef, DfdAndDfxTogetherComeBack) {
   ListSource source(sample());
   const std::string head = written([&](const Sink& sink) { return write_dfd(source, {}, sink); });
