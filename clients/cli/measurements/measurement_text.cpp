@@ -24,23 +24,46 @@ std::string number_at(const ordered_json& object, const char* key) {
   return found->is_number_float() ? fmt::format("{}", found->get<double>()) : found->dump();
 }
 
-/// As many decimals as the report has.
+/// With at least these decimals, and with those that the number has beyond them: a limit of 40.05
+/// beside a value of 40.1 is no 40.1.
+std::string exact_text(double value, int decimals) {
+  constexpr int kMost = 9;
+  decimals = std::clamp(decimals, 0, kMost);
+  const auto text = [value](int with) { return fmt::format("{:.{}f}", value, with); };
+  const std::string most = text(kMost);
+  const std::string_view zeros = "000000000";
+  while (decimals < kMost && text(decimals) + (decimals == 0 ? "." : "") +
+                                     std::string(zeros.substr(0, kMost - decimals)) !=
+                                 most) {
+    ++decimals;
+  }
+  return text(decimals);
+}
+
+/// As many decimals as the report has; more where the number has them.
 std::string value_at(const ordered_json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_number()) return "";
-  return fmt::format("{:.{}f}", found->get<double>(),
-                     std::clamp(object.value("decimals", 3), 0, 9));
+  return exact_text(found->get<double>(), object.value("decimals", 3));
+}
+
+/// A part that has not ended is not good yet; what is outside its limits stays so.
+std::string verdict_of_part(const ordered_json& part) {
+  std::string verdict = shown_at(part, "verdict");
+  const bool is_final =
+      !shown_at(part, "ended").empty() || verdict == "rework" || verdict == "scrap";
+  return is_final ? verdict : "open";
 }
 
 Cell verdict_cell(const std::string& verdict) {
   if (verdict == "good") return {verdict, Style::Good};
-  if (verdict == "unknown") return {verdict, Style::Plain};
+  if (verdict == "unknown" || verdict == "open") return {verdict, Style::Plain};
   return {verdict, Style::Bad};
 }
 
 std::string limit_text(const measurement::Characteristic& characteristic) {
   const auto text = [&](const std::optional<double>& limit) {
-    return limit ? fmt::format("{:.{}f}", *limit, characteristic.decimals) : std::string();
+    return limit ? exact_text(*limit, characteristic.decimals) : std::string();
   };
   if (!characteristic.lower && !characteristic.upper) return "no limits";
   return fmt::format("{} to {}", text(characteristic.lower), text(characteristic.upper));
@@ -87,7 +110,7 @@ Table part_table(const ordered_json& parts) {
                fmt::format("{}@{}", shown_at(one, "template"), number_at(one, "template_version")),
                shown_at(one, "part_number"), shown_at(one, "serial"),
                number_at(one, "measurements"), number_at(one, "findings"),
-               verdict_cell(shown_at(one, "verdict")), time_text(shown_at(one, "begun")),
+               verdict_cell(verdict_of_part(one)), time_text(shown_at(one, "begun")),
                time_text(shown_at(one, "ended"))});
   }
   return table;
@@ -105,9 +128,9 @@ Table finding_table(const ordered_json& findings) {
 std::string event_text(const report_template::ReportEvent& event) {
   if (const auto* value = std::get_if<Value>(&event)) {
     const auto& characteristic = value->characteristic;
-    return fmt::format("    {} = {:.{}f} {} ({}{}): {}\n", printable(characteristic.name),
-                       value->actual, characteristic.decimals, printable(characteristic.unit),
-                       limit_text(characteristic),
+    return fmt::format("    {} = {} {} ({}{}): {}\n", printable(characteristic.name),
+                       exact_text(value->actual, characteristic.decimals),
+                       printable(characteristic.unit), limit_text(characteristic),
                        value->tool.empty() ? "" : ", tool " + printable(value->tool),
                        measurement::to_string(value->verdict));
   }

@@ -20,6 +20,11 @@ export function partName(part: Part): string {
   return [part.part_number, part.serial].filter(Boolean).join(' · ') || texts().measurements.partNumber(part.id);
 }
 
+/// A part that has not ended is not good yet; what is outside its limits stays so.
+export function isFinal(part: Part): boolean {
+  return part.ended !== null || part.verdict === 'rework' || part.verdict === 'scrap';
+}
+
 export function PartTable({ parts, label }: { parts: Part[]; label: string }) {
   const t = texts().measurements;
   return (
@@ -30,7 +35,7 @@ export function PartTable({ parts, label }: { parts: Part[]; label: string }) {
           {parts.map((part) => (
             <tr key={part.id}>
               <th scope="row"><a class="target" href={addressOf('measurements', ['parts', String(part.id)])}>{partName(part)}</a></th>
-              <td><VerdictPill verdict={part.verdict} /></td>
+              <td>{isFinal(part) ? <VerdictPill verdict={part.verdict} /> : '–'}</td>
               <td>{part.machine}</td>
               <td>{part.program ?? '–'}{part.revision !== null && <span class="muted"> {part.revision}</span>}</td>
               <td>{part.ended === null ? t.open : dateTimeText(part.ended)}</td>

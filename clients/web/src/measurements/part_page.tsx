@@ -13,7 +13,7 @@ import { VerdictPill } from '../parts/verdict_pill';
 import { dateTimeText, numberText, texts } from '../texts/texts';
 import { MeasurementExports } from './exports';
 import { FindingTable } from './finding_list';
-import { partName } from './part_list';
+import { isFinal, partName } from './part_list';
 import { ValueTable } from './value_table';
 
 const kPage = 1000;
@@ -75,7 +75,7 @@ export function PartPage({ id }: { id: string }) {
   return (
     <>
       <p class="back"><a href={addressOf('measurements', ['parts'], { machine: value.machine })}>← {t.tabs.parts}</a></p>
-      <div class="machine-head live"><h1>{partName(value)}</h1><VerdictPill verdict={value.verdict} /></div>
+      <div class="machine-head live"><h1>{partName(value)}</h1>{isFinal(value) && <VerdictPill verdict={value.verdict} />}</div>
       <Facts part={value} />
       {value.superseded && <p class="notice warn">{t.superseded}</p>}
       <Loading of={values} />
