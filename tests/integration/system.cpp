@@ -133,8 +133,11 @@ ChildProcess System::second_gateway(const std::string& machine) const {
 }
 
 void System::wait_connected(const std::string& machine) {
-  const bool connected = eventually(
-      [&] { return rest().get("/api/v1/machines/" + machine).json().value("connected", false); });
+  // A machine is there before its first status, which is not acknowledged: it may be the next.
+  const bool connected = eventually([&] {
+    const auto shown = rest().get("/api/v1/machines/" + machine).json();
+    return shown.value("connected", false) && shown["status"].is_object();
+  });
   ASSERT_TRUE(connected) << "the server does not see " << machine << "\n" << gateway_->output();
 }
 
