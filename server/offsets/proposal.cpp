@@ -50,7 +50,8 @@ double rounded(double value, int decimals) {
 
 class Reasoning {
  public:
-  Reasoning(Outcome& outcome, const OffsetRule& rule) : outcome_(outcome), rule_(rule) {}
+  Reasoning(Outcome& outcome, const OffsetRule& rule, std::string_view unit)
+      : outcome_(outcome), rule_(rule), unit_(unit.empty() ? "" : fmt::format(" {}", unit)) {}
 
   template <class... Args>
   void say(fmt::format_string<Args...> format, Args&&... args) {
@@ -73,8 +74,8 @@ class Reasoning {
     outcome_.mean = summary.mean;
     outcome_.first = kept.front().measurement;
     outcome_.last = kept.back().measurement;
-    say("mean deviation {:+.5g} of {} measurements, standard deviation {:.3g}", summary.mean,
-        summary.count, summary.standard_deviation);
+    say("mean deviation {:+.5g}{} of {} measurements, standard deviation {:.3g}", summary.mean,
+        unit_, summary.count, summary.standard_deviation);
   }
 
   void decide(double value) {
@@ -83,9 +84,10 @@ class Reasoning {
       return say("it is within the dead band of {:g}", rule_.dead_band);
     double step = -rule_.gain * rule_.scale * mean;
     say("step {:+.5g}: gain {:g}, scale {:g}", step, rule_.gain, rule_.scale);
-    if (std::abs(step) > rule_.max_step) {
+    const bool is_limited = !is_at_most(std::abs(step), rule_.max_step);
+    if (is_limited) {
       step = std::copysign(rule_.max_step, step);
-      say("limited to the largest step, {:g}", rule_.max_step);
+      say("limited to the largest step, {:g}: so a person decides", rule_.max_step);
     }
     double next = rounded(value + step, rule_.decimals);
     const bool is_too_far = !is_at_most(std::abs(next - value), rule_.max_step);
@@ -102,12 +104,13 @@ class Reasoning {
     say("{:.{}f} becomes {:.{}f}", value, rule_.decimals, next, rule_.decimals);
     outcome_.new_value = next;
     outcome_.is_within_policy =
-        rule_.automatic > 0 && is_at_most(std::abs(next - value), rule_.automatic);
+        !is_limited && rule_.automatic > 0 && is_at_most(std::abs(next - value), rule_.automatic);
   }
 
  private:
   Outcome& outcome_;
   const OffsetRule& rule_;
+  std::string unit_;  ///< with a blank before it
 };
 
 }  // namespace
@@ -118,9 +121,10 @@ bool is_at_most(double step, double limit) {
   return step <= limit + kRounding;
 }
 
-Outcome propose(std::span<const Deviation> deviations, double value, const OffsetRule& rule) {
+Outcome propose(std::span<const Deviation> deviations, double value, const OffsetRule& rule,
+                std::string_view unit) {
   Outcome outcome;
-  Reasoning reasoning(outcome, rule);
+  Reasoning reasoning(outcome, rule, unit);
   std::vector<Deviation> finite;
   std::ranges::copy_if(deviations, std::back_inserter(finite),
                        [](const Deviation& one) { return std::isfinite(one.value); });

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/offsets/offset_rule.hpp"
@@ -27,9 +28,10 @@ struct Outcome {
   bool is_within_policy = false;      ///< may be applied without a person
 };
 
-/// `deviations`: measured under `value`, the value in force, oldest first. Pure. Deviations that
-/// are not finite are left out.
-Outcome propose(std::span<const Deviation> deviations, double value, const OffsetRule& rule);
+/// `deviations`: measured under `value`, the value in force, oldest first, in `unit`. Pure.
+/// Deviations that are not finite are left out. A step that had to be limited is for a person.
+Outcome propose(std::span<const Deviation> deviations, double value, const OffsetRule& rule,
+                std::string_view unit = {});
 
 /// Whether a step is within a limit, but for the rounding of binary numbers.
 bool is_at_most(double step, double limit);

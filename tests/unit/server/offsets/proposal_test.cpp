@@ -121,14 +121,27 @@ TEST(Proposal, PolicyAllowsAStepOfExactlyItsLimit) {
     of.max_step = of.automatic = step;
     for (int hundredths = -30; hundredths <= 30; ++hundredths) {
       const double value = hundredths / 100.0;
-      for (const double off : {0.5, -0.5}) {
+      for (const double off : {step / 0.4, -step / 0.4}) {
         const auto outcome = propose(deviations({off, off, off}), value, of);
         EXPECT_TRUE(outcome.is_within_policy) << value << " by " << step;
       }
     }
     of.automatic = step - 0.0001;
-    EXPECT_FALSE(propose(deviations({0.5, 0.5, 0.5}), 0.1, of).is_within_policy);
+    const double off = step / 0.4;
+    EXPECT_FALSE(propose(deviations({off, off, off}), 0.1, of).is_within_policy);
   }
+}
+
+/// A misprint of 99999 is limited to a small step in the wrong direction.
+TEST(Proposal, AStepThatHadToBeLimitedIsForAPerson) {
+  OffsetRule of = rule();
+  of.automatic = of.max_step;
+  of.outlier = 0;
+  const auto outcome = propose(deviations({0.0, 0.0, 99999.0}), 0, of);
+  ASSERT_TRUE(outcome.new_value);
+  EXPECT_DOUBLE_EQ(*outcome.new_value, -0.01);
+  EXPECT_FALSE(outcome.is_within_policy);
+  EXPECT_TRUE(says(outcome, "limited to the largest step, 0.01: so a person decides"));
 }
 
 TEST(Proposal, PolicyAllowsSmallSteps) {
