@@ -32,6 +32,8 @@ class Measurements {
     /// A part has a verdict: outside its limits at once, otherwise when it is complete. Called
     /// after the commit; must return soon.
     std::function<void(const storage::MeasuredPart&)> on_part = {};
+    /// A run of the machine was derived again. Must return soon.
+    std::function<void(const std::string& machine)> on_derived = {};
     Hold hold_queue = {};                                       ///< empty: it holds none
     Hold hold_machine = {};                                     ///< empty: it holds nothing
     std::chrono::milliseconds retry = std::chrono::seconds(2);  ///< after a store that refuses

@@ -88,6 +88,7 @@ Result<std::vector<storage::MeasuredPart>> Measurements::derive(
   if (auto ended = derivation.end_parts(last); !ended) return fail(ended.error());
   if (auto replaced = parts_.store.measurements.replace(id, derivation.batch()); !replaced)
     return fail(replaced.error());
+  if (parts_.on_derived) parts_.on_derived(run->machine);
   return derivation.batch().parts;
 }
 

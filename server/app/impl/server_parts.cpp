@@ -79,6 +79,7 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
                  publish(part);
                  offsets.note(part.machine);
                },
+           .on_derived = [this](const std::string& machine) { offsets.note(machine); },
            .hold_queue = [this](const storage::MeasuredPart& part,
                                 const std::string& reason) { return hold_queue(part, reason); },
            .hold_machine = [this](
