@@ -43,7 +43,7 @@ struct OffsetProposal {
   std::uint64_t base = 0;  ///< the setup it was made from; 0: there was none
   OffsetState state = OffsetState::Pending;
   std::uint64_t used = 0, left_out = 0;  ///< measurements
-  double mean = 0;                       ///< deviation, in the characteristic's unit
+  double mean = 0;                       ///< deviation, in the setup's unit, or degrees
   std::uint64_t first = 0, last = 0;     ///< measurements, by their ids
   std::string reasons;                   ///< JSON array of texts
   UtcTime created;
@@ -90,9 +90,10 @@ class OffsetStore {
   /// of the same measurements and gives the same value it is returned, and nothing changes.
   /// `id`, `state` and what is decided are the store's own.
   virtual Result<KeptProposal> propose(const OffsetProposal& proposal) = 0;
-  /// Nothing follows from the measurements any more: its pending proposal, if any, is superseded.
-  virtual Result<void> withdraw(const std::string& machine, const std::string& target,
-                                UtcTime now) = 0;
+  /// Nothing follows from the measurements any more: its pending proposal, if any, is superseded,
+  /// with the reason as its comment.
+  virtual Result<void> withdraw(const std::string& machine, const std::string& target, UtcTime now,
+                                const std::string& reason) = 0;
   /// Errors: NotFound.
   virtual Result<OffsetProposal> find(std::uint64_t id) = 0;
   /// Newest first.

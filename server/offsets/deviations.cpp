@@ -1,33 +1,44 @@
 #include "server/offsets/deviations.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <optional>
+#include <set>
+#include <tuple>
 
 namespace dripline::offsets {
 namespace {
 
 using measurement::Measurement;
+using storage::MeasuredPart;
 
 constexpr std::uint64_t kMeasurementsBack = 5'000;  ///< under other setups, or without a nominal
 constexpr std::uint64_t kPageSize = 500;
 constexpr double kMillimetersPerInch = 25.4;
 
-/// Lengths in the setup's unit; anything else as it is.
-double in_setup_unit(double value, const std::string& unit, const std::string& setup_unit) {
-  if (unit == "mm" && setup_unit == "in") return value / kMillimetersPerInch;
-  if (unit == "inch" && setup_unit == "mm") return value * kMillimetersPerInch;
-  return value;
-}
+/// Why a measurement is left out, in the order in which the reasons name them.
+enum class Left : std::uint8_t {
+  OfOthers,
+  WithoutSetup,
+  BeforeChange,
+  OpenPart,
+  UnknownPart,
+  SamePart,
+  OtherUnit
+};
+constexpr std::size_t kLefts = 7;
 
 /// The runs of measurements, each asked for once.
 class RunSetups {
  public:
   explicit RunSetups(storage::RunStore& runs) : runs_(runs) {}
-  /// 0: the run had no setup. Nothing: there is no such run.
+  /// Nothing: there is no such run, or it had no setup of the server.
   std::optional<std::uint64_t> setup_of(const std::string& run) {
+    if (run.empty()) return std::nullopt;
     const auto [found, is_new] = known_.try_emplace(run);
     if (is_new) {
-      if (const auto stored = runs_.find(run)) found->second = stored->setup.value_or(0);
+      if (const auto stored = runs_.find(run)) found->second = stored->setup;
     }
     return found->second;
   }
@@ -37,65 +48,183 @@ class RunSetups {
   std::map<std::string, std::optional<std::uint64_t>> known_;
 };
 
-/// Whether a rule is for measurements. In doubt it is not.
-class RuleScope {
+/// The parts of measurements, each asked for once.
+class PartsOf {
  public:
-  RuleScope(storage::MeasurementStore& stored, const OffsetRule& rule)
-      : stored_(stored), rule_(rule) {}
-
-  bool has(const Measurement& one) {
-    if (!rule_.program.empty() && one.program != rule_.program) return false;
-    if (!rule_.tool.empty() && bare_tool(one.tool) != bare_tool(rule_.tool)) return false;
-    return rule_.template_name.empty() || template_of(one.part_id) == rule_.template_name;
+  explicit PartsOf(storage::MeasurementStore& stored) : stored_(stored) {}
+  /// Null: it is not there.
+  const MeasuredPart* find(std::uint64_t id) {
+    const auto [found, is_new] = known_.try_emplace(id);
+    if (is_new) {
+      if (auto stored = stored_.part(id)) found->second = *std::move(stored);
+    }
+    return found->second ? &*found->second : nullptr;
   }
 
  private:
-  const std::string& template_of(std::uint64_t part) {
-    const auto [found, is_new] = templates_.try_emplace(part);
-    if (is_new) {
-      if (const auto stored = stored_.part(part)) found->second = stored->template_name;
-    }
-    return found->second;
+  storage::MeasurementStore& stored_;
+  std::map<std::uint64_t, std::optional<MeasuredPart>> known_;
+};
+
+/// Whether a rule is for measurements. In doubt it is not.
+bool is_of(const OffsetRule& rule, const Measurement& one, PartsOf& parts) {
+  if (!rule.program.empty() && one.program != rule.program) return false;
+  if (!rule.tool.empty() && bare_tool(one.tool) != bare_tool(rule.tool)) return false;
+  if (rule.template_name.empty()) return true;
+  const MeasuredPart* part = parts.find(one.part_id);
+  return part != nullptr && part->template_name == rule.template_name;
+}
+
+/// A verdict that is worse than unknown hides whether the report contradicts itself.
+bool is_in_doubt(const MeasuredPart& part) {
+  return part.verdict == measurement::Verdict::Unknown ||
+         (part.verdict != measurement::Verdict::Good && part.findings > 0);
+}
+
+/// Each part of a report once, and each line of it, whoever reads it.
+class DistinctParts {
+ public:
+  bool is_new(const Measurement& one, const MeasuredPart& part) {
+    const auto id = part.number.empty() ? part.id : 0;
+    const bool is_new_part = parts_.emplace(part.run, part.template_name, part.number, id).second;
+    const auto [line, is_new_line] = lines_.try_emplace(one.record, part.id);
+    return is_new_part && (is_new_line || line->second == part.id);
   }
 
-  storage::MeasurementStore& stored_;
-  const OffsetRule& rule_;
-  std::map<std::uint64_t, std::string> templates_;
+ private:
+  std::set<std::tuple<std::string, std::string, std::string, std::uint64_t>> parts_;
+  std::map<measurement::RecordKey, std::uint64_t> lines_;  ///< and who has read it
+};
+
+bool is_angle(const SetupTarget& target) {
+  return target.key == "A" || target.key == "B" || target.key == "C";
+}
+
+class DeviationSearch {
+ public:
+  DeviationSearch(const storage::Store& store, const DeviationQuery& query)
+      : store_(store), query_(query), runs_(store.runs), parts_(store.measurements) {}
+
+  Result<Measured> find() {
+    const OffsetRule& rule = query_.rule;
+    storage::MeasurementFilter filter;
+    filter.machine = query_.machine;
+    filter.characteristic = rule.characteristic;
+    std::optional<storage::MeasurementPlace> before;
+    for (std::uint64_t seen = 0; !is_full(); before = place_) {
+      if (is_cut_ = seen >= kMeasurementsBack; is_cut_) break;
+      const auto rows = store_.measurements.list_newest(filter, before, kPageSize);
+      if (!rows) return fail(rows.error());
+      for (const Measurement& m : *rows) {
+        if (!is_full()) take(m);
+      }
+      seen += rows->size();
+      if (rows->size() < kPageSize) break;
+      place_ = {rows->back().time, rows->back().id};
+    }
+    std::ranges::reverse(found_.deviations);
+    tell();
+    return std::move(found_);
+  }
+
+ private:
+  bool is_full() const { return found_.deviations.size() == query_.rule.window; }
+
+  void take(const Measurement& m) {
+    const auto off = measurement::deviation(m);
+    if (!off) return;
+    const auto setup = runs_.setup_of(m.run);
+    const bool is_before = setup && *setup < query_.since.setup;
+    if (!is_of(query_.rule, m, parts_)) {
+      if (setup && !is_before) leave(Left::OfOthers);
+      return;
+    }
+    if (!setup || query_.since.setup == 0) return leave(Left::WithoutSetup);
+    if (is_before) return leave(Left::BeforeChange);
+    const MeasuredPart* part = parts_.find(m.part_id);
+    if (part == nullptr || !part->ended) return leave(Left::OpenPart);
+    if (is_in_doubt(*part)) return leave(Left::UnknownPart);
+    if (!distinct_.is_new(m, *part)) return leave(Left::SamePart);
+    const auto value = in_unit(*off, m.characteristic.unit);
+    if (!value) {
+      other_units_.insert(m.characteristic.unit);
+      return leave(Left::OtherUnit);
+    }
+    found_.deviations.push_back({m.id, *value});
+  }
+
+  /// Lengths in the setup's unit, angles in degrees. What a variable's number is in is not known:
+  /// its deviations have one unit, that of the newest.
+  std::optional<double> in_unit(double value, const std::string& unit) {
+    const bool is_length = unit == "mm" || unit == "inch";
+    const bool is_variable = query_.target.kind == SetupTarget::Kind::Variable;
+    std::string then = query_.unit;
+    if (is_variable ? !is_length : is_angle(query_.target)) then = is_variable ? unit : "deg";
+    if (then == query_.unit ? !is_length : unit != then) return std::nullopt;
+    if (found_.unit.empty()) found_.unit = then;
+    if (found_.unit != then) return std::nullopt;
+    if (unit == "mm" && then == "in") return value / kMillimetersPerInch;
+    if (unit == "inch" && then == "mm") return value * kMillimetersPerInch;
+    return value;
+  }
+
+  void leave(Left why) { ++left_.at(static_cast<std::size_t>(why)); }
+
+  std::string words(Left why) const {
+    const OffsetRule& rule = query_.rule;
+    switch (why) {
+      case Left::OfOthers:
+        return fmt::format("under the value in force are left out: not {}", scope_text(rule));
+      case Left::WithoutSetup:
+        return "are left out: of runs without a setup of the server, so what was in force is not "
+               "known";
+      case Left::BeforeChange:
+        return fmt::format(
+            "are left out: cut before setup {}, when {}", query_.since.setup,
+            query_.since.change.empty() ? "it was not looked at" : query_.since.change);
+      case Left::OpenPart:
+        return "are left out: their parts have not ended";
+      case Left::UnknownPart:
+        return "are left out: the verdict of their parts is unknown, or their reports have "
+               "findings";
+      case Left::SamePart:
+        return "are left out: each part counts once, with its last one";
+      case Left::OtherUnit:
+        return fmt::format(
+            "are left out: they are in {}, which is not converted to the {} of {}",
+            fmt::join(other_units_, ", "),
+            found_.unit.empty() ? is_angle(query_.target) ? "deg" : query_.unit : found_.unit,
+            rule.target);
+    }
+    return {};
+  }
+
+  void tell() {
+    for (std::size_t i = 0; i < kLefts; ++i) {
+      if (left_.at(i) == 0) continue;
+      found_.left_out.push_back(fmt::format("{} measurements of {} {}", left_.at(i),
+                                            query_.rule.characteristic,
+                                            words(static_cast<Left>(i))));
+    }
+    if (is_cut_) found_.left_out.emplace_back("older measurements were not looked at");
+  }
+
+  const storage::Store& store_;
+  const DeviationQuery& query_;
+  RunSetups runs_;
+  PartsOf parts_;
+  DistinctParts distinct_;
+  Measured found_;
+  std::array<std::uint64_t, kLefts> left_{};
+  std::set<std::string> other_units_;
+  storage::MeasurementPlace place_;
+  bool is_cut_ = false;
 };
 
 }  // namespace
 
 Result<Measured> find_deviations(const storage::Store& store, const DeviationQuery& query) {
-  const OffsetRule& rule = query.rule;
-  RunSetups runs(store.runs);
-  RuleScope scope(store.measurements, rule);
-  storage::MeasurementFilter filter;
-  filter.machine = query.machine;
-  filter.characteristic = rule.characteristic;
-  Measured found;
-  auto& deviations = found.deviations;
-  std::optional<storage::MeasurementPlace> before;
-  std::uint64_t seen = 0;
-  while (deviations.size() < rule.window) {
-    if (found.is_cut = seen >= kMeasurementsBack; found.is_cut) break;
-    const auto rows = store.measurements.list_newest(filter, before, kPageSize);
-    if (!rows) return fail(rows.error());
-    for (const Measurement& m : *rows) {
-      const auto off = measurement::deviation(m);
-      const auto setup = m.run.empty() ? std::nullopt : runs.setup_of(m.run);
-      if (!off || !setup || *setup < query.since || deviations.size() == rule.window) continue;
-      if (scope.has(m)) {
-        deviations.push_back({m.id, in_setup_unit(*off, m.characteristic.unit, query.unit)});
-      } else {
-        ++found.of_others;
-      }
-    }
-    seen += rows->size();
-    if (rows->size() < kPageSize) break;
-    before = storage::MeasurementPlace{rows->back().time, rows->back().id};
-  }
-  std::ranges::reverse(deviations);
-  return found;
+  return DeviationSearch(store, query).find();
 }
 
 }  // namespace dripline::offsets

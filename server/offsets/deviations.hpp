@@ -6,26 +6,29 @@
 
 #include "server/offsets/offset_rule.hpp"
 #include "server/offsets/proposal.hpp"
+#include "server/offsets/setup_value.hpp"
+#include "server/offsets/value_in_force.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::offsets {
 
 struct DeviationQuery {
   const std::string& machine;
-  const std::string& unit;  ///< of the setup: what the deviations are in
+  const std::string& unit;  ///< of the setup: what lengths are converted to
   const OffsetRule& rule;
-  std::uint64_t since = 0;  ///< the first setup with the value in force
+  const SetupTarget& target;  ///< the rule's
+  const InForceSince& since;
 };
 
 struct Measured {
   std::vector<Deviation> deviations;  ///< oldest first, at most the rule's window
-  /// Under the value in force too, and left out: the rule is for another program, tool or template.
-  std::uint64_t of_others = 0;
-  bool is_cut = false;  ///< older ones were not looked at
+  std::string unit;                   ///< of the deviations
+  std::vector<std::string> left_out;  ///< how many were, and why, in words
 };
 
 /// Of the newest measurements of the rule's characteristic those that it is for, of runs under the
-/// value in force. Errors: those of the store.
+/// value in force: one of each part that has ended and is known not to contradict itself. In doubt
+/// one is left out. Errors: those of the store.
 Result<Measured> find_deviations(const storage::Store& store, const DeviationQuery& query);
 
 }  // namespace dripline::offsets

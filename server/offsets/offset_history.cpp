@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "server/offsets/value_in_force.hpp"
+
 namespace dripline::offsets {
 namespace {
 
@@ -69,7 +71,7 @@ Result<std::vector<HistoryEntry>> OffsetHistory::list(const std::string& machine
   for (const auto& proposal : *applied) proposals.emplace(proposal.setup.value_or(0), proposal);
 
   std::vector<HistoryEntry> entries;
-  std::map<std::string, double> values;           // as they are now
+  std::map<std::string, double> values;           // as they are now, lengths in mm
   std::map<std::string, std::size_t> last_entry;  // of each value, the one that is in force
   const auto close = [&](const std::string& name, std::uint64_t until) -> Result<void> {
     const auto found = last_entry.find(name);
@@ -83,10 +85,12 @@ Result<std::vector<HistoryEntry>> OffsetHistory::list(const std::string& machine
     if (!stated || !unit) continue;  // kept before its control read it so: nothing to compare
     for (const NamedValue& named : *stated) {
       if (!target.empty() && !begins_with(named.target, target)) continue;
+      const auto parsed = parse_setup_target(named.target);
+      const double value = parsed ? canonical(*parsed, named.value, *unit) : named.value;
       const auto before = values.find(named.target);
-      if (before != values.end() && before->second == named.value) continue;
+      if (before != values.end() && is_same_number(before->second, value)) continue;
       if (auto closed = close(named.target, at->number); !closed) return fail(closed.error());
-      values[named.target] = named.value;
+      values[named.target] = value;
       last_entry[named.target] = entries.size();
       HistoryEntry entry{.target = named.target, .unit = *unit, .value = named.value, .setup = *at};
       const auto proposal = proposals.find(at->number);

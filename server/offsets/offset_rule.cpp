@@ -127,12 +127,20 @@ Result<OffsetRule> read_rule(const toml::table& table) {
   return rule;
 }
 
+/// T3 and T03 are one tool.
+std::string name_of(const SetupTarget& target) {
+  return fmt::format("{} {}.{}", owner_of(target),
+                     target.kind == SetupTarget::Kind::Wear ? "wear" : "", target.key);
+}
+
 Result<void> check_distinct(const std::vector<OffsetRule>& rules) {
   std::set<std::string> names, targets;
   for (const OffsetRule& rule : rules) {
     if (!names.insert(rule.name).second)
       return fail(Errc::Conflict, "two rules have the name {}", rule.name);
-    if (!targets.insert(rule.target).second) {
+    const auto target = parse_setup_target(rule.target);
+    if (!target) return fail(target.error());
+    if (!targets.insert(name_of(*target)).second) {
       return fail(Errc::Conflict, "rule {}: {} is corrected by another rule already", rule.name,
                   rule.target);
     }

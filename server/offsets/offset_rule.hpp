@@ -20,8 +20,8 @@ struct OffsetRule {
   double scale = 1;    ///< change of the value that changes the characteristic by 1: 0.5 for a
                        ///< diameter by a radius, below 0 where they go against each other
   double gain = 0.5;   ///< part of the mean deviation that is corrected at once; above 0, at most 1
-  double dead_band = 0;  ///< a mean deviation below it is left alone; in the characteristic's unit
-  double max_step = 0;   ///< largest change at once, in the setup's unit; required
+  double dead_band = 0;       ///< a mean deviation below it is left alone; in the setup's unit
+  double max_step = 0;        ///< largest change at once, in the setup's unit; required
   std::size_t min_count = 3;  ///< measurements under the value in force that are needed
   std::size_t window = 10;    ///< the newest ones that are looked at
   double outlier = 3.5;  ///< robust deviations (1.4826 MAD) from the median beyond which one is

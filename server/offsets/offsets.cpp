@@ -14,34 +14,11 @@ namespace {
 using storage::OffsetProposal;
 
 constexpr const char* kPolicy = "offset rules";  ///< no user has a blank in his name
-constexpr std::uint64_t kSetupsBack = 200;       ///< that are looked through for the value in force
 /// The value has its rule's digits already; zeros at the end are not written.
 constexpr int kDecimals = 9;
 
 std::string reasons_json(const std::vector<std::string>& reasons) {
   return nlohmann::json(reasons).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-/// What was not looked at because the rule is not for it; empty: nothing.
-std::string words_of_others(const Measured& found, const OffsetRule& rule) {
-  std::string words;
-  if (found.of_others > 0) {
-    words = fmt::format("{} measurements of {} under the value in force are left out: not {}",
-                        found.of_others, rule.characteristic, scope_text(rule));
-  }
-  if (found.is_cut)
-    words +=
-        words.empty() ? "older measurements were not looked at" : "; older ones were not looked at";
-  return words;
-}
-
-/// Half of a step, or twice, is what a wrong scale makes: whoever approves it should see it.
-std::string words_of_x(const OffsetRule& rule, const std::string& kind) {
-  const bool is_radius = kind == "radius";
-  return fmt::format(
-      "{} is a {} in the setup: the scale is {} for a characteristic that is a diameter and {} for "
-      "one that is a radius, below 0 where they go against each other; this rule's is {:g}",
-      rule.target, kind, is_radius ? "0.5" : "1", is_radius ? "1" : "2", rule.scale);
 }
 
 /// Why the setup has this value, in its comment; the whole reasons are in the proposal.
@@ -71,15 +48,40 @@ Result<void> Offsets::check_rules(const Current& now, const std::vector<OffsetRu
     if (!absent) return fail(absent.error());
     if (!absent->empty()) return fail(Errc::Conflict, "rule {}: {}", rule.name, *absent);
   }
-  return {};
+  return check_corrected_once(rules, now.control);
 }
 
-Result<void> Offsets::check_rule(const OffsetProposal& proposal) {
+Result<OffsetRule> Offsets::rule_of(const OffsetProposal& proposal) {
   const auto stored = parts_.store.offsets.rules(proposal.machine);
   if (!stored && stored.error().code != Errc::NotFound) return fail(stored.error());
   const auto rules = stored ? parse_offset_rules(stored->text) : Result<std::vector<OffsetRule>>{};
   if (!rules) return fail(rules.error());
-  return check_allowed(proposal, *rules);
+  if (auto allowed = check_allowed(proposal, *rules); !allowed) return fail(allowed.error());
+  return *std::ranges::find_if(*rules,
+                               [&](const OffsetRule& rule) { return is_of_rule(proposal, rule); });
+}
+
+/// What it was made from may have been derived again since, or not be all any more.
+Result<void> Offsets::check_measured(const Current& now, const OffsetRule& rule,
+                                     const OffsetProposal& proposal) {
+  if (proposal.used == 0) return {};  // it names none that could have changed
+  const auto again = measured(now, rule);
+  if (!again) return fail(again.error());
+  const Outcome& outcome = again->outcome;
+  if (outcome.new_value && is_same_number(*outcome.new_value, proposal.new_value) &&
+      is_same_number(again->value, proposal.old_value) && outcome.first == proposal.first &&
+      outcome.last == proposal.last && outcome.used == proposal.used) {
+    return {};
+  }
+  const std::string why =
+      fmt::format("its measurements are not the current ones any more; by now: {}",
+                  fmt::join(outcome.reasons, "; "));
+  if (auto done =
+          parts_.store.offsets.withdraw(proposal.machine, proposal.target, parts_.clock.now(), why);
+      !done)
+    return done;
+  note(proposal.machine);
+  return fail(Errc::Conflict, "offset proposal {} is superseded: {}", proposal.id, why);
 }
 
 Result<void> Offsets::withdraw_of_gone(const std::string& machine,
@@ -94,7 +96,9 @@ Result<void> Offsets::withdraw_of_gone(const std::string& machine,
     process::log_info(
         "offset proposal {} machine={} is withdrawn: there is no such rule {} any more",
         proposal.id, machine, proposal.rule);
-    if (auto done = parts_.store.offsets.withdraw(machine, proposal.target, parts_.clock.now());
+    if (auto done = parts_.store.offsets.withdraw(
+            machine, proposal.target, parts_.clock.now(),
+            fmt::format("there is no such rule {} any more", proposal.rule));
         !done)
       return done;
   }
@@ -146,23 +150,6 @@ Result<Offsets::Current> Offsets::current_of(const std::string& machine) {
   return now;
 }
 
-/// Back from the newest setup as long as the value is the same.
-Result<std::uint64_t> Offsets::in_force_since(const Current& now, const OffsetRule& rule,
-                                              double value) {
-  const auto target = parse_setup_target(rule.target);
-  if (!target) return fail(target.error());
-  std::uint64_t since = now.setup;
-  for (std::uint64_t back = 0; since > 0 && back < kSetupsBack; ++back) {
-    if (since == 1) return value == 0 ? 0 : 1;  // runs before the first setup had the value 0
-    const auto before = parts_.store.setups.find(now.machine, since - 1);
-    if (!before) return fail(before.error());
-    const auto old = value_in_setup(before->text, *target);
-    if (!old || *old != value) return since;
-    --since;
-  }
-  return since;
-}
-
 /// Why the value is not to be written into the setup; empty: nothing speaks against it.
 Result<std::string> Offsets::doubt_of(const Current& now, const OffsetRule& rule, double value) {
   const auto target = parse_setup_target(rule.target);
@@ -175,34 +162,45 @@ Result<std::string> Offsets::doubt_of(const Current& now, const OffsetRule& rule
   return doubt_of_step(parts_.store, {now.machine, now.control, rule.target, now.text, *changed});
 }
 
-Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule) {
+/// What follows from the measurements alone.
+Result<Evaluation> Offsets::measured(const Current& now, const OffsetRule& rule) {
   const auto target = parse_setup_target(rule.target);
   if (!target) return fail(target.error());
   const auto value = value_in_setup(now.text, *target);
   if (!value) return fail(value.error());
-  const auto since = in_force_since(now, rule, *value);
+  const auto since = in_force_since(
+      parts_.store.setups, {now.machine, now.control, now.text, now.setup}, *target, rule.tool);
   if (!since) return fail(since.error());
   const auto found = find_deviations(
-      parts_.store, {.machine = now.machine, .unit = now.unit, .rule = rule, .since = *since});
+      parts_.store,
+      {.machine = now.machine, .unit = now.unit, .rule = rule, .target = *target, .since = *since});
   if (!found) return fail(found.error());
-  const auto& measured = found->deviations;
   Evaluation evaluation{.rule = rule,
                         .unit = now.unit,
                         .value = *value,
-                        .since = *since,
-                        .outcome = propose(measured, *value, rule),
+                        .since = since->setup,
+                        .outcome = propose(found->deviations, *value, rule, found->unit),
+                        .measured = found->deviations,
                         .proposal = {}};
-  Outcome& outcome = evaluation.outcome;
-  if (const auto left = words_of_others(*found, rule); !left.empty())
-    outcome.reasons.insert(outcome.reasons.begin(), left);
+  auto& reasons = evaluation.outcome.reasons;
+  reasons.insert(reasons.begin(), found->left_out.begin(), found->left_out.end());
+  return evaluation;
+}
+
+Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule) {
+  auto evaluation = measured(now, rule);
+  if (!evaluation) return evaluation;
+  Outcome& outcome = evaluation->outcome;
   if (!outcome.new_value) return evaluation;
+  const auto target = parse_setup_target(rule.target);
+  if (!target) return fail(target.error());
   const auto kind = kind_of_x(now.text, now.control, *target);
   if (!kind) return fail(kind.error());
   if (!kind->empty()) outcome.reasons.push_back(words_of_x(rule, *kind));
   auto doubt = doubt_of(now, rule, *outcome.new_value);
   if (doubt && doubt->empty())
-    doubt = was_rejected(parts_.store.offsets,
-                         {now.machine, rule, *value, *outcome.new_value, measured});
+    doubt = was_rejected(parts_.store.offsets, {now.machine, rule, evaluation->value,
+                                                *outcome.new_value, evaluation->measured});
   if (!doubt) return fail(doubt.error());
   if (!doubt->empty()) {
     outcome.reasons.push_back("nothing is proposed: " + *doubt);
@@ -215,7 +213,8 @@ Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule)
 Result<void> Offsets::keep(const Current& now, Evaluation& evaluation) {
   const Outcome& outcome = evaluation.outcome;
   if (!outcome.new_value)
-    return parts_.store.offsets.withdraw(now.machine, evaluation.rule.target, parts_.clock.now());
+    return parts_.store.offsets.withdraw(now.machine, evaluation.rule.target, parts_.clock.now(),
+                                         outcome.reasons.back());
   OffsetProposal proposal;
   proposal.machine = now.machine;
   proposal.rule = evaluation.rule.name;
@@ -316,7 +315,8 @@ Result<OffsetProposal> Offsets::approve(const storage::OffsetDecision& given) {
   const auto proposal = parts_.store.offsets.find(decision.id);
   if (!proposal) return fail(proposal.error());
   if (auto pending = storage::check_pending(*proposal); !pending) return fail(pending.error());
-  if (auto allowed = check_rule(*proposal); !allowed) return fail(allowed.error());
+  const auto rule = rule_of(*proposal);
+  if (!rule) return fail(rule.error());
   const auto now = current_of(proposal->machine);
   if (!now) return fail(now.error());
   if (now->setup != proposal->base) {
@@ -332,6 +332,7 @@ Result<OffsetProposal> Offsets::approve(const storage::OffsetDecision& given) {
   if (!absent) return fail(absent.error());
   if (!absent->empty())
     return fail(Errc::Conflict, "offset proposal {}: {}", proposal->id, *absent);
+  if (auto current = check_measured(*now, *rule, *proposal); !current) return fail(current.error());
   auto text = with_value(now->text, *target, proposal->new_value, kDecimals);
   if (!text) return fail(text.error());
   const auto doubt = doubt_at_approval(

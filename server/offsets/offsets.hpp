@@ -23,8 +23,9 @@ struct Evaluation {
   OffsetRule rule;
   std::string unit;         ///< mm or in: the setup's
   double value = 0;         ///< in force
-  std::uint64_t since = 0;  ///< the first setup with that value; 0: before there was one
+  std::uint64_t since = 0;  ///< the first setup under which it counts; 0: there is no setup
   Outcome outcome;
+  std::vector<Deviation> measured;                  ///< under it
   std::optional<storage::OffsetProposal> proposal;  ///< pending, or applied at once
 };
 
@@ -53,7 +54,8 @@ class Offsets {
 
   /// Pending proposals of rules that are gone are withdrawn. Errors: those of parse_offset_rules
   /// and the store; NotFound (the machine), Unsupported (the machine's control has no such value),
-  /// Conflict (the machine's setup has not what a rule corrects).
+  /// Conflict (the machine's setup has not what a rule corrects; two rules would correct the same
+  /// by one characteristic).
   Result<storage::OffsetRules> save_rules(const std::string& machine, const std::string& text,
                                           const storage::Actor& who);
   /// Evaluates all rules of the machine and keeps what follows. Errors: those of the store; a
@@ -61,8 +63,9 @@ class Offsets {
   Result<std::vector<Evaluation>> look(const std::string& machine);
 
   /// As it is then, with the setup that it became. Errors: NotFound, Conflict (decided already;
-  /// another setup is the newest; its rule is gone or allows it no more; the control's memory is
-  /// not the setup's, or a run is changing it), Unsupported (the setup's layout), those of the
+  /// another setup is the newest; its rule is gone or allows it no more; its measurements are not
+  /// the current ones, then it is superseded; the control's memory is not the setup's, or a run is
+  /// changing it), Unsupported (the setup's layout), those of the
   /// control, LimitExceeded (the comment).
   Result<storage::OffsetProposal> approve(const storage::OffsetDecision& decision);
   /// Errors: NotFound, Conflict, Syntax (no reason), LimitExceeded (the comment).
@@ -76,8 +79,10 @@ class Offsets {
  private:
   struct Current;
   Result<Current> current_of(const std::string& machine);
-  Result<std::uint64_t> in_force_since(const Current& now, const OffsetRule& rule, double value);
-  Result<void> check_rule(const storage::OffsetProposal& proposal);
+  Result<OffsetRule> rule_of(const storage::OffsetProposal& proposal);
+  Result<void> check_measured(const Current& now, const OffsetRule& rule,
+                              const storage::OffsetProposal& proposal);
+  Result<Evaluation> measured(const Current& now, const OffsetRule& rule);
   Result<void> withdraw_of_gone(const std::string& machine, const std::vector<OffsetRule>& rules);
   Result<std::string> doubt_of(const Current& now, const OffsetRule& rule, double value);
   static Result<void> check_rules(const Current& now, const std::vector<OffsetRule>& rules);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/setup_values.hpp"
+#include "server/offsets/value_in_force.hpp"
 
 namespace dripline::offsets {
 
@@ -30,6 +31,24 @@ Result<void> check_allowed(const storage::OffsetProposal& proposal,
       (rule->highest && proposal.new_value > *rule->highest)) {
     return fail(Errc::Conflict, "offset proposal {}: {} is outside of the bounds of rule {} by now",
                 proposal.id, proposal.new_value, rule->name);
+  }
+  return {};
+}
+
+Result<void> check_corrected_once(const std::vector<OffsetRule>& rules, std::string_view control) {
+  for (auto one = rules.begin(); one != rules.end(); ++one) {
+    for (auto other = rules.begin(); other != one; ++other) {
+      if (one->characteristic != other->characteristic) continue;
+      const auto target = parse_setup_target(one->target);
+      if (!target) return fail(target.error());
+      const auto before = parse_setup_target(other->target);
+      if (!before) return fail(before.error());
+      if (!moves_the_same(*target, *before, control)) continue;
+      return fail(Errc::Conflict,
+                  "rule {}: {} moves what {} of rule {} moves, and both would correct {}: one "
+                  "deviation would be corrected twice",
+                  one->name, one->target, other->target, other->name, one->characteristic);
+    }
   }
   return {};
 }
@@ -70,6 +89,14 @@ std::string what_control_lacks(std::string_view control, const SetupTarget& targ
   if (values.tool.empty()) return fmt::format("{} has no tools in its setup", control);
   return fmt::format("{} has no {} of a tool, so a correction of it would do nothing; it has {}",
                      control, key, fmt::join(values.tool, ", "));
+}
+
+std::string words_of_x(const OffsetRule& rule, const std::string& kind) {
+  const bool is_radius = kind == "radius";
+  return fmt::format(
+      "{} is a {} in the setup: the scale is {} for a characteristic that is a diameter and {} for "
+      "one that is a radius, below 0 where they go against each other; this rule's is {:g}",
+      rule.target, kind, is_radius ? "0.5" : "1", is_radius ? "1" : "2", rule.scale);
 }
 
 Result<std::string> what_is_absent(const SetupText& setup, const SetupTarget& target) {

@@ -18,6 +18,10 @@ bool is_of_rule(const storage::OffsetProposal& proposal, const OffsetRule& rule)
 Result<void> check_allowed(const storage::OffsetProposal& proposal,
                            const std::vector<OffsetRule>& rules);
 
+/// No two rules correct one deviation twice: by one characteristic, values that move the same.
+/// Errors: Conflict.
+Result<void> check_corrected_once(const std::vector<OffsetRule>& rules, std::string_view control);
+
 struct NextStep {
   const std::string& machine;
   const OffsetRule& rule;
@@ -36,6 +40,9 @@ struct SetupText {
 /// Why a correction of the target would have no effect at the machine, whatever its setup says;
 /// empty: the control has such a value.
 std::string what_control_lacks(std::string_view control, const SetupTarget& target);
+
+/// Half of a step, or twice, is what a wrong scale makes: whoever approves it should see it.
+std::string words_of_x(const OffsetRule& rule, const std::string& kind);
 
 /// What a correction would have to add to the setup, in words; empty: its tool, offset or variable
 /// is there. A slip of the pen must not make a tool. Errors: Syntax.

@@ -79,10 +79,17 @@ Result<std::optional<OffsetProposal>> pending_of(sqlite::Database& database,
                            read_proposal, machine, target);
 }
 
-Result<void> supersede(sqlite::Database& database, std::uint64_t id, UtcTime now) {
-  return sqlite::run(
-      database, "UPDATE offset_proposal SET state = 'superseded', decided_us = ?2 WHERE id = ?1",
-      id, now);
+Result<void> supersede(sqlite::Database& database, std::uint64_t id, UtcTime now,
+                       const std::string& reason) {
+  return sqlite::run(database,
+                     "UPDATE offset_proposal SET state = 'superseded', decided_us = ?2, comment = "
+                     "?3 WHERE id = ?1",
+                     id, now, reason);
+}
+
+bool is_of_the_same(const OffsetProposal& a, const OffsetProposal& b) {
+  return a.first == b.first && a.last == b.last && a.used == b.used && a.mean == b.mean &&
+         a.new_value == b.new_value && a.base == b.base;
 }
 
 std::string subject_of(const OffsetProposal& proposal) {
@@ -136,11 +143,8 @@ Result<KeptProposal> OffsetRepository::propose(const OffsetProposal& given) {
     auto pending = pending_of(database, given.machine, given.target);
     if (!pending) return fail(pending.error());
     if (const auto& known = *pending) {
-      if (known->last == given.last && known->new_value == given.new_value &&
-          known->base == given.base) {
-        return KeptProposal{std::move(**pending), false};
-      }
-      if (auto done = supersede(database, known->id, given.created); !done)
+      if (is_of_the_same(*known, given)) return KeptProposal{std::move(**pending), false};
+      if (auto done = supersede(database, known->id, given.created, "by a newer one"); !done)
         return fail(done.error());
     }
     const auto kept = sqlite::run(
@@ -160,11 +164,11 @@ Result<KeptProposal> OffsetRepository::propose(const OffsetProposal& given) {
 }
 
 Result<void> OffsetRepository::withdraw(const std::string& machine, const std::string& target,
-                                        UtcTime now) {
+                                        UtcTime now, const std::string& reason) {
   return connections_.write([&](sqlite::Database& database) -> Result<void> {
     const auto pending = pending_of(database, machine, target);
     if (!pending) return fail(pending.error());
-    return *pending ? supersede(database, (*pending)->id, now) : Result<void>{};
+    return *pending ? supersede(database, (*pending)->id, now, reason) : Result<void>{};
   });
 }
 

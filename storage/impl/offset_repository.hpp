@@ -12,8 +12,8 @@ class OffsetRepository final : public OffsetStore {
   Result<OffsetRules> save_rules(const OffsetRules& rules, const Actor& who) override;
   Result<OffsetRules> rules(const std::string& machine) override;
   Result<KeptProposal> propose(const OffsetProposal& proposal) override;
-  Result<void> withdraw(const std::string& machine, const std::string& target,
-                        UtcTime now) override;
+  Result<void> withdraw(const std::string& machine, const std::string& target, UtcTime now,
+                        const std::string& reason) override;
   Result<OffsetProposal> find(std::uint64_t id) override;
   Result<std::vector<OffsetProposal>> list(const OffsetFilter& filter, Page page) override;
   Result<SetupRevision> apply(const OffsetDecision& decision, const SetupRevision& setup) override;

@@ -75,6 +75,10 @@ INSTANTIATE_TEST_SUITE_P(
                             "[[rule]]\nname = \"b\"\ncharacteristic = \"b\"\ntarget = "
                             "\"T3.wear.X\"\nmax_step = 1\n",
                             "T3.wear.X is corrected by another rule already"},
+                    BadRule{"same_tool",
+                            "[[rule]]\nname = \"b\"\ncharacteristic = \"b\"\ntarget = "
+                            "\"T03.wear.X\"\nmax_step = 1\n",
+                            "T03.wear.X is corrected by another rule already"},
                     BadRule{
                         "no_step",
                         "[[rule]]\nname = \"b\"\ncharacteristic = \"b\"\ntarget = \"T4.wear.X\"\n",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <utility>
 
 #include "server/offsets/offsets.hpp"
@@ -47,23 +48,41 @@ class OffsetsTest : public server_test::ServerTest {
   }
   /// A run that measures one part.
   std::string measure(double actual) {
-    ++measured_;
-    Run run = run_of(revision_, fmt::format("run-{}", measured_));
+    Run run = run_of(revision_, fmt::format("run-{}", measured_ + 1));
     const auto setup = store_->setups.find("lathe-1", std::nullopt);
-    if (setup) run.setup = setup->number;
+    if (setup && has_setup_) run.setup = setup->number;
     EXPECT_TRUE(store_->runs.create(run));
+    measure_in(run.id, actual);
+    EXPECT_TRUE(store_->runs.set_state(run.id, storage::RunState::Completed, ""));
+    return run.id;
+  }
+  /// One more part of a run.
+  void measure_in(const std::string& run, double actual) {
+    ++measured_;
     storage::Record record;
     record.machine = "lathe-1";
     record.epoch = 7;
     record.number = measured_;
     record.time = clock_.now() + std::chrono::seconds(measured_);
-    record.run = run.id;
+    record.run = run;
     record.kind = "output";
     EXPECT_TRUE(store_->records.store(
         {.machine = "lathe-1", .epoch = 7, .records = {record}, .beginnings = {}, .endings = {}}));
-    EXPECT_TRUE(store_->runs.set_state(run.id, storage::RunState::Completed, ""));
     commit(record, actual);
-    return run.id;
+  }
+  /// As another template reads the run: what was measured is superseded.
+  void derive_again(const std::string& run, double actual) {
+    const storage::Record record = records_.at(run);
+    const auto done = store_->measurements.replace(run, batch_of(record, actual));
+    EXPECT_TRUE(done) << done.error().what;
+  }
+  /// Evaluates, expects nothing to be proposed, and returns the reasons.
+  std::string why_nothing() {
+    const auto looked = offsets_->look("lathe-1");
+    EXPECT_TRUE(looked) << looked.error().what;
+    if (!looked || looked->size() != 1) return {};
+    EXPECT_FALSE(looked->front().proposal);
+    return fmt::format("{}", fmt::join(looked->front().outcome.reasons, "\n"));
   }
   storage::OffsetProposal only_proposal() {
     const auto looked = offsets_->look("lathe-1");
@@ -86,13 +105,23 @@ class OffsetsTest : public server_test::ServerTest {
   storage::Revision revision_;
   std::uint64_t measured_ = 0;
   std::string program_ = "O0100", template_ = "bore", tool_ = "T3";  ///< of what is measured
+  std::string part_, unit_ = "mm";
+  measurement::Verdict verdict_ = measurement::Verdict::Good;  ///< of the part
+  std::uint64_t findings_ = 0;
+  bool has_setup_ = true;  ///< the server's, of a run
+  bool is_ended_ = true;   ///< the part
   std::vector<storage::OffsetProposal> changes_;
   std::unique_ptr<Offsets> offsets_;
 
  private:
   void commit(const storage::Record& record, double actual) {
+    const auto done = store_->measurements.commit(batch_of(record, actual));
+    EXPECT_TRUE(done) << done.error().what;
+  }
+  storage::DerivedBatch batch_of(const storage::Record& record, double actual) {
+    records_[record.run] = record;
     storage::MeasuredPart part;
-    part.id = record.number;
+    part.id = store_->measurements.next_part_id().value_or(0);
     part.machine = "lathe-1";
     part.run = record.run;
     part.program = program_;
@@ -100,12 +129,15 @@ class OffsetsTest : public server_test::ServerTest {
     part.template_name = template_;
     part.template_version = 1;
     part.measurements = 1;
-    part.verdict = measurement::Verdict::Good;
+    part.number = part_;
+    part.findings = findings_;
+    part.verdict = verdict_;
     part.begun = record.time;
-    part.ended = record.time;
+    if (is_ended_) part.ended = record.time;
     measurement::Measurement m;
     m.part_id = part.id;
-    m.characteristic = {.name = "D40", .nominal = 40, .lower = 39.95, .upper = 40.05};
+    m.characteristic = {
+        .name = "D40", .nominal = 40, .lower = 39.95, .upper = 40.05, .unit = unit_};
     m.actual = actual;
     m.tool = tool_;
     m.time = record.time;
@@ -118,11 +150,11 @@ class OffsetsTest : public server_test::ServerTest {
     batch.through = record.number;
     batch.parts = {part};
     batch.measurements = {m};
-    const auto done = store_->measurements.commit(batch);
-    EXPECT_TRUE(done) << done.error().what;
+    return batch;
   }
 
-  std::uint64_t through_ = 0;  ///< the last record that was measured from
+  std::map<std::string, storage::Record> records_;  ///< the newest of each run
+  std::uint64_t through_ = 0;                       ///< the last record that was measured from
 };
 
 }  // namespace dripline::offsets

@@ -21,7 +21,7 @@ TEST_F(OffsetsTest, ProposesWithReasonsAndChangesNothing) {
   EXPECT_EQ(proposal.base, 1U);
   EXPECT_EQ(proposal.used, 3U);
   EXPECT_EQ(proposal.state, OffsetState::Pending);
-  EXPECT_NE(proposal.reasons.find("mean deviation +0.02 of 3 measurements"), std::string::npos)
+  EXPECT_NE(proposal.reasons.find("mean deviation +0.02 mm of 3 measurements"), std::string::npos)
       << proposal.reasons;
   EXPECT_NE(proposal.reasons.find("T3.wear.X is a radius in the setup: the scale is 0.5 for a "
                                   "characteristic that is a diameter"),
@@ -81,6 +81,8 @@ TEST_F(OffsetsTest, WhatWasMeasuredBeforeTheCorrectionCountsNoMore) {
   EXPECT_FALSE(looked->front().proposal);
   EXPECT_EQ(looked->front().since, 2U);
   EXPECT_EQ(looked->front().outcome.reasons.front(),
+            "3 measurements of D40 are left out: cut before setup 2, when T3.wear.X was 0.1 mm");
+  EXPECT_EQ(looked->front().outcome.reasons.back(),
             "0 measurements under the value in force, 3 are needed");
   for (const double actual : {40.001, 39.999, 40.0}) measure(actual);
   looked = offsets_->look("lathe-1");
