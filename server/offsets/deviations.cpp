@@ -22,12 +22,13 @@ enum class Left : std::uint8_t {
   OfOthers,
   WithoutSetup,
   BeforeChange,
+  OtherMemory,
   OpenPart,
   UnknownPart,
   SamePart,
   OtherUnit
 };
-constexpr std::size_t kLefts = 7;
+constexpr std::size_t kLefts = 8;
 
 /// The runs of measurements, each asked for once.
 class RunSetups {
@@ -141,6 +142,7 @@ class DeviationSearch {
     }
     if (!setup || query_.since.setup == 0) return leave(Left::WithoutSetup);
     if (is_before) return leave(Left::BeforeChange);
+    if (query_.differed_until && m.time <= *query_.differed_until) return leave(Left::OtherMemory);
     const MeasuredPart* part = parts_.find(m.part_id);
     if (part == nullptr || !part->ended) return leave(Left::OpenPart);
     if (is_in_doubt(*part)) return leave(Left::UnknownPart);
@@ -182,6 +184,11 @@ class DeviationSearch {
         return fmt::format(
             "are left out: cut before setup {}, when {}", query_.since.setup,
             query_.since.change.empty() ? "it was not looked at" : query_.since.change);
+      case Left::OtherMemory:
+        return fmt::format(
+            "are left out: cut while the control's memory had, or may have had, another number "
+            "for {} than the setup",
+            rule.target);
       case Left::OpenPart:
         return "are left out: their parts have not ended";
       case Left::UnknownPart:

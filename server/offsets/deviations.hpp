@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct DeviationQuery {
   const OffsetRule& rule;
   const SetupTarget& target;  ///< the rule's
   const InForceSince& since;
+  /// The control's memory had another number until then (memory_check.hpp).
+  const std::optional<UtcTime>& differed_until;
 };
 
 struct Measured {

@@ -8,6 +8,7 @@
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "server/library/kept_memory.hpp"
+#include "server/offsets/setup_value.hpp"
 
 namespace dripline::offsets {
 namespace {
@@ -193,7 +194,58 @@ Result<std::string> check(const storage::Store& store, const Correction& correct
   return why;
 }
 
+/// The cells that the target has in the control's memory, whatever its value becomes.
+Result<Cells> cells_of_target(const Dialect& dialect, const Correction& correction) {
+  const auto target = parse_setup_target(correction.target);
+  if (!target) return fail(target.error());
+  const auto value = value_in_setup(correction.before, *target);
+  if (!value) return fail(value.error());
+  Result<Cells> cells;
+  for (const double other : {*value + 0.5, *value - 0.5}) {  // one may be beyond a limit
+    Correction step = correction;
+    auto changed = with_value(correction.before, *target, other, 9);
+    if (!changed) return Cells{};  // nothing can be proposed either
+    step.changed = *std::move(changed);
+    cells = corrected_cells(dialect, step, true);
+    if (cells) break;
+  }
+  return cells;
+}
+
+/// A number of an earlier value of the setup was dropped with that.
+bool has_another_number(const storage::MemoryReport& report, const Cells& cells) {
+  const auto kept = library::read_memory_texts(report.texts);
+  if (!kept) return true;
+  return std::ranges::any_of(cells, [&](const auto& cell) {
+    const auto found = kept->find(cell.first);
+    if (found == kept->end()) return false;
+    const double in_setup = cell.second.value;
+    return !is_same(found->second.value.value_or(interpreter::kVacant), in_setup) &&
+           is_same(found->second.base.value_or(interpreter::kVacant), in_setup);
+  });
+}
+
 }  // namespace
+
+Result<std::optional<UtcTime>> differed_until(const storage::Store& store,
+                                              const Correction& correction) {
+  const auto dialect = interpreter::find_dialect(correction.control);
+  if (!dialect) return fail(dialect.error());
+  const auto reports =
+      store.records.memory_reports(correction.machine, {}, {.limit = kMemoryReportsBack});
+  if (!reports) return fail(reports.error());
+  if (reports->empty()) return std::optional<UtcTime>();
+  const auto cells = cells_of_target(**dialect, correction);
+  if (!cells) return fail(cells.error());
+  if (cells->empty()) return std::optional<UtcTime>();
+  std::optional<UtcTime> newer;
+  for (const storage::MemoryReport& report : *reports) {
+    // The run of the next report began with this one's numbers. The newest one is a doubt.
+    if (has_another_number(report, *cells)) return newer;
+    newer = report.time;
+  }
+  return reports->size() < kMemoryReportsBack ? std::optional<UtcTime>() : newer;
+}
 
 Result<std::string> doubt_of_step(const storage::Store& store, const Correction& correction) {
   return check(store, correction, false);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "storage/store.hpp"
@@ -23,5 +24,14 @@ Result<std::string> doubt_of_step(const storage::Store& store, const Correction&
 /// The same where the correction is applied at once: what an active run changes is only known at
 /// its end.
 Result<std::string> doubt_at_approval(const storage::Store& store, const Correction& correction);
+
+/// Until when the control's memory had another number of the target than the setup: what was
+/// measured before may have been cut under that. Of kMemoryReportsBack reports; what was before
+/// them, or cannot be read, is a doubt. Nothing: at no time. `changed` is not used. Errors: those
+/// of the store and of the control.
+Result<std::optional<UtcTime>> differed_until(const storage::Store& store,
+                                              const Correction& correction);
+
+inline constexpr std::uint64_t kMemoryReportsBack = 100;
 
 }  // namespace dripline::offsets

@@ -171,9 +171,15 @@ Result<Evaluation> Offsets::measured(const Current& now, const OffsetRule& rule)
   const auto since = in_force_since(
       parts_.store.setups, {now.machine, now.control, now.text, now.setup}, *target, rule.tool);
   if (!since) return fail(since.error());
-  const auto found = find_deviations(
-      parts_.store,
-      {.machine = now.machine, .unit = now.unit, .rule = rule, .target = *target, .since = *since});
+  const auto until =
+      differed_until(parts_.store, {now.machine, now.control, rule.target, now.text, {}});
+  if (!until) return fail(until.error());
+  const auto found = find_deviations(parts_.store, {.machine = now.machine,
+                                                    .unit = now.unit,
+                                                    .rule = rule,
+                                                    .target = *target,
+                                                    .since = *since,
+                                                    .differed_until = *until});
   if (!found) return fail(found.error());
   Evaluation evaluation{.rule = rule,
                         .unit = now.unit,

@@ -93,6 +93,36 @@ TEST_F(KeptOffsets, AMemoryUnderAnEarlierValueOfTheSetupIsDroppedAtTheMachine) {
   EXPECT_DOUBLE_EQ(only_proposal().new_value, 0.14);
 }
 
+/// A program has set it back: what was cut meanwhile was cut under the other number.
+TEST_F(KeptOffsets, WhatWasCutUnderAnotherNumberOfTheMemoryNeverCounts) {
+  use_rules();
+  const std::string run = measure_three();
+  report_memory(run, R"("tool.3.x_wear":[0.125,0.1])");
+  measure_three();
+  report_memory(measure(40.02), R"("tool.3.x_wear":[0.1,0.1])");
+  expect(reasons_of_no_proposal(),
+         {"7 measurements of D40 are left out: cut while the control's memory had, or may have "
+          "had, another number for T3.wear.X",
+          "0 measurements under the value in force"});
+  measure_three();
+  EXPECT_EQ(only_proposal().used, 3U);
+}
+
+/// As the reason advises: the setup gives the memory its number for a start.
+TEST_F(KeptOffsets, NorAfterTheMemoryWasClearedByASetup) {
+  use_rules();
+  const std::string run = measure_three();
+  report_memory(run, R"("tool.3.x_wear":[0.125,0.1])");
+  measure_three();
+  save_setup(std::string(kSetup) + "[[variable]]\nname = \"tool.3.x_wear\"\nvalue = 0.1\n",
+             "memory cleared");
+  report_memory(measure(40.02), R"("tool.3.x_wear":[0.1,0.1])");
+  save_setup(kSetup, "the variable taken out");
+  expect(reasons_of_no_proposal(),
+         {"7 measurements of D40 are left out: cut before setup 3, when variable tool.3.x_wear was "
+          "0.1"});
+}
+
 TEST_F(KeptOffsets, AMemoryWhoseSetupCannotBeToldIsADoubt) {
   use_rules();
   measure_three();
