@@ -30,6 +30,7 @@ class MeasurementsTest : public server_test::ServerTest {
                                             measurement::to_string(part.verdict),
                                             part.ended ? "" : " so far"));
             },
+        .on_derived = [this](const std::string& machine) { derived_again_.push_back(machine); },
         .hold_queue = [this](const auto& part,
                              const auto& why) { return hold("queue", part, why); },
         .hold_machine = [this](const auto& part,
@@ -119,6 +120,7 @@ class MeasurementsTest : public server_test::ServerTest {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::string> judged_, held_;
+  std::vector<std::string> derived_again_;  ///< machines, of each time
   std::unique_ptr<Measurements> measurements_;
 };
 

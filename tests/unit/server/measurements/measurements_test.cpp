@@ -44,9 +44,11 @@ TEST_F(MeasurementsTest, KnowNoVerdictOfAPartThatItsRunBrokeOff) {
     EXPECT_EQ(parts->at(0).verdict, Verdict::Unknown) << run;
     EXPECT_EQ(findings({.run = run}),
               (Texts{"incomplete: the part's end did not come: its run ended " + run}));
+    derived_again_.clear();
     const auto again = measurements_->derive(run, {}, {});
     ASSERT_TRUE(again) << again.error().what;
     EXPECT_EQ(again->back().verdict, Verdict::Unknown) << "also derived again";
+    EXPECT_EQ(derived_again_, Texts{"lathe-1"}) << "corrections look again";
   }
 }
 
