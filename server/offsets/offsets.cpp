@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "protocol/process/log.hpp"
 #include "server/offsets/deviations.hpp"
@@ -204,10 +205,16 @@ Result<Evaluation> Offsets::evaluate(const Current& now, const OffsetRule& rule)
   if (!kind) return fail(kind.error());
   if (!kind->empty()) outcome.reasons.push_back(words_of_x(rule, *kind));
   auto doubt = doubt_of(now, rule, *outcome.new_value);
-  if (doubt && doubt->empty())
-    doubt = was_rejected(parts_.store.offsets, {now.machine, rule, evaluation->value,
-                                                *outcome.new_value, evaluation->measured});
   if (!doubt) return fail(doubt.error());
+  if (doubt->empty()) {
+    auto rejection = rejection_of(parts_.store.offsets, {now.machine, rule, evaluation->value,
+                                                         *outcome.new_value, evaluation->measured});
+    if (!rejection) return fail(rejection.error());
+    doubt = std::move(rejection->doubt);
+    // Derived again, measurements count as more of them.
+    if (rejection->is_same_step && std::exchange(outcome.is_within_policy, false))
+      outcome.reasons.push_back("it was rejected before, so it waits for a person");
+  }
   if (!doubt->empty()) {
     outcome.reasons.push_back("nothing is proposed: " + *doubt);
     outcome.new_value.reset();

@@ -53,24 +53,26 @@ Result<void> check_corrected_once(const std::vector<OffsetRule>& rules, std::str
   return {};
 }
 
-Result<std::string> was_rejected(storage::OffsetStore& store, const NextStep& step) {
+Result<Rejection> rejection_of(storage::OffsetStore& store, const NextStep& step) {
   const OffsetRule& rule = step.rule;
   storage::OffsetFilter filter{
       .machine = step.machine, .target = rule.target, .state = storage::OffsetState::Rejected};
   const auto rejected = store.list(filter, {.limit = 1});
   if (!rejected) return fail(rejected.error());
-  if (rejected->empty()) return std::string();
+  if (rejected->empty()) return Rejection{};
   const storage::OffsetProposal& last = rejected->front();
   const bool is_same = is_of_rule(last, rule) &&
                        is_at_most(std::abs(last.old_value - step.value), 0) &&
                        is_at_most(std::abs(last.new_value - step.new_value), 0);
   const auto is_newer = [&](const Deviation& one) { return one.measurement > last.last; };
   const auto newer = static_cast<std::size_t>(std::ranges::count_if(step.measured, is_newer));
-  if (!is_same || newer >= rule.min_count) return std::string();
-  return fmt::format(
-      "{} rejected it as offset proposal {}: {}. It comes again with another value, or after {} "
-      "measurements more; there are {}",
-      last.who, last.id, last.comment, rule.min_count, newer);
+  if (!is_same) return Rejection{};
+  if (newer >= rule.min_count) return Rejection{.is_same_step = true};
+  return Rejection{.is_same_step = true,
+                   .doubt = fmt::format("{} rejected it as offset proposal {}: {}. It comes again "
+                                        "with another value, or after {} "
+                                        "measurements more; there are {}",
+                                        last.who, last.id, last.comment, rule.min_count, newer)};
 }
 
 std::string what_control_lacks(std::string_view control, const SetupTarget& target) {

@@ -28,9 +28,13 @@ struct NextStep {
   double value = 0, new_value = 0;
   const std::vector<Deviation>& measured;
 };
-/// Why the same step is not proposed again after a person has rejected it; empty: it was not, or
-/// min_count more measurements still ask for it. Errors: those of the store.
-Result<std::string> was_rejected(storage::OffsetStore& store, const NextStep& step);
+struct Rejection {
+  bool is_same_step = false;  ///< a person has rejected it: it is not applied without one
+  std::string doubt = {};     ///< why it is not proposed again; empty: it may be
+};
+/// Whether a person has rejected the same step. It is proposed again when min_count more
+/// measurements ask for it. Errors: those of the store.
+Result<Rejection> rejection_of(storage::OffsetStore& store, const NextStep& step);
 
 struct SetupText {
   const std::string& machine;

@@ -216,6 +216,21 @@ TEST_F(OffsetsTest, ARejectedOneComesAgainWhenManyMorePartsAskForIt) {
   EXPECT_NE(only_proposal().id, rejected.id);
 }
 
+TEST_F(OffsetsTest, ARejectedOneIsNeverAppliedWithoutAPerson) {
+  use_rules();
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  ASSERT_TRUE(offsets_->reject(
+      {.id = only_proposal().id, .who = "anna", .comment = "a chip on the probe", .time = {}}));
+  use_rules("automatic = 0.05\n");
+  for (const double actual : {40.02, 40.02, 40.02}) measure(actual);
+  const auto looked = offsets_->look("lathe-1");
+  ASSERT_TRUE(looked) << looked.error().what;
+  ASSERT_TRUE(looked->front().proposal);
+  EXPECT_EQ(looked->front().proposal->state, OffsetState::Pending);
+  EXPECT_EQ(looked->front().outcome.reasons.back(),
+            "it was rejected before, so it waits for a person");
+}
+
 TEST_F(OffsetsTest, ARejectedOneComesAgainWithAnotherValue) {
   use_rules();
   for (const double actual : {40.018, 40.02, 40.022}) measure(actual);
