@@ -76,10 +76,11 @@ bool is_of(const OffsetRule& rule, const Measurement& one, PartsOf& parts) {
   return part != nullptr && part->template_name == rule.template_name;
 }
 
-/// A verdict that is worse than unknown hides whether the report contradicts itself.
+/// A report that contradicts itself, or has not all of its lines, has findings and a verdict that
+/// is unknown, or worse than that, which hides it. Unknown without a finding is a part whose values
+/// have no limits.
 bool is_in_doubt(const MeasuredPart& part) {
-  return part.verdict == measurement::Verdict::Unknown ||
-         (part.verdict != measurement::Verdict::Good && part.findings > 0);
+  return part.verdict != measurement::Verdict::Good && part.findings > 0;
 }
 
 /// Each part of a report once, and each line of it, whoever reads it.
@@ -192,8 +193,7 @@ class DeviationSearch {
       case Left::OpenPart:
         return "are left out: their parts have not ended";
       case Left::UnknownPart:
-        return "are left out: the verdict of their parts is unknown, or their reports have "
-               "findings";
+        return "are left out: the reports of their parts have findings, and they are not good";
       case Left::SamePart:
         return "are left out: each part counts once, with its last one";
       case Left::OtherUnit:

@@ -145,9 +145,10 @@ TEST_F(WhatCounts, RunsWithoutASetupOfTheServerNever) {
                          "server, so what was in force is not known"});
 }
 
-TEST_F(WhatCounts, APartWhoseVerdictIsUnknownNever) {
+TEST_F(WhatCounts, APartInDoubtNever) {
   use_rules();
   verdict_ = measurement::Verdict::Unknown;
+  findings_ = 1;
   measure(40.02);
   verdict_ = measurement::Verdict::Rework;  // and what is unknown is hidden by it
   findings_ = 1;
@@ -155,12 +156,19 @@ TEST_F(WhatCounts, APartWhoseVerdictIsUnknownNever) {
   findings_ = 0;
   measure(40.2);
   expect(why_nothing(),
-         {"2 measurements of D40 are left out: the verdict of their parts is unknown",
+         {"2 measurements of D40 are left out: the reports of their parts have findings",
           "1 measurements under the value in force"});
   verdict_ = measurement::Verdict::Good;
   findings_ = 1;  // a line that was not understood
   measure(40.2);
   expect(why_nothing(), {"2 measurements under the value in force"});
+}
+
+TEST_F(WhatCounts, APartWithoutLimitsDoes) {
+  use_rules();
+  verdict_ = measurement::Verdict::Unknown;
+  measure(40.02);
+  expect(why_nothing(), {"1 measurements under the value in force"});
 }
 
 TEST_F(WhatCounts, NorOneThatHasNotEnded) {
