@@ -61,10 +61,29 @@ class PartsOf {
     }
     return found->second ? &*found->second : nullptr;
   }
+  /// Whether the part's report contradicts itself, or has not all of its lines: has findings other
+  /// than lines that the template does not know. Such a part is not good.
+  bool is_in_doubt(const MeasuredPart& part) {
+    if (part.verdict == measurement::Verdict::Good || part.findings == 0) return false;
+    const auto [found, is_new] = doubts_.try_emplace(part.id, true);
+    if (is_new) found->second = has_faults(part);
+    return found->second;
+  }
 
  private:
+  bool has_faults(const MeasuredPart& part) {
+    constexpr std::uint64_t kMost = 1000;
+    const auto findings =
+        stored_.findings({.machine = part.machine, .run = part.run}, {.limit = kMost});
+    if (!findings || findings->size() == kMost) return true;
+    return std::ranges::any_of(*findings, [&](const storage::ReportFinding& one) {
+      return one.part_id == part.id && one.kind != "unmatched";
+    });
+  }
+
   storage::MeasurementStore& stored_;
   std::map<std::uint64_t, std::optional<MeasuredPart>> known_;
+  std::map<std::uint64_t, bool> doubts_;
 };
 
 /// Whether a rule is for measurements. In doubt it is not.
@@ -74,13 +93,6 @@ bool is_of(const OffsetRule& rule, const Measurement& one, PartsOf& parts) {
   if (rule.template_name.empty()) return true;
   const MeasuredPart* part = parts.find(one.part_id);
   return part != nullptr && part->template_name == rule.template_name;
-}
-
-/// A report that contradicts itself, or has not all of its lines, has findings and a verdict that
-/// is unknown, or worse than that, which hides it. Unknown without a finding is a part whose values
-/// have no limits.
-bool is_in_doubt(const MeasuredPart& part) {
-  return part.verdict != measurement::Verdict::Good && part.findings > 0;
 }
 
 /// Each part of a report once, and each line of it, whoever reads it.
@@ -146,7 +158,7 @@ class DeviationSearch {
     if (query_.differed_until && m.time <= *query_.differed_until) return leave(Left::OtherMemory);
     const MeasuredPart* part = parts_.find(m.part_id);
     if (part == nullptr || !part->ended) return leave(Left::OpenPart);
-    if (is_in_doubt(*part)) return leave(Left::UnknownPart);
+    if (parts_.is_in_doubt(*part)) return leave(Left::UnknownPart);
     if (!distinct_.is_new(m, *part)) return leave(Left::SamePart);
     const auto value = in_unit(*off, m.characteristic.unit);
     if (!value) {

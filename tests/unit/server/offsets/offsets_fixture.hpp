@@ -108,8 +108,9 @@ class OffsetsTest : public server_test::ServerTest {
   std::string part_, unit_ = "mm";
   measurement::Verdict verdict_ = measurement::Verdict::Good;  ///< of the part
   std::uint64_t findings_ = 0;
-  bool has_setup_ = true;  ///< the server's, of a run
-  bool is_ended_ = true;   ///< the part
+  std::string finding_ = "doubled";  ///< their kind
+  bool has_setup_ = true;            ///< the server's, of a run
+  bool is_ended_ = true;             ///< the part
   std::vector<storage::OffsetProposal> changes_;
   std::unique_ptr<Offsets> offsets_;
 
@@ -150,6 +151,16 @@ class OffsetsTest : public server_test::ServerTest {
     batch.through = record.number;
     batch.parts = {part};
     batch.measurements = {m};
+    for (std::uint64_t i = 0; i < findings_; ++i) {
+      storage::ReportFinding finding;
+      finding.machine = batch.machine;
+      finding.run = record.run;
+      finding.part_id = part.id;
+      finding.record = m.record;
+      finding.time = record.time;
+      finding.kind = finding_;
+      batch.findings.push_back(finding);
+    }
     return batch;
   }
 

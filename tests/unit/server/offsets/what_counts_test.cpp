@@ -164,6 +164,15 @@ TEST_F(WhatCounts, APartInDoubtNever) {
   expect(why_nothing(), {"2 measurements under the value in force"});
 }
 
+TEST_F(WhatCounts, APartWithALineThatNoTemplateKnowsDoes) {
+  use_rules();
+  verdict_ = measurement::Verdict::Scrap;
+  findings_ = 1;
+  finding_ = "unmatched";
+  measure(40.2);
+  expect(why_nothing(), {"1 measurements under the value in force"});
+}
+
 TEST_F(WhatCounts, APartWithoutLimitsDoes) {
   use_rules();
   verdict_ = measurement::Verdict::Unknown;
