@@ -98,6 +98,7 @@ TEST_F(LinuxCncTest, ProbesAndContinuesFromTheContact) {
   program->end();
   ASSERT_TRUE(wait_over());
   EXPECT_EQ(machine->state(), MachineState::Completed) << alarm();
+  ASSERT_TRUE(rests());
   EXPECT_NEAR(z(), 0, 0.001);
 }
 

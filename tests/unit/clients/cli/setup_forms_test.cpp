@@ -101,10 +101,11 @@ TEST(SetupForms, GiveAFanucControlAProgramOfG10) {
 }  // namespace
 
 TEST(SetupForms, AreNotMadeForAControlThatHasNone) {
-  const auto refused = control_form_of("[[tool]]\nnumber = 1\nlength = 2.0\n", "fanuc");
+  const auto refused = control_form_of("[[tool]]\nnumber = 1\nlength = 2.0\n", "rs274ngc");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Unsupported);
-  EXPECT_NE(refused.error().what.find("control fanuc"), std::string::npos) << refused.error().what;
+  EXPECT_NE(refused.error().what.find("control rs274ngc"), std::string::npos)
+      << refused.error().what;
 }
 
 TEST(SetupForms, OfATncDoNotLeaveAWearOutUnseen) {
