@@ -12,7 +12,6 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-constexpr double kMaxValue = 999.999;  // mm
 constexpr std::string_view kLetters = "XYZABCUVW";
 
 class Writer {
@@ -78,8 +77,8 @@ class Writer {
   }
 
   Result<void> check(int tool, double value) const {
-    if (std::fabs(value) <= kMaxValue) return {};
-    return fail(Errc::LimitExceeded, "tool {}: {} mm is beyond {}", tool, value, kMaxValue);
+    if (std::fabs(value) <= kMaxOffsetValue) return {};
+    return fail(Errc::LimitExceeded, "tool {}: {} mm is beyond {}", tool, value, kMaxOffsetValue);
   }
 
   /// The four values of a tool, and the lists that set them.

@@ -7,8 +7,6 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-constexpr double kMaxValue = 999.999;
-
 enum class Kind : std::uint8_t { LengthWear, LengthGeometry, RadiusWear, RadiusGeometry };
 
 double* cell_of(ToolOffsets& tools, Kind kind, std::size_t n) {
@@ -156,9 +154,9 @@ bool set_offset_data(Run& run, int list) {
     return run.fail(ErrorCode::IllegalValueInG10, run.block.parts.g_column, "no R");
   double value = run.length(words[R]);
   if (run.state.is_incremental()) value += read_register(cell);
-  if (!(std::fabs(value) <= kMaxValue)) {
+  if (!(std::fabs(value) <= kMaxOffsetValue)) {
     return run.fail(ErrorCode::IllegalValueInG10, words.column(R),
-                    fmt::format("{} mm is beyond {}", value, kMaxValue));
+                    fmt::format("{} mm is beyond {}", value, kMaxOffsetValue));
   }
   write_register(run, cell, value, words.column(R));
   return true;

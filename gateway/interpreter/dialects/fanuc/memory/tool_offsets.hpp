@@ -15,6 +15,8 @@ struct OffsetRegister {
   bool is_number = false;  ///< the direction of a nose's tip
 };
 
+inline constexpr double kMaxOffsetValue = 999.999;  ///< mm
+
 /// Of the variables #2001 to #2400 and #10001 to #13400; `value` is null for any other.
 OffsetRegister offset_variable(Run& run, int number);
 /// Of G10 L10 to L13 and L1.

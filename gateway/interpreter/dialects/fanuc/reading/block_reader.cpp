@@ -10,6 +10,7 @@
 #include "gateway/interpreter/dialects/fanuc/reading/expression_reader.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/g_words.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/keywords.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/program_name.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -88,34 +89,6 @@ bool begin_program(Run& run, const Word& word) {
   if (run.state.at.program == kMainProgram && !run.name_is_settled) {
     run.name = fmt::format("O{:04}", static_cast<int>(value));
   }
-  return true;
-}
-
-/// `<NAME>`: the program's own at the head of a block, else that of the program which is called.
-bool read_program_name(Run& run, const char*& at) {
-  Block::Parts& parts = run.block.parts;
-  const std::uint32_t column = run.column(at);
-  const char* begin = at + 1;
-  const char* end = begin;
-  while (is_name_character(*end)) ++end;
-  const std::string_view name(begin, static_cast<std::size_t>(end - begin));
-  if (!run.options.has_program_names) return run.fail(ErrorCode::IllegalAddress, column, "<");
-  if (*end != '>' || name.empty() || name.size() > kMaxProgramName) {
-    return run.fail(
-        ErrorCode::IllegalProgramNumber, column,
-        fmt::format("<NAME> has 1 to {} letters, digits, + - _ and .", kMaxProgramName));
-  }
-  at = end + 1;
-  if (!parts.has_code) {
-    if (run.state.at.program == kMainProgram && !run.name_is_settled) run.name = name;
-    parts.has_code = true;
-    return true;
-  }
-  if (parts.name_end != 0 || parts.has_call_program || parts.call == CallKind::Code)
-    return run.fail(ErrorCode::ImproperCommand, column, "two programs in one block");
-  parts.name_begin = run.offset(begin);
-  parts.name_end = run.offset(end);
-  parts.has_call_program = true;
   return true;
 }
 
@@ -293,16 +266,6 @@ bool read_other_item(Run& run, const char*& at) {
 void note_lower_case(Run& run, const char* at) {
   if (run.state.told_lower_case) return;
   run.block.warn(WarningCode::LowerCase, run.column(at));
-}
-
-/// A name beside no M98 or M198 would call nothing.
-bool check_program_name(Run& run) {
-  const Block& block = run.block;
-  if (block.parts.name_end == 0 || block.parts.kind != BlockKind::Nc) return true;
-  const auto* end = block.m.begin() + block.parts.m_count;
-  if (std::any_of(block.m.begin(), end, [](int code) { return code == 98 || code == 198; }))
-    return true;
-  return run.fail(ErrorCode::ImproperCommand, block.parts.name_begin, "nothing calls the program");
 }
 
 /// Signs and points where none may stand.

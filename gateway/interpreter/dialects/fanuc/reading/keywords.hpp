@@ -67,6 +67,18 @@ constexpr bool is_name_character(char c) {
   return is_letter(c) || is_digit(c) || c == '+' || c == '-' || c == '_' || c == '.';
 }
 inline constexpr std::size_t kMaxProgramName = 32;
+/// The name of `<NAME>` at `at`, which moves past it. Empty, and `at` stays: there is none. The
+/// text must end with a LF.
+inline std::string_view take_program_name(const char*& at) {
+  if (*at != '<') return {};
+  const char* end = at + 1;
+  while (is_name_character(*end)) ++end;
+  if (*end != '>') return {};
+  const std::string_view name(at + 1, static_cast<std::size_t>(end - at - 1));
+  if (!name.empty()) at = end + 1;
+  return name;
+}
+
 /// The text must end with a LF.
 inline const char* skip_blanks(const char* at) {
   while (is_blank(*at)) ++at;

@@ -69,12 +69,10 @@ class BlockWords {
 
  private:
   bool read_name(WrittenWord& word) {
-    const char* begin = ++at_;
-    while (at_ != end_ && is_name_character(*at_)) ++at_;
-    if (at_ == end_ || *at_ != '>') return false;
-    word = {'<', false, 0, {begin, static_cast<std::size_t>(at_ - begin)}};
-    ++at_;
-    return !word.name.empty();
+    const std::string_view name = take_program_name(at_);
+    if (name.empty()) at_ = std::find_if_not(at_ + 1, end_, is_name_character);
+    word = {'<', false, 0, name};
+    return !name.empty();
   }
   /// False: the letter begins no word.
   bool read(WrittenWord& word) {

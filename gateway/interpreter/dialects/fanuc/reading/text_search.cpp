@@ -45,13 +45,9 @@ int read_loop_word(const char* at, const char* end) {
   return read_number_of(at, number) && number <= 3 ? static_cast<int>(number) : 0;
 }
 
-/// `<NAME>`
 bool read_name(const char* at, std::string_view& name) {
-  if (*at != '<') return false;
-  const char* end = ++at;
-  while (is_name_character(*end)) ++end;
-  name = {at, static_cast<std::size_t>(end - at)};
-  return *end == '>' && !name.empty() && name.size() <= kMaxProgramName;
+  name = take_program_name(at);
+  return !name.empty() && name.size() <= kMaxProgramName;
 }
 
 bool same_place(const TextPosition& a, const TextPosition& b) {
