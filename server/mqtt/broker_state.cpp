@@ -17,6 +17,20 @@ BrokerState::BrokerState(const Clock& clock, std::string who, std::string broker
       options_(options),
       on_fault_(std::move(on_fault)) {}
 
+Result<void> BrokerState::connect(BrokerLink& link, const Message& will,
+                                  const std::string& subscribed, Patience patience,
+                                  const std::stop_token& stop) const {
+  if (auto opened = link.open(will, subscribed); !opened) return opened;
+  const SteadyTime limit = clock_.steady_now() + patience.limit;
+  while (!stop.stop_requested()) {
+    const auto progress = link.wait(patience.look);
+    if (progress.is_lost) return fail(Errc::Io, "{}", progress.fault);
+    if (progress.is_connected) return {};
+    if (clock_.steady_now() >= limit) return fail(Errc::Timeout, "{}: no answer in time", broker_);
+  }
+  return {};
+}
+
 void BrokerState::set_connected() {
   connected_at_ = clock_.steady_now();
   const std::lock_guard lock(mutex_);

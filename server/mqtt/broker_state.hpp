@@ -10,6 +10,7 @@
 #include <string>
 
 #include "protocol/base/clock.hpp"
+#include "server/mqtt/broker_link.hpp"
 
 namespace dripline::mqtt {
 
@@ -37,6 +38,12 @@ class BrokerState {
   BrokerState(const Clock& clock, std::string who, std::string broker, Options options,
               OnFault on_fault);
 
+  struct Patience {
+    std::chrono::milliseconds look, limit;
+  };
+  /// Waits until the broker has accepted us, or `stop`. Errors: why it has not.
+  Result<void> connect(BrokerLink& link, const Message& will, const std::string& subscribed,
+                       Patience patience, const std::stop_token& stop) const;
   void set_connected();
   void set_lost(const std::string& fault);
   /// A connection alone does not end a fault: a broker that refuses a message accepts connections.

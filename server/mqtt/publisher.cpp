@@ -95,16 +95,8 @@ Result<void> Publisher::serve(const std::stop_token& stop) {
 Result<void> Publisher::connect(const std::stop_token& stop) {
   feed_.restart();
   states_.clear();
-  if (auto opened = parts_.link.open(online_message(false), {}); !opened) return opened;
-  const SteadyTime limit = parts_.clock.steady_now() + options_.connect_limit;
-  while (!stop.stop_requested()) {
-    const auto progress = parts_.link.wait(options_.look);
-    if (progress.is_lost) return fail(Errc::Io, "{}", progress.fault);
-    if (progress.is_connected) return {};
-    if (parts_.clock.steady_now() >= limit)
-      return fail(Errc::Timeout, "{}: no answer in time", settings_.broker);
-  }
-  return {};
+  return broker_.connect(parts_.link, online_message(false), {},
+                         {.look = options_.look, .limit = options_.connect_limit}, stop);
 }
 
 /// A broker that was away has old states, or none.

@@ -4,8 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "protocol/process/log.hpp"
-
 namespace dripline::mqtt {
 
 using std::chrono::milliseconds;
@@ -69,17 +67,8 @@ Result<void> SparkplugNode::serve(const std::stop_token& stop) {
 Result<void> SparkplugNode::connect(const std::stop_token& stop) {
   under_way_ = 0;
   is_rebirth_wanted_ = false;
-  const Message will = session_.begin(parts_.clock.now());
-  if (auto opened = parts_.link.open(will, session_.command_topic()); !opened) return opened;
-  const SteadyTime limit = parts_.clock.steady_now() + options_.connect_limit;
-  while (!stop.stop_requested()) {
-    const auto progress = parts_.link.wait(options_.look);
-    if (progress.is_lost) return fail(Errc::Io, "{}", progress.fault);
-    if (progress.is_connected) return {};
-    if (parts_.clock.steady_now() >= limit)
-      return fail(Errc::Timeout, "{}: no answer in time", broker_address_);
-  }
-  return {};
+  return broker_.connect(parts_.link, session_.begin(parts_.clock.now()), session_.command_topic(),
+                         {.look = options_.look, .limit = options_.connect_limit}, stop);
 }
 
 Result<void> SparkplugNode::publish_loop(const std::stop_token& stop) {
