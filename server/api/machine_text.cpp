@@ -8,6 +8,7 @@
 #include "protocol/base/utf8.hpp"
 #include "protocol/dds/members.hpp"
 #include "protocol/dds/message.hpp"
+#include "server/api/response.hpp"
 #include "server/api/views.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/machines/machine_registry.hpp"
@@ -47,6 +48,8 @@ class Writer {
   }
 
   void null() { text_ += "null"; }
+  /// Written already.
+  void json(std::string_view written) { text_ += written; }
   void value(bool is_true) { text_ += is_true ? "true" : "false"; }
   void value(std::string_view text) { text.empty() ? null() : quote(text); }
   void value(const std::string& text) { value(std::string_view(text)); }
@@ -250,24 +253,6 @@ void write_notices(Writer& out, const machines::MachineView& view) {
   out.end(']');
 }
 
-void write_hold(Writer& out, const std::optional<storage::MachineHold>& hold) {
-  if (!hold) return out.null();
-  out.begin('{');
-  out.member("who", hold->who.c_str());
-  out.member("reason", hold->reason);
-  out.member("run", hold->run);
-  out.member("since", hold->since);
-  out.end('}');
-}
-void write_hold(Writer& out, const std::optional<storage::JobHold>& hold) {
-  if (!hold) return out.null();
-  out.begin('{');
-  out.member("who", hold->who.c_str());
-  out.member("reason", hold->reason.c_str());
-  out.member("since", hold->since);
-  out.end('}');
-}
-
 }  // namespace
 
 std::string machine_text(const machines::MachineView& view) {
@@ -288,10 +273,11 @@ std::string machine_text(const machines::MachineView& view) {
   write_notices(out, view);
   out.member("first_seen", view.machine.first_seen);
   out.member("last_seen", view.machine.last_seen);
+  // Few machines are held.
   out.name("held");
-  write_hold(out, view.held);
+  out.json(to_text(hold_json(view.held)));
   out.name("queue_hold");
-  write_hold(out, view.queue_hold);
+  out.json(to_text(hold_json(view.queue_hold)));
   out.name("starts");
   write_starts(out, view);
   out.name("display");
