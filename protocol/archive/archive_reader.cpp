@@ -148,6 +148,15 @@ Result<std::optional<std::string>> ArchiveReader::line() {
   }
 }
 
+Result<void> ArchiveReader::each(const RowVisitor& visit) {
+  for (;;) {
+    const auto row = next();
+    if (!row) return fail(row.error());
+    if (!*row) return {};
+    if (auto done = visit(**row); !done) return done;
+  }
+}
+
 Result<std::optional<std::string>> ArchiveReader::next() {
   Stream& s = *stream_;
   if (s.is_over) return std::optional<std::string>();

@@ -14,6 +14,9 @@ namespace dripline::archive {
 /// Gives the next bytes of a file; empty at its end. Errors: Io.
 using Bytes = std::function<Result<std::span<const std::byte>>()>;
 
+/// Takes a row; an error ends the reading.
+using RowVisitor = std::function<Result<void>(const std::string& row)>;
+
 /// An archive's rows in their order. Errors of everything: Io, Syntax (it is no archive),
 /// Unsupported (of a newer version), Corrupt (cut off or changed), LimitExceeded (a line).
 class ArchiveReader {
@@ -27,6 +30,8 @@ class ArchiveReader {
   const Head& head() const;
   /// nullopt after the last row; only then it is known that nothing was changed or cut off.
   Result<std::optional<std::string>> next();
+  /// All of them that are left. Errors: those of `visit`.
+  Result<void> each(const RowVisitor& visit);
   /// Of the bytes so far; after the last row, of the file.
   Digest sha256() const;
 

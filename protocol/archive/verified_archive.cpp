@@ -23,12 +23,7 @@ Result<void> VerifiedArchive::read(const RowVisitor& visit, Digest& digest) cons
       },
       name_);
   if (!reader) return fail(reader.error());
-  for (;;) {
-    const auto row = reader->next();
-    if (!row) return fail(row.error());
-    if (!*row) break;
-    if (auto done = visit(**row); !done) return done;
-  }
+  if (auto done = reader->each(visit); !done) return done;
   digest = reader->sha256();
   return {};
 }

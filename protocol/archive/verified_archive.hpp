@@ -1,14 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "protocol/archive/archive_reader.hpp"
 
 namespace dripline::archive {
-
-/// Takes a row; an error ends the reading.
-using RowVisitor = std::function<Result<void>(const std::string& row)>;
 
 /// A file that was read to its end before any of its rows is passed on: it is whole and its rows
 /// fit its end. Rows are read again for each pass, memory does not grow with them. Who writes a

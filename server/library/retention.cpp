@@ -115,12 +115,7 @@ Result<void> Retention::read(const Archive& archive,
                              const std::function<Result<void>(const std::string& row)>& take) {
   auto reader = archive::ArchiveReader::open((parts_.folder / archive.file).string());
   if (!reader) return fail(reader.error());
-  for (;;) {
-    const auto row = reader->next();
-    if (!row) return fail(row.error());
-    if (!*row) break;
-    if (auto taken = take(**row); !taken) return taken;
-  }
+  if (auto taken = reader->each(take); !taken) return taken;
   if (reader->sha256() == archive.sha256) return {};
   return fail(Errc::Corrupt,
               "archive {} is not the file that was listed: its SHA-256 is {}, not {}", archive.file,
