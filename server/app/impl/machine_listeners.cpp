@@ -3,6 +3,11 @@
 
 namespace dripline::app {
 
+void ServerParts::note_at_broker(const machines::MachineView& view) {
+  if (publisher) publisher->note(view);
+  if (sparkplug) sparkplug->note(view);
+}
+
 machines::MachineListener ServerParts::published() {
   machines::MachineListener listener = api::publish_to(events);
   listener.on_record = [this, publish = listener.on_record](const auto& record) {
@@ -12,8 +17,7 @@ machines::MachineListener ServerParts::published() {
   };
   if (publisher) {
     listener.on_machine = [this, publish = listener.on_machine](const auto& view) {
-      publisher->note(view);
-      if (sparkplug) sparkplug->note(view);
+      note_at_broker(view);
       publish(view);
     };
   }
@@ -43,8 +47,7 @@ machines::MachineListener ServerParts::published() {
 void ServerParts::show_machine(const std::string& machine) {
   const auto view = machines.machine(machine);
   if (!view) return;
-  if (publisher) publisher->note(*view);
-  if (sparkplug) sparkplug->note(*view);
+  note_at_broker(*view);
   api::publish_to(events).on_machine(*view);
 }
 

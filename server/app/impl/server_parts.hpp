@@ -86,6 +86,8 @@ struct ServerParts {
   Result<void> hold_machine(const storage::MeasuredPart& part, const std::string& reason);
   Result<void> hold_motion(const storage::MeasuredPart& part, const std::string& reason);
   machines::MachineListener machine_listener();
+  /// Where there is a broker.
+  void note_at_broker(const machines::MachineView& view);
   /// To the listeners of events and to the broker: something besides its status has changed.
   void show_machine(const std::string& machine);
   /// The same of its queue, with what is known of the hold.
