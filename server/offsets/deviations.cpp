@@ -7,6 +7,8 @@
 #include <set>
 #include <tuple>
 
+#include "protocol/base/units.hpp"
+
 namespace dripline::offsets {
 namespace {
 
@@ -15,7 +17,6 @@ using storage::MeasuredPart;
 
 constexpr std::uint64_t kMeasurementsBack = 5'000;  ///< under other setups, or without a nominal
 constexpr std::uint64_t kPageSize = 500;
-constexpr double kMillimetersPerInch = 25.4;
 
 /// Why a measurement is left out, in the order in which the reasons name them.
 enum class Left : std::uint8_t {
@@ -65,25 +66,30 @@ class PartsOf {
   /// than lines that the template does not know. Such a part is not good.
   bool is_in_doubt(const MeasuredPart& part) {
     if (part.verdict == measurement::Verdict::Good || part.findings == 0) return false;
-    const auto [found, is_new] = doubts_.try_emplace(part.id, true);
-    if (is_new) found->second = has_faults(part);
-    return found->second;
+    const auto [found, is_new] = faulty_.try_emplace(part.run);
+    if (is_new) found->second = faulty_of(part);
+    return !found->second || found->second->contains(part.id);
   }
 
  private:
-  bool has_faults(const MeasuredPart& part) {
+  using Ids = std::set<std::uint64_t>;
+
+  /// Those of the part's run; nothing: they are too many to be looked at, or cannot be read.
+  std::optional<Ids> faulty_of(const MeasuredPart& part) {
     constexpr std::uint64_t kMost = 1000;
     const auto findings =
         stored_.findings({.machine = part.machine, .run = part.run}, {.limit = kMost});
-    if (!findings || findings->size() == kMost) return true;
-    return std::ranges::any_of(*findings, [&](const storage::ReportFinding& one) {
-      return one.part_id == part.id && one.kind != "unmatched";
-    });
+    if (!findings || findings->size() == kMost) return std::nullopt;
+    Ids ids;
+    for (const storage::ReportFinding& one : *findings) {
+      if (one.kind != "unmatched") ids.insert(one.part_id);
+    }
+    return ids;
   }
 
   storage::MeasurementStore& stored_;
   std::map<std::uint64_t, std::optional<MeasuredPart>> known_;
-  std::map<std::uint64_t, bool> doubts_;
+  std::map<std::string, std::optional<Ids>> faulty_;  ///< by run
 };
 
 /// Whether a rule is for measurements. In doubt it is not.
@@ -95,7 +101,7 @@ bool is_of(const OffsetRule& rule, const Measurement& one, PartsOf& parts) {
   return part != nullptr && part->template_name == rule.template_name;
 }
 
-/// Each part of a report once, and each line of it, whoever reads it.
+/// Each part of a report once, and each line of it, whichever template reads it.
 class DistinctParts {
  public:
   bool is_new(const Measurement& one, const MeasuredPart& part) {
@@ -109,10 +115,6 @@ class DistinctParts {
   std::set<std::tuple<std::string, std::string, std::string, std::uint64_t>> parts_;
   std::map<measurement::RecordKey, std::uint64_t> lines_;  ///< and who has read it
 };
-
-bool is_angle(const SetupTarget& target) {
-  return target.key == "A" || target.key == "B" || target.key == "C";
-}
 
 class DeviationSearch {
  public:
@@ -178,8 +180,8 @@ class DeviationSearch {
     if (then == query_.unit ? !is_length : unit != then) return std::nullopt;
     if (found_.unit.empty()) found_.unit = then;
     if (found_.unit != then) return std::nullopt;
-    if (unit == "mm" && then == "in") return value / kMillimetersPerInch;
-    if (unit == "inch" && then == "mm") return value * kMillimetersPerInch;
+    if (unit == "mm" && then == "in") return value / Length::kMillimetersPerInch;
+    if (unit == "inch" && then == "mm") return value * Length::kMillimetersPerInch;
     return value;
   }
 

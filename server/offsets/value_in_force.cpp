@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/interpreter/registry.hpp"
+#include "protocol/base/units.hpp"
 #include "server/offsets/offset_rule.hpp"
 
 namespace dripline::offsets {
@@ -17,13 +18,12 @@ namespace {
 using Kind = SetupTarget::Kind;
 
 constexpr std::uint64_t kSetupsBack = 200;  ///< that are looked through
-constexpr double kMmPerInch = 25.4;
 
 bool is_of_tool(const SetupTarget& target) {
   return target.kind == Kind::Tool || target.kind == Kind::Wear;
 }
 
-/// R stands for the cutter itself. The nose of a lathe's tool moves its edge along X and Z, the
+/// R is the cutter itself. The nose of a lathe's tool moves its edge along X and Z, the
 /// radius of a mill's along X and Y.
 std::string_view axes_of(const SetupTarget& target, bool is_mill) {
   if (!is_of_tool(target) || target.key == "X" || target.key == "Z") return target.key;
@@ -154,10 +154,13 @@ bool is_same_number(double a, double b) {
   return std::abs(a - b) <= kLastDigits * std::max({1.0, std::abs(a), std::abs(b)});
 }
 
+bool is_angle(const SetupTarget& target) {
+  return target.key == "A" || target.key == "B" || target.key == "C";
+}
+
 double canonical(const SetupTarget& target, double value, std::string_view unit) {
-  const bool is_length = target.kind != Kind::Variable && target.key != "tip" &&
-                         target.key != "A" && target.key != "B" && target.key != "C";
-  return is_length && unit == "in" ? value * kMmPerInch : value;
+  const bool is_length = target.kind != Kind::Variable && target.key != "tip" && !is_angle(target);
+  return is_length && unit == "in" ? value * Length::kMillimetersPerInch : value;
 }
 
 bool moves_the_same(const SetupTarget& a, const SetupTarget& b, std::string_view control) {

@@ -34,6 +34,8 @@ struct InForceSince {
 Result<InForceSince> in_force_since(storage::SetupStore& setups, const SetupInForce& now,
                                     const SetupTarget& target, std::string_view tool);
 
+/// Of a rotary axis: in degrees.
+bool is_angle(const SetupTarget& target);
 /// A number of a setup in mm, where it is a length.
 double canonical(const SetupTarget& target, double value, std::string_view unit);
 /// Equal but for the rounding of binary numbers.
