@@ -108,7 +108,7 @@ Result<std::string> server_place(const NetworkOptions& options, std::uint32_t ce
 
 /// Without multicast Cyclone announces a participant at its own address too, at the ports of as
 /// many indexes as MaxAutoParticipantIndex allows: with the usual base and ten of them, all cells
-/// and all gateways of the server's computer would meet each other, and be told of all machines. So
+/// and all gateways of the server's computer would meet each other, and learn of all machines. So
 /// each cell has a base of its own, at which it is the only index.
 Result<std::string> place_elements(const NetworkOptions& options, Role role, std::uint32_t cell) {
   constexpr std::uint32_t kMetaOffset = 10;  // Cyclone's, of the first unicast port

@@ -56,7 +56,7 @@ void HoldReasons::keep(const std::string& machine) {
   {
     const std::lock_guard lock(mutex_);
     const auto known = entries_.find(machine);
-    if (known == entries_.end()) return;  // it goes on already
+    if (known == entries_.end()) return;  // it continues already
     hold = known->second.hold;
   }
   log_failure(parts_.store.machines.hold(hold), machine);

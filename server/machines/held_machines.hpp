@@ -40,7 +40,7 @@ class HoldReasons {
   void set_queue_hold(const std::string& machine, std::optional<storage::JobHold> hold);
   /// A run that has ended is not held any more.
   void note(const storage::Run& run);
-  /// Adds the reasons to what is shown, and drops those of a machine that goes on.
+  /// Adds the reasons to what is shown, and drops those of a machine that continues.
   void add_to(MachineView& view);
 
   /// A hold that no status shows within this time has stopped nothing.
@@ -52,7 +52,7 @@ class HoldReasons {
     SteadyTime given{};
     bool is_seen = false;  ///< the machine's status has shown it
   };
-  /// True: the machine goes on, and its entry is gone. Hold the mutex.
+  /// True: the machine continues, and its entry is gone. Hold the mutex.
   bool drop_if_over(const MachineView& view);
   void forget_stored(const std::string& machine);
   void changed(const std::string& machine) const;

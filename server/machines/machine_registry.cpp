@@ -210,7 +210,7 @@ void MachineRegistry::publish_round() {
   {
     const std::lock_guard lock(mutex_);
     names.swap(round_);
-    // One that is about to be published, or is being told, follows by itself.
+    // One that is about to be published, or is being published, follows by itself.
     std::erase_if(names, [this](const std::string& name) {
       Entry& entry = entries_.at(name);
       entry.is_in_round = false;

@@ -54,7 +54,8 @@ class MachineRegistry {
   /// What only moves on (positions, counters) is published in rounds, so often at most; what else
   /// changes goes out at once.
   static constexpr std::chrono::milliseconds kShortestRound{50}, kLongestRound{250};
-  /// A round is a millisecond longer for so many machines: a thousand are told four times a second.
+  /// A round is a millisecond longer for so many machines: a thousand are published four times a
+  /// second.
   static constexpr std::size_t kMachinesAMillisecond = 4;
 
   struct Parts {

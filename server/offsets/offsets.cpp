@@ -275,7 +275,7 @@ Result<storage::OffsetRules> Offsets::save_rules(const std::string& machine,
   note(machine);
   auto still_there = *rules;
   if (const auto old = before ? parse_offset_rules(before->text) : rules; old) {
-    // What it proposed when it was for others is not its proposal: it is made anew, or not.
+    // What it proposed when it was for others is not its proposal: it is made again, or not.
     std::erase_if(still_there, [&](const OffsetRule& rule) {
       return std::ranges::any_of(*old, [&](const OffsetRule& one) {
         return one.name == rule.name && !has_same_scope(one, rule);

@@ -45,7 +45,7 @@ struct SetupText {
 /// empty: the control has such a value.
 std::string what_control_lacks(std::string_view control, const SetupTarget& target);
 
-/// Half of a step, or twice, is what a wrong scale makes: whoever approves it should see it.
+/// Half of a step, or twice, is what a wrong scale makes: the person who approves it should see it.
 std::string words_of_x(const OffsetRule& rule, const std::string& kind);
 
 /// What a correction would have to add to the setup, in words; empty: its tool, offset or variable

@@ -1,5 +1,5 @@
 // A command to the node of Sparkplug B, as any client of the broker can send it. Properties: births
-// are asked for only by bytes that name the wish; what is behind the command changes nothing.
+// are asked for only by bytes that name the wish; what is after the command changes nothing.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

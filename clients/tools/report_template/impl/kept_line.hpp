@@ -6,7 +6,7 @@
 namespace dripline::report_template {
 
 /// A line to be compared with another one, and to be shown: in plain characters, each blank once. A
-/// hash stands for what is not shown of it.
+/// hash replaces what is not shown of it.
 std::string kept_line(std::string_view line);
 
 }  // namespace dripline::report_template

@@ -55,7 +55,7 @@ TEST(AverageAndRange, AgreesWithTheAiagsReport) {
 }
 
 // The same from the readings: the terms are 0.341667, 0.444667 and 3.511111, which the manual
-// rounds before it goes on; 3.511111 * 0.3146 is 1.10460.
+// rounds before it continues; 3.511111 * 0.3146 is 1.10460.
 TEST(AverageAndRange, OfTheAiagsReadingsDiffersByTheManualsRounding) {
   const auto result = average_and_range(aiag_study(), std::nullopt);
   ASSERT_TRUE(result);
