@@ -269,15 +269,16 @@ Result<std::uint64_t> Retention::archive_measurements(const std::stop_token& sto
   const RetentionRule& rule = options_.measurements;
   std::uint64_t made = 0;
   if (!rule.is_there()) return made;
+  constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
   const UtcTime cutoff = rule.age ? parts_.clock.now() - *rule.age : UtcTime{};
   while (!stop.stop_requested()) {
-    auto done = archive_parts(cutoff, options_.file_rows, stop);
+    auto done = archive_parts(cutoff, kAll, stop);
     if (!done) return fail(done.error());
     if (!*done && rule.rows) {
       const auto size = parts_.store.archives.size(ArchiveKind::Measurements);
       if (!size) return size;
       if (*size <= *rule.rows) return made;
-      done = archive_parts(UtcTime::max(), std::min(*size - *rule.rows, options_.file_rows), stop);
+      done = archive_parts(UtcTime::max(), *size - *rule.rows, stop);
       if (!done) return fail(done.error());
     }
     if (!*done) return made;
@@ -286,7 +287,8 @@ Result<std::uint64_t> Retention::archive_measurements(const std::stop_token& sto
   return made;
 }
 
-Result<bool> Retention::archive_parts(UtcTime cutoff, std::uint64_t rows,
+/// Oldest first, until it has `values` measurements; parts and findings are rows of the file, too.
+Result<bool> Retention::archive_parts(UtcTime cutoff, std::uint64_t values,
                                       const std::stop_token& stop) {
   auto& store = parts_.store.archives;
   auto parts = store.ended_parts(0, options_.piece);
@@ -304,21 +306,24 @@ Result<bool> Retention::archive_parts(UtcTime cutoff, std::uint64_t rows,
     ++archive.rows;
     return writer->add(one_line(row));
   };
-  while (!parts->empty() && archive.rows < rows) {
+  std::uint64_t taken = 0;
+  const auto is_full = [&] { return archive.rows >= options_.file_rows || taken >= values; };
+  while (!parts->empty() && !is_full()) {
     for (const auto& part : *parts) {
       if (stop.stop_requested()) return false;
-      if (*part.ended >= cutoff || archive.rows >= rows) break;
+      if (*part.ended >= cutoff || is_full()) break;
       if (auto added = add({{"part", part_json(part)}}); !added) return fail(added.error());
       std::optional<storage::MeasurementPlace> place;
       for (;;) {
-        const auto values = store.measurements_of(part.id, place, options_.piece);
-        if (!values) return fail(values.error());
-        for (const auto& value : *values) {
+        const auto found = store.measurements_of(part.id, place, options_.piece);
+        if (!found) return fail(found.error());
+        for (const auto& value : *found) {
           if (auto added = add({{"measurement", measurement::to_json(value)}}); !added)
             return fail(added.error());
         }
-        if (values->size() < options_.piece) break;
-        place = storage::MeasurementPlace{values->back().time, values->back().id};
+        taken += found->size();
+        if (found->size() < options_.piece) break;
+        place = storage::MeasurementPlace{found->back().time, found->back().id};
       }
       const auto findings = store.findings_of(part.id);
       if (!findings) return fail(findings.error());

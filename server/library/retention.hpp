@@ -83,7 +83,7 @@ class Retention {
   /// One file of a journal, of rows before `cutoff`, at most `rows`. False: there are none.
   Result<bool> archive_journal(storage::ArchivableRecords range, UtcTime cutoff, std::uint64_t rows,
                                const std::stop_token& stop);
-  Result<bool> archive_parts(UtcTime cutoff, std::uint64_t rows, const std::stop_token& stop);
+  Result<bool> archive_parts(UtcTime cutoff, std::uint64_t values, const std::stop_token& stop);
   /// Ends the file, lists it, and takes its rows out of the tables.
   Result<void> keep(archive::ArchiveWriter& writer, storage::Archive archive,
                     const std::stop_token& stop);

@@ -233,5 +233,38 @@ TEST_F(RetentionTest, MovesEndedPartsWithTheirMeasurements) {
   EXPECT_EQ(rows[2]["finding"]["kind"], "doubled");
 }
 
+/// Parts and findings are rows of the file, but not what the rule counts: one file, not ever
+/// smaller ones.
+TEST_F(RetentionTest, MovesAllMeasurementsThatAreTooManyIntoOneArchive) {
+  ASSERT_TRUE(store_->report_templates.push(
+      {.name = "bore", .version = 0, .text = "x", .author = "a", .created = clock_.now()}, "a"));
+  print(6);
+  storage::DerivedBatch batch;
+  batch.machine = "lathe-1";
+  batch.epoch = 7;
+  batch.through = 6;
+  for (std::uint64_t id = 1; id <= 6; ++id) {
+    storage::MeasuredPart part;
+    part.id = id;
+    part.machine = "lathe-1";
+    part.template_name = "bore";
+    part.template_version = 1;
+    part.begun = clock_.now();
+    part.ended = clock_.now();
+    batch.parts.push_back(part);
+    measurement::Measurement value;
+    value.part_id = id;
+    value.characteristic.name = "D";
+    value.time = clock_.now();
+    value.record = {7, id};
+    batch.measurements.push_back(value);
+  }
+  ASSERT_TRUE(store_->measurements.commit(batch));
+  auto retention = make({}, {.age = {}, .rows = 2});
+  EXPECT_EQ(apply(retention), 1u);
+  EXPECT_EQ(store_->measurements.list({}, {}, 10)->size(), 2u);
+  EXPECT_EQ(rows_of(retention.list({})->front()).size(), 8u);
+}
+
 }  // namespace
 }  // namespace dripline::library
