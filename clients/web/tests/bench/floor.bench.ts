@@ -14,6 +14,9 @@ const kSeconds = Number(process.env.SECONDS ?? 30);
 const figure = (name: string, value: number, unit: string) => console.log(JSON.stringify({ figure: name, value: Math.round(value * 1000) / 1000, unit }));
 const pause = (ms: number) => new Promise((done) => setTimeout(done, ms));
 
+/// DDS of a large shop (deploy/docs/operations.md): cells, and ms between two announcements.
+const [kCells, kDiscovery] = kMachines > 300 ? ['32', '1000'] : ['8', '250'];
+
 /// As many machines as one process of the fleet has.
 const kPerProcess = 100;
 
@@ -24,7 +27,7 @@ class Fleet {
     const [domain, tag] = [shop.network[1]!, shop.network[3]!];
     for (let first = 1; first <= kMachines; first += kPerProcess) {
       const count = Math.min(kPerProcess, kMachines + 1 - first);
-      const child = spawn(path.join(process.env.DRIPLINE_BIN!, 'bench_page_fleet'), [domain, tag, String(first), String(count), String(kChanges)], { stdio: ['pipe', 'pipe', 'inherit'] });
+      const child = spawn(path.join(process.env.DRIPLINE_BIN!, 'bench_page_fleet'), [domain, tag, kCells!, kDiscovery!, String(first), String(count), String(kChanges)], { stdio: ['pipe', 'pipe', 'inherit'] });
       const member = { child, text: '' };
       child.stdout!.on('data', (bytes: Buffer) => { member.text += bytes.toString(); });
       this.members.push(member);
@@ -102,6 +105,7 @@ async function measureFirstView(page: Page, shop: Shop): Promise<void> {
 
 async function main(): Promise<void> {
   const shop = new Shop();
+  shop.serverArgs = ['--dds-cells', kCells!, '--discovery-interval-ms', kDiscovery!];
   await shop.startServer();
   const browser = await openBrowser();
   const first = await visit(browser, shop);
