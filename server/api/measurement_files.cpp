@@ -15,14 +15,15 @@ using measurement_files::MeasurementSource;
 using measurement_files::PointX;
 using measurement_files::Sink;
 
-Result<void> write_dfq(MeasurementSource& source, const Sink& sink, PointX) {
-  return measurement_files::write_dfq(source, {}, sink);
+using AqdefWriter = Result<void>(MeasurementSource&, const measurement_files::AqdefProfile&,
+                                 const Sink&);
+template <AqdefWriter kWrite>
+Result<void> write_aqdef(MeasurementSource& source, const Sink& sink, PointX) {
+  return kWrite(source, {}, sink);
 }
-Result<void> write_dfd(MeasurementSource& source, const Sink& sink, PointX) {
-  return measurement_files::write_dfd(source, {}, sink);
-}
-Result<void> write_dfx(MeasurementSource& source, const Sink& sink, PointX) {
-  return measurement_files::write_dfx(source, {}, sink);
+template <AqdefWriter kWrite>
+Result<void> write_aqdef_utf8(MeasurementSource& source, const Sink& sink, PointX) {
+  return kWrite(source, {.encoding = measurement_files::AqdefEncoding::Utf8}, sink);
 }
 Result<void> write_html(MeasurementSource& source, const Sink& sink, PointX) {
   return measurement_files::write_part_report(source, {}, sink);
@@ -52,10 +53,14 @@ struct FileFormat {
   Result<void> (*write)(MeasurementSource& source, const Sink& sink, PointX x);
 };
 
+constexpr std::string_view kWindows1252 = "text/plain; charset=windows-1252",
+                           kUtf8 = "text/plain; charset=utf-8", kBytes = "application/octet-stream";
 constexpr std::array kFormats{
-    FileFormat{"dfq", "text/plain; charset=windows-1252", write_dfq},
-    FileFormat{"dfd", "text/plain; charset=windows-1252", write_dfd},
-    FileFormat{"dfx", "application/octet-stream", write_dfx},
+    FileFormat{"dfq", kWindows1252, write_aqdef<measurement_files::write_dfq>},
+    FileFormat{"dfd", kWindows1252, write_aqdef<measurement_files::write_dfd>},
+    FileFormat{"dfx", kBytes, write_aqdef<measurement_files::write_dfx>},
+    FileFormat{"dfq-utf8", kUtf8, write_aqdef_utf8<measurement_files::write_dfq>},
+    FileFormat{"dfd-utf8", kUtf8, write_aqdef_utf8<measurement_files::write_dfd>},
     FileFormat{"qif", "application/xml", write_qif},
     FileFormat{"html", "text/html; charset=utf-8", write_html},
     FileFormat{"points", "text/csv; charset=utf-8", write_points},
@@ -76,8 +81,8 @@ Response file_response(storage::MeasurementStore& store, const storage::Measurem
   if (found == nullptr) {
     return error_response(
         {Errc::Unsupported,
-         fmt::format("format '{}' is none of json, csv, jsonl, dfq, dfd, dfx, qif, html, points, "
-                     "dxf, stl",
+         fmt::format("format '{}' is none of json, csv, jsonl, dfq, dfd, dfx, dfq-utf8, dfd-utf8, "
+                     "qif, html, points, dxf, stl",
                      format)});
   }
   auto all = all_measurements(store, filter, kMaxInFile);

@@ -92,8 +92,8 @@ Result<void> check_characters(const Measurement& m) {
     const std::size_t count = count_outside_windows_1252(*text);
     if (count == 0) continue;
     return fail(Errc::Unsupported,
-                "'{}' has {} {} that Windows-1252 does not have: export it with --utf8 (where the "
-                "receiver reads that), or in another format",
+                "'{}' has {} {} that Windows-1252 does not have: export it in UTF-8 (--utf8, "
+                "format=dfq-utf8) where the receiver reads that, or in another format",
                 *text, count, count == 1 ? "character" : "characters");
   }
   return {};

@@ -183,6 +183,9 @@ TEST_F(MeasurementRoutes, ExportFilesForOthers) {
   EXPECT_EQ(dfq.status, 200);
   EXPECT_EQ(header(dfq, "Content-Disposition"), "attachment");
   EXPECT_EQ(body(dfq).substr(0, 6), "K0100 ");
+  const auto utf8 = get("/api/v1/measurements?format=dfq-utf8");
+  EXPECT_EQ(utf8.status, 200);
+  EXPECT_EQ(utf8.content_type, "text/plain; charset=utf-8");
   EXPECT_NE(body(get("/api/v1/measurements?format=qif&part=1")).find("<QIFDocument"),
             std::string::npos);
   const auto page = get("/api/v1/measurements?format=html&part=1");
