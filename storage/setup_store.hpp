@@ -8,6 +8,7 @@
 #include "protocol/base/clock.hpp"
 #include "protocol/base/digest.hpp"
 #include "protocol/base/result.hpp"
+#include "storage/actor.hpp"
 #include "storage/page.hpp"
 
 namespace dripline::storage {
@@ -23,6 +24,14 @@ struct SetupRevision {
   UtcTime created;
 };
 inline constexpr std::size_t kMaxSetup = 64 * 1024;
+
+/// Which setup is in a control that gets none with a start, by the word of who loaded it there.
+struct LoadedSetup {
+  std::string machine;
+  std::optional<std::uint64_t> number;  ///< nothing: not known
+  std::string who;
+  UtcTime time;
+};
 
 /// The setups of machines, every version of them. Promises of every store: storage/store.hpp.
 class SetupStore {
@@ -40,6 +49,15 @@ class SetupStore {
   /// The newest, or the one with that number. Errors: NotFound.
   virtual Result<SetupRevision> find(const std::string& machine,
                                      std::optional<std::uint64_t> number) = 0;
+
+  /// From now on this one is in the control; in force for runs that are created later, and in the
+  /// audit trail (setup.loaded). `number` nothing: it is not known. Errors: Syntax (the machine's
+  /// name), NotFound (no such setup).
+  virtual Result<LoadedSetup> note_loaded(const std::string& machine,
+                                          std::optional<std::uint64_t> number,
+                                          const Actor& who) = 0;
+  /// Nothing: nobody has said so yet.
+  virtual Result<std::optional<LoadedSetup>> loaded(const std::string& machine) = 0;
 };
 
 }  // namespace dripline::storage

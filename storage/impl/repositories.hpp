@@ -104,6 +104,9 @@ class SetupRepository final : public SetupStore {
   Result<std::vector<SetupRevision>> list(const std::string& machine, Page page) override;
   Result<SetupRevision> find(const std::string& machine,
                              std::optional<std::uint64_t> number) override;
+  Result<LoadedSetup> note_loaded(const std::string& machine, std::optional<std::uint64_t> number,
+                                  const Actor& who) override;
+  Result<std::optional<LoadedSetup>> loaded(const std::string& machine) override;
 
  private:
   Connections& connections_;

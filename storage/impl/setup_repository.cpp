@@ -1,4 +1,5 @@
 #include "protocol/base/names.hpp"
+#include "storage/impl/audit_repository.hpp"
 #include "storage/impl/content.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/setup_rows.hpp"
@@ -66,6 +67,23 @@ Result<void> insert(sqlite::Database& database, const SetupRevision& setup) {
                      setup.created);
 }
 
+Result<void> check_exists(sqlite::Database& database, const std::string& machine,
+                          std::uint64_t number) {
+  const auto found = sqlite::first_row(
+      database, "SELECT number FROM setup WHERE machine = ?1 AND number = ?2",
+      [](const sqlite::Statement& row) { return row.number(0); }, machine, number);
+  if (!found) return fail(found.error());
+  if (*found) return {};
+  return fail(Errc::NotFound, "machine {} has no setup {}", machine, number);
+}
+
+LoadedSetup read_loaded(const sqlite::Statement& row) {
+  LoadedSetup loaded{.machine = row.text(0), .number = {}, .who = row.text(2), .time = row.time(3)};
+  if (const auto number = row.optional_integer(1))
+    loaded.number = static_cast<std::uint64_t>(*number);
+  return loaded;
+}
+
 }  // namespace
 
 Result<SetupRevision> save_setup(sqlite::Database& database, const SetupRevision& given,
@@ -111,6 +129,43 @@ Result<SetupRevision> SetupRepository::find(const std::string& machine,
     if (*found) return std::move(**found);
     if (!number) return fail(Errc::NotFound, "machine {} has no setup on the server", machine);
     return fail(Errc::NotFound, "machine {} has no setup {}", machine, *number);
+  });
+}
+
+Result<LoadedSetup> SetupRepository::note_loaded(const std::string& machine,
+                                                 std::optional<std::uint64_t> number,
+                                                 const Actor& who) {
+  if (auto named = check_machine_name(machine); !named) return fail(named.error());
+  const LoadedSetup loaded{
+      .machine = machine, .number = number, .who = who.name, .time = clock_.now()};
+  return connections_.write([&](sqlite::Database& database) -> Result<LoadedSetup> {
+    if (number) {
+      if (auto there = check_exists(database, machine, *number); !there) return fail(there.error());
+    }
+    const auto kept =
+        sqlite::run(database,
+                    "INSERT INTO loaded_setup (machine, number, who, loaded_us) VALUES (?1, ?2, "
+                    "?3, ?4) ON CONFLICT (machine) DO UPDATE SET number = excluded.number, who = "
+                    "excluded.who, loaded_us = excluded.loaded_us",
+                    machine, number, who.name, loaded.time);
+    if (!kept) return fail(kept.error());
+    const auto noted = add_audit(
+        database, {.time = loaded.time,
+                   .who = who,
+                   .action = "setup.loaded",
+                   .subject = machine,
+                   .detail = number ? fmt::format("setup {} is in the control", *number)
+                                    : std::string("which setup is in the control is not known")});
+    if (!noted) return fail(noted.error());
+    return loaded;
+  });
+}
+
+Result<std::optional<LoadedSetup>> SetupRepository::loaded(const std::string& machine) {
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::first_row(
+        database, "SELECT machine, number, who, loaded_us FROM loaded_setup WHERE machine = ?1",
+        read_loaded, machine);
   });
 }
 

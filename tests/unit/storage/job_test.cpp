@@ -198,6 +198,17 @@ TEST_F(MeasuredJob, ARunMakesNoMoreGoodPartsThanItMakes) {
   EXPECT_EQ(counts(job), "4 made: 3 good 1 unknown, 0 rework 0 scrap, 3 counted");
 }
 
+/// Which of the parts that it reports is the workpiece is not known: in doubt one more is made.
+TEST_F(MeasuredJob, ARunThatReportsMoreThanItMakesHasFewerGoodOnes) {
+  const auto job = add_good(8).id;
+  make("r1", job, {Good, Scrap});
+  make("r2", job, {Rework, Good});
+  make("r3", job, {Unknown, Good, Good});
+  EXPECT_EQ(store_->jobs.find(job)->counted, 0u);
+  make("r4", job, {Good, Good});
+  EXPECT_EQ(store_->jobs.find(job)->counted, 1u);
+}
+
 TEST_F(MeasuredJob, ArchivedPartsStillCount) {
   const auto job = add_good(3).id;
   make("r1", job, {Good});

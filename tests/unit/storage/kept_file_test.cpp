@@ -244,11 +244,21 @@ TEST_P(KeptFile, HasReasonsOfHoldsAndWhatJobsCountSinceVersion17) {
   EXPECT_EQ(store_->jobs.find(2)->counts, JobCount::Good);
 }
 
+TEST_P(KeptFile, HasTheSetupInTheControlSinceVersion18) {
+  reopen();
+  const auto loaded = store_->setups.loaded("m1");
+  ASSERT_TRUE(loaded) << loaded.error().what;
+  ASSERT_EQ(loaded->has_value(), version() >= 18);
+  if (version() < 18) return;
+  EXPECT_EQ((*loaded)->number, 1u);
+  EXPECT_EQ((*loaded)->who, "anna");
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
                                          "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql",
-                                         "v17.sql"),
+                                         "v17.sql", "v18.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

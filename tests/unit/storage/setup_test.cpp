@@ -83,5 +83,45 @@ TEST_F(SetupTest, ARunRemembersItsSetup) {
   EXPECT_EQ(store_->runs.find("r1")->setup, 1u);
 }
 
+TEST_F(SetupTest, WhichIsInTheControlIsKeptWithWhoSaidSo) {
+  ASSERT_TRUE(save("[[tool]]\nnumber = 1\n"));
+  ASSERT_TRUE(save("[[tool]]\nnumber = 2\n"));
+  EXPECT_FALSE(store_->setups.loaded("mill-3")->has_value()) << "nobody has said so";
+  const auto noted = store_->setups.note_loaded("mill-3", 1, Actor("olga", "token", "10.0.0.7"));
+  ASSERT_TRUE(noted) << noted.error().what;
+  reopen();
+  const auto loaded = store_->setups.loaded("mill-3");
+  ASSERT_TRUE(loaded && *loaded);
+  EXPECT_EQ((*loaded)->number, 1u) << "the newest is another one";
+  EXPECT_EQ((*loaded)->who, "olga");
+  EXPECT_EQ((*loaded)->time, noted->time);
+  EXPECT_FALSE(store_->setups.loaded("mill-4")->has_value()) << "each machine for itself";
+  const auto audit = store_->audit.list({.limit = 1});
+  ASSERT_EQ(audit->size(), 1u);
+  EXPECT_EQ(audit->at(0).action, "setup.loaded");
+  EXPECT_EQ(audit->at(0).subject, "mill-3");
+  EXPECT_EQ(audit->at(0).detail, "setup 1 is in the control");
+  EXPECT_EQ(audit->at(0).who.name, "olga");
+}
+
+TEST_F(SetupTest, WhichIsInTheControlCanBeUnknownAgain) {
+  ASSERT_TRUE(save("[[tool]]\nnumber = 1\n"));
+  ASSERT_TRUE(store_->setups.note_loaded("mill-3", 1, "olga"));
+  ASSERT_TRUE(store_->setups.note_loaded("mill-3", std::nullopt, "olga"));
+  const auto loaded = store_->setups.loaded("mill-3");
+  ASSERT_TRUE(loaded && *loaded);
+  EXPECT_EQ((*loaded)->number, std::nullopt);
+}
+
+TEST_F(SetupTest, OneThatIsNotThereIsNotInTheControl) {
+  ASSERT_TRUE(save("[[tool]]\nnumber = 1\n"));
+  ASSERT_TRUE(store_->setups.note_loaded("mill-3", 1, "olga"));
+  const auto noted = store_->setups.note_loaded("mill-3", 2, "olga");
+  ASSERT_FALSE(noted);
+  EXPECT_EQ(noted.error().code, Errc::NotFound);
+  EXPECT_EQ(noted.error().what, "machine mill-3 has no setup 2");
+  EXPECT_EQ((*store_->setups.loaded("mill-3"))->number, 1u) << "nothing has changed";
+}
+
 }  // namespace
 }  // namespace dripline::storage
