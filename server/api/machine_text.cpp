@@ -227,8 +227,7 @@ void write_display(Writer& out, const machines::MachineView& view) {
 /// rest of the text; one of a gateway looks through the program, as far as it can.
 void write_starts(Writer& out, const machines::MachineView& view) {
   static const library::StartSearch kOfALine{.at = {"block", "line", "byte"}};
-  const bool has_line =
-      view.machine.gateway_version.empty() || (view.status && view.status->serial_line);
+  const bool has_line = view.has_serial_line();
   const auto& search = has_line ? kOfALine : library::start_search_of(view.machine.control);
   out.begin('{');
   out.name("at");

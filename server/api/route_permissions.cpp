@@ -100,6 +100,8 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/machines/{name}/setups", View},
     RoutePermission{"GET", "/api/v1/machines/{name}/setup", View},
     RoutePermission{"PUT", "/api/v1/machines/{name}/setup", SetUp, Name},
+    RoutePermission{"GET", "/api/v1/machines/{name}/setup/loaded", View},
+    RoutePermission{"PUT", "/api/v1/machines/{name}/setup/loaded", Operate, Name},
     RoutePermission{"GET", "/api/v1/machines/{name}/memory", View},
 
     RoutePermission{"POST", "/api/v1/runs", Operate, Start},

@@ -119,6 +119,14 @@ Result<JobBody> decode_job(std::string_view body) {
   return read;
 }
 
+Result<std::optional<std::uint64_t>> decode_loaded_setup(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const auto revision = object->optional_unsigned("revision");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return revision;
+}
+
 Result<std::uint64_t> decode_job_move(std::string_view body) {
   auto object = JsonObject::parse(body);
   if (!object) return fail(object.error());

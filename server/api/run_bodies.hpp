@@ -27,6 +27,9 @@ Result<std::optional<std::uint64_t>> decode_job_start(std::string_view body);
 /// Where a run is to continue: {"at"?}.
 Result<std::string> decode_restart(std::string_view body);
 
+/// Which setup is in a control: {"revision"?}; nothing: it is not known.
+Result<std::optional<std::uint64_t>> decode_loaded_setup(std::string_view body);
+
 /// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
 Result<machines::CommandRequest> decode_command(std::string_view body);
 /// The same for a machine's panel: switches and overrides. Unsupported: an action of a run.

@@ -98,6 +98,13 @@ json run_json(const storage::Run& run) {
           {"job", number_or_null(run.job)}};
 }
 
+json loaded_setup_json(const storage::LoadedSetup& loaded) {
+  return {{"machine", loaded.machine},
+          {"revision", number_or_null(loaded.number)},
+          {"who", text_or_null(loaded.who)},
+          {"time", to_iso8601(loaded.time)}};
+}
+
 json setup_json(const storage::SetupRevision& setup) {
   return {{"machine", setup.machine},
           {"revision", setup.number},

@@ -24,6 +24,7 @@ nlohmann::json hold_json(const std::optional<storage::JobHold>& hold);
 nlohmann::json run_json(const storage::Run& run);
 /// Without the text.
 nlohmann::json setup_json(const storage::SetupRevision& setup);
+nlohmann::json loaded_setup_json(const storage::LoadedSetup& loaded);
 nlohmann::json record_json(const storage::Record& record);
 nlohmann::json report_json(const storage::Run& run);
 nlohmann::json audit_json(const storage::AuditEntry& entry);

@@ -1,5 +1,6 @@
 #include "server/library/setups.hpp"
 
+#include "protocol/process/log.hpp"
 #include "server/library/control_catalog.hpp"
 
 namespace dripline::library {
@@ -62,6 +63,16 @@ Result<storage::SetupRevision> Setups::save_by(const SetupText& text, const stor
   auto saved = keep(revision_of(text, who));
   if (saved) announce(*saved, text);
   return saved;
+}
+
+Result<storage::LoadedSetup> Setups::note_loaded(const std::string& machine,
+                                                 std::optional<std::uint64_t> number,
+                                                 const storage::Actor& who) {
+  auto loaded = store_.note_loaded(machine, number, who);
+  if (!loaded) return loaded;
+  process::log_info("setup machine={}: {} is in the control by={}", machine,
+                    number ? fmt::format("{}", *number) : "which one is not known, that", who.name);
+  return loaded;
 }
 
 }  // namespace dripline::library

@@ -53,6 +53,13 @@ class Setups {
                                       std::optional<std::uint64_t> number) const {
     return store_.find(machine, number);
   }
+  /// Which one is in a control that gets none with a start. Promises and errors: SetupStore.
+  Result<storage::LoadedSetup> note_loaded(const std::string& machine,
+                                           std::optional<std::uint64_t> number,
+                                           const storage::Actor& who);
+  Result<std::optional<storage::LoadedSetup>> loaded(const std::string& machine) const {
+    return store_.loaded(machine);
+  }
 
   static constexpr std::size_t kMaxComment = 1024;
 

@@ -85,7 +85,7 @@ class MachineService final : public MachineControl {
   void announce_run(const std::string& run);
   Result<MachineView> connected_machine(const std::string& name) const;
   Result<storage::Run> make_run(const StartRequest& request, const MachineView& view);
-  Result<std::optional<storage::SetupRevision>> setup_of(const storage::Run& run);
+  Result<std::optional<storage::SetupRevision>> setup_of(const MachineView& view);
   Result<void> check_restart(const StartRequest& request, const storage::Run& run);
   Result<storage::Run> conclude_start(const storage::Run& run, const Result<void>& outcome);
 

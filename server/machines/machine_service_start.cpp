@@ -34,9 +34,17 @@ Result<storage::Run> MachineService::make_run(const StartRequest& request,
   return run;
 }
 
-/// The machine's newest setup; none when the server keeps none for it.
-Result<std::optional<storage::SetupRevision>> MachineService::setup_of(const storage::Run& run) {
-  auto setup = store_.setups.find(run.machine, std::nullopt);
+/// The machine's newest setup, or which one is in a control at the end of a line; none when the
+/// server keeps none for it, or does not know.
+Result<std::optional<storage::SetupRevision>> MachineService::setup_of(const MachineView& view) {
+  std::optional<std::uint64_t> number;
+  if (view.status && view.status->serial_line) {
+    const auto loaded = store_.setups.loaded(view.machine.name);
+    if (!loaded) return fail(loaded.error());
+    if (!*loaded || !(*loaded)->number) return std::optional<storage::SetupRevision>{};
+    number = (*loaded)->number;
+  }
+  auto setup = store_.setups.find(view.machine.name, number);
   if (setup) return std::optional(*std::move(setup));
   if (setup.error().code == Errc::NotFound) return std::optional<storage::SetupRevision>{};
   return fail(setup.error());
@@ -90,7 +98,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
     return fail(sound.error().code, "program '{}' revision {}: {}", run->program, run->revision,
                 sound.error().what);
   }
-  const auto setup = setup_of(*run);
+  const auto setup = setup_of(*view);
   if (!setup) return fail(setup.error());
   if (*setup) run->setup = (*setup)->number;
   if (auto same = check_restart(request, *run); !same) return fail(same.error());

@@ -194,7 +194,7 @@ class DeviationSearch {
         return fmt::format("under the value in force are left out: not {}", scope_text(rule));
       case Left::WithoutSetup:
         return "are left out: of runs without a setup of the server, so what was in force is not "
-               "known";
+               "known (a control at the end of a line: dnc setup loaded)";
       case Left::BeforeChange:
         return fmt::format(
             "are left out: cut before setup {}, when {}", query_.since.setup,

@@ -52,6 +52,7 @@ machines::MachineView LineMachines::view_of(const PortLine& line) const {
   machines::MachineView view;
   view.machine.name = port.names.machine;
   if (auto stored = store_.machines.find(port.names.machine)) view.machine = *std::move(stored);
+  view.machine.gateway_version.clear();  // it may have had one before it had a port
   view.is_connected = port.is_open;
   dds::Status status;
   status.machine = port.names.machine;

@@ -90,6 +90,9 @@ Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
   run.allowed_as = admitted->allowed_as;
   run.approval = admitted->approval;
   run.job = request.job;
+  const auto loaded = store_.setups.loaded(machine.name);
+  if (!loaded) return fail(loaded.error());
+  if (*loaded) run.setup = (*loaded)->number;
   if (auto fits = machines::check_control_memory(sources_, run); !fits) return fail(fits.error());
   if (auto sound = store_.programs.verify_content(run.content); !sound) return fail(sound.error());
   if (auto created = store_.runs.create(run); !created) return fail(created.error());

@@ -103,6 +103,37 @@ Response save_setup(Services& services, const Request& request) {
   return json_response(saved->is_unchanged ? 200 : 201, view);
 }
 
+Response show_loaded(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const std::string machine = request.parameter("name");
+  const auto loaded = services.setups.loaded(machine);
+  if (!loaded) return error_response(loaded.error());
+  if (*loaded) return json_response(200, loaded_setup_json(**loaded));
+  return error_response(
+      {Errc::NotFound,
+       fmt::format("nobody has said which setup is in the control of machine {}", machine)});
+}
+
+Response note_loaded(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto number = decode_loaded_setup(request.body);
+  if (!number) return error_response(number.error());
+  const std::string name = request.parameter("name");
+  const auto view = services.machines.machine(name);
+  if (!view) return error_response(view.error());
+  if (!view->has_serial_line()) {
+    return error_response(
+        {Errc::Conflict, fmt::format("machine {}: its gateway gets the newest setup with each "
+                                     "start; only what is in a control at the end of a line has "
+                                     "to be said",
+                                     name)});
+  }
+  return value_response(200, services.setups.note_loaded(name, *number, request.who),
+                        loaded_setup_json);
+}
+
 }  // namespace
 
 void add_setup_routes(Router& router, Services& services) {
@@ -110,6 +141,8 @@ void add_setup_routes(Router& router, Services& services) {
   router.add("GET", machine + "/setups", with(services, list_setups));
   router.add("GET", machine + "/setup", with(services, show_setup));
   router.add("PUT", machine + "/setup", with(services, save_setup));
+  router.add("GET", machine + "/setup/loaded", with(services, show_loaded));
+  router.add("PUT", machine + "/setup/loaded", with(services, note_loaded));
 }
 
 namespace {

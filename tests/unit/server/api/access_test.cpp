@@ -153,6 +153,7 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
       {"PUT", "/api/v1/machines/lathe-1/jobs/1", R"({"place":1})"},
       {"DELETE", "/api/v1/machines/lathe-1/jobs/1", ""},
       {"POST", "/api/v1/machines/lathe-1/start-job", "{}"},
+      {"PUT", "/api/v1/machines/lathe-1/setup/loaded", R"({"revision":1})"},
       {"PUT", "/api/v1/machines/lathe-1/job-hold", R"({"reason":"wide"})"},
       {"DELETE", "/api/v1/machines/lathe-1/job-hold", ""},
       {"PUT", "/api/v1/report-template-assignments/machine/lathe-1/bore", ""},

@@ -110,6 +110,13 @@ class OpenApiAnswers : public ProgramAnswers {
     }
     expect_described("GET", "/api/v1/machines/{name}/setup", get(path));
     expect_described("GET", "/api/v1/machines/{name}/setups", get(path + "s"));
+    const std::string loaded = "/api/v1/machines/{name}/setup/loaded";
+    const auto state = [&](const char* body) {
+      return call("PUT", path + "/loaded", {.body = body, .headers = {}});
+    };
+    expect_described("PUT", loaded, state(R"({"revision":1})"));
+    expect_described("GET", loaded, get(path + "/loaded"));
+    expect_described("PUT", loaded, state("{}"));
   }
   void expect_memory_described() {
     storage::Record record;

@@ -27,6 +27,38 @@ TEST_F(MachineRuns, SendAStartCommandAndAreActiveOnceItIsAccepted) {
   EXPECT_EQ(command.deadline, gateway_steady() + 200ms) << "by the gateway's clock";
 }
 
+/// A gateway with a line gives its control no setup: it has what was loaded there.
+TEST_F(MachineRuns, HaveTheSetupThatIsInTheControlBehindAGatewaysLine) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  const std::string first = "[[tool]]\nnumber = 1\n", second = "[[tool]]\nnumber = 2\n";
+  for (const auto& text : {first, second})
+    ASSERT_TRUE(setups_->save({"lathe-1", "centurion", text, ""}, "cam"));
+  const auto newest = start("O0100");
+  EXPECT_EQ(newest->setup, 2u) << "no line: the newest goes with the start";
+  EXPECT_EQ(written_->commands.back().setup, second);
+  EXPECT_TRUE(store_->runs.set_state(newest->id, storage::RunState::Aborted, ""));
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.session = kSession;
+  status.time = clock_.now();
+  status.steady = gateway_steady();
+  status.serial_line.emplace();
+  network_.on_status(status);
+  const auto unknown = start("O0100");
+  ASSERT_TRUE(unknown) << unknown.error().what;
+  EXPECT_EQ(unknown->setup, std::nullopt) << "nobody has said what is in the control";
+  EXPECT_TRUE(store_->runs.set_state(unknown->id, storage::RunState::Aborted, ""));
+  EXPECT_EQ(written_->commands.back().setup, "");
+  ASSERT_TRUE(store_->setups.note_loaded("lathe-1", 1, "olga"));
+  const auto known = start("O0100");
+  ASSERT_TRUE(known) << known.error().what;
+  EXPECT_EQ(known->setup, 1u);
+  EXPECT_EQ(written_->commands.back().setup, first);
+}
+
 TEST_F(MachineRuns, TellTheGatewayWhereToBegin) {  // CEN-163
   push("O0100", "N5 M30\n");
   start_service();

@@ -25,6 +25,37 @@ TEST_F(PortServiceTest, SendsAProgramAndCountsWhatLeftAndNothingElse) {
   EXPECT_EQ(records_of(run->id, "run_ended").size(), 1u);
 }
 
+/// No setup goes to such a control with a start: it has what was loaded there.
+TEST_F(PortServiceTest, ARunHasTheSetupThatIsSaidToBeInTheControl) {
+  start_ports();
+  add_port(mill());
+  push("O1", blocks(10));
+  const auto save = [&](const char* text) {
+    storage::SetupRevision setup;
+    setup.machine = "mill";
+    setup.text = text;
+    ASSERT_TRUE(store_->setups.save(setup, std::nullopt));
+  };
+  const auto setup_of_next_run = [&] {
+    const auto run = start("O1");
+    EXPECT_TRUE(run) << run.error().what;
+    if (!run) return std::optional<std::uint64_t>();
+    line().read_until("N100 G1 X10.5 Y-10.25\n");
+    EXPECT_TRUE(wait_state(run->id, RunState::Completed));
+    return store_->runs.find(run->id)->setup;
+  };
+  save("[[tool]]\nnumber = 1\n");
+  EXPECT_EQ(setup_of_next_run(), std::nullopt) << "on the server is not in the control";
+  ASSERT_TRUE(store_->setups.note_loaded("mill", 1, "olga"));
+  EXPECT_EQ(setup_of_next_run(), 1u);
+  save("[[tool]]\nnumber = 2\n");
+  EXPECT_EQ(setup_of_next_run(), 1u) << "the newer one is not in the control yet";
+  ASSERT_TRUE(store_->setups.note_loaded("mill", 2, "olga"));
+  EXPECT_EQ(setup_of_next_run(), 2u);
+  ASSERT_TRUE(store_->setups.note_loaded("mill", std::nullopt, "olga"));
+  EXPECT_EQ(setup_of_next_run(), std::nullopt);
+}
+
 TEST_F(PortServiceTest, StopsForXoffAndShowsTheWait) {
   start_ports();
   add_port(mill());

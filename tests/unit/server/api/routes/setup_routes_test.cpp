@@ -66,5 +66,33 @@ TEST_F(SetupRoutes, NeedTheToken) {
             401);
 }
 
+TEST_F(SetupRoutes, StateWhichOneIsInAControlAtTheEndOfALine) {
+  const std::string loaded = "/api/v1/machines/lathe-1/setup/loaded";
+  ASSERT_EQ(put("lathe-1/setup", "a = 1").status, 201);
+  EXPECT_EQ(get(loaded).status, 404) << "nobody has said so";
+  const auto stated = put("lathe-1/setup/loaded", R"({"revision": 1})");
+  ASSERT_EQ(stated.status, 200) << body(stated);
+  EXPECT_EQ(json(stated).at("revision"), 1);
+  EXPECT_EQ(json(get(loaded)).at("who"), "admin");
+  EXPECT_EQ(put("lathe-1/setup/loaded", R"({"revision": 2})").status, 404);
+  EXPECT_EQ(put("lathe-1/setup/loaded", R"({"revision": "1"})").status, 400);
+  EXPECT_EQ(put("lathe-1/setup/loaded", R"({"version": 1})").status, 400);
+  EXPECT_EQ(put("lathe-1/setup/loaded", "").status, 400);
+  EXPECT_EQ(json(get(loaded)).at("revision"), 1);
+  EXPECT_EQ(put("lathe-1/setup/loaded", "{}").status, 200);
+  EXPECT_TRUE(json(get(loaded)).at("revision").is_null());
+  EXPECT_EQ(put("mill-9/setup/loaded", "{}").status, 404) << "no such machine";
+}
+
+TEST_F(SetupRoutes, AreNotAskedWhatAGatewayGetsWithEachStart) {
+  machines_.views[0].machine.gateway_version = "1.0";
+  ASSERT_EQ(put("lathe-1/setup", "a = 1").status, 201);
+  const auto refused = put("lathe-1/setup/loaded", R"({"revision": 1})");
+  EXPECT_EQ(refused.status, 409) << body(refused);
+  EXPECT_NE(body(refused).find("with each start"), std::string::npos) << body(refused);
+  machines_.views[0].status.emplace().serial_line.emplace();
+  EXPECT_EQ(put("lathe-1/setup/loaded", R"({"revision": 1})").status, 200) << "its line";
+}
+
 }  // namespace
 }  // namespace dripline::server_test
