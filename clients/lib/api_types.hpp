@@ -6,100 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "clients/lib/account_types.hpp"
 #include "clients/lib/intake_types.hpp"
+#include "clients/lib/server_types.hpp"
 
 /// The server's answers (server/api/README.md) as plain values. Words and times stay the text that
 /// the server sent, so that an older client shows the words of a newer server; times are ISO 8601
 /// UTC, lengths millimeters. An absent text is empty; other absent values are nullopt. Each type's
 /// members are listed in impl/api_members.hpp; a test compares the lists with openapi.json.
 namespace dripline::client {
-
-struct ServerInfo {
-  std::string name, version, started;
-  double uptime_s = 0;
-  std::string data_dir;
-  std::uint64_t machines = 0, machines_connected = 0, programs = 0, runs_active = 0;
-  struct Health {
-    struct Reason {
-      std::string subject, status, message, detail;
-    };
-    std::string status;  ///< ok, degraded, failed; empty: from an older server
-    std::vector<Reason> reasons;
-  } health;
-  struct Dds {
-    std::uint64_t domain = 0, rejected = 0;
-  } dds;
-  struct Mqtt {
-    std::string broker;
-    bool connected = false;
-    std::string since, fault;
-    std::uint64_t records_waiting = 0, records_published = 0, states_published = 0;
-    std::uint64_t records_missing = 0;
-    struct Sparkplug {
-      std::string node;
-      bool connected = false;
-      std::string since, fault;
-      std::uint64_t messages_published = 0, rebirths = 0;
-    };
-    std::optional<Sparkplug> sparkplug;  ///< absent: it is not spoken
-  };
-  std::optional<Mqtt> mqtt;  ///< absent: there is no broker
-};
-
-/// The server's backups, newest first, and what it does with them now.
-struct Backups {
-  struct Backup {
-    std::string id, made, made_by;
-    std::uint64_t size = 0, added = 0;  ///< bytes; `added`: those that no earlier backup had
-    std::string verified;               ///< when its bytes were last found good
-  };
-  struct Work {
-    std::string kind, backup, phase;
-    std::uint64_t done = 0, total = 0;
-  };
-  struct Outcome {
-    std::string kind, backup, time, error;
-  };
-  std::string folder;
-  std::uint64_t every_hours = 0;
-  bool overdue = false;
-  std::vector<Backup> backups;
-  std::vector<std::string> damaged;
-  std::optional<Work> work;
-  std::optional<Outcome> last;
-};
-
-/// Whether the audit trail is as it was written.
-struct AuditState {
-  struct Fault {
-    std::uint64_t entry = 0;
-    std::string what;
-  };
-  struct Verification {
-    std::string time;
-    std::uint64_t entries = 0;
-    bool intact = false;
-    std::optional<Fault> fault;  ///< the first
-  };
-  struct Checkpoint {
-    std::uint64_t number = 0, entry = 0;
-    std::string time, sha256;
-    std::string text;  ///< a file to be kept elsewhere
-  };
-  struct ArchiveFault {
-    std::string file, what;
-  };
-  struct Archives {
-    std::string time;
-    std::uint64_t archives = 0;
-    bool intact = false;
-    std::vector<ArchiveFault> faults;
-  };
-  std::optional<Verification> verification;
-  std::optional<Checkpoint> checkpoint;
-  std::optional<Archives> archives;  ///< absent: the server has no folder of them
-  std::string public_key;
-};
 
 /// A program's latest revision, as listings give it. Held: no revision of it is approved yet.
 struct Program {
@@ -359,6 +274,13 @@ struct Setup {
   bool unchanged = false;  ///< answer to saving: the newest setup already had this text
 };
 
+/// Which setup is in a control at the end of a line, by the word of who loaded it.
+struct LoadedSetup {
+  std::string machine;
+  std::optional<std::uint64_t> revision;  ///< absent: not known
+  std::string who, time;
+};
+
 /// One value that a control retains after the end of a program.
 struct MemoryCell {
   std::string name;
@@ -457,34 +379,6 @@ struct PortTemplate {
 struct PortSetting {
   std::string key, type, text, preset;
 };
-/// Who the caller is, and by which token or session.
-struct Session {
-  std::string user, role;
-  std::vector<std::string> groups;
-  std::string credential, kind, expires, address;
-  std::string secret;  ///< of a new one alone
-};
-
-struct User {
-  std::string name, role;
-  std::vector<std::string> groups;
-  bool locked = false, has_password = false;
-  std::string created, signed_in;
-};
-
-/// A token or a session of a user.
-struct Token {
-  std::string user, name, kind, role;
-  std::optional<std::vector<std::string>> groups;  ///< nullopt: those of its user
-  std::string created, expires, used, used_from;
-  std::string secret;  ///< of a new one alone
-};
-
-struct MachineGroup {
-  std::string name;
-  std::vector<std::string> machines;
-};
-
 struct PortTemplates {
   std::vector<PortTemplate> templates;
   std::vector<PortSetting> settings;  ///< all settings of a port

@@ -318,6 +318,18 @@ Reply<Setup> Client::save_setup(const SetupRequest& request) {
   return fetch<Setup>(http, request.text);
 }
 
+Reply<LoadedSetup> Client::loaded_setup(std::string_view machine) {
+  return fetch<LoadedSetup>(get(path_of("machines", machine) + "/setup/loaded"));
+}
+
+Reply<LoadedSetup> Client::note_loaded_setup(std::string_view machine,
+                                             std::optional<std::uint64_t> revision) {
+  auto json = nlohmann::json::object();
+  if (revision) json["revision"] = *revision;
+  return fetch<LoadedSetup>(with_method("PUT", path_of("machines", machine) + "/setup/loaded"),
+                            dumped(json));
+}
+
 Reply<std::vector<Memory>> Client::memories(std::string_view machine, std::string_view run,
                                             Page page) {
   const std::string path = with_query(path_of("machines", machine) + "/memory", "run", run);

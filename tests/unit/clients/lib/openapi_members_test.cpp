@@ -87,6 +87,7 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
             described("RunWithParts/properties/parts"));
   EXPECT_EQ(read_by_the_client<client::Hold>(), described("MachineHold"));
   EXPECT_EQ(read_by_the_client<client::Setup>(), described("Setup"));
+  EXPECT_EQ(read_by_the_client<client::LoadedSetup>(), described("LoadedSetup"));
   EXPECT_EQ(read_by_the_client<client::Job>(), described("Job"));
   EXPECT_EQ(read_by_the_client<client::JobList>(), described("JobList"));
   EXPECT_EQ(read_by_the_client<client::JobList::Hold>(), described("JobList/properties/hold"));
