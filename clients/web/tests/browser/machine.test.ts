@@ -96,6 +96,24 @@ test('a tool is added in the table, and a change that another one overtook is re
   await page.getByText('From revision 1 to 3').waitFor();
 });
 
+test('which setup is in a control at the end of a line is said by whoever loaded it', async () => {
+  const control = await LineControl.listen();
+  await shop.api('PUT', 'ports/line-5', { machine: 'mill-5', address: control.address, template: 'tnc155' });
+  await shop.api('PUT', 'machines/mill-5/setup?control=tnc155', '[[tool]]\nnumber = 1\nlength = 100.0\n');
+  const { page } = await visit('#/machine/mill-5/setup');
+  const part = page.getByRole('region', { name: 'In the control' });
+  await part.getByText('Which setup is in the control is not known.').waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  await pressTwice(part.getByRole('button', { name: 'Revision 1 is in the control' }), part.getByRole('button', { name: 'Press again: revision 1 has been loaded into the control of mill-5' }));
+  await part.getByText(/^Revision 1 is in the control\. Said admin, /).waitFor();
+  await shop.api('PUT', 'machines/mill-5/setup', '[[tool]]\nnumber = 1\nlength = 100.1\n');
+  await page.reload();
+  await part.getByText('Until the newest one is in it').waitFor();
+  await part.getByRole('button', { name: 'It is not known any more' }).click();
+  await part.getByText(/^Which setup is in the control is not known\. Said admin, /).waitFor();
+  control.end();
+});
+
 test('a command whose answer is lost is reported and never sent again', async () => {
   const { page } = await visit('#/machine/mill-1');
   await state(page, 'Running').waitFor();

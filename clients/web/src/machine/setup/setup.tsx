@@ -4,12 +4,14 @@ import { useEffect, useState } from 'preact/hooks';
 import type { Setup } from '../../../generated/api';
 import { ApiError, get, pathOf, send, withQuery } from '../../api/request';
 import { addressOf } from '../../app/route';
+import { useFeed } from '../../live/use_feed';
 import { Allowed } from '../../parts/allowed';
 import { CommandFault, useCommand } from '../../parts/command';
 import { DiffView } from '../../parts/diff_view';
 import { Loading } from '../../parts/loading';
 import { useLoaded } from '../../parts/use_loaded';
 import { dateTimeText, texts } from '../../texts/texts';
+import { LoadedSetup } from './loaded_setup';
 import { SetupTable } from './setup_table';
 import { kTables } from './setup_tables';
 
@@ -58,6 +60,7 @@ function Versions({ machine, newest, onRestore }: { machine: string; newest: Set
 export function MachineSetup({ machine }: { machine: string }) {
   const t = texts().setup;
   const setup = useLoaded((signal) => loadSetup(machine, null, signal), [machine]);
+  const hasLine = useFeed('machines').machines.get(machine)?.starts.head === true;
   /// The revision from which the text is made.
   const [base, setBase] = useState<Setup | null>(null);
   const [text, setText] = useState('');
@@ -86,7 +89,8 @@ export function MachineSetup({ machine }: { machine: string }) {
   const isChanged = text !== (base.text ?? '');
   return (
     <>
-      <p class="muted">{base.revision === 0 ? t.none : t.revision(base.revision, dateTimeText(base.created), base.author ?? '–')} <a href={addressOf('corrections', [machine])}>{t.history}</a></p>
+      <p class="muted">{base.revision === 0 ? t.none : (hasLine ? t.revisionAtLine : t.revision)(base.revision, dateTimeText(base.created), base.author ?? '–')} <a href={addressOf('corrections', [machine])}>{t.history}</a></p>
+      {hasLine && base.revision > 0 && <LoadedSetup machine={machine} newest={base.revision} />}
       {kTables.map((table) => <SetupTable key={table} table={table} text={text} onChange={setText} />)}
       <section class="panel" aria-labelledby="setup-text">
         <h2 id="setup-text">{t.text}</h2>

@@ -153,7 +153,7 @@ export const measured: typeof Shape = {
     reject: 'Ablehnen',
     rejectSure: (target, machine) => `Nochmals drücken: Korrektur von ${target}, ${machine}, ablehnen`,
     decided: 'Entschieden',
-    states: { applied: 'Übernommen', rejected: 'Abgelehnt', superseded: 'Durch eine neuere ersetzt' },
+    states: { applied: 'Übernommen', rejected: 'Abgelehnt', superseded: 'Zurückgezogen oder ersetzt' },
     none: 'Noch keine.',
     target: 'Wert von',
     before: 'Vorher',

@@ -151,7 +151,7 @@ export const measured = {
     reject: 'Reject',
     rejectSure: (target: string, machine: string) => `Press again: reject the correction of ${target}, ${machine}`,
     decided: 'Decided',
-    states: { applied: 'Applied', rejected: 'Rejected', superseded: 'Replaced by a newer one' },
+    states: { applied: 'Applied', rejected: 'Rejected', superseded: 'Withdrawn or replaced' },
     none: 'None yet.',
     target: 'Value of',
     before: 'Before',
