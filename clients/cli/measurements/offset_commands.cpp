@@ -253,8 +253,9 @@ void add_decisions(Command group, Context& context) {
   yes.add_option("--comment", approved->comment, "State why; kept with the setup and the decision");
   add_json_flag(yes, context);
   yes.footer(
-      "It goes with the machine's next start. A control that is set up over its line gets it with\n"
-      "`dnc setup export MACHINE -o FILE` (G10 or the TNC's tool store) and `dnc port send`.");
+      "It goes with the machine's next start. A control at the end of a line gets it by hand (`dnc "
+      "setup\nexport MACHINE`: G10 or the TNC's tool store); measurements count again once `dnc "
+      "setup loaded` says so.");
   run_at_server(yes, context, approved, approve);
 
   auto no = group.add_subcommand("reject", "Reject a proposal");

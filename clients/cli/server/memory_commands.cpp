@@ -191,7 +191,7 @@ int save(Context& context, client::Client& client, const MemoryCommand& command,
   auto saved =
       client.save_setup({command.machine, *text, command.comment.empty() ? why : command.comment,
                          "", setup->revision});
-  return saved ? report_saved(context, *saved) : complain(saved.error());
+  return saved ? report_saved(context, client, *saved) : complain(saved.error());
 }
 
 int restore(Context& context, client::Client& client, const MemoryCommand& command) {

@@ -98,7 +98,8 @@ Details run_details(const client::ShownRun& shown) {
   details.add("reason", run.reason);
   details.add("machine", run.machine);
   details.add("program", fmt::format("{} revision {}", run.program, run.revision));
-  details.add("setup", run.setup ? fmt::format("{} of the server", *run.setup) : "the gateway's");
+  details.add("setup",
+              run.setup ? fmt::format("{} of the server", *run.setup) : "none of the server");
   details.add("allowed", allowance_text(run));
   details.add("control", run.control);
   details.add("content", run.sha256);

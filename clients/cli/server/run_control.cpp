@@ -18,6 +18,14 @@ struct RunControlCommand {
   int clicks = 1;
 };
 
+/// A hold of the machine can be one of its queue too, which goes on only when it is released.
+void say_queue_is_held(client::Client& client, const std::string& name) {
+  const auto machine = client.machine(name);
+  if (!machine || !machine->queue_hold) return;
+  fmt::print(stderr, "dnc: the queue of {} is still held by {}: {}; dnc job release {}\n", name,
+             machine->queue_hold->who, machine->queue_hold->reason, name);
+}
+
 /// Gives the orders one after the other, as long as the machine takes them.
 int give(Context& context, const std::string& reference,
          const std::vector<client::CommandRequest>& commands) {
@@ -30,6 +38,7 @@ int give(Context& context, const std::string& reference,
     if (!given) return complain(given.error());
     context.print(fmt::format("{} took {} (run {} of {})\n", run->machine, command_text(command),
                               short_id(run->id), run->program));
+    if (command.action == "resume") say_queue_is_held(*client, run->machine);
   }
   return kExitOk;
 }

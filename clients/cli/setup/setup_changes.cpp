@@ -59,7 +59,7 @@ int save(Context& context, client::Client& client, const client::Setup& before,
   // The control of a machine never seen is given by the user who saves.
   if (!client.machine(before.machine)) request.control = "tnc155";
   const auto saved = client.save_setup(request);
-  return saved ? report_saved(context, *saved) : complain(saved.error());
+  return saved ? report_saved(context, client, *saved) : complain(saved.error());
 }
 
 client::Reply<double> number_of(const std::string& text) {
@@ -202,17 +202,26 @@ void add_verb(Command command, Context& context, const std::shared_ptr<ChangeCom
   command.callback([&context, options, action] { context.status = action(context, *options); });
 }
 
+/// How it comes into the control.
+std::string way_of(client::Client& client, const client::Setup& setup) {
+  const auto machine = client.machine(setup.machine);
+  const bool has_line = machine && machine->starts && machine->starts->head;
+  if (!has_line) return "it goes with the next start";
+  return fmt::format("load it into the control, then: dnc setup loaded {} {}", setup.machine,
+                     setup.revision);
+}
+
 }  // namespace
 
-int report_saved(Context& context, const client::Setup& setup) {
+int report_saved(Context& context, client::Client& client, const client::Setup& setup) {
   if (context.wants_json) {
     context.print(json_text(setup));
   } else if (setup.unchanged) {
     context.print(
         fmt::format("Setup {} of {} is the same already\n", setup.revision, setup.machine));
   } else {
-    context.print(fmt::format("Saved setup {} of {}, {}; it goes with the next start\n",
-                              setup.revision, setup.machine, bytes_text(setup.size)));
+    context.print(fmt::format("Saved setup {} of {}, {}; {}\n", setup.revision, setup.machine,
+                              bytes_text(setup.size), way_of(client, setup)));
   }
   return kExitOk;
 }

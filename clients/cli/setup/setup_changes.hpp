@@ -13,8 +13,8 @@ namespace dripline::cli {
 /// Versions stored since by others are never overwritten.
 void add_setup_changes(Command group, Context& context);
 
-/// The result of saving, as text or JSON.
-int report_saved(Context& context, const client::Setup& setup);
+/// The result of saving, as text or JSON, with what has to be done for it to be in force.
+int report_saved(Context& context, client::Client& client, const client::Setup& setup);
 
 /// A number in the text of a setup, and what it becomes.
 struct SetupChange {

@@ -4,6 +4,7 @@
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/graphics_options.hpp"
 #include "clients/cli/port/port_file.hpp"
+#include "clients/cli/setup/loaded_setup.hpp"
 #include "clients/cli/setup/setup_changes.hpp"
 #include "clients/cli/setup/setup_forms.hpp"
 #include "clients/cli/setup/setup_options.hpp"
@@ -72,7 +73,7 @@ int push(Context& context, const SetupCommand& command) {
   if (!client) return context.status;
   auto saved =
       client->save_setup({command.machine, *text, command.comment, command.control, command.base});
-  return saved ? report_saved(context, *saved) : complain(saved.error());
+  return saved ? report_saved(context, *client, *saved) : complain(saved.error());
 }
 
 int put_out(const std::string& path, std::string_view text, const std::string& what) {
@@ -176,7 +177,7 @@ int restore(Context& context, const SetupCommand& command) {
   const std::string comment =
       command.comment.empty() ? fmt::format("setup {} again", old->revision) : command.comment;
   auto saved = client->save_setup({command.machine, old->text, comment, command.control});
-  return saved ? report_saved(context, *saved) : complain(saved.error());
+  return saved ? report_saved(context, *client, *saved) : complain(saved.error());
 }
 
 using SetupAction = int (*)(Context&, const SetupCommand&);
@@ -210,7 +211,7 @@ void add_setup_commands(Command app, Context& context) {
   group.footer(
       "A setup is a TOML file with [[tool]], [[offset]], [[variable]] and [control]. The server "
       "checks it\nfor the machine's control, keeps every version, and sends the newest with each "
-      "start of a program.");
+      "start of a program; a control at the end of a line is loaded by hand (loaded).");
 
   auto listing =
       add_verb(group, context, "list", "List the versions of a setup, newest first", list);
@@ -265,6 +266,7 @@ void add_setup_commands(Command app, Context& context) {
   add_setup_options(group, context);
 
   add_setup_changes(group, context);
+  add_loaded_setup(group, context);
 
   auto restoring = add_verb(group, context, "restore", "Make an old version the newest", restore);
   restoring.command.add_option("REVISION", restoring.options->revision, "Version to restore")
