@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/api/run_bodies.hpp"
+#include "server/api/bodies/run_bodies.hpp"
 
 namespace dripline::api {
 namespace {

@@ -6,7 +6,7 @@
 #include "server/api/route_permissions.hpp"
 #include "server/api/router.hpp"
 #include "server/identity/accounts.hpp"
-#include "server/library/run_history.hpp"
+#include "server/library/history/run_history.hpp"
 #include "server/ports/port_control.hpp"
 
 namespace dripline::api {

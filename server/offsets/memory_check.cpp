@@ -7,7 +7,7 @@
 #include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/registry.hpp"
-#include "server/library/kept_memory.hpp"
+#include "server/library/history/kept_memory.hpp"
 #include "server/offsets/setup_value.hpp"
 
 namespace dripline::offsets {

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "storage/impl/content.hpp"
+#include "storage/impl/programs/content.hpp"
 #include "storage/sqlite/query.hpp"
 
 namespace dripline::storage {

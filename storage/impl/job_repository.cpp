@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "storage/impl/audit_repository.hpp"
+#include "storage/impl/programs/revision_rows.hpp"
 #include "storage/impl/repositories.hpp"
-#include "storage/impl/revision_rows.hpp"
 #include "storage/sqlite/query.hpp"
 
 namespace dripline::storage {

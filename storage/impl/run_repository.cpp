@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "storage/impl/content.hpp"
 #include "storage/impl/job_repository.hpp"
-#include "storage/impl/revision_rows.hpp"
+#include "storage/impl/programs/content.hpp"
+#include "storage/impl/programs/revision_rows.hpp"
 
 namespace dripline::storage {
 namespace {

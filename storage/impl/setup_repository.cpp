@@ -1,6 +1,6 @@
 #include "protocol/base/names.hpp"
 #include "storage/impl/audit_repository.hpp"
-#include "storage/impl/content.hpp"
+#include "storage/impl/programs/content.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/setup_rows.hpp"
 #include "storage/sqlite/query.hpp"

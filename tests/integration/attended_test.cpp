@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/integration/line_gateway.hpp"
+#include "tests/integration/line/line_gateway.hpp"
 #include "tests/integration/system.hpp"
 #include "tests/support/line/host_line.hpp"
 #include "tests/support/line/pty.hpp"

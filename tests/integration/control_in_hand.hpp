@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/integration/serial_system.hpp"
+#include "tests/integration/line/serial_system.hpp"
 #include "tests/support/line/host_line.hpp"
 
 namespace dripline::integration {

@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/access_control.hpp"
-#include "server/api/account_bodies.hpp"
 #include "server/api/api.hpp"
+#include "server/api/bodies/account_bodies.hpp"
 #include "server/api/nullable_json.hpp"
 
 namespace dripline::api {

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
+#include "server/api/bodies/program_bodies.hpp"
 #include "server/api/content_body.hpp"
 #include "server/api/nullable_json.hpp"
-#include "server/api/program_bodies.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {

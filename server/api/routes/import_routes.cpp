@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
+#include "server/api/bodies/program_bodies.hpp"
 #include "server/api/nullable_json.hpp"
-#include "server/api/program_bodies.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {

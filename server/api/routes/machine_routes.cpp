@@ -2,7 +2,7 @@
 
 #include "protocol/base/names.hpp"
 #include "server/api/api.hpp"
-#include "server/api/run_bodies.hpp"
+#include "server/api/bodies/run_bodies.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {

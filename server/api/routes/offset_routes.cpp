@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
-#include "server/api/json_object.hpp"
+#include "server/api/bodies/json_object.hpp"
 #include "server/api/nullable_json.hpp"
 
 namespace dripline::api {

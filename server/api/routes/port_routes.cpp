@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
+#include "server/api/bodies/port_bodies.hpp"
 #include "server/api/nullable_json.hpp"
-#include "server/api/port_bodies.hpp"
 #include "server/api/views.hpp"
 #include "server/ports/port_control.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "server/api/access_control.hpp"
 #include "server/api/api.hpp"
+#include "server/api/bodies/program_bodies.hpp"
 #include "server/api/nullable_json.hpp"
-#include "server/api/program_bodies.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {

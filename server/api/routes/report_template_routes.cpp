@@ -3,7 +3,7 @@
 
 #include "protocol/base/names.hpp"
 #include "server/api/api.hpp"
-#include "server/api/json_object.hpp"
+#include "server/api/bodies/json_object.hpp"
 #include "server/api/measurement_views.hpp"
 
 namespace dripline::api {

@@ -2,9 +2,9 @@
 
 #include "protocol/dds/endpoint.hpp"
 #include "server/api/api.hpp"
-#include "server/api/run_bodies.hpp"
+#include "server/api/bodies/run_bodies.hpp"
 #include "server/api/views.hpp"
-#include "server/library/report_reader.hpp"
+#include "server/library/history/report_reader.hpp"
 
 namespace dripline::api {
 

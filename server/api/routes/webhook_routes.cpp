@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
+#include "server/api/bodies/webhook_bodies.hpp"
 #include "server/api/nullable_json.hpp"
-#include "server/api/webhook_bodies.hpp"
 
 namespace dripline::api {
 

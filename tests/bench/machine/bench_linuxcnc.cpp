@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "tests/integration/linuxcnc_itself.hpp"
-#include "tests/integration/linuxcnc_shop.hpp"
+#include "tests/integration/linuxcnc/linuxcnc_itself.hpp"
+#include "tests/integration/linuxcnc/linuxcnc_shop.hpp"
 
 namespace dripline::integration {
 namespace {

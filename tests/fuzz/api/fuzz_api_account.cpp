@@ -2,7 +2,7 @@
 // has a text.
 #include <cstdlib>
 
-#include "server/api/account_bodies.hpp"
+#include "server/api/bodies/account_bodies.hpp"
 #include "server/identity/account_limits.hpp"
 
 namespace {

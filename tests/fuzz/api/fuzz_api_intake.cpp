@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "protocol/base/names.hpp"
-#include "server/api/run_bodies.hpp"
-#include "server/api/webhook_bodies.hpp"
+#include "server/api/bodies/run_bodies.hpp"
+#include "server/api/bodies/webhook_bodies.hpp"
 #include "server/identity/revoked_certificates.hpp"
 #include "server/library/job_queue.hpp"
 #include "server/webhooks/delivery.hpp"

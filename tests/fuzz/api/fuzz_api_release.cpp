@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "protocol/base/names.hpp"
-#include "server/api/program_bodies.hpp"
+#include "server/api/bodies/program_bodies.hpp"
 #include "server/library/releases.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,7 @@
 // The body of POST /ports/{name}/test-rules. Property: what is taken is a text within its limit.
 #include <cstdlib>
 
-#include "server/api/port_bodies.hpp"
+#include "server/api/bodies/port_bodies.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline;

@@ -2,7 +2,7 @@
 #include <cstdlib>
 
 #include "protocol/base/names.hpp"
-#include "server/api/run_bodies.hpp"
+#include "server/api/bodies/run_bodies.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline;

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "clients/cli/server/kept_memory.hpp"
-#include "server/library/kept_memory.hpp"
+#include "server/library/history/kept_memory.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline::cli;

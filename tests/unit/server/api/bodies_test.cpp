@@ -1,7 +1,7 @@
-#include "server/api/port_bodies.hpp"
-#include "server/api/program_bodies.hpp"
-#include "server/api/run_bodies.hpp"
-#include "server/api/webhook_bodies.hpp"
+#include "server/api/bodies/port_bodies.hpp"
+#include "server/api/bodies/program_bodies.hpp"
+#include "server/api/bodies/run_bodies.hpp"
+#include "server/api/bodies/webhook_bodies.hpp"
 
 #include <gtest/gtest.h>
 #include <functional>

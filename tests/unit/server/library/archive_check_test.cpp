@@ -1,9 +1,9 @@
-#include "server/library/archive_check.hpp"
+#include "server/library/history/archive_check.hpp"
 
 #include <filesystem>
 #include <fstream>
 
-#include "server/library/retention.hpp"
+#include "server/library/history/retention.hpp"
 #include "storage/sqlite/database.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 

@@ -1,4 +1,4 @@
-#include "server/library/kept_memory.hpp"
+#include "server/library/history/kept_memory.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/library/retention.hpp"
+#include "server/library/history/retention.hpp"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

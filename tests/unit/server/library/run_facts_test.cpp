@@ -1,4 +1,4 @@
-#include "server/library/run_facts.hpp"
+#include "server/library/history/run_facts.hpp"
 
 #include "storage/sqlite/database.hpp"
 #include "tests/unit/server/library/release_fixture.hpp"

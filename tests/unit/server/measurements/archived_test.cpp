@@ -1,4 +1,4 @@
-#include "server/library/retention.hpp"
+#include "server/library/history/retention.hpp"
 #include "tests/unit/server/measurements/measurements_fixture.hpp"
 
 namespace dripline::measurements {

@@ -1,4 +1,4 @@
-#include "server/library/retention.hpp"
+#include "server/library/history/retention.hpp"
 #include "storage/sqlite/database.hpp"
 #include "tests/unit/server/offsets/offsets_fixture.hpp"
 

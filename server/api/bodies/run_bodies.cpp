@@ -1,0 +1,207 @@
+#include "server/api/bodies/run_bodies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "protocol/base/names.hpp"
+#include "server/api/bodies/json_object.hpp"
+#include "server/library/job_queue.hpp"
+#include "server/machines/start_point.hpp"
+
+namespace dripline::api {
+namespace {
+
+constexpr std::size_t kMaxStartPoint = 24;
+constexpr std::size_t kMaxRestartPlace = 48;
+constexpr std::uint64_t kMaxPass = 1'000'000;
+constexpr std::size_t kMaxArgument = 255;  ///< of the command's member in the IDL
+
+struct ActionRow {
+  std::string_view name;
+  dds::CommandAction action;
+  std::string_view needs;  ///< n(ame), t(ext), v(alue)
+};
+constexpr std::array kActions{
+    ActionRow{"hold", dds::CommandAction::Hold, ""},
+    ActionRow{"resume", dds::CommandAction::Resume, ""},
+    ActionRow{"abort", dds::CommandAction::Abort, ""},
+    ActionRow{"answer", dds::CommandAction::Answer, "t"},
+    ActionRow{"switch", dds::CommandAction::Switch, "nv"},
+    ActionRow{"feed_override", dds::CommandAction::FeedOverride, "v"},
+    ActionRow{"rapid_override", dds::CommandAction::RapidOverride, "v"},
+    ActionRow{"spindle_override", dds::CommandAction::SpindleOverride, "v"},
+    ActionRow{"handwheel", dds::CommandAction::Handwheel, "v"},
+};
+
+Result<const ActionRow*> find_action(std::string_view name) {
+  std::string known;
+  for (const auto& row : kActions) {
+    if (row.name == name) return &row;
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
+  }
+  return fail(Errc::Unsupported, "action '{}' is not known; known are: {}", name, known);
+}
+
+Result<void> check_value(const ActionRow& row, double value) {
+  if (row.action == dds::CommandAction::Switch) {
+    if (value == 0 || value == 1) return {};
+    return fail(Errc::Syntax, "value {} of a switch must be 0 or 1", value);
+  }
+  if (row.action == dds::CommandAction::Handwheel) {
+    if (value >= 1 && value <= kMaxClicks && value == std::floor(value)) return {};
+    return fail(Errc::LimitExceeded, "value {} of handwheel must be a whole number from 1 to {}",
+                value, kMaxClicks);
+  }
+  if (value >= 0 && value <= kMaxOverride) return {};
+  return fail(Errc::LimitExceeded, "value {} of {} must be 0 to {}, 1 is 100 %", value, row.name,
+              kMaxOverride);
+}
+
+}  // namespace
+
+Result<machines::StartRequest> decode_start(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  machines::StartRequest start;
+  start.machine = object->required_text("machine", kMaxName);
+  start.program = object->required_text("program", kMaxName);
+  start.revision = object->optional_unsigned("revision");
+  const auto from = object->optional_text("from", kMaxStartPoint);
+  const auto head = object->optional_text("head", kMaxStartPoint);
+  const auto memory = object->optional_text("memory", kMaxStartPoint);
+  const auto pass = object->optional_unsigned("pass");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (head && *head != "send" && *head != "set") {
+    return fail(Errc::Syntax, "head is '{}'; expected send or set", *head);
+  }
+  if (head) start.head = *head == "send" ? machines::StartHead::Send : machines::StartHead::Set;
+  if (memory && *memory != "begin" && *memory != "now") {
+    return fail(Errc::Syntax, "memory is '{}'; expected begin or now", *memory);
+  }
+  if (memory) {
+    start.memory = *memory == "begin" ? machines::StartMemory::Begin : machines::StartMemory::Now;
+  }
+  if (pass && (*pass == 0 || *pass > kMaxPass)) {
+    return fail(Errc::LimitExceeded, "pass {} is not 1 to {}", *pass, kMaxPass);
+  }
+  if (auto good = check_machine_name(start.machine); !good) return fail(good.error());
+  if (auto good = check_program_name(start.program); !good) return fail(good.error());
+  if (!from && (memory || pass)) {
+    return fail(Errc::Syntax, "memory and pass belong to a start with from");
+  }
+  if (!from) return start;
+  const auto point = machines::parse_start_point(*from);
+  if (!point) return fail(Errc::Syntax, "from: {}", point.error().what);
+  start.from = *point;
+  start.from.pass = pass;
+  return start;
+}
+
+Result<JobBody> decode_job(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  JobBody read;
+  read.job.program = object->required_text("program", kMaxName);
+  read.job.revision = object->optional_unsigned("revision");
+  read.job.quantity = object->optional_unsigned("quantity").value_or(1);
+  read.job.parts_per_run = object->optional_unsigned("parts_per_run").value_or(1);
+  const auto counts = object->optional_text("counts", kMaxName);
+  read.job.comment = object->optional_text("comment", library::JobQueue::kMaxText).value_or("");
+  read.place = object->optional_unsigned("place");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (counts) {
+    const auto parsed = storage::parse_job_count(*counts);
+    if (!parsed) return fail(parsed.error());
+    read.job.counts = *parsed;
+  }
+  if (auto good = check_program_name(read.job.program); !good) return fail(good.error());
+  return read;
+}
+
+Result<std::optional<std::uint64_t>> decode_loaded_setup(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const auto revision = object->optional_unsigned("revision");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return revision;
+}
+
+Result<std::uint64_t> decode_job_move(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const auto place = object->optional_unsigned("place");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (!place) return fail(Errc::Syntax, "member 'place' is missing: 1 is the first");
+  return *place;
+}
+
+Result<std::optional<std::uint64_t>> decode_job_start(std::string_view body) {
+  auto object = JsonObject::parse(body.empty() ? "{}" : body);
+  if (!object) return fail(object.error());
+  const auto job = object->optional_unsigned("job");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return job;
+}
+
+Result<std::string> decode_restart(std::string_view body) {
+  auto object = JsonObject::parse(body.empty() ? "{}" : body);
+  if (!object) return fail(object.error());
+  const std::string at = object->optional_text("at", kMaxRestartPlace).value_or("executed");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  constexpr std::string_view kAllowed =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789=:.-";
+  if (at.empty() || at.find_first_not_of(kAllowed) != std::string::npos) {
+    return fail(Errc::Syntax,
+                "at is '{}'; expected executed, block=1234, L7, N120, T3 or "
+                "time=2026-11-23T15:04:05Z",
+                at);
+  }
+  return at;
+}
+
+Result<machines::CommandRequest> decode_command(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const std::string name = object->required_text("action", kMaxName);
+  const auto text = object->optional_text("text", kMaxArgument);
+  const auto switch_name = object->optional_text("name", kMaxArgument);
+  const auto value = object->optional_number("value");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  const auto row = find_action(name);
+  if (!row) return fail(row.error());
+  const auto mismatch = [&](char letter, bool is_given, std::string_view member) -> Result<void> {
+    const bool is_needed = (*row)->needs.find(letter) != std::string_view::npos;
+    if (is_needed == is_given) return {};
+    return fail(Errc::Syntax, "action {} {} member '{}'", name,
+                is_needed ? "needs" : "does not take", member);
+  };
+  if (auto good = mismatch('t', text.has_value(), "text"); !good) return fail(good.error());
+  if (auto good = mismatch('n', switch_name.has_value(), "name"); !good) return fail(good.error());
+  if (auto good = mismatch('v', value.has_value(), "value"); !good) return fail(good.error());
+  if (value) {
+    if (auto good = check_value(**row, *value); !good) return fail(good.error());
+  }
+  machines::CommandRequest command;
+  command.action = (*row)->action;
+  command.argument = text.value_or(switch_name.value_or(""));
+  command.value = value.value_or(0);
+  return command;
+}
+
+Result<machines::CommandRequest> decode_machine_command(std::string_view body) {
+  auto command = decode_command(body);
+  if (!command) return command;
+  using dds::CommandAction;
+  const bool is_of_panel = command->action == CommandAction::Switch ||
+                           command->action == CommandAction::FeedOverride ||
+                           command->action == CommandAction::RapidOverride ||
+                           command->action == CommandAction::SpindleOverride;
+  if (is_of_panel) return command;
+  return fail(Errc::Unsupported,
+              "action '{}' is for a run; a machine takes switch, feed_override, rapid_override and "
+              "spindle_override",
+              dds::to_string(command->action));
+}
+
+}  // namespace dripline::api

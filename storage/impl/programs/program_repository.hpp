@@ -1,0 +1,49 @@
+#pragma once
+
+#include "storage/impl/connections.hpp"
+#include "storage/impl/programs/content.hpp"
+#include "storage/impl/programs/content_seal.hpp"
+#include "storage/impl/programs/revision_rows.hpp"
+#include "storage/program_store.hpp"
+
+namespace dripline::storage {
+
+class ProgramRepository final : public ProgramStore {
+ public:
+  ProgramRepository(Connections& connections, const Clock& clock, std::uint64_t cache_bytes)
+      : connections_(connections), clock_(clock), cache_(cache_bytes) {}
+
+  using ProgramStore::list;
+  Result<std::vector<ProgramSummary>> list(const ProgramFilter& filter, Page page) override;
+  Result<ProgramFields> fields(const std::string& program) override;
+  Result<void> describe(const Description& description) override;
+  Result<std::uint64_t> count() override;
+  Result<std::vector<Revision>> revisions(const std::string& program) override;
+  Result<Revision> revision(const std::string& program,
+                            std::optional<std::uint64_t> number) override;
+  Result<Revision> accept(const std::string& program, std::uint64_t number,
+                          const Actor& who) override;
+  Result<void> reject(const std::string& program, std::uint64_t number, const Actor& who) override;
+  Result<Revision> copy(const ProgramMove& move, std::optional<std::uint64_t> number) override;
+  Result<void> rename(const ProgramMove& move) override;
+  Result<void> remove(const std::string& program) override;
+  Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
+                                              std::uint64_t length) override;
+  Result<void> verify_content(const Digest& content) override;
+
+ private:
+  struct Sealed {
+    ContentRow row;
+    std::shared_ptr<const ChunkDigests> chunks;  ///< null: not sealed yet
+  };
+  Result<Sealed> sealed(const Digest& content);
+  Result<Sealed> seal(const Digest& content, const ContentRow& row);
+  Result<std::shared_ptr<const CachedChunk>> chunk(const Digest& content, std::uint64_t position);
+
+  Connections& connections_;
+  const Clock& clock_;
+  ChunkCache cache_;
+  SealedContents sealed_;
+};
+
+}  // namespace dripline::storage
