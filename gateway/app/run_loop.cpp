@@ -141,11 +141,7 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
 void RunLoop::step(SteadyTime now) {
   if (!parts_.run.session) return;
   parts_.run.session->feed().poll(now);
-  if (parts_.run.is_ending) {
-    try_to_finish(now);
-  } else {
-    run_slice(now);
-  }
+  parts_.run.is_ending ? try_to_finish(now) : run_slice(now);
 }
 
 void RunLoop::run_slice(SteadyTime now) {
@@ -180,6 +176,7 @@ bool RunLoop::run_round(double& machine_seconds, SteadyTime deadline) {
   const double used =
       parts_.machine.poll(machine::Seconds{machine_seconds}, kActionsPerRound).count();
   machine_seconds -= used;
+  parts_.run.session->pass_machine_time(used, parts_.options.speed.factor);
   const bool has_advanced = used > 0 || parts_.machine.status().queued != queued;
   const bool can_continue = (blocks > 0 || has_advanced) && machine_seconds > 0;
   return can_continue && parts_.recorder.fault().empty() && parts_.clock.steady_now() < deadline;

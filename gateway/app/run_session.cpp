@@ -10,16 +10,8 @@ using interpreter::StepState;
 
 namespace {
 
-interpreter::LocalTime local_time(UtcTime time) {
-  const auto day = std::chrono::floor<std::chrono::days>(time);
-  const std::chrono::year_month_day date(day);
-  const std::chrono::hh_mm_ss clock(std::chrono::floor<std::chrono::seconds>(time - day));
-  return {static_cast<int>(date.year()),
-          static_cast<int>(static_cast<unsigned>(date.month())),
-          static_cast<int>(static_cast<unsigned>(date.day())),
-          static_cast<int>(clock.hours().count()),
-          static_cast<int>(clock.minutes().count()),
-          static_cast<int>(clock.seconds().count())};
+std::int64_t milliseconds(UtcTime time) {
+  return std::chrono::floor<std::chrono::milliseconds>(time.time_since_epoch()).count();
 }
 
 }  // namespace
@@ -92,6 +84,7 @@ Result<void> RunSession::begin_check(const Make& make, const interpreter::Setup&
 RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
     : parts_(std::move(parts)),
       setup_(setup),
+      begun_ms_(milliseconds(parts_.clock.now())),
       events_(parts_.machine.capabilities(), parts_.machine.events()),
       tracker_(events_) {
   if (parts_.checkpoints != nullptr)
@@ -233,7 +226,18 @@ bool RunSession::resolve(const interpreter::InputQuestion& question) {
 }
 
 bool RunSession::resolve(const interpreter::TimeQuestion&) {
-  return machine_rests() && give(setup_.date_time.value_or(local_time(parts_.clock.now())));
+  return machine_rests() && give(interpreter::local_time_at(clock_ms()));
+}
+
+std::int64_t RunSession::clock_ms() const {
+  std::int64_t shown = milliseconds(parts_.clock.now());
+  if (setup_.date_time)
+    shown = interpreter::milliseconds_of(*setup_.date_time) + shown - begun_ms_;
+  return shown + static_cast<std::int64_t>(std::round(clock_ahead_ * 1000));
+}
+
+void RunSession::pass_machine_time(double seconds, std::optional<double> factor) {
+  if (std::isfinite(seconds)) clock_ahead_ += factor ? seconds - seconds / *factor : seconds;
 }
 
 bool RunSession::machine_rests() const {

@@ -82,6 +82,9 @@ class RunSession {
   /// The restart; null: the run is none.
   const Rebuild* restart() const { return rebuild_.get(); }
 
+  /// The machine has used up so much of its time, which passes `factor` times as fast as the
+  /// computer's (nullopt: as fast as possible). The clock that the program sees follows it.
+  void pass_machine_time(double seconds, std::optional<double> factor);
   /// Sizes the feed by the rate at which the program's bytes are used up, as far as it is known.
   void size_feed(std::optional<double> speed_factor);
 
@@ -107,6 +110,8 @@ class RunSession {
   bool resolve(const interpreter::TimeQuestion& question);
   bool give(const interpreter::Answer& answer);
   bool machine_rests() const;
+  /// What the program's clock shows: milliseconds since 1970.
+  std::int64_t clock_ms() const;
   void note_modes();
   void note_memory();
   void note_changes(std::uint64_t block);
@@ -115,6 +120,8 @@ class RunSession {
   Parts parts_;
   interpreter::Setup setup_;  ///< its answers are given here, not by the interpreter
   std::size_t next_answer_ = 0;
+  double clock_ahead_ = 0;  ///< of the computer's clock, seconds: machine time that was faster
+  std::int64_t begun_ms_ = 0;         ///< since 1970, by the computer's clock
   machine::CapabilityFilter events_;  ///< from the tracker to the machine
   EventTracker tracker_;              ///< from the interpreter
   std::optional<CheckpointKeeper> checkpoints_;

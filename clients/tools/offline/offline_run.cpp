@@ -55,17 +55,6 @@ void report_endless(const Interpreter& interpreter, std::uint64_t repeated, Even
                   origin.line, 0}});
 }
 
-/// Later on the same day; a clock that is asked for its time does not go past midnight.
-LocalTime later(LocalTime time, std::int64_t seconds) {
-  constexpr std::int64_t kLast = 24 * 3600 - 1;
-  const std::int64_t now = time.hour * 3600 + time.minute * 60 + time.second;
-  const std::int64_t then = std::min(now + seconds, std::max(now, kLast));
-  time.hour = static_cast<int>(then / 3600);
-  time.minute = static_cast<int>(then / 60 % 60);
-  time.second = static_cast<int>(then % 60);
-  return time;
-}
-
 /// Gives the answers of a setup, in order.
 class SetupAnswers {
  public:
@@ -91,11 +80,13 @@ class SetupAnswers {
   Result<Answer> operator()(const TimeQuestion&, const Origin& origin) {
     // A program that waits for its clock would wait for ever in a run that takes no time: dwells
     // count, and a block that asks again takes a second.
-    const auto dwelt = static_cast<std::int64_t>(std::min(std::ceil(diagnostics_.dwelt), 1e6));
+    const auto dwelt =
+        static_cast<std::int64_t>(std::min(std::round(diagnostics_.dwelt * 1000), 1e12));
     const bool is_new = asked_at_.insert({origin.program, origin.offset}).second;
     if (!is_new && origin.block != asked_in_) ++waited_;
     asked_in_ = origin.block;
-    return Answer(later(setup_.date_time.value_or(kDefaultTime), dwelt + waited_));
+    const LocalTime begun = setup_.date_time.value_or(kDefaultTime);
+    return Answer(local_time_at(milliseconds_of(begun) + dwelt + 1000 * waited_));
   }
 
  private:

@@ -16,6 +16,8 @@ using report::Bytes;
 namespace {
 
 constexpr std::uint32_t kFormat = 3;
+/// Of answers, whose times have milliseconds; kFormat: without.
+constexpr std::uint32_t kAnswerFormat = 4;
 
 /// What bytes are, and of what.
 struct Label {
@@ -39,15 +41,14 @@ Bytes with_seal(const Label& label, Bytes bytes) {
 }
 
 template <class Value>
-Bytes sealed(const Label& label, Value& value) {
+Bytes sealed(const Label& label, Value& value, std::uint32_t format = kFormat) {
   StateWriter writer;
-  std::uint32_t format = kFormat;
   writer(format, value);
   return with_seal(label, writer.take());
 }
 
 template <class Value>
-Result<Value> opened(const Label& label, const Bytes& bytes) {
+Result<Value> opened(const Label& label, const Bytes& bytes, std::uint32_t expected = kFormat) {
   const auto damage = [&] {
     return fail(Errc::Corrupt, "{} of {} bytes is not as it was written", label.kind, bytes.size());
   };
@@ -62,8 +63,8 @@ Result<Value> opened(const Label& label, const Bytes& bytes) {
   StateReader reader(content);
   std::uint32_t format = 0;
   reader(format);
-  if (format != kFormat)
-    return fail(Errc::Unsupported, "{} of format {}; this is {}", label.kind, format, kFormat);
+  if (format != expected)
+    return fail(Errc::Unsupported, "{} of format {}; this is {}", label.kind, format, expected);
   Value value{};
   reader(value);
   if (!reader.is_complete()) return damage();
@@ -72,6 +73,23 @@ Result<Value> opened(const Label& label, const Bytes& bytes) {
 
 constexpr std::string_view kCheckpoint = "checkpoint", kConditions = "conditions of a run",
                            kEnding = "ending of a run", kAnswer = "answer";
+
+/// Of kFormat: a time without milliseconds.
+struct FormerTime {
+  int year = 0, month = 1, day = 1, hour = 0, minute = 0, second = 0;
+};
+using FormerAnswer =
+    std::variant<interpreter::ProbeResult, interpreter::PromptAnswer, bool, FormerTime>;
+
+interpreter::Answer answer_of(const FormerAnswer& former) {
+  if (const auto* time = std::get_if<FormerTime>(&former)) {
+    return interpreter::LocalTime{time->year, time->month,  time->day,
+                                  time->hour, time->minute, time->second};
+  }
+  if (const auto* probe = std::get_if<interpreter::ProbeResult>(&former)) return *probe;
+  if (const auto* prompt = std::get_if<interpreter::PromptAnswer>(&former)) return *prompt;
+  return std::get<bool>(former);
+}
 
 std::string numbered(std::string_view run, std::uint64_t number) {
   return fmt::format("{} {}", run, number);
@@ -89,6 +107,9 @@ Result<Checkpoint> decode_checkpoint(std::string_view run, const Bytes& bytes) {
 Bytes sealed_checkpoint(std::string_view run, Bytes content) {
   return with_seal({kCheckpoint, run}, std::move(content));
 }
+Bytes sealed_answer(std::string_view run, std::uint64_t number, Bytes content) {
+  return with_seal({kAnswer, numbered(run, number)}, std::move(content));
+}
 
 Bytes encode(std::string_view run, Conditions conditions) {
   return sealed({kConditions, run}, conditions);
@@ -105,11 +126,16 @@ Result<RunEnding> decode_ending(std::string_view run, const Bytes& bytes) {
 }
 
 Bytes encode(std::string_view run, std::uint64_t number, interpreter::Answer answer) {
-  return sealed({kAnswer, numbered(run, number)}, answer);
+  return sealed({kAnswer, numbered(run, number)}, answer, kAnswerFormat);
 }
 Result<interpreter::Answer> decode_answer(std::string_view run, std::uint64_t number,
                                           const Bytes& bytes) {
-  return opened<interpreter::Answer>({kAnswer, numbered(run, number)}, bytes);
+  const std::string owner = numbered(run, number);
+  auto answer = opened<interpreter::Answer>({kAnswer, owner}, bytes, kAnswerFormat);
+  if (answer || answer.error().code != Errc::Unsupported) return answer;
+  const auto former = opened<FormerAnswer>({kAnswer, owner}, bytes);
+  if (!former) return answer;
+  return answer_of(*former);
 }
 
 }  // namespace dripline::gateway

@@ -62,9 +62,12 @@ struct RunEnding {
 report::Bytes encode(std::string_view run, RunEnding ending);
 Result<RunEnding> decode_ending(std::string_view run, const report::Bytes& bytes);
 
-/// The `number`th answer that the interpreter of a run was given.
+/// The `number`th answer that the interpreter of a run was given. Times that were kept without
+/// milliseconds are read, too.
 report::Bytes encode(std::string_view run, std::uint64_t number, interpreter::Answer answer);
 Result<interpreter::Answer> decode_answer(std::string_view run, std::uint64_t number,
                                           const report::Bytes& bytes);
+/// For tests: any bytes with the seal of an answer.
+report::Bytes sealed_answer(std::string_view run, std::uint64_t number, report::Bytes content);
 
 }  // namespace dripline::gateway

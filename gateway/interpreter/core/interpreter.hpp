@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/core/local_time.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
 #include "protocol/base/digest.hpp"
 #include "protocol/base/result.hpp"
@@ -100,9 +101,6 @@ using Question = std::variant<ProbeQuestion, PromptQuestion, InputQuestion, Time
 struct PromptAnswer {
   std::optional<std::string> text;
 };  ///< nullopt: the operator refused (ESC)
-struct LocalTime {
-  int year = 0, month = 1, day = 1, hour = 0, minute = 0, second = 0;
-};
 using Answer = std::variant<ProbeResult, PromptAnswer, bool, LocalTime>;
 /// Whether `answer` is of the kind that `question` asks for.
 bool fits(const Question& question, const Answer& answer);

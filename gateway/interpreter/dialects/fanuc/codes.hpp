@@ -46,6 +46,10 @@ inline constexpr std::uint8_t kMoreWorkSystems = 154;    ///< G54.1
 inline constexpr std::uint8_t kContourControl = 155;     ///< G05.1
 inline constexpr std::uint8_t kPolarPlaneOn = 156;       ///< G12.1
 inline constexpr std::uint8_t kPolarPlaneOff = 157;      ///< G13.1
+inline constexpr std::uint8_t kTipControl = 158;         ///< G43.4
+inline constexpr std::uint8_t kTiltedPlane = 159;        ///< G68.2
+inline constexpr std::uint8_t kAxisDirection = 164;      ///< G53.1
+inline constexpr std::uint8_t kTipVector = 165;          ///< G43.5
 
 // Of lathes, whose numbers depend on the G-code system.
 inline constexpr std::uint8_t kBoxTurning = 160;      ///< G90 of system A
@@ -65,11 +69,13 @@ inline constexpr std::array kCodesWithPoint{
     WrittenCode{501, kMirrorOff},       WrittenCode{511, kMirrorOn},
     WrittenCode{541, kMoreWorkSystems}, WrittenCode{921, kPresetCoordinates},
     WrittenCode{1070, kCylinder},       WrittenCode{1120, kPolarPlaneOn},
-    WrittenCode{1130, kPolarPlaneOff},
+    WrittenCode{1130, kPolarPlaneOff},  WrittenCode{434, kTipControl},
+    WrittenCode{531, kAxisDirection},   WrittenCode{682, kTiltedPlane},
+    WrittenCode{435, kTipVector},
 };
-/// Of machines with a tilting table or head: they need to know how its axes lie.
-inline constexpr std::array kFiveAxisCodes{412, 413, 414, 415, 416, 422, 423, 424,
-                                           425, 426, 434, 435, 531, 682, 683, 684};
+/// Of machines with a tilting table or head: they need to know how its axes lie. In tenths.
+inline constexpr std::array kFiveAxisCodes{412, 413, 414, 415, 416, 422, 423, 424, 425,
+                                           426, 434, 435, 531, 536, 682, 683, 684};
 
 namespace detail {
 constexpr std::array<std::uint8_t, 180> groups_of_codes() {
@@ -79,7 +85,7 @@ constexpr std::array<std::uint8_t, 180> groups_of_codes() {
     ((groups[static_cast<std::size_t>(codes)] = group), ...);
   };
   put(kOneShot, 4, 5, 7, 8, 9, 10, 11, 27, 28, 29, 30, 31, 37, 39, 45, 46, 47, 48, 52, 53, 60, 65,
-      92, kPresetCoordinates, kCylinder, kContourControl);
+      92, kPresetCoordinates, kCylinder, kContourControl, kAxisDirection);
   put(kMotionGroup, 0, 1, 2, 3, 33, kBoxTurning, kBoxThread, kBoxFacing, kVariableThread);
   put(kOneShot, 170, 171, 172, 173, 174, 175, 176);
   put(kPlaneGroup, 17, 18, 19);
@@ -88,7 +94,7 @@ constexpr std::array<std::uint8_t, 180> groups_of_codes() {
   put(kFeedGroup, 93, 94, 95);
   put(kUnitsGroup, 20, 21);
   put(kCompensationGroup, 40, 41, 42);
-  put(kLengthGroup, 43, 44, 49);
+  put(kLengthGroup, 43, 44, 49, kTipControl, kTipVector);
   put(kCycleGroup, 73, 74, 76, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89);
   put(kReturnGroup, 98, 99);
   put(kScalingGroup, 50, 51);
@@ -96,7 +102,7 @@ constexpr std::array<std::uint8_t, 180> groups_of_codes() {
   put(kSpindleGroup, 96, 97);
   put(kWorkGroup, 54, 55, 56, 57, 58, 59, kMoreWorkSystems);
   put(kPathGroup, 61, 62, 63, 64);
-  put(kRotationGroup, 68, 69);
+  put(kRotationGroup, 68, 69, kTiltedPlane);
   put(kPolarGroup, 15, 16);
   put(kMirrorGroup, kMirrorOff, kMirrorOn);
   put(kInterpolationGroup, kPolarPlaneOn, kPolarPlaneOff);
@@ -108,6 +114,11 @@ inline constexpr auto kGroupOfCode = detail::groups_of_codes();
 
 constexpr std::uint8_t group_of(std::uint8_t code) {
   return code < kGroupOfCode.size() ? kGroupOfCode[code] : kNoGroup;
+}
+
+/// G43.4 and G43.5.
+constexpr bool is_tip_control(std::uint8_t code) {
+  return code == kTipControl || code == kTipVector;
 }
 
 /// A lathe's three sets of numbers; the codes here are named after those of system B and of the

@@ -80,6 +80,9 @@ struct ErrorCode {
   static constexpr DiagnosticRow ParameterNumber{"PS231", "ILLEGAL FORMAT IN G10 L50"};
   static constexpr DiagnosticRow NoInverseFeed{"PS1202", "NO F COMMAND AT G93"};
   static constexpr DiagnosticRow EndOfRecord{"PS5010", "END OF RECORD"};
+  static constexpr DiagnosticRow TipControl{"PS5421", "ILLEGAL COMMAND IN G43.4/G43.5"};
+  static constexpr DiagnosticRow PlaneFormat{"PS5457", "G68.2 FORMAT ERROR"};
+  static constexpr DiagnosticRow AxisDirection{"PS5458", "ILLEGAL USE OF G53.1"};
   // Ours.
   static constexpr DiagnosticRow OverTravel{"OT500", "OVER TRAVEL"};
   static constexpr DiagnosticRow RotationHome{"PS-rotation-home",

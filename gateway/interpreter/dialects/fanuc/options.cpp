@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "gateway/interpreter/core/option_rows.hpp"
+#include "gateway/interpreter/dialects/fanuc/tilting/kinematic_options.hpp"
+#include "protocol/base/names.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -189,6 +191,15 @@ Result<void> read_g_macros(const Options& options, const OptionKey& key, C& cont
   return {};
 }
 
+Result<void> read_external_folder(const Options& options, const OptionKey& key, C& control) {
+  if (auto done = assign(options.text(key.key, ""), control.external_folder); !done) return done;
+  if (control.external_folder.empty()) return {};
+  constexpr std::size_t kLongestName = 32;  // of a called program
+  const auto good = check_program_name(control.external_folder + std::string(kLongestName, 'O'));
+  if (good) return {};
+  return fail(Errc::Syntax, "[control] m198_folder: {}", good.error().what);
+}
+
 Result<void> read_skip_levels(const Options& options, const OptionKey& key, C& control) {
   const auto levels = read_integers(options, key);
   if (!levels) return fail(levels.error());
@@ -261,6 +272,11 @@ constexpr std::array kSharedRows{
     row<&C::is_dnc>("dnc", kFlag,
                     "as in a DNC run: no loops and jumps in the fed program; calls take programs "
                     "of the library"),
+    Row{{"m198_folder", kText,
+         "what precedes the name of a program that M198 calls: with \"CARD.\" M198 P2000 takes "
+         "CARD.O2000 of the library",
+         "none: M198 calls as M98 does"},
+        read_external_folder},
     Row{{"unroll", kFlag,
          "sends a real control the program without loops and calls; no effect here", "false"},
         check_option<C>},
@@ -336,7 +352,7 @@ constexpr auto joined(const std::array<Row, kFirst>& first,
   std::copy(second.begin(), second.end(), rows.begin() + kFirst);
   return rows;
 }
-constexpr auto kMillOptions = joined(kSharedRows, kMillRows);
+constexpr auto kMillOptions = joined(joined(kSharedRows, kMillRows), kKinematicRows);
 /// code_system decides what start_g means.
 constexpr auto kLatheOptions = joined(kLatheRows, kSharedRows);
 

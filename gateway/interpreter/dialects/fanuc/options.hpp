@@ -7,6 +7,7 @@
 #include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/fanuc/state.hpp"
+#include "gateway/interpreter/dialects/fanuc/tilting/kinematics.hpp"
 
 namespace dripline::interpreter::fanuc {
 
@@ -67,6 +68,7 @@ struct ControlOptions {
   std::array<double, 3> limit_low{};
   std::array<double, 3> limit_high{};
   StrokeZone zone;                ///< limit 2 before any G22
+  Kinematics kinematics;
   std::uint16_t skip_levels = 0;  ///< bit n: switch n is on
   std::vector<std::int64_t> g_macros;
   std::vector<std::int64_t> m_macros;
@@ -77,6 +79,7 @@ struct ControlOptions {
   bool diameter_offset = false;
   std::vector<std::int64_t> before_m;
   bool is_dnc = false;
+  std::string external_folder;  ///< of M198: what precedes the program in its name
   std::size_t max_call_depth = 4;
   std::size_t max_nesting = 8;
   std::uint64_t max_loops = 1'000'000;
@@ -88,6 +91,9 @@ struct ControlOptions {
   bool optional_stop = false;
   bool answers_pins = false;
   std::vector<std::int64_t> pins_at_one;
+
+  /// Whether axes have limits that the program cannot change.
+  bool checks_stroke() const { return has_limits || kinematics.has_limits; }
 };
 
 /// Reads the options. Errors: Syntax, Unsupported (an option or switch this control does not

@@ -19,7 +19,9 @@ void Run::deliver_header() {
 }
 
 void Run::lead_stages() {
-  last = rotary.is_on() ? static_cast<EventSink*>(&rotary) : &sink;
+  last = &sink;
+  if (rotary.is_on()) last = &rotary;
+  if (tilted.is_on()) last = &tilted;
   compensator.lead_to(*last);
   if (is_recording()) {
     blender.lead_to(recorder);
@@ -70,8 +72,8 @@ void Run::update_special() {
   state.g[kModalCallGroup] = state.modal_active >= 0 ? 66 : 67;
   state.is_special = state.is_cycle() || state.is_polar() || state.is_transformed ||
                      state.imaginary != 0 || state.modal_active >= 0 || state.zone.is_on ||
-                     options.has_limits || state.is_inverse_time() || state.enters_parameters ||
-                     rotary.is_on() || state.contour.code != 0 || state.g[kMotionGroup] > 3;
+                     options.checks_stroke() || state.is_inverse_time() || state.enters_parameters ||
+                     rotary.is_on() || tilted.is_on() || state.contour.code != 0 || state.g[kMotionGroup] > 3;
 }
 
 double Run::angle(const Word& word) const {

@@ -14,6 +14,7 @@
 #include "gateway/interpreter/dialects/fanuc/reading/block.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
 #include "gateway/interpreter/dialects/fanuc/state.hpp"
+#include "gateway/interpreter/dialects/fanuc/tilting/tilted_path.hpp"
 #include "gateway/interpreter/stages/blending/corner_blender.hpp"
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
@@ -55,7 +56,8 @@ struct Run : BlockRun {
     return compensator;
   }
 
-  /// After the state has another stage: `rotary`, the compensator, the blender, the recorder.
+  /// After the state has another stage: `rotary`, `tilted`, the compensator, the blender, the
+  /// recorder.
   void lead_stages();
 
   /// Offset of `at` in the block, and its 1-based column.
@@ -139,11 +141,12 @@ struct Run : BlockRun {
   ProgramSource& source;
   EventSink& sink;
   RotaryPath rotary;
-  EventSink* last = &sink;  ///< where the moves of the path go: the sink, or `rotary` in its modes
+  EventSink* last = &sink;  ///< where the moves of the path go: `rotary`, `tilted`, or the sink
   compensation::Compensator compensator;
   blending::CornerBlender blender;  ///< in front of it
   TextCursor text;
   ModalState state;
+  TiltedPath tilted{sink, options, state.zone};  ///< never with `rotary`
   ContourRecorder recorder{state.contour.moves, sink};
   EventSink* front = &sink;  ///< the first stage that the state has, or the sink
   Memory memory;

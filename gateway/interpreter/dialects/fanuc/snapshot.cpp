@@ -24,7 +24,7 @@ namespace {
 std::string_view dialect_of(const Run& run) {
   return run.options.is_lathe ? "fanuc-t" : "fanuc";
 }
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 template <class Archive>
 void visit_memory(Archive& archive, Memory& memory) {
@@ -94,6 +94,12 @@ bool is_plausible(const ModalState& state, const Memory& memory) {
          has_plausible_stacks(state);
 }
 
+bool is_plausible(const TiltedPath::State& tilted, const ControlOptions& options) {
+  const Tilt::Kind kind = tilted.tilt.kind;
+  return kind == Tilt::Kind::None ||
+         (kind <= Tilt::Kind::TipControl && options.kinematics.exists());
+}
+
 }  // namespace
 
 Snapshot take_snapshot(const Run& run) {
@@ -110,7 +116,8 @@ Snapshot take_snapshot(const Run& run) {
   if (state.uses_blender) corners = run.blender.state();
   writer(state);
   visit_memory(writer, memory);
-  writer(origin, name, is_settled, rotary, path, corners);
+  TiltedPath::State tilted = run.tilted.state();
+  writer(origin, name, is_settled, rotary, tilted, path, corners);
   return {std::string(dialect_of(run)), kVersion, writer.take()};
 }
 
@@ -124,12 +131,13 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   bool is_settled = false;
   std::vector<std::byte> path;
   RotaryPath::State rotary;
+  TiltedPath::State tilted;
   std::vector<std::byte> corners;
   reader(state);
   visit_memory(reader, memory);
-  reader(origin, name, is_settled, rotary, path, corners);
+  reader(origin, name, is_settled, rotary, tilted, path, corners);
   if (!reader.is_complete() || !is_plausible(state, memory) ||
-      rotary.plane.kind != state.rotary.kind) {
+      rotary.plane.kind != state.rotary.kind || !is_plausible(tilted, run.options)) {
     return snapshot.damage();
   }
   if (!state.uses_compensator) {
@@ -143,6 +151,7 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
     return restored;
   }
   run.rotary.restore(rotary);
+  run.tilted.restore(tilted);
   run.state = std::move(state);
   run.memory = memory;
   run.origin = origin;

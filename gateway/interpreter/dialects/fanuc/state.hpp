@@ -256,7 +256,9 @@ struct ModalState {
   std::array<double, 100> commons{};  ///< #100
   std::array<double, 500> kept{};     ///< #500
   std::vector<double> extra;          ///< #98000 to #98499; empty: all null
-  std::array<double, 7> counters{};   ///< #3001 base, #3002, #3003, #3004, #3005, #3901, #3902
+  /// When #3001 was 0 (milliseconds since 1970, null: not begun), #3002, #3003, #3004, #3005,
+  /// #3901, #3902.
+  std::array<double, 7> counters{kNull};
   std::vector<CallFrame> calls;
   std::vector<LoopFrame> loops;
   std::vector<ModalCall> modals;

@@ -269,7 +269,7 @@ bool check_compensation(Run& run) {
     return run.fail(code_of(fault->kind), 0, blending::describe(*fault));
   }
   const auto& fault = run.compensator.fault();
-  if (!fault) return check_rotary_path(run);
+  if (!fault) return check_last_stage(run);
   run.origin.line = fault->origin.line;
   return run.fail(code_of(fault->kind), 0, compensation::describe(*fault));
 }

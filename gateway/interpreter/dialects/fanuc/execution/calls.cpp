@@ -43,14 +43,14 @@ bool read_passes(Run& run, std::uint32_t& passes) {
   return true;
 }
 
-/// M98 of a program with a name; its repeats are always in L.
-bool plan_named_subprogram(Run& run) {
+/// M98 of a program with a name; its repeats are always in L. `folder`: that of M198.
+bool plan_named_subprogram(Run& run, const std::string& folder) {
   const Words& words = run.block.words;
   if (words.has(P))
     return run.fail(ErrorCode::ImproperCommand, words.column(P), "two programs in one block");
   std::uint32_t passes = 1;
   if (words.has(L) && !read_passes(run, passes)) return false;
-  open_call(run, CallKind::Subprogram, 0, called_name(run), passes);
+  open_call(run, CallKind::Subprogram, 0, folder + called_name(run), passes);
   return true;
 }
 
@@ -66,7 +66,8 @@ bool plan_subprogram(Run& run, int code) {
     return run.fail(ErrorCode::ImproperCommand, words.column(Q),
                     fmt::format("M{} calls a program from its head, not from a block", code));
   }
-  if (has_name) return plan_named_subprogram(run);
+  const std::string folder = code == 198 ? run.options.external_folder : std::string();
+  if (has_name) return plan_named_subprogram(run, folder);
   const double value = run.whole(words[P]);
   const bool takes_l = form != CallForm::EightDigits && words.has(L);
   const bool has_long_numbers = run.options.program_digits == 8;
@@ -89,7 +90,9 @@ bool plan_subprogram(Run& run, int code) {
   }
   if (takes_l && !read_passes(run, passes)) return false;
   if (program == 0) return run.fail(ErrorCode::NumberNotFound, words.column(P), "O0000");
-  open_call(run, CallKind::Subprogram, program, {}, passes);
+  std::string name;
+  if (!folder.empty()) name = fmt::format("{}O{:04}", folder, program);
+  open_call(run, CallKind::Subprogram, program, std::move(name), passes);
   return true;
 }
 

@@ -63,6 +63,8 @@ bool has_other_user_of_p(const Block& block) {
   const Block::Parts& parts = block.parts;
   if (parts.one_shot == 4 || parts.one_shot == 10 || parts.one_shot == 30) return true;
   if (block.names(kScalingGroup) && block.g[kScalingGroup] == 51) return true;
+  if (block.names(kRotationGroup) && block.g[kRotationGroup] == kTiltedPlane) return true;
+  if (block.names(kLengthGroup) && is_tip_control(block.g[kLengthGroup])) return true;
   if (block.names(kSpindleGroup) && block.g[kSpindleGroup] == 96) return true;
   if (block.names(kCycleGroup) && block.g[kCycleGroup] != 80) return true;
   return std::any_of(block.m.begin(), block.m.begin() + parts.m_count,

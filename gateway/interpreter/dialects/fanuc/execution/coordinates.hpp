@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
 
 /// Work coordinates and what shifts them: G10, G22, G23, G52, G54 to G59, G92.
@@ -21,8 +19,6 @@ bool set_stroke_zone(Run& run);
 // Scaling (G51) and rotation (G68), transformation.cpp: program coordinates to those that the
 // offsets are added to.
 
-/// X, Y, Z.
-using Point3 = std::array<double, 3>;
 constexpr std::size_t place(Axis axis) {
   return static_cast<std::size_t>(axis);
 }
@@ -38,7 +34,7 @@ CoordinateFrame frame_of(const Run& run);
 /// Arcs change their direction: an odd number of mirrored axes in the plane.
 bool is_plane_mirrored(const ModalState& state, Plane plane);
 
-/// G50, G51, G68, G69. False: an alarm.
+/// G50, G51, G68, G68.2, G69. False: an alarm.
 /// G50.1, G51.1.
 bool apply_mirror(Run& run);
 bool apply_scaling(Run& run);

@@ -14,6 +14,7 @@
 #include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/tilting/tilting.hpp"
 #include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -112,7 +113,7 @@ bool apply_frames(Run& run) {
 bool words_are_data(const Block& block) {
   return (block.names(kStrokeGroup) && block.g[kStrokeGroup] == 22) ||
          (block.names(kScalingGroup) && block.g[kScalingGroup] == 51) ||
-         (block.names(kRotationGroup) && block.g[kRotationGroup] == 68) ||
+         (block.names(kRotationGroup) && block.g[kRotationGroup] != 69) ||
          block.names(kMirrorGroup);
 }
 
@@ -232,6 +233,8 @@ bool execute_one_shot(Run& run) {
       return round_corner(run);
     case 52:
       return set_local_zero(run);
+    case kAxisDirection:
+      return direct_tool_axis(run);
     case 53:
       block.parts.has_motion = block.words.has_any(kAxisWords);
       interrupt_compensation(run);
@@ -319,9 +322,10 @@ bool execute_nc(Run& run) {
       if (!enter_parameter(run)) return false;
     } else {
       if (run.rotary.is_on() && !check_rotary_block(run)) return false;
+      if (run.tilted.is_on() && !check_tilted_block(run)) return false;
       apply_motion_groups(run);
       if (!apply_modes(run) || !apply_before_motion(run) || !apply_frames(run)) return false;
-      if (!execute_motion(run) || !check_rotary_path(run)) return false;
+      if (!execute_motion(run) || !check_last_stage(run)) return false;
     }
     run.update_special();
     parts.stage = Stage::AfterMove;
@@ -336,6 +340,7 @@ bool execute_nc(Run& run) {
 /// The codes before G65 and G66 act; the rest are arguments.
 bool execute_call(Run& run) {
   run.block.parts.one_shot = Block::kNoCode;
+  if (run.tilted.is_on() && !check_tilted_block(run)) return false;
   apply_motion_groups(run);
   if (!apply_modes(run) || !apply_before_motion(run) || !apply_frames(run)) return false;
   run.update_special();

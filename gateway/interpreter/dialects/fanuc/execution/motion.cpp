@@ -7,6 +7,7 @@
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/rotary_plane.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/tilting/tilting.hpp"
 #include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -301,11 +302,12 @@ bool move(Run& run) {
   const ModalState& state = run.state;
   const std::uint8_t mode = state.g[kMotionGroup];
   if (run.block.parts.one_shot != 60 && (mode == 2 || mode == 3)) return move_on_arc(run);
-  if (!words.has_any(kAxisWords)) return true;
+  const bool is_aimed = state.g[kLengthGroup] == kTipVector && words.has_any(kCenterWords);
+  if (!words.has_any(kAxisWords) && !is_aimed) return true;
   if (mode >= kBoxTurning && mode <= kBoxFacing) return cut_box(run);
   run.ledger.take(kAxisWords);
   Position to;
-  if (!read_target(run, to)) return false;
+  if (!read_target(run, to) || (is_aimed && !aim_tool(run, to))) return false;
   const std::uint8_t one_shot = run.block.parts.one_shot;
   if (one_shot >= 45 && one_shot <= 48 && !offset_target(run, to)) return false;
   if (mode == 0 || one_shot == 60) return position_to(run, to);

@@ -48,6 +48,9 @@ bool line_to(Run& run, const Position& to, const Feed& feed);
 bool thread_to(Run& run, const Position& to, Length lead, std::optional<Angle> start);
 bool arc_to(Run& run, const Arc& arc);
 
+/// What of the straight path is forbidden; empty: nothing.
+std::string stroke_fault(const ControlOptions& options, const StrokeZone& zone,
+                         const Position& from, const Position& to);
 /// Whether the straight path there keeps out of what is forbidden; else alarm OT500.
 bool check_stroke(Run& run, const Position& to);
 /// The tool is here, by whatever path.

@@ -30,8 +30,9 @@ bool same_place(const Position& a, const Position& b) {
   return a.same_point(b);
 }
 
+/// In G68.2 and G43.4 the stage that knows the axes' moves checks them.
 bool is_limited(const Run& run) {
-  return run.options.has_limits || run.state.zone.is_on;
+  return (run.options.checks_stroke() || run.state.zone.is_on) && !run.tilted.is_on();
 }
 
 /// The part of the path that lies within the box, by clipping axis after axis.
@@ -57,18 +58,8 @@ bool crosses(const StrokeZone& zone, const Position& from, const Position& to) {
 }
 
 bool check_path(Run& run, const Position& from, const Position& to) {
-  const ControlOptions& options = run.options;
-  for (std::size_t i = 0; options.has_limits && i < 3; ++i) {
-    const auto axis = static_cast<Axis>(i);
-    const double at = to.raw(axis);
-    if (at >= options.limit_low[i] && at <= options.limit_high[i]) continue;
-    return run.fail(ErrorCode::OverTravel, 0,
-                    fmt::format("{} {} is beyond stroke limit 1", letter(axis), at));
-  }
-  if (run.state.zone.is_on && crosses(run.state.zone, from, to)) {
-    return run.fail(ErrorCode::OverTravel, 0, "the path enters the zone of G22");
-  }
-  return true;
+  const std::string text = stroke_fault(run.options, run.state.zone, from, to);
+  return text.empty() || run.fail(ErrorCode::OverTravel, 0, text);
 }
 
 bool check_arc(Run& run, const Arc& arc) {
@@ -98,6 +89,23 @@ void pieces_of_arc(Run& run, const Arc& arc) {
 }
 
 }  // namespace
+
+std::string stroke_fault(const ControlOptions& options, const StrokeZone& zone,
+                         const Position& from, const Position& to) {
+  for (std::size_t i = 0; options.has_limits && i < 3; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    const double at = to.raw(axis);
+    if (at >= options.limit_low[i] && at <= options.limit_high[i]) continue;
+    return fmt::format("{} {} is beyond stroke limit 1", letter(axis), at);
+  }
+  for (const RotaryAxis* rotary : {&options.kinematics.master, &options.kinematics.slave}) {
+    const double at = to.raw(rotary->axis);
+    if (at >= rotary->low && at <= rotary->high) continue;
+    return fmt::format("{} {} is not {} to {}", letter(rotary->axis), at, rotary->low,
+                       rotary->high);
+  }
+  return zone.is_on && crosses(zone, from, to) ? "the path enters the zone of G22" : "";
+}
 
 Position point_on_arc(const Arc& arc, const Position& from, double degrees) {
   const PlaneAxes axes = axes_of(arc.plane);

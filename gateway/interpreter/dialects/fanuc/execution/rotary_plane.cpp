@@ -25,7 +25,8 @@ bool check_state(Run& run) {
   if (state.is_transformed || state.is_polar() || state.imaginary != 0) {
     return refuse_mode(run, "G12.1 and G07.1 under G16, G07, G51, G51.1 or G68");
   }
-  if (run.options.has_limits || state.zone.is_on) {
+  if (run.tilted.is_on()) return refuse_mode(run, "G12.1 and G07.1 under G68.2 or G43.4");
+  if (run.options.checks_stroke() || state.zone.is_on) {
     return refuse_mode(run, "G12.1 and G07.1 while stroke limits are checked");
   }
   if (!end_waiting(run)) return false;
@@ -196,7 +197,11 @@ bool read_rotary_target(Run& run, Position& to) {
                   "an axis that is not of the plane of G12.1 or G07.1");
 }
 
-bool check_rotary_path(Run& run) {
+bool check_last_stage(Run& run) {
+  if (const auto& fault = run.tilted.fault()) {
+    run.origin.line = fault->origin.line;
+    return run.fail(fault->row, 0, fault->text);
+  }
   if (!run.rotary.has_fault()) return true;
   return run.fail(ErrorCode::ImproperCommand, 0,
                   "the path of G12.1 goes through the center of rotation");

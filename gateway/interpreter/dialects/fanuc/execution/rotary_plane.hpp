@@ -13,7 +13,7 @@ bool set_cylinder(Run& run);
 bool check_rotary_block(Run& run);
 /// The end of the block's move in the mode: its rotary word is a length.
 bool read_rotary_target(Run& run, Position& to);
-/// False: the path came too close to the center.
-bool check_rotary_path(Run& run);
+/// Whether the last stage could make the moves, here and of G68.2 and G43.4.
+bool check_last_stage(Run& run);
 
 }  // namespace dripline::interpreter::fanuc

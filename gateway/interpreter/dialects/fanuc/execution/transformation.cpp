@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/core/language/expression.hpp"
+#include "gateway/interpreter/dialects/fanuc/tilting/tilting.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -144,6 +145,17 @@ CoordinateFrame frame_of(const Run& run) {
     frame.datum[i] = all.work[run.work_system()][i] + all.work[0][i];
     frame.shift[i] = all.shift[i] + all.local[i];
   }
+  if (run.tilted.is_on()) {
+    frame.learn([&run, &state](CoordinateFrame::Values at) {
+      Position machine = run.tilted.machine();
+      for (std::size_t i = 0; i < 3; ++i) machine.set_raw(static_cast<Axis>(i), at[i]);
+      const Point3 flat = linear_of(run.tilted.flat_of(machine));
+      std::copy(flat.begin(), flat.end(), at.begin());
+      for (std::size_t i = 0; i < kAxisCount; ++i) at[i] -= state.origin[i];
+      return at;
+    });
+    return frame;
+  }
   if (!state.is_transformed) {
     frame.learn_offset(state.origin);
     return frame;
@@ -212,7 +224,10 @@ bool apply_scaling(Run& run) {
 }
 
 bool apply_rotation(Run& run) {
-  if (run.block.g[kRotationGroup] == 68 && !begin_rotation(run)) return false;
+  const std::uint8_t code = run.block.g[kRotationGroup];
+  if (code == 68 && !begin_rotation(run)) return false;
+  if (code == kTiltedPlane && !begin_tilted_plane(run)) return false;
+  if (code == 69 && run.tilted.kind() == Tilt::Kind::Plane && !end_tilted_plane(run)) return false;
   run.state.g[kRotationGroup] = run.block.g[kRotationGroup];
   update_transformed(run);
   return true;

@@ -61,8 +61,18 @@ bool ask_time(Run& run, LocalTime& now) {
   return true;
 }
 
-double milliseconds_of(const LocalTime& now) {
-  return 1000.0 * (now.hour * 3600 + now.minute * 60 + now.second);
+constexpr double kTimerEnd = 2'147'483'648;  ///< #3001 begins again at 0
+
+/// Milliseconds since #3001 was 0; read for the first time, since midnight. A clock that was set
+/// back behind that begins again.
+double timer_at(Run& run, const LocalTime& now) {
+  double& base = run.state.counters[kClockBase];
+  const auto time = static_cast<double>(milliseconds_of(now));
+  if (std::isnan(base)) {
+    base = static_cast<double>(milliseconds_of({now.year, now.month, now.day}));
+  }
+  if (time < base) base = time;
+  return std::fmod(time - base, kTimerEnd);
 }
 
 bool read_clock(Run& run, int number, double& value) {
@@ -70,7 +80,7 @@ bool read_clock(Run& run, int number, double& value) {
   if (!ask_time(run, now)) return false;
   if (number == 3011) value = now.year * 10000 + now.month * 100 + now.day;
   if (number == 3012) value = now.hour * 10000 + now.minute * 100 + now.second;
-  if (number == 3001) value = milliseconds_of(now) - run.state.counters[kClockBase];
+  if (number == 3001) value = timer_at(run, now);
   return true;
 }
 
@@ -127,7 +137,11 @@ bool read_modal(Run& run, int number, std::uint32_t column, double& value) {
   }
   if (number > 4000 && number <= 4000 + kPolarGroup) {
     const std::uint8_t code = state.g[static_cast<std::size_t>(number - 4000)];
-    value = code == kMoreWorkSystems ? 54.1 : code;
+    value = code == kMoreWorkSystems ? 54.1
+            : code == kTipControl    ? 43.4
+            : code == kTipVector     ? 43.5
+            : code == kTiltedPlane   ? 68.2
+                                     : code;
     return true;
   }
   const LastWords& last = state.last;
@@ -199,7 +213,7 @@ bool read_position(Run& run, int number, std::uint32_t column, double& value) {
       raw = run.work_position(*axis);
       break;
     case 5020:
-      raw = state.position.raw(*axis) + length;
+      raw = (run.tilted.is_on() ? run.tilted.machine() : state.position).raw(*axis) + length;
       break;
     case 5060:
       raw = state.skip[static_cast<std::size_t>(*axis)];
@@ -282,7 +296,10 @@ bool write_control(Run& run, int number, std::uint32_t column, double value) {
     case 3001: {
       LocalTime now;
       if (!ask_time(run, now)) return false;
-      counters[kClockBase] = milliseconds_of(now) - stored;
+      if (!(stored >= 0 && stored < kTimerEnd)) {
+        return run.fail(ErrorCode::IllegalVariable, column, fmt::format("#3001 = {}", value));
+      }
+      counters[kClockBase] = static_cast<double>(milliseconds_of(now)) - std::round(stored);
       return true;
     }
     case 3003:
@@ -339,6 +356,10 @@ bool write_system_variable(Run& run, int written, std::uint32_t column, double v
   }
   Axis axis{};
   if (double* cell = work_variable(run, number, axis)) {
+    if (run.tilted.is_on()) {
+      return run.fail(ErrorCode::WriteProtected, column,
+                      fmt::format("#{} while G68.2 or G43.4 is in force", number));
+    }
     *cell = run.from_units(axis, stored);
     run.update_origin();
     return true;

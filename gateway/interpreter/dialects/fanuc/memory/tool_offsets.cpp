@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 
+#include "gateway/interpreter/dialects/fanuc/tilting/tilting.hpp"
+
 namespace dripline::interpreter::fanuc {
 namespace {
 
@@ -162,6 +164,20 @@ bool set_offset_data(Run& run, int list) {
   return true;
 }
 
+namespace {
+
+/// After the length that is in force from this block on.
+bool apply_tip_control(Run& run) {
+  const Block& block = run.block;
+  const bool begins = block.names(kLengthGroup) && is_tip_control(block.g[kLengthGroup]);
+  if (begins) return begin_tip_control(run);
+  if (run.tilted.kind() == Tilt::Kind::Plane) return follow_length_offset(run);
+  const bool ends = run.tilted.is_on() && block.names(kLengthGroup);
+  return !ends || end_tip_control(run);
+}
+
+}  // namespace
+
 bool apply_length_offset(Run& run) {
   ModalState& state = run.state;
   const Block& block = run.block;
@@ -172,7 +188,9 @@ bool apply_length_offset(Run& run) {
   }
   if (block.names(kLengthGroup)) state.g[kLengthGroup] = block.g[kLengthGroup];
   const std::uint8_t code = state.g[kLengthGroup];
-  if (block.names(kLengthGroup) && code != 49) {
+  if (block.names(kLengthGroup) && is_tip_control(code)) {
+    state.length_axis = Axis::Z;
+  } else if (block.names(kLengthGroup) && code != 49) {
     const AddressSet axes = block.words.present() & set_of(X, Y, Z);
     state.length_axis = Axis::Z;
     if (run.options.length_axis_type == 'B') {
@@ -189,9 +207,9 @@ bool apply_length_offset(Run& run) {
     state.length_offset = 0;
   } else if (block.names(kLengthGroup) || block.words.has(H)) {
     const double value = length_of_offset(run, state.h_number);
-    state.length_offset = code == 43 ? value : -value;
+    state.length_offset = code == 44 ? -value : value;
   }
-  return true;
+  return apply_tip_control(run);
 }
 
 }  // namespace dripline::interpreter::fanuc

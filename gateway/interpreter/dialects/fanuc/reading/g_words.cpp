@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/dialects/fanuc/reading/call_arguments.hpp"
+#include "gateway/interpreter/dialects/fanuc/tilting/tilting.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -29,11 +30,14 @@ bool refuse_g(Run& run, const Word& word) {
   const auto tenths = static_cast<int>(std::clamp(std::round(word.value * 10), 0.0, 1e6));
   const bool is_five_axis =
       std::find(kFiveAxisCodes.begin(), kFiveAxisCodes.end(), tenths) != kFiveAxisCodes.end();
-  return run.fail(ErrorCode::ImproperG, word.column,
-                  is_five_axis ? fmt::format("G{} needs the kinematics of a tilting machine, which "
-                                             "this control's setup does not have",
-                                             word.value)
-                               : fmt::format("G{}", word.value));
+  std::string text = fmt::format("G{}", word.value);
+  if (is_five_axis) {
+    text += run.options.kinematics.exists()
+                ? " is not known here; of tilting machines there are G43.4, G43.5, G53.1 and G68.2"
+                : " needs the kinematics of a tilting machine, which this control's setup does "
+                  "not have";
+  }
+  return run.fail(ErrorCode::ImproperG, word.column, text);
 }
 
 }  // namespace
@@ -63,7 +67,8 @@ bool add_g(Run& run, const Word& word) {
     }
   }
   const std::uint8_t group = group_of(code);
-  if (group == kNoGroup) [[unlikely]]
+  if (group == kNoGroup || (needs_kinematics(code) && !run.options.kinematics.exists()))
+      [[unlikely]]
     return refuse_g(run, word);
   block.parts.g_column = word.column;
   if (group == kOneShot) {

@@ -121,7 +121,7 @@ class BlockCall {
   void finish() {
     const bool may_call = is_macro_ || is_subprogram_ || has_computed_m_;
     if (!is_code_call_ && may_call && !name_.empty()) {
-      calls_.add({.name = std::string(name_), .earlier = {}, .line = line_});
+      calls_.add({.name = folder() + std::string(name_), .earlier = {}, .line = line_});
       return;
     }
     if (is_code_call_ || p_.letter == 0 || !may_call) return;
@@ -158,6 +158,7 @@ class BlockCall {
     if (const int place = place_in(options_.m_macros, word.value); place >= 0)
       return call_code(kFirstByM + place);
     if (word.value == 98 || word.value == 198) is_subprogram_ = true;
+    if (word.value == 198) is_external_ = true;
   }
 
   static int place_in(const std::vector<std::int64_t>& codes, double code) {
@@ -170,7 +171,11 @@ class BlockCall {
     add(static_cast<std::uint64_t>(program));
   }
   void add(std::uint64_t program) {
-    calls_.add({.name = fmt::format("O{:04}", program), .earlier = {}, .line = line_});
+    calls_.add(
+        {.name = fmt::format("{}O{:04}", folder(), program), .earlier = {}, .line = line_});
+  }
+  std::string folder() const {
+    return is_external_ && !is_code_call_ && !is_macro_ ? options_.external_folder : std::string();
   }
   void add_computed() { calls_.add({.name = {}, .earlier = {}, .line = line_}); }
 
@@ -178,7 +183,7 @@ class BlockCall {
   CallCollector& calls_;
   const std::uint64_t line_;
   bool is_macro_ = false, is_subprogram_ = false, is_code_call_ = false, has_computed_m_ = false;
-  bool has_l_ = false;
+  bool has_l_ = false, is_external_ = false;
   WrittenWord p_;  ///< without a letter: none
   std::string_view name_;
 };

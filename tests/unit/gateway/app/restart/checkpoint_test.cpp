@@ -64,7 +64,7 @@ TEST(Checkpoint, KeepsAnswersOfEveryKind) {
   const interpreter::Answer prompt = interpreter::PromptAnswer{"16.4"};
   const interpreter::Answer refused = interpreter::PromptAnswer{};
   const interpreter::Answer input = true;
-  const interpreter::Answer time = interpreter::LocalTime{2026, 11, 23, 15, 4, 5};
+  const interpreter::Answer time = interpreter::LocalTime{2026, 11, 23, 15, 4, 5, 678};
   for (const auto& answer : {probe, prompt, refused, input, time}) {
     const auto read = decode_answer("run-1", 7, encode("run-1", 7, answer));
     ASSERT_TRUE(read);
@@ -72,6 +72,26 @@ TEST(Checkpoint, KeepsAnswersOfEveryKind) {
     EXPECT_EQ(encode("run-1", 7, *read), encode("run-1", 7, answer));
     EXPECT_FALSE(decode_answer("run-1", 8, encode("run-1", 7, answer)));
   }
+}
+
+// Answers that were kept before times had milliseconds, and those of no known format.
+TEST(Checkpoint, ReadsAnswersOfTheFormerFormat) {
+  const auto kept = [](std::uint32_t format, auto value) {
+    interpreter::language::StateWriter writer;
+    std::uint8_t kind = 3;  // a time
+    writer(format, kind, value);
+    return sealed_answer("run-1", 7, writer.take());
+  };
+  const std::array<int, 6> time{2026, 11, 23, 15, 4, 5};
+  const auto read = decode_answer("run-1", 7, kept(3, time));
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(interpreter::milliseconds_of(std::get<interpreter::LocalTime>(*read)),
+            interpreter::milliseconds_of({2026, 11, 23, 15, 4, 5, 0}));
+  const auto unknown = decode_answer("run-1", 7, kept(2, time));
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().code, Errc::Unsupported);
+  EXPECT_NE(unknown.error().what.find("format 2; this is 4"), std::string::npos);
+  EXPECT_EQ(decode_answer("run-1", 7, kept(4, time)).error().code, Errc::Corrupt);
 }
 
 // The disk is bounded, and what was executed last is kept most densely.

@@ -49,6 +49,45 @@ TEST(FanucQuestions, ASkipMoveWhoseTargetNeededAnInputAsksForBoth) {
   EXPECT_EQ(run.events("probe").size(), 1U);
 }
 
+/// FAN-076
+TEST(FanucQuestions, TheTimerCountsMillisecondsAndGoesOnAfterMidnight) {
+  ProgramRun run(
+      "#3001=20\n#1=#3001\n#2=#3001\nPOPEN\nDPRNT[#1[80]*#2[80]*#3011[80]*#3012[60]]\nM30\n");
+  const LocalTime before{2026, 12, 31, 23, 59, 59, 750}, after{2027, 1, 1, 0, 0, 0, 500};
+  for (const LocalTime& now : {before, before, after, after, after}) {
+    ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+    ASSERT_TRUE(run.interpreter().answer(now));
+  }
+  ASSERT_EQ(run.step(), StepState::Ended);
+  ASSERT_EQ(run.printed().size(), 1U);
+  EXPECT_NE(run.printed()[0].find(" 20 "), std::string::npos) << run.printed()[0];
+  EXPECT_NE(run.printed()[0].find(" 770 "), std::string::npos) << run.printed()[0];
+  EXPECT_NE(run.printed()[0].find("20270101"), std::string::npos) << run.printed()[0];
+}
+
+/// FAN-076
+TEST(FanucQuestions, TheTimerReadFirstIsThatOfTheDay) {
+  ProgramRun run("#1=#3001\n#2=#3001\n#3=#3001\nPOPEN\nDPRNT[#1[80]*#2[80]*#3[80]]\nM30\n");
+  const LocalTime first{2026, 1, 2, 0, 0, 1, 5}, next_day{2026, 1, 3, 0, 0, 1, 6};
+  for (const LocalTime& now : {first, next_day, LocalTime{2026, 1, 1, 12, 0, 0, 0}}) {
+    ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+    ASSERT_TRUE(run.interpreter().answer(now));
+  }
+  ASSERT_EQ(run.step(), StepState::Ended);
+  EXPECT_NE(run.printed()[0].find(" 1005 "), std::string::npos) << run.printed()[0];
+  EXPECT_NE(run.printed()[0].find(" 86401006 "), std::string::npos) << run.printed()[0];
+  EXPECT_TRUE(run.printed()[0].find(" 0") != std::string::npos) << "a clock that was set back";
+}
+
+/// FAN-076
+TEST(FanucQuestions, ATimerBeyondItsRangeIsRefused) {
+  ProgramRun run("#3001=2147483648\nM30\n");
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  ASSERT_TRUE(run.interpreter().answer(LocalTime{2026, 1, 2, 3, 4, 5}));
+  ASSERT_EQ(run.step(), StepState::Alarmed);
+  EXPECT_TRUE(run.alarm().starts_with("PS115")) << run.alarm();
+}
+
 /// FAN-094
 TEST(FanucQuestions, AMeasurementAsksOnceAndCorrectsTheOffsetByTheAnswer) {
   const auto setup = parse_setup(

@@ -46,6 +46,61 @@ INSTANTIATE_TEST_SUITE_P(
         RefusalCase{"tool_number", "[[tool]]\nnumber = 401\nradius = 1.0", "401"},
         RefusalCase{"variable", "[[variable]]\nname = \"#150\"\nvalue = 1.0", "#150"},
         RefusalCase{"variable_of_others", "[[variable]]\nname = \"Q1\"\nvalue = 1.0", "Q1"},
+        RefusalCase{"kinematics_word", "[control]\nkinematics = \"gantry\"", "head-table"},
+        RefusalCase{"axis_without_kinematics", "[control]\nrotary_master = \"A+\"",
+                    "rotary_master"},
+        RefusalCase{"no_master", "[control]\nkinematics = \"table-table\"", "rotary_master"},
+        RefusalCase{"no_slave", "[control]\nkinematics = \"table-table\"\nrotary_master = \"A+\"",
+                    "rotary_slave"},
+        RefusalCase{"axis_without_a_direction",
+                    "[control]\nkinematics = \"table-table\"\nrotary_master = \"A\"", "A+"},
+        RefusalCase{"parallel_axes",
+                    "[control]\nkinematics = \"table-table\"\nrotary_master = \"A+\"\n"
+                    "rotary_slave = \"A-\"",
+                    "the master's axis"},
+        RefusalCase{"table_on_c",
+                    "[control]\nkinematics = \"table-table\"\nrotary_master = \"C+\"\n"
+                    "rotary_slave = \"A+\"",
+                    "C does not tilt"},
+        RefusalCase{"head_under_c",
+                    "[control]\nkinematics = \"head-head\"\nrotary_master = \"A+\"\n"
+                    "rotary_slave = \"C+\"",
+                    "C does not tilt"},
+        RefusalCase{"head_of_c",
+                    "[control]\nkinematics = \"head-table\"\nrotary_master = \"C+\"\n"
+                    "rotary_slave = \"A+\"",
+                    "C does not tilt"},
+        RefusalCase{"no_center",
+                    "[control]\nkinematics = \"table-table\"\nrotary_master = \"A+\"\n"
+                    "rotary_slave = \"C+\"\ntable_centers = [ { Y = 0.0, Z = 0.0 } ]",
+                    "no point for C"},
+        RefusalCase{"half_a_center",
+                    "[control]\nkinematics = \"table-table\"\nrotary_master = \"A+\"\n"
+                    "rotary_slave = \"C+\"\n"
+                    "table_centers = [ { Y = 0.0, Z = 0.0 }, { X = 1.0 } ]",
+                    "has no Y"},
+        RefusalCase{"center_of_a_head_that_is_none",
+                    "[control]\nkinematics = \"table-table\"\nrotary_master = \"A+\"\n"
+                    "rotary_slave = \"C+\"\nhead_centers = [ { X = 0.0 } ]\n"
+                    "table_centers = [ { Y = 0.0, Z = 0.0 }, { X = 1.0, Y = 1.0 } ]",
+                    "head_centers"},
+        RefusalCase{"far_center",
+                    "[control]\nkinematics = \"table-table\"\nrotary_master = \"A+\"\n"
+                    "rotary_slave = \"C+\"\n"
+                    "table_centers = [ { Y = 1e300, Z = 0.0 }, { X = 1.0, Y = 1.0 } ]",
+                    "beyond"},
+        RefusalCase{"rotary_range",
+                    "[control]\nkinematics = \"table-table\"\nrotary_master = \"A+\"\n"
+                    "rotary_slave = \"C+\"\n"
+                    "table_centers = [ { Y = 0.0, Z = 0.0 }, { X = 1.0, Y = 1.0 } ]\n"
+                    "rotary_limits = [ { A = 10.0 }, { A = -10.0 } ]",
+                    "no range"},
+        RefusalCase{"coarse_tolerance",
+                    "[control]\nkinematics = \"table-table\"\nrotary_master = \"A+\"\n"
+                    "rotary_slave = \"C+\"\n"
+                    "table_centers = [ { Y = 0.0, Z = 0.0 }, { X = 1.0, Y = 1.0 } ]\n"
+                    "tip_tolerance = 5.0",
+                    "tip_tolerance"},
         RefusalCase{"mirror_switch", "[switches]\nmirror = [\"X\"]", "mirror"}),
     [](const auto& each) { return std::string(each.param.name); });
 

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gateway/interpreter/dialects/fanuc/tilting/kinematics.hpp"
+#include "gateway/interpreter/stages/event_filter.hpp"
+
+/// G68.2, G43.4 and G43.5: the last stage before the sink. Moves of the tip as the program has it come in,
+/// moves of the machine's axes go out.
+namespace dripline::interpreter::fanuc {
+
+struct ControlOptions;
+struct StrokeZone;
+
+/// Where the programmed points are on the machine.
+struct Tilt {
+  enum class Kind : std::uint8_t {
+    None,
+    Plane,      ///< G68.2: coordinates of a plane of the workpiece; the rotary axes rest
+    TipControl  ///< G43.4, G43.5: coordinates of the workpiece, where the tip moves straight
+  };
+  Kind kind = Kind::None;
+  Matrix3 frame{};        ///< the axes of the program, in machine coordinates at `zero`
+  Point3 at{};            ///< the program's zero there,
+  Point3 flat_zero{};     ///< and in the coordinates of the moves that come in
+  Pose zero{};            ///< of the rotary axes that the work offset is right for
+  double length = 0;      ///< of the tool, as compensated
+  double mm_per_unit = 1; ///< of F for a move in which the tip rests, degrees per unit
+};
+
+class TiltedPath final : public EventFilter {
+ public:
+  TiltedPath(EventSink& out, const ControlOptions& options, const StrokeZone& zone)
+      : EventFilter(out), options_(options), zone_(zone) {}
+
+  /// `machine` is where the axes are.
+  void begin(const Tilt& tilt, const Position& machine);
+  void end() { state_.tilt.kind = Tilt::Kind::None; }
+  Tilt::Kind kind() const { return state_.tilt.kind; }
+  bool is_on() const { return kind() != Tilt::Kind::None; }
+
+  /// Where the program's moves have led, in their own coordinates, and the machine's axes.
+  const Position& flat() const { return state_.flat; }
+  const Position& machine() const { return state_.machine; }
+  /// The rotary axes for a tool along `direction`, of length 1 in the program's coordinates;
+  /// nullopt: there are none.
+  std::optional<Pose> pose_for(const Point3& direction) const;
+  /// The rotary axes alone move: a line with `feed`, else a rapid move.
+  void turn_to(const Origin& origin, Pose pose, const std::optional<Feed>& feed, bool rests);
+  void set_length(double length) { state_.tilt.length = length; }
+  /// Of machine coordinates, with the rotary axes as they are.
+  Position flat_of(const Position& machine) const;
+
+  /// A move that was not made: nothing of it has gone out.
+  struct Fault {
+    DiagnosticRow row;
+    Origin origin;
+    std::string text;
+  };
+  const std::optional<Fault>& fault() const { return fault_; }
+
+  void on_rapid(const Rapid& event) override;
+  void on_line(const Line& event) override;
+  void on_arc(const Arc& event) override;
+  void on_thread(const Thread& event) override;
+
+  /// What a snapshot keeps.
+  struct State {
+    Tilt tilt;
+    Position flat;
+    Position machine;
+  };
+  const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
+ private:
+  Position on_machine(const Position& flat) const;
+  Matrix3 turn_now() const;
+  int pieces_of(const Position& to) const;
+  double minutes_of(const Line& line) const;
+  bool checks_stroke() const;
+  bool check(const Origin& origin, const Position& from, const Position& to);
+  bool check_pieces(const Origin& origin, const Position& to, int pieces);
+  bool check_arc(const Arc& arc);
+  bool arc_on_machine(const Arc& flat, Arc& arc) const;
+  template <class Event>
+  void deliver_straight(const Event& whole, void (EventSink::*deliver)(const Event&));
+  void deliver_pieces_of_arc(const Arc& arc);
+
+  const ControlOptions& options_;
+  const StrokeZone& zone_;
+  State state_;
+  std::optional<Fault> fault_;
+};
+
+}  // namespace dripline::interpreter::fanuc
