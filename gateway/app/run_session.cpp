@@ -231,8 +231,7 @@ bool RunSession::resolve(const interpreter::TimeQuestion&) {
 
 std::int64_t RunSession::clock_ms() const {
   std::int64_t shown = milliseconds(parts_.clock.now());
-  if (setup_.date_time)
-    shown = interpreter::milliseconds_of(*setup_.date_time) + shown - begun_ms_;
+  if (setup_.date_time) shown = interpreter::milliseconds_of(*setup_.date_time) + shown - begun_ms_;
   return shown + static_cast<std::int64_t>(std::round(clock_ahead_ * 1000));
 }
 

@@ -120,8 +120,8 @@ class RunSession {
   Parts parts_;
   interpreter::Setup setup_;  ///< its answers are given here, not by the interpreter
   std::size_t next_answer_ = 0;
-  double clock_ahead_ = 0;  ///< of the computer's clock, seconds: machine time that was faster
-  std::int64_t begun_ms_ = 0;         ///< since 1970, by the computer's clock
+  double clock_ahead_ = 0;     ///< of the computer's clock, seconds: machine time that was faster
+  std::int64_t begun_ms_ = 0;  ///< since 1970, by the computer's clock
   machine::CapabilityFilter events_;  ///< from the tracker to the machine
   EventTracker tracker_;              ///< from the interpreter
   std::optional<CheckpointKeeper> checkpoints_;

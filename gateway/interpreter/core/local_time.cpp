@@ -7,9 +7,9 @@ namespace dripline::interpreter {
 using std::chrono::milliseconds;
 
 std::int64_t milliseconds_of(const LocalTime& time) {
-  const std::chrono::year_month_day date(
-      std::chrono::year(time.year), std::chrono::month(static_cast<unsigned>(time.month)),
-      std::chrono::day(static_cast<unsigned>(time.day)));
+  const std::chrono::year_month_day date(std::chrono::year(time.year),
+                                         std::chrono::month(static_cast<unsigned>(time.month)),
+                                         std::chrono::day(static_cast<unsigned>(time.day)));
   const milliseconds day = std::chrono::sys_days(date).time_since_epoch();
   const milliseconds within = std::chrono::hours(time.hour) + std::chrono::minutes(time.minute) +
                               std::chrono::seconds(time.second) + milliseconds(time.millisecond);

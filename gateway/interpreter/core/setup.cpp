@@ -72,10 +72,13 @@ void read_date_time(Table& file, Setup& setup) {
               if (const auto* value = node.as_date_time()) {  // without quotes
                 const auto& date = value->get().date;
                 const auto& time = value->get().time;
-                setup.date_time =
-                    LocalTime{date.year, date.month,  date.day,
-                              time.hour, time.minute, time.second,
-                              static_cast<int>(time.nanosecond / 1'000'000)};
+                setup.date_time = LocalTime{date.year,
+                                            date.month,
+                                            date.day,
+                                            time.hour,
+                                            time.minute,
+                                            time.second,
+                                            static_cast<int>(time.nanosecond / 1'000'000)};
                 return true;
               }
               const auto text = node.value<std::string_view>();

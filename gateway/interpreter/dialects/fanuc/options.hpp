@@ -67,7 +67,7 @@ struct ControlOptions {
   bool has_limits = false;
   std::array<double, 3> limit_low{};
   std::array<double, 3> limit_high{};
-  StrokeZone zone;                ///< limit 2 before any G22
+  StrokeZone zone;  ///< limit 2 before any G22
   Kinematics kinematics;
   std::uint16_t skip_levels = 0;  ///< bit n: switch n is on
   std::vector<std::int64_t> g_macros;

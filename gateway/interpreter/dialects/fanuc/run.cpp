@@ -72,8 +72,9 @@ void Run::update_special() {
   state.g[kModalCallGroup] = state.modal_active >= 0 ? 66 : 67;
   state.is_special = state.is_cycle() || state.is_polar() || state.is_transformed ||
                      state.imaginary != 0 || state.modal_active >= 0 || state.zone.is_on ||
-                     options.checks_stroke() || state.is_inverse_time() || state.enters_parameters ||
-                     rotary.is_on() || tilted.is_on() || state.contour.code != 0 || state.g[kMotionGroup] > 3;
+                     options.checks_stroke() || state.is_inverse_time() ||
+                     state.enters_parameters || rotary.is_on() || tilted.is_on() ||
+                     state.contour.code != 0 || state.g[kMotionGroup] > 3;
 }
 
 double Run::angle(const Word& word) const {

@@ -171,8 +171,7 @@ class BlockCall {
     add(static_cast<std::uint64_t>(program));
   }
   void add(std::uint64_t program) {
-    calls_.add(
-        {.name = fmt::format("{}O{:04}", folder(), program), .earlier = {}, .line = line_});
+    calls_.add({.name = fmt::format("{}O{:04}", folder(), program), .earlier = {}, .line = line_});
   }
   std::string folder() const {
     return is_external_ && !is_code_call_ && !is_macro_ ? options_.external_folder : std::string();

@@ -113,7 +113,8 @@ Result<void> read_limits(const Options& options, Kinematics& machine) {
 Result<void> read_others(const Options& options, Kinematics& machine) {
   constexpr double kFinest = 0.0001;
   constexpr double kCoarsest = 1;
-  if (auto done = read_value(options, key_of(kTolerance), machine.tip_tolerance); !done) return done;
+  if (auto done = read_value(options, key_of(kTolerance), machine.tip_tolerance); !done)
+    return done;
   if (!(machine.tip_tolerance >= kFinest && machine.tip_tolerance <= kCoarsest)) {
     return fail(Errc::Syntax, "[control] tip_tolerance: {} mm is not {} to {}",
                 machine.tip_tolerance, kFinest, kCoarsest);

@@ -165,8 +165,8 @@ double pieces_within(const Kinematics& machine, Pose pose, Pose end, const Point
   (machine.slave.is_table ? table_turn : head_turn) += slave;
   double table_radius = 0;
   if (machine.slave.is_table) {
-    table_radius = std::max(distance_from_axis(machine.slave, from),
-                            distance_from_axis(machine.slave, to));
+    table_radius =
+        std::max(distance_from_axis(machine.slave, from), distance_from_axis(machine.slave, to));
   }
   if (machine.master.is_table) {
     const Point3& center = machine.slave.center;
@@ -174,12 +174,13 @@ double pieces_within(const Kinematics& machine, Pose pose, Pose end, const Point
     table_radius = std::max(table_radius, reach + distance_from_axis(machine.master, center));
   }
   double head_radius = 0;
-  if (!machine.master.is_table) head_radius = fanuc::length(machine.master.center) + std::fabs(length);
+  if (!machine.master.is_table)
+    head_radius = fanuc::length(machine.master.center) + std::fabs(length);
   if (!machine.slave.is_table) head_radius += 2 * fanuc::length(machine.slave.center);
   const double axis_speed =
       fanuc::length(to - from) + table_turn * table_radius + 2 * head_turn * head_radius;
-  const double acceleration = table_turn * table_turn * table_radius +
-                              2 * table_turn * axis_speed + head_turn * head_turn * head_radius;
+  const double acceleration = table_turn * table_turn * table_radius + 2 * table_turn * axis_speed +
+                              head_turn * head_turn * head_radius;
   return std::max(1.0, std::ceil(std::sqrt(acceleration / (8 * machine.tip_tolerance))));
 }
 

@@ -34,7 +34,7 @@ struct Kinematics {
   RotaryAxis master;
   RotaryAxis slave;
   bool has_limits = false;
-  double tip_tolerance = 0.005;  ///< of the tip's path while rotary axes move, millimeters
+  double tip_tolerance = 0.005;    ///< of the tip's path while rotary axes move, millimeters
   bool begins_at_present = false;  ///< G43.4 takes the table as it is for the work offset's
 
   bool exists() const { return type != KinematicType::None; }

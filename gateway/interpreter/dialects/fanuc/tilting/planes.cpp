@@ -29,8 +29,7 @@ bool read_angles(Run& run, std::array<double, 3>& angles) {
 
 /// About Z, about the X that this gives, about the Z that this gives.
 Matrix3 by_euler(const std::array<double, 3>& angles) {
-  return rotation_about(2, angles[0]) * rotation_about(0, angles[1]) *
-         rotation_about(2, angles[2]);
+  return rotation_about(2, angles[0]) * rotation_about(0, angles[1]) * rotation_about(2, angles[2]);
 }
 
 /// Roll, pitch and yaw: about X, Y and Z of the workpiece, in the order of Q's digits.
@@ -40,8 +39,7 @@ bool by_roll_pitch_yaw(Run& run, const std::array<double, 3>& angles, Matrix3& f
   if (!words.has(Q)) return refuse_word(run, P, "G68.2 P1 needs Q, the order of the rotations");
   const double order = run.whole(words[Q]);
   if (std::find(kOrders.begin(), kOrders.end(), order) == kOrders.end()) {
-    return refuse_word(run, Q,
-                       fmt::format("Q{} is not 123, 132, 213, 231, 312 or 321", order));
+    return refuse_word(run, Q, fmt::format("Q{} is not 123, 132, 213, 231, 312 or 321", order));
   }
   frame = Matrix3{};
   auto left = static_cast<int>(order);
@@ -85,8 +83,7 @@ bool read_plane(Run& run, Tilt& tilt) {
   }
   for (std::size_t i = 0; i < 3; ++i) {
     if (!words.has(kZero[i])) {
-      return refuse_word(run, kZero[i],
-                         "X, Y and Z are the zero of the plane in the work system");
+      return refuse_word(run, kZero[i], "X, Y and Z are the zero of the plane in the work system");
     }
     const double value = run.length(words[kZero[i]]);
     if (!(std::fabs(value) <= kMaxMillimeters))

@@ -8,11 +8,11 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-constexpr int kMaxPieces = 20'000;      ///< of one move
-constexpr double kNoMove = 1e-9;        ///< what going there and back leaves of a place
-constexpr double kSamePlace = 1e-6;     ///< of an arc's start
-constexpr double kParallel = 1e-9;      ///< of a plane and one of the machine's
-constexpr double kLongestPiece = 5;     ///< of an arc in straight pieces, degrees
+constexpr int kMaxPieces = 20'000;   ///< of one move
+constexpr double kNoMove = 1e-9;     ///< what going there and back leaves of a place
+constexpr double kSamePlace = 1e-6;  ///< of an arc's start
+constexpr double kParallel = 1e-9;   ///< of a plane and one of the machine's
+constexpr double kLongestPiece = 5;  ///< of an arc in straight pieces, degrees
 
 void set_linear(Position& at, const Point3& to) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -120,9 +120,8 @@ int TiltedPath::pieces_of(const Position& to) const {
   const auto on_table = [&](const Position& flat) {
     return back(tilt.at + tilt.frame * (linear_of(flat) - tilt.flat_zero));
   };
-  const double pieces =
-      pieces_within(machine, pose_of(machine, state_.flat), pose_of(machine, to),
-                    on_table(state_.flat), on_table(to), tilt.length);
+  const double pieces = pieces_within(machine, pose_of(machine, state_.flat), pose_of(machine, to),
+                                      on_table(state_.flat), on_table(to), tilt.length);
   return pieces <= kMaxPieces ? static_cast<int>(pieces) : kMaxPieces + 1;
 }
 
@@ -152,8 +151,8 @@ void TiltedPath::deliver_straight(const Event& whole, void (EventSink::*deliver)
   const Position from = state_.flat;
   const Pose pose = pose_of(options_.kinematics, from);
   const Pose end = pose_of(options_.kinematics, whole.to);
-  const bool turns = std::fabs(end.master - pose.master) > kNoMove ||
-                     std::fabs(end.slave - pose.slave) > kNoMove;
+  const bool turns =
+      std::fabs(end.master - pose.master) > kNoMove || std::fabs(end.slave - pose.slave) > kNoMove;
   Event piece = whole;
   if constexpr (std::is_same_v<Event, Line>) {
     const bool is_timed = turns && whole.feed.per() == Feed::Per::Minute;
@@ -222,9 +221,8 @@ Matrix3 TiltedPath::turn_now() const {
 bool TiltedPath::arc_on_machine(const Arc& flat, Arc& arc) const {
   const PlaneAxes axes = axes_of(flat.plane);
   const Point3 normal = turn_now().column(static_cast<std::size_t>(axes.normal));
-  const auto largest = std::max_element(normal.begin(), normal.end(), [](double a, double b) {
-    return std::fabs(a) < std::fabs(b);
-  });
+  const auto largest = std::max_element(
+      normal.begin(), normal.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); });
   const auto across = static_cast<std::size_t>(largest - normal.begin());
   for (std::size_t i = 0; i < 3; ++i) {
     if (i != across && std::fabs(normal[i]) > kParallel) return false;
@@ -249,8 +247,7 @@ bool TiltedPath::check_arc(const Arc& arc) {
   const int pieces = static_cast<int>(std::ceil(arc.sweep.degrees() / kLongestPiece));
   Position last = state_.machine;
   for (int n = 1; n <= pieces; ++n) {
-    const Position next =
-        point_on_arc(arc, state_.machine, arc.sweep.degrees() * n / pieces);
+    const Position next = point_on_arc(arc, state_.machine, arc.sweep.degrees() * n / pieces);
     if (!check(arc.origin, last, next)) return false;
     last = next;
   }
@@ -262,8 +259,7 @@ void TiltedPath::deliver_pieces_of_arc(const Arc& arc) {
   const PlaneAxes axes = axes_of(arc.plane);
   const double radius = std::hypot(from.raw(axes.first) - arc.center_first.mm(),
                                    from.raw(axes.second) - arc.center_second.mm());
-  const int pieces =
-      pieces_of_arc(radius, arc.sweep.degrees(), options_.kinematics.tip_tolerance);
+  const int pieces = pieces_of_arc(radius, arc.sweep.degrees(), options_.kinematics.tip_tolerance);
   const auto point = [&](int n) {
     return on_machine(n == pieces ? arc.to
                                   : point_on_arc(arc, from, arc.sweep.degrees() * n / pieces));

@@ -6,8 +6,8 @@
 #include "gateway/interpreter/dialects/fanuc/tilting/kinematics.hpp"
 #include "gateway/interpreter/stages/event_filter.hpp"
 
-/// G68.2, G43.4 and G43.5: the last stage before the sink. Moves of the tip as the program has it come in,
-/// moves of the machine's axes go out.
+/// G68.2, G43.4 and G43.5: the last stage before the sink. Moves of the tip as the program has it
+/// come in, moves of the machine's axes go out.
 namespace dripline::interpreter::fanuc {
 
 struct ControlOptions;
@@ -21,12 +21,12 @@ struct Tilt {
     TipControl  ///< G43.4, G43.5: coordinates of the workpiece, where the tip moves straight
   };
   Kind kind = Kind::None;
-  Matrix3 frame{};        ///< the axes of the program, in machine coordinates at `zero`
-  Point3 at{};            ///< the program's zero there,
-  Point3 flat_zero{};     ///< and in the coordinates of the moves that come in
-  Pose zero{};            ///< of the rotary axes that the work offset is right for
-  double length = 0;      ///< of the tool, as compensated
-  double mm_per_unit = 1; ///< of F for a move in which the tip rests, degrees per unit
+  Matrix3 frame{};         ///< the axes of the program, in machine coordinates at `zero`
+  Point3 at{};             ///< the program's zero there,
+  Point3 flat_zero{};      ///< and in the coordinates of the moves that come in
+  Pose zero{};             ///< of the rotary axes that the work offset is right for
+  double length = 0;       ///< of the tool, as compensated
+  double mm_per_unit = 1;  ///< of F for a move in which the tip rests, degrees per unit
 };
 
 class TiltedPath final : public EventFilter {

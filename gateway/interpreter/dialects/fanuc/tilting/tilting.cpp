@@ -87,7 +87,8 @@ std::string_view excluded_code(const Run& run) {
   if (names(kInterpolationGroup, kPolarPlaneOn)) return "G12.1";
   if (names(kStrokeGroup, 22)) return "G22";
   if (block.names(kWorkGroup)) return "a change of the work system";
-  if (names(kUnitsGroup, 20, 21) && (block.g[kUnitsGroup] == 20) != (run.state.units == Units::Inch))
+  if (names(kUnitsGroup, 20, 21) &&
+      (block.g[kUnitsGroup] == 20) != (run.state.units == Units::Inch))
     return "a change of units";
   return {};
 }
@@ -140,7 +141,7 @@ std::string_view excluded_by_tip_control(const Run& run) {
 
 bool refuse_excluded(Run& run, std::string_view excluded) {
   const bool is_plane = run.tilted.kind() == Kind::Plane;
-  const std::string_view mode = is_plane                                 ? "G68.2"
+  const std::string_view mode = is_plane                                  ? "G68.2"
                                 : run.state.g[kLengthGroup] == kTipVector ? "G43.5"
                                                                           : "G43.4";
   return refuse(run, is_plane ? ErrorCode::ImproperCommand : ErrorCode::TipControl,
@@ -192,9 +193,9 @@ bool begin_tip_control(Run& run) {
   const Words& words = run.block.words;
   if (!words.has(H)) return refuse(run, ErrorCode::TipControl, "H is needed");
   if (words.has(P) && run.block.parts.m_count == 0 && run.whole(words[P]) != 0) {
-    return run.fail(ErrorCode::TipControl, words.column(P),
-                    fmt::format("P{}: the tool's posture is not controlled here",
-                                run.whole(words[P])));
+    return run.fail(
+        ErrorCode::TipControl, words.column(P),
+        fmt::format("P{}: the tool's posture is not controlled here", run.whole(words[P])));
   }
   if (const std::string_view why = hindrance(run); !why.empty())
     return refuse(run, ErrorCode::TipControl, why);

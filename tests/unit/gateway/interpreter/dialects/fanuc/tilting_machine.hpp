@@ -112,7 +112,8 @@ inline const TestMachine kTrunnion{
     "trunnion",
     "kinematics = \"table-table\"\nrotary_master = \"A-\"\nrotary_slave = \"C-\"\n"
     "table_centers = [ { Y = 5.0, Z = -40.0 }, { X = 12.0, Y = 8.0 } ]\n",
-    Axis::A, Axis::C,
+    Axis::A,
+    Axis::C,
     [](double a, double c) {
       return turn_about(0, -a, {0, 5, -40}) * turn_about(2, -c, {12, 8, 0});
     },
@@ -122,14 +123,22 @@ inline const TestMachine kMixed{
     "mixed",
     "kinematics = \"head-table\"\nrotary_master = \"B+\"\nrotary_slave = \"C+\"\n"
     "table_centers = [ { X = -20.0, Y = 30.0 } ]\nhead_centers = [ { X = 3.0, Z = 150.0 } ]\n",
-    Axis::B, Axis::C, [](double, double c) { return turn_about(2, c, {-20, 30, 0}); },
-    [](double b, double) { return turn_about(1, b, {3, 0, 150}); }};
+    Axis::B,
+    Axis::C,
+    [](double, double c) {
+      return turn_about(2, c, {-20, 30, 0});
+    },
+    [](double b, double) {
+      return turn_about(1, b, {3, 0, 150});
+    }};
 /// A fork: A on C.
 inline const TestMachine kFork{
     "fork",
     "kinematics = \"head-head\"\nrotary_master = \"C+\"\nrotary_slave = \"A+\"\n"
     "head_centers = [ { X = 2.0, Y = -1.5 }, { Y = 4.0, Z = 180.0 } ]\n",
-    Axis::C, Axis::A, still,
+    Axis::C,
+    Axis::A,
+    still,
     [](double c, double a) {
       return turn_about(2, c, {2, -1.5, 0}) * turn_about(0, a, {0, 4, 180});
     }};
@@ -181,8 +190,8 @@ class MachineLog final : public EventSink {
 /// Runs the whole program.
 inline MachineLog run_on(const TestMachine& machine, const std::string& program,
                          const std::string& more_control = {}, const std::string& tables = {}) {
-  const auto setup = parse_setup("[control]\nmodel = \"30i\"\n" + machine.control + more_control +
-                                 "\n" + tables);
+  const auto setup =
+      parse_setup("[control]\nmodel = \"30i\"\n" + machine.control + more_control + "\n" + tables);
   MachineLog log;
   if (!setup) {
     log.alarm = setup.error().what;

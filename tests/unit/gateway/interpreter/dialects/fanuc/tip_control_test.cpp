@@ -4,7 +4,8 @@
 
 #include "tests/unit/gateway/interpreter/dialects/fanuc/tilting_machine.hpp"
 
-/// FAN-104, G43.4: the tip goes straight from point to point of the workpiece while the rotary axes turn.
+/// FAN-104, G43.4: the tip goes straight from point to point of the workpiece while the rotary axes
+/// turn.
 namespace dripline::interpreter::fanuc {
 namespace {
 
@@ -17,7 +18,8 @@ double distance_from(const Vector& a, const Vector& b, const Vector& p) {
   const double square = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
   double part = 0;
   if (square > 0) {
-    part = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1] + (p[2] - a[2]) * along[2]) / square;
+    part =
+        ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1] + (p[2] - a[2]) * along[2]) / square;
     part = std::min(1.0, std::max(0.0, part));
   }
   return distance(p, {a[0] + part * along[0], a[1] + part * along[1], a[2] + part * along[2]});
@@ -33,8 +35,7 @@ Position between(const Position& from, const Position& to, double part) {
 /// A quarter of C under a tip that rests at (112, 8, 0), 100 from the axis of C: the trunnion's
 /// table turns clockwise, the point and the axes with it go to (12, 8 - 100).
 TEST(TipControl, OnATrunnionTheLinearAxesFollowTheTable) {
-  const MachineLog log =
-      run_on(kTrunnion, "G90 G00 X112. Y8. Z0\nG43.4 H1\nG01 C90. F500.\nM30\n");
+  const MachineLog log = run_on(kTrunnion, "G90 G00 X112. Y8. Z0\nG43.4 H1\nG01 C90. F500.\nM30\n");
   ASSERT_EQ(log.alarm, "");
   EXPECT_NEAR(log.at().raw(Axis::X), 12, kClose);
   EXPECT_NEAR(log.at().raw(Axis::Y), -92, kClose);
@@ -79,8 +80,8 @@ struct MachineCase {
 class TipControlMachines : public testing::TestWithParam<MachineCase> {};
 
 /// Over random moves: the tip ends on the point with the angles as programmed, no piece begins
-/// elsewhere than the last one ended, and on the way, between the ends of the pieces too, the tip is
-/// within the tolerance of its straight path and never goes back.
+/// elsewhere than the last one ended, and on the way, between the ends of the pieces too, the tip
+/// is within the tolerance of its straight path and never goes back.
 TEST_P(TipControlMachines, KeepTheTipOnAStraightPath) {
   const MachineCase& each = GetParam();
   const TestMachine& machine = *each.machine;
@@ -130,8 +131,9 @@ TEST_P(TipControlMachines, KeepTheTipOnAStraightPath) {
 TEST_P(TipControlMachines, TakeTheTimeOfTheTipsPath) {
   const MachineCase& each = GetParam();
   const MachineLog log =
-      run_on(*each.machine, "G90 G00 Z30.\nG43.4 H1\nG01 X30. Y40. " + std::string(each.rotary[0]) +
-                                "20. " + each.rotary[1] + "70. F100.\nX0 Y0 F200.\nM30\n",
+      run_on(*each.machine,
+             "G90 G00 Z30.\nG43.4 H1\nG01 X30. Y40. " + std::string(each.rotary[0]) + "20. " +
+                 each.rotary[1] + "70. F100.\nX0 Y0 F200.\nM30\n",
              "", kTool);
   ASSERT_EQ(log.alarm, "");
   double minutes = 0;
@@ -160,7 +162,8 @@ TEST(TipControl, AFinerToleranceMakesMorePieces) {
   EXPECT_GT(fine.size(), 9 * coarse.size());
   double most = 0;
   for (const auto& move : fine) {
-    most = std::max(most, distance(kTrunnion.tip(between(move.from, move.to, 0.5), 0), {112, 8, 0}));
+    most =
+        std::max(most, distance(kTrunnion.tip(between(move.from, move.to, 0.5), 0), {112, 8, 0}));
   }
   EXPECT_LE(most, 0.001);
 }
@@ -168,8 +171,8 @@ TEST(TipControl, AFinerToleranceMakesMorePieces) {
 /// The rotary axes turn at F where the tip rests: 90 degrees at 45 a minute, also in inches.
 TEST(TipControl, WhereTheTipRestsFIsInDegrees) {
   for (const char* units : {"G21", "G20"}) {
-    const auto moves = run_on(kTrunnion, std::string(units) +
-                                             " G90 G43.4 H1\nG01 C90. F45.\nM30\n").of_line(2);
+    const auto moves =
+        run_on(kTrunnion, std::string(units) + " G90 G43.4 H1\nG01 C90. F45.\nM30\n").of_line(2);
     double minutes = 0;
     for (const auto& move : moves) minutes += 1 / move.feed.moves_per_minute();
     EXPECT_NEAR(minutes, 2, 1e-9) << units;
@@ -177,8 +180,7 @@ TEST(TipControl, WhereTheTipRestsFIsInDegrees) {
 }
 
 TEST(TipControl, InG93AllPiecesTogetherAreOneMove) {
-  const auto moves =
-      run_on(kTrunnion, "G90 G93 G43.4 H1\nG01 X50. C90. F4.\nM30\n").of_line(2);
+  const auto moves = run_on(kTrunnion, "G90 G93 G43.4 H1\nG01 X50. C90. F4.\nM30\n").of_line(2);
   ASSERT_GT(moves.size(), 1U);
   double minutes = 0;
   for (const auto& move : moves) minutes += 1 / move.feed.moves_per_minute();
@@ -194,8 +196,8 @@ TEST(TipControl, IncrementsCountFromTheTip) {
 
 /// G49 leaves the axes where they are; from there on the coordinates are the machine's.
 TEST(TipControl, EndsWithTheAxesWhereTheyAre) {
-  const MachineLog log = run_on(
-      kTrunnion, "G90 G00 X10.\nG43.4 H1\nG01 A30. C40. F500.\nG49\nG91 G00 X1.\nM30\n");
+  const MachineLog log =
+      run_on(kTrunnion, "G90 G00 X10.\nG43.4 H1\nG01 A30. C40. F500.\nG49\nG91 G00 X1.\nM30\n");
   ASSERT_EQ(log.alarm, "");
   EXPECT_TRUE(log.of_line(4).empty());
   const auto move = log.of_line(5).at(0);
@@ -227,8 +229,8 @@ TEST(TipControl, ALimitOfARotaryAxisIsAnAlarm) {
   const MachineLog log = run_on(kTrunnion, "G90 G43.4 H1\nG01 A121. F500.\nM30\n",
                                 "rotary_limits = [ { A = -30 }, { A = 120 } ]\n");
   EXPECT_TRUE(log.alarm.starts_with("OT500")) << log.alarm;
-  const MachineLog plain = run_on(kTrunnion, "G90 G00 A121.\nM30\n",
-                                  "rotary_limits = [ { A = -30 }, { A = 120 } ]\n");
+  const MachineLog plain =
+      run_on(kTrunnion, "G90 G00 A121.\nM30\n", "rotary_limits = [ { A = -30 }, { A = 120 } ]\n");
   EXPECT_TRUE(plain.alarm.starts_with("OT500")) << plain.alarm;
 }
 
@@ -252,15 +254,16 @@ TEST_P(TipControlMachines, BringTheToolAlongAVector) {
     char block[120];
     std::snprintf(block, sizeof block, "X10. Y20. Z5. I%.3f J%.3f K%.3f\n", wanted[0], wanted[1],
                   wanted[2]);
-    const MachineLog log = run_on(machine,
-                                  std::string("G90 G00 Z30.\nG43.5 H1\nG01 F500.\n") + block +
-                                      "I0.5 K1.\nX20.\nM30\n",
-                                  "", kTool);
+    const MachineLog log =
+        run_on(machine,
+               std::string("G90 G00 Z30.\nG43.5 H1\nG01 F500.\n") + block + "I0.5 K1.\nX20.\nM30\n",
+               "", kTool);
     ASSERT_EQ(log.alarm, "") << block;
     const Position at = log.of_line(4).back().to;
     EXPECT_LT(distance(machine.tip(at, 87.5), {10, 20, 5}), kClose);
-    EXPECT_LT(distance(machine.direction(at), {wanted[0] / size, wanted[1] / size, wanted[2] / size}),
-              kClose);
+    EXPECT_LT(
+        distance(machine.direction(at), {wanted[0] / size, wanted[1] / size, wanted[2] / size}),
+        kClose);
     const Position turned = log.of_line(5).back().to;
     EXPECT_LT(distance(machine.tip(turned, 87.5), {10, 20, 5}), kClose) << "the tip rests";
     const double half = std::sqrt(1.25);
@@ -281,8 +284,8 @@ TEST_P(TipControlRefuses, WithTheLineAndTheReason) {
                                 "offset_memory = \"C\"\n", "[[tool]]\nnumber = 1\nradius = 2\n");
   EXPECT_TRUE(log.alarm.starts_with("PS5421")) << log.alarm;
   EXPECT_NE(log.alarm.find(GetParam().word), std::string::npos) << log.alarm;
-  EXPECT_EQ(log.alarm_line, 2U + static_cast<std::uint64_t>(
-                                     std::count(blocks.begin(), blocks.end(), '\n')));
+  EXPECT_EQ(log.alarm_line,
+            2U + static_cast<std::uint64_t>(std::count(blocks.begin(), blocks.end(), '\n')));
 }
 
 const std::string kInTipControl = "G43.4 H1\n";
@@ -310,7 +313,8 @@ INSTANTIATE_TEST_SUITE_P(
                     TipRefusal{"rotation", kInTipControl + "G68 X0 Y0 R5.", "G68"},
                     TipRefusal{"scaling", kInTipControl + "G51 P2.", "G51"},
                     TipRefusal{"work_system", kInTipControl + "G55", "work system"},
-                    TipRefusal{"work_system_before_a_call", kInTipControl + "G55 G65 P9001", "work system"},
+                    TipRefusal{"work_system_before_a_call", kInTipControl + "G55 G65 P9001",
+                               "work system"},
                     TipRefusal{"reference", kInTipControl + "G28 Z0", "this G code"},
                     TipRefusal{"machine_coordinates", kInTipControl + "G53 Z0", "this G code"},
                     TipRefusal{"skip", kInTipControl + "G31 Z0", "this G code"},
@@ -326,8 +330,10 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(TipControl, ContinuesFromEverySnapshot) {
   const std::string program =
       "G90 G00 X10. Y20. Z30.\nG43.4 H1\nG01 A30. C40. F500.\nX5.\nG49\n"
-      "G68.2 X1. Y2. Z3. I10. J20. K30.\nG53.1\nG01 X4. Y5.\nG02 X8. Y9. R10.\nG69\nG00 Z50.\nM30\n";
-  const auto setup = parse_setup("[control]\n" + kTrunnion.control + "[[tool]]\nnumber = 1\nlength = 9\n");
+      "G68.2 X1. Y2. Z3. I10. J20. K30.\nG53.1\nG01 X4. Y5.\nG02 X8. Y9. R10.\nG69\nG00 "
+      "Z50.\nM30\n";
+  const auto setup =
+      parse_setup("[control]\n" + kTrunnion.control + "[[tool]]\nnumber = 1\nlength = 9\n");
   ASSERT_TRUE(setup);
   const MachineLog whole = run_on(kTrunnion, program, "", "[[tool]]\nnumber = 1\nlength = 9\n");
   ASSERT_EQ(whole.alarm, "");
