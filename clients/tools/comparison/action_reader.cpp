@@ -15,9 +15,10 @@ bool is_state(const Action& action) {
   return action.kind == ActionKind::Spindle || action.kind == ActionKind::Coolant;
 }
 
-interpreter::Setup shifted(interpreter::Setup setup, double shift) {
+interpreter::Setup shifted(interpreter::Setup setup, double shift, unsigned axes) {
   if (shift == 0) return setup;
   for (const auto axis : interpreter::kAllAxes) {
+    if ((axes >> static_cast<unsigned>(axis) & 1U) == 0) continue;
     const bool has_moved = setup.start.has(axis);
     setup.start.set_raw(axis, setup.start.raw(axis) + shift);
     if (!has_moved) setup.start.unmark(axis);
@@ -27,17 +28,20 @@ interpreter::Setup shifted(interpreter::Setup setup, double shift) {
 
 }  // namespace
 
-ActionReader::ActionReader(const MotionSide& side, bool across_controls, double shift)
+ActionReader::ActionReader(const MotionSide& side, bool across_controls, double shift,
+                           unsigned shifted_axes)
     : side_(side),
       across_controls_(across_controls),
-      setup_(shifted(side.setup, shift)),
+      setup_(shifted(side.setup, shift, shifted_axes)),
       recorder_(queue_, setup_.start, across_controls) {
   setup_.switches.optional_stop = true;  // an optional stop is compared, whatever the switch is
 }
 
 Result<void> ActionReader::begin(const MotionOptions& options) {
+  if (side_.stage) stage_ = side_.stage(recorder_, setup_.start);
+  interpreter::EventSink& sink = stage_ ? *stage_ : static_cast<interpreter::EventSink&>(recorder_);
   auto run = interpreter::OfflineRun::begin(
-      side_.dialect, setup_, side_.source, recorder_,
+      side_.dialect, setup_, side_.source, sink,
       {.max_blocks = options.max_blocks, .max_repeated_blocks = options.max_repeated_blocks});
   if (!run) return fail(run.error());
   run_.emplace(*std::move(run));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace dripline::comparison {
 /// is: the interpretation delivers into it.
 class ActionReader {
  public:
-  /// `shift`: of the start from the setup's, on every axis, in millimeters or degrees.
-  ActionReader(const MotionSide& side, bool across_controls, double shift = 0);
+  /// `shift`: of the start from the setup's, on these axes (bit 0 is X), in millimeters or degrees.
+  ActionReader(const MotionSide& side, bool across_controls, double shift = 0,
+               unsigned shifted_axes = ~0U);
   ActionReader(const ActionReader&) = delete;
   ActionReader& operator=(const ActionReader&) = delete;
 
@@ -41,6 +43,7 @@ class ActionReader {
   interpreter::Setup setup_;
   ActionQueue queue_;
   ActionRecorder recorder_;
+  std::unique_ptr<interpreter::EventSink> stage_;  ///< of the side, in front of the recorder
   std::optional<interpreter::OfflineRun> run_;
   std::optional<Condition> fault_;
   bool is_over_ = false;

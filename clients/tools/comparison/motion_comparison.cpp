@@ -66,9 +66,10 @@ class Pass {
  public:
   Pass(const std::array<MotionSide, 2>& sides, const MotionOptions& options, double shift)
       : options_(options),
-        agreement_{options.tolerance, sides[0].dialect.name != sides[1].dialect.name},
-        first_(sides[0], agreement_.across_controls, shift),
-        second_(sides[1], agreement_.across_controls, shift) {
+        agreement_{options.tolerance,
+                   options.across_controls || sides[0].dialect.name != sides[1].dialect.name},
+        first_(sides[0], agreement_.across_controls, shift, options.started_axes),
+        second_(sides[1], agreement_.across_controls, shift, options.started_axes) {
     result_.tolerance = options.tolerance;
     result_.across_controls = agreement_.across_controls;
   }

@@ -15,11 +15,17 @@
 
 namespace dripline::comparison {
 
+/// What an event passes on its way to the comparison: a stage in front of `out`, for a run that
+/// begins at `start`. `out` outlives it.
+using ComparisonStage = std::function<std::unique_ptr<interpreter::EventSink>(
+    interpreter::EventSink& out, const interpreter::Position& start)>;
+
 /// A program with all that its interpretation needs; all of it must outlive the comparison.
 struct MotionSide {
   const interpreter::Dialect& dialect;
   const interpreter::Setup& setup;
   interpreter::ProgramSource& source;  ///< holds all of its text
+  ComparisonStage stage = {};          ///< empty: the events as they come
 };
 
 /// One place where two programs do not do the same.
@@ -82,6 +88,10 @@ struct MotionOptions {
   /// Actions of each program in which the place is looked for from which both do the same again;
   /// some 400 bytes each.
   std::size_t max_window = 65'536;
+  /// Compares as across controls, where both are of one as well.
+  bool across_controls = false;
+  /// Bit 0 is X: the axes whose other start the second pass begins at.
+  unsigned started_axes = ~0U;
 };
 
 /// Interprets both programs in step and compares what they do; where it is the same, again from
