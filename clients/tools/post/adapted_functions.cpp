@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+#include <cmath>
+
+#include "clients/tools/post/adaptation.hpp"
+
+/// What a program does besides moving.
+namespace dripline::post {
+namespace {
+
+using interpreter::EventGate;
+using interpreter::SpindleState;
+
+bool is_turning(SpindleState state) {
+  return state == SpindleState::Clockwise || state == SpindleState::Counterclockwise;
+}
+
+/// Some controls report that again, and others do not.
+bool is_off_already(const interpreter::Spindle& event, SpindleState state) {
+  return event.state == SpindleState::Off && state == SpindleState::Off;
+}
+bool is_off_already(const interpreter::Coolant& event, bool has_coolant) {
+  return !event.flood && !event.mist && !has_coolant;
+}
+
+/// M02 and M30 are ends, whatever a control reports besides.
+bool is_end_code(int code) {
+  return code == 2 || code == 30;
+}
+
+}  // namespace
+
+/// A lead is rounded by a ten-thousandth of it at most: a screw has to fit.
+void Adaptation::on_thread(const interpreter::Thread& event) {
+  if (!is_open() || !check_target(event.origin, event.to)) return;
+  const double lead = event.lead.mm();
+  if (!target().has_threads)
+    return refuse(event.origin, fmt::format("thread of lead {:g} mm: {} has no code for it here",
+                                            lead, target().name));
+  if (event.arc || event.lead_change.mm() != 0)
+    return refuse(event.origin,
+                  fmt::format("thread of lead {:g} mm {}: {} is written with straight "
+                              "threads of one lead",
+                              lead, event.arc ? "on an arc" : "that changes", target().name));
+  if (is_short(event.to)) return refuse(event.origin, "thread shorter than a step of the target");
+  constexpr double kLeadTolerance = 1e-4;
+  const auto& range = range_of(target().feed_per_revolution, grid_.units());
+  const double unit = mm_of(grid_.units());
+  const double word = lead_word(grid_, at_, event.to, event.lead).mm() / unit;
+  const double nearest = value_of(counts_of(word, range.decimals), range.decimals);
+  if (!(nearest > 0) || nearest > range.max ||
+      !(std::fabs(nearest - word) <= kLeadTolerance * word)) {
+    return refuse(event.origin,
+                  fmt::format("thread of lead {:g} {}: {} takes {} decimals up to {:g}", word,
+                              unit_name(grid_.units()), target().name, range.decimals, range.max));
+  }
+  if (std::fabs(nearest - word) > 1e-9 * word) ++counts_.rounded_leads;
+  interpreter::Thread adapted = event;
+  adapted.lead = lead_of_path(grid_, at_, event.to, Length::mm(nearest * unit));
+  if (event.start_angle)
+    adapted.start_angle = Angle::degrees(value_of(counts_of(event.start_angle->degrees(), 3), 3));
+  EventGate::on_thread(adapted);
+  at_ = event.to;
+}
+
+void Adaptation::on_dwell(const interpreter::Dwell& event) {
+  if (!is_open()) return;
+  if (event.revolutions) {
+    return refuse(event.origin, fmt::format("dwell of {:g} revolutions: dwells are written in "
+                                            "seconds",
+                                            *event.revolutions));
+  }
+  const auto seconds =
+      rounded(event.origin, "dwell", event.seconds, target().dwell, "s", counts_.rounded_dwells);
+  if (!seconds) return;
+  interpreter::Dwell adapted = event;
+  adapted.seconds = *seconds;
+  EventGate::on_dwell(adapted);
+}
+
+void Adaptation::on_spindle(const interpreter::Spindle& event) {
+  if (!is_open() || is_off_already(event, spindle_.state)) return;
+  interpreter::Spindle adapted = event;
+  if (event.state == SpindleState::Oriented && !target().has_oriented_spindle)
+    return refuse(event.origin, fmt::format("oriented spindle: {} has none", target().name));
+  if (is_turning(event.state) && event.surface_speed) {
+    if (!target().has_surface_speed) {
+      return refuse(event.origin,
+                    fmt::format("constant surface speed of {:g} m/min: {} has revolutions alone",
+                                event.surface_speed->mm() / 1000, target().name));
+    }
+    const bool is_inch = grid_.units() == interpreter::Units::Inch;
+    const double unit = is_inch ? 12 * Length::kMillimetersPerInch : 1000;
+    const auto value = rounded(event.origin, "surface speed", event.surface_speed->mm() / unit,
+                               {target().speed.decimals, 9999}, is_inch ? "ft/min" : "m/min",
+                               counts_.rounded_speeds);
+    if (!value) return;
+    adapted.surface_speed = Length::mm(*value * unit);
+  } else if (is_turning(event.state)) {
+    const auto value = rounded(event.origin, "spindle speed", event.revolutions_per_minute,
+                               target().speed, "rpm", counts_.rounded_speeds);
+    if (!value) return;
+    adapted.revolutions_per_minute = *value;
+  }
+  EventGate::on_spindle(adapted);
+  spindle_ = adapted;
+}
+
+void Adaptation::on_coolant(const interpreter::Coolant& event) {
+  if (event.mist && !target().has_mist)
+    return refuse(event.origin, fmt::format("mist coolant: {} has none", target().name));
+  if (is_off_already(event, has_coolant_)) return;
+  EventGate::on_coolant(event);
+  has_coolant_ = event.flood || event.mist;
+}
+
+void Adaptation::on_tool(const interpreter::ToolChange& event) {
+  if (event.is_preselection || !is_open()) return;
+  if (event.number < 0 || event.number > target().max_tool) {
+    return refuse(event.origin,
+                  target().max_tool == 0
+                      ? fmt::format("tool {}: {} has no tool numbers", event.number, target().name)
+                      : fmt::format("tool {}: {} has tools up to {}", event.number, target().name,
+                                    target().max_tool));
+  }
+  interpreter::Spindle spindle = spindle_;
+  spindle.origin = event.origin;
+  const bool restarts = target().stops_spindle_at_tool_change && is_turning(spindle.state);
+  if (restarts) {
+    ++counts_.spindle_restarts;
+    interpreter::Spindle off;
+    off.origin = event.origin;
+    EventGate::on_spindle(off);
+  }
+  EventGate::on_tool(event);
+  if (restarts) EventGate::on_spindle(spindle);
+}
+
+void Adaptation::on_miscellaneous(const interpreter::Miscellaneous& event) {
+  if (!is_open() || is_end_code(event.code)) return;
+  if (event.code < 0 || event.code > target().max_m) {
+    return refuse(event.origin,
+                  fmt::format("M{}: {} has no M function of the machine {} {}", event.code,
+                              target().name, target().max_m == 0 ? "like" : "above",
+                              target().max_m == 0 ? event.code : target().max_m));
+  }
+  EventGate::on_miscellaneous(event);
+}
+
+void Adaptation::on_pin(const interpreter::PinChange& event) {
+  refuse(event.origin, fmt::format("output {} of axis {}: outputs are not written", event.output,
+                                   letter(event.axis)));
+}
+
+void Adaptation::on_probe(const interpreter::Probe& event) {
+  refuse(event.origin, "probing move: where it ends is known at the machine alone");
+}
+
+void Adaptation::on_output(const interpreter::Output& event) {
+  refuse(event.origin, fmt::format("output \"{}\": outputs are not written", event.text));
+}
+
+void Adaptation::on_open(const interpreter::Open& event) {
+  refuse(event.origin, "an output is opened: outputs are not written");
+}
+
+void Adaptation::on_close(const interpreter::Close& event) {
+  refuse(event.origin, "an output is closed: outputs are not written");
+}
+
+void Adaptation::on_message(const interpreter::Message& event) {
+  ++counts_.messages;
+  if (options_.passes_messages) EventGate::on_message(event);
+}
+
+void Adaptation::on_prompt(const interpreter::Prompt&) {
+  ++counts_.prompts;
+}
+
+void Adaptation::on_stop(const interpreter::Stop& event) {
+  if (!is_open()) return;
+  using interpreter::StopKind;
+  if (event.kind == StopKind::ToolChange) {
+    ++counts_.tool_change_stops;
+    return;
+  }
+  if (event.kind == StopKind::Operator)
+    return refuse(event.origin, "a wait for the operator at an axis: it is not written");
+  if (event.kind == StopKind::Optional && !target().has_optional_stop)
+    return refuse(event.origin, fmt::format("optional stop: {} has none", target().name));
+  EventGate::on_stop(event);
+}
+
+void Adaptation::on_override_inhibit(const interpreter::OverrideInhibit& event) {
+  const bool inhibits = event.feed_override || event.spindle_override || event.single_block ||
+                        event.is_tapping || event.hold != interpreter::FeedHoldInhibit::AtOnce;
+  if (!inhibits) return;
+  refuse(event.origin, event.is_tapping
+                           ? "tapping: the overrides and feed hold that it inhibits cannot be "
+                             "written"
+                           : "inhibited overrides or feed hold: they cannot be written");
+}
+
+void TargetView::on_spindle(const interpreter::Spindle& event) {
+  if (is_off_already(event, spindle_)) return;
+  EventFilter::on_spindle(event);
+  spindle_ = event.state;
+}
+
+void TargetView::on_coolant(const interpreter::Coolant& event) {
+  if (is_off_already(event, has_coolant_)) return;
+  EventFilter::on_coolant(event);
+  has_coolant_ = event.flood || event.mist;
+}
+
+void TargetView::on_stop(const interpreter::Stop& event) {
+  if (event.kind != interpreter::StopKind::ToolChange) EventFilter::on_stop(event);
+}
+
+void TargetView::on_miscellaneous(const interpreter::Miscellaneous& event) {
+  if (!is_end_code(event.code)) EventFilter::on_miscellaneous(event);
+}
+
+}  // namespace dripline::post

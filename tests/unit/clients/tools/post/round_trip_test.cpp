@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+#include <cstdlib>
+#include <map>
+
+#include "tests/golden/golden_case.hpp"
+#include "tests/unit/clients/tools/post/converted.hpp"
+
+/// Every golden program of a mill or a lathe that runs without an alarm, written for every other
+/// control of that kind: it is proved to do the same, or refused with a reason.
+namespace dripline::post {
+namespace {
+
+struct Tally {
+  int proved = 0, refused = 0, different = 0;
+};
+
+/// DRIPLINE_LIST=1 lists what was refused, and why.
+bool lists() {
+  const char* list = std::getenv("DRIPLINE_LIST");
+  return list != nullptr && std::string_view(list) == "1";
+}
+
+void convert_all(std::string_view control, bool is_lathe, std::map<std::string, Tally>& tallies) {
+  const auto dialect = interpreter::find_dialect(control);
+  ASSERT_TRUE(dialect);
+  for (const auto& golden : interpreter::golden_cases(control)) {
+    if (verdict_of(golden)) continue;
+    const Original original{control, golden.program(), setup_of(golden, **dialect),
+                            loader_of(golden)};
+    for (const Target& target : targets()) {
+      if (target.is_lathe != is_lathe) continue;
+      ConversionOptions options;
+      options.is_as_set_up = true;
+      options.tolerance = 0.003;
+      const auto converted = convert(original, target.name, options);
+      auto& tally = tallies[std::string(control) + " to " + std::string(target.name)];
+      const std::string reason = converted.reason();
+      if (converted.is_proved) {
+        ++tally.proved;
+      } else if (converted.refusal) {
+        ++tally.refused;
+        EXPECT_FALSE(reason.empty()) << golden.name;
+      } else {
+        ++tally.different;
+      }
+      if (lists() && !converted.is_proved)
+        std::cout << control << '/' << golden.name << " -> " << target.name << ": " << reason
+                  << '\n';
+    }
+  }
+}
+
+int total(const std::map<std::string, Tally>& tallies, int Tally::*member) {
+  int sum = 0;
+  for (const auto& [name, tally] : tallies) {
+    sum += tally.*member;
+    if (member == &Tally::proved)
+      std::cout << name << ": " << tally.proved << " proved, " << tally.refused << " refused, "
+                << tally.different << " different\n";
+  }
+  return sum;
+}
+
+TEST(RoundTrip, GoldenProgramsOfMills) {
+  std::map<std::string, Tally> tallies;
+  for (const char* control : {"fanuc", "rs274ngc", "tnc155", "tektronix-1704"})
+    convert_all(control, false, tallies);
+  EXPECT_GE(total(tallies, &Tally::proved), 1100);
+  EXPECT_LE(total(tallies, &Tally::different), 12) << "not written, but for no reason of a control";
+}
+
+TEST(RoundTrip, GoldenProgramsOfLathes) {
+  std::map<std::string, Tally> tallies;
+  for (const char* control : {"centurion", "fanuc-t"}) convert_all(control, true, tallies);
+  EXPECT_GE(total(tallies, &Tally::proved), 195);
+  EXPECT_LE(total(tallies, &Tally::different), 3);
+}
+
+}  // namespace
+}  // namespace dripline::post
