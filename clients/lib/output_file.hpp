@@ -18,6 +18,8 @@ class OutputFile {
   ~OutputFile();
 
   Result<void> write(std::string_view bytes);
+  /// Where the bytes are before `commit`.
+  const std::string& temporary_path() const { return temporary_; }
   /// After success the file is on disk under its name. Errors: Io.
   Result<void> commit();
 

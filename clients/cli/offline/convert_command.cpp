@@ -4,6 +4,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/form_conversion.hpp"
+#include "clients/cli/offline/motion_conversion.hpp"
 #include "clients/cli/offline/tape_conversion.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/standard_output.hpp"
@@ -27,6 +28,7 @@ struct ConvertCommand {
   bool has_to = false;
   std::optional<std::int32_t> increment;
   std::string setup;
+  MotionConversion motion;
 };
 
 constexpr std::size_t kPiece = 64 * 1024;
@@ -247,7 +249,22 @@ Result<void> check_output_name(const ConvertCommand& command, client::FileSource
               is_iso_name ? "ISO" : "plain language", is_iso_name ? "iso" : "plain");
 }
 
+/// To a control's language, from the motion.
+int convert_to_control(Context& context, const ConvertCommand& command) {
+  if (command.is_listing || command.from != "auto" || !command.end_of_block.empty()) {
+    return refuse(Error{Errc::Syntax, "--list, --from and --eob are for tapes, --to " + command.to +
+                                          " is a control"});
+  }
+  MotionConversion conversion = command.motion;
+  conversion.source.file = command.input;
+  conversion.source.setup = command.setup;
+  conversion.output = command.output;
+  conversion.to = command.to;
+  return convert_by_motion(context, conversion);
+}
+
 int convert(Context& context, const ConvertCommand& command) {
+  if (is_motion_target(command.to)) return convert_to_control(context, command);
   auto file = client::FileSource::open(command.input);
   if (!file) return refuse(file.error());
   if (is_between_forms(command, *file)) return convert_between_forms(context, command, *file);
@@ -273,10 +290,12 @@ void add_options(Command command, ConvertCommand& options) {
   command.add_option("-o,--output", options.output, "File to write; - for standard output");
   auto targets = codes;
   targets.push_back("plain");
+  for (auto& target : motion_targets()) targets.push_back(std::move(target));
   command
       .add_option("--to", options.to,
                   "Write eia, iso, or ascii (program text; the default); for a TNC 151/155 "
-                  "program: iso or plain")
+                  "program: iso or plain; the name of a control: a program for it, from the motion "
+                  "of IN")
       .check(one_of(targets));
   codes.push_back("auto");
   command.add_option("--from", options.from, "Read eia, iso, ascii, or auto (detected from IN)")
@@ -310,9 +329,10 @@ void add_options(Command command, ConvertCommand& options) {
       .check(in_range(0, 99));
   command.add_option(
       "--setup", options.setup,
-      "TNC programs: TOML file with the options of the control (decimal_sign, iso_continuation, "
-      "block_increment, model and software; what that control lacks is refused)");
+      "TOML file: setup of IN's control. TNC programs: its options (decimal_sign, "
+      "iso_continuation, block_increment, model and software; what that control lacks is refused)");
   command.add_flag("--strict-blanks", options.is_strict, "Refuse blank tape inside an EIA block");
+  add_motion_options(command, options.motion);
 }
 
 }  // namespace
@@ -320,20 +340,35 @@ void add_options(Command command, ConvertCommand& options) {
 void add_convert_command(Command app, Context& context) {
   auto command = app.add_subcommand(
       "convert",
-      "Convert tape images between EIA, ISO and program text, or TNC programs between their forms");
+      "Convert tape images between EIA, ISO and text, TNC programs between their forms, and any "
+      "program to another control");
   auto options = std::make_shared<ConvertCommand>();
   add_options(command, *options);
+  add_json_flag(command, context);
   command.footer(
       "No server is needed. A tape is read as a control reads it: nothing applies before the first "
       "end of block; deletes and blanks are left out.\n\nA program that begins with BEGIN PGM is "
       "plain language of a HEIDENHAIN TNC 151/155: --to iso makes it the control's ISO form "
       "(--from ascii: an ISO tape of the text), --to plain makes plain language of ISO. What has "
-      "no counterpart in the other form is refused.\n\nExit status: 0 converted, 1 the tape or the "
+      "no counterpart in the other form is refused.\n\n--to CONTROL runs IN and writes its motion "
+      "as a "
+      "program of that control: absolute, cycles and subprograms executed, compensation resolved. "
+      "What the control does not have is refused with its line. The result is interpreted as that "
+      "control does and compared with IN, action by action; a file that is not proved to do the "
+      "same "
+      "is not written. linuxcnc is rs274ngc with profile = \"linuxcnc\".\n\nExit status: 0 "
+      "converted, 1 the tape or the "
       "program cannot be converted, 2 usage, unreadable file.\n\nExamples:\n  dnc convert "
       "shaft.ptp -o shaft.nc\n  dnc convert shaft.nc -o shaft.ptp --to eia --title SHAFT-4\n  dnc "
-      "convert shaft.ptp --list | less\n  dnc convert plate.h -o plate.i --to iso");
+      "convert shaft.ptp --list | less\n  dnc convert plate.h -o plate.i --to iso\n  dnc convert "
+      "plate.h -o plate.nc --to fanuc --name 1234");
   command.callback([&context, command, options] {
     options->has_to = command.get_option("--to").count() != 0;
+    const std::string stray = given_motion_option(command);
+    if (!stray.empty() && !is_motion_target(options->to)) {
+      context.status = refuse(Error{Errc::Syntax, stray + " goes with --to CONTROL"});
+      return;
+    }
     context.status = convert(context, *options);
   });
 }

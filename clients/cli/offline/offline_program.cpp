@@ -52,19 +52,6 @@ Result<const Dialect*> choose_dialect(const OfflineCommand& command, std::string
               names_of(candidates));
 }
 
-Result<interpreter::Setup> read_setup(const std::string& path, const Dialect& dialect) {
-  if (path.empty()) return interpreter::Setup{};
-  auto file = MappedFile::open(path);
-  if (!file) return fail(file.error());
-  if (file->text().size() > kMaxSetup) {
-    return fail(Errc::LimitExceeded, "setup file {} has {} bytes, expected at most {}", path,
-                file->text().size(), kMaxSetup);
-  }
-  auto setup = interpreter::parse_setup(file->text(), dialect.units);
-  if (!setup) return fail(setup.error().code, "setup file {}: {}", path, setup.error().what);
-  return setup;
-}
-
 /// Program text has neither blank rows nor an eighth hole in its first rows.
 bool looks_like_tape(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, kTapeHead);
@@ -100,6 +87,19 @@ std::string library_folder(const OfflineCommand& command, const interpreter::Set
 }
 
 }  // namespace
+
+Result<interpreter::Setup> read_setup(const std::string& path, const Dialect& dialect) {
+  if (path.empty()) return interpreter::Setup{};
+  auto file = MappedFile::open(path);
+  if (!file) return fail(file.error());
+  if (file->text().size() > kMaxSetup) {
+    return fail(Errc::LimitExceeded, "setup file {} has {} bytes, expected at most {}", path,
+                file->text().size(), kMaxSetup);
+  }
+  auto setup = interpreter::parse_setup(file->text(), dialect.units);
+  if (!setup) return fail(setup.error().code, "setup file {}: {}", path, setup.error().what);
+  return setup;
+}
 
 Result<OfflineProgram> OfflineProgram::open(const OfflineCommand& command) {
   auto file = MappedFile::open(command.file);

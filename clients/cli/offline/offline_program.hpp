@@ -70,6 +70,10 @@ inline void add_offline_options(Command command, OfflineCommand& options) {
                      "options of the control, library of called programs");
 }
 
+/// The setup in a file, for a control; without a path all is at its default. Errors: Io, Syntax,
+/// LimitExceeded.
+Result<interpreter::Setup> read_setup(const std::string& path, const interpreter::Dialect& dialect);
+
 /// The status for an interpretation that could not be carried through: a program that never ends is
 /// the program's fault, anything else (setup, missing answers) the user's to correct.
 inline int complain_offline(const Error& error) {
