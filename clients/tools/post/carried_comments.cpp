@@ -45,15 +45,16 @@ void CarriedComments::take_up_to(std::uint64_t offset, std::vector<std::string>&
   if (!has_parentheses_ && !has_semicolon_) return;
   const std::size_t end =
       std::min(text_.find('\n', std::min<std::size_t>(offset, text_.size())), text_.size());
+  const std::string_view part = text_.substr(0, end);  // nothing is looked for behind it
   while (at_ < end) {
-    at_ = text_.find_first_of(has_semicolon_ ? "(;" : "(", at_);
+    at_ = part.find_first_of(has_semicolon_ ? "(;" : "(", at_);
     if (at_ >= end) {
       at_ = end;
       return;
     }
-    const std::size_t line_end = std::min(text_.find('\n', at_), text_.size());
+    const std::size_t line_end = std::min(part.find('\n', at_), end);
     const std::size_t close =
-        text_[at_] == ';' ? line_end : std::min(text_.find(')', at_), line_end);
+        part[at_] == ';' ? line_end : std::min(part.substr(0, line_end).find(')', at_), line_end);
     const std::string_view comment = text_.substr(at_ + 1, close - at_ - 1);
     std::string text = printable(comment);
     if (!text.empty() && !is_active_comment(comment)) comments.push_back(std::move(text));
