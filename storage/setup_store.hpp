@@ -52,7 +52,7 @@ class SetupStore {
 
   /// From now on this one is in the control; in force for runs that are created later, and in the
   /// audit trail (setup.loaded). `number` nothing: it is not known. Errors: Syntax (the machine's
-  /// name), NotFound (no such setup).
+  /// name), NotFound (no such setup, or none at all).
   virtual Result<LoadedSetup> note_loaded(const std::string& machine,
                                           std::optional<std::uint64_t> number,
                                           const Actor& who) = 0;

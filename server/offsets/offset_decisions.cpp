@@ -82,6 +82,9 @@ Result<OffsetProposal> Offsets::approve(const storage::OffsetDecision& given) {
   if (auto current = check_measured(*now, *rule, *proposal); !current) return fail(current.error());
   auto text = with_value(now->text, *target, proposal->new_value, kDecimals);
   if (!text) return fail(text.error());
+  const auto form = what_form_lacks(*now, *text);
+  if (!form) return fail(form.error());
+  if (!form->empty()) return fail(Errc::Conflict, "offset proposal {}: {}", proposal->id, *form);
   const auto doubt = doubt_at_approval(
       parts_.store, {now->machine, now->control, proposal->target, now->text, *text});
   if (!doubt) return fail(doubt.error());

@@ -98,6 +98,17 @@ Result<std::vector<HistoryEntry>> OffsetHistory::list(const std::string& machine
         entry.proposal = proposal->second;
       entries.push_back(std::move(entry));
     }
+    // What it has no more ends here.
+    for (auto value = values.begin(); value != values.end();) {
+      const auto is_it = [&](const NamedValue& named) { return named.target == value->first; };
+      if (std::ranges::any_of(*stated, is_it)) {
+        ++value;
+        continue;
+      }
+      if (auto closed = close(value->first, at->number); !closed) return fail(closed.error());
+      last_entry.erase(value->first);
+      value = values.erase(value);
+    }
   }
   if (!setups->empty()) {
     for (const auto& [name, index] : last_entry) {

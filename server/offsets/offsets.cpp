@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "gateway/interpreter/dialects/fanuc/memory/offset_text.hpp"
 #include "protocol/process/log.hpp"
 #include "server/offsets/deviations.hpp"
 #include "server/offsets/memory_check.hpp"
@@ -102,6 +103,32 @@ Result<Offsets::Current> Offsets::current_of(const std::string& machine) {
   return now;
 }
 
+/// Why a control that is loaded by hand could not be given the setup; empty: it can.
+Result<std::string> Offsets::what_form_lacks(const Current& now, const std::string& text) {
+  const bool is_lathe = now.control == "fanuc-t";
+  if (!is_lathe && now.control != "fanuc") return std::string();
+  const auto loaded = parts_.store.setups.loaded(now.machine);
+  if (!loaded) return fail(loaded.error());
+  if (!*loaded) return std::string();
+  const auto setup = interpreter::parse_control_data(text);
+  if (!setup) return fail(setup.error());
+  const auto form = interpreter::fanuc::write_offset_text(*setup, is_lathe);
+  return form ? std::string() : "the control cannot be loaded with it: " + form.error().what;
+}
+
+/// What a control that is loaded by hand waits for; empty: nothing.
+Result<std::string> Offsets::what_is_not_loaded(const Current& now) {
+  const auto loaded = parts_.store.setups.loaded(now.machine);
+  if (!loaded) return fail(loaded.error());
+  if (!*loaded || (*loaded)->number == now.setup) return std::string();
+  return fmt::format(
+      "{} is said to be in the control, and setup {} is the newest: load it there, "
+      "then `dnc setup loaded {} {}`",
+      (*loaded)->number ? fmt::format("setup {}", *(*loaded)->number)
+                        : std::string("no known setup"),
+      now.setup, now.machine, now.setup);
+}
+
 /// Why the value is not to be written into the setup; empty: nothing speaks against it.
 Result<std::string> Offsets::doubt_of(const Current& now, const OffsetRule& rule, double value) {
   const auto target = parse_setup_target(rule.target);
@@ -111,6 +138,8 @@ Result<std::string> Offsets::doubt_of(const Current& now, const OffsetRule& rule
   if (!absent || !absent->empty()) return absent;
   const auto changed = with_value(now.text, *target, value, kDecimals);
   if (!changed) return changed.error().what;
+  auto form = what_form_lacks(now, *changed);
+  if (!form || !form->empty()) return form;
   return doubt_of_step(parts_.store, {now.machine, now.control, rule.target, now.text, *changed});
 }
 
@@ -142,6 +171,15 @@ Result<Evaluation> Offsets::measured(const Current& now, const OffsetRule& rule)
                         .proposal = {}};
   auto& reasons = evaluation.outcome.reasons;
   reasons.insert(reasons.begin(), found->left_out.begin(), found->left_out.end());
+  if (now.setup == 0) {
+    reasons.insert(reasons.begin(), "the machine has no setup on the server: nothing is proposed");
+    evaluation.outcome.new_value.reset();
+    evaluation.outcome.is_within_policy = false;
+    return evaluation;
+  }
+  auto waiting = what_is_not_loaded(now);
+  if (!waiting) return fail(waiting.error());
+  if (!waiting->empty()) reasons.insert(reasons.begin(), *std::move(waiting));
   return evaluation;
 }
 

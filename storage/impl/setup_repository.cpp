@@ -67,14 +67,16 @@ Result<void> insert(sqlite::Database& database, const SetupRevision& setup) {
                      setup.created);
 }
 
+/// Absent: any.
 Result<void> check_exists(sqlite::Database& database, const std::string& machine,
-                          std::uint64_t number) {
+                          std::optional<std::uint64_t> number) {
   const auto found = sqlite::first_row(
-      database, "SELECT number FROM setup WHERE machine = ?1 AND number = ?2",
+      database, "SELECT number FROM setup WHERE machine = ?1 AND number = coalesce(?2, number)",
       [](const sqlite::Statement& row) { return row.number(0); }, machine, number);
   if (!found) return fail(found.error());
   if (*found) return {};
-  return fail(Errc::NotFound, "machine {} has no setup {}", machine, number);
+  if (!number) return fail(Errc::NotFound, "machine {} has no setup on the server", machine);
+  return fail(Errc::NotFound, "machine {} has no setup {}", machine, *number);
 }
 
 LoadedSetup read_loaded(const sqlite::Statement& row) {
@@ -139,9 +141,7 @@ Result<LoadedSetup> SetupRepository::note_loaded(const std::string& machine,
   const LoadedSetup loaded{
       .machine = machine, .number = number, .who = who.name, .time = clock_.now()};
   return connections_.write([&](sqlite::Database& database) -> Result<LoadedSetup> {
-    if (number) {
-      if (auto there = check_exists(database, machine, *number); !there) return fail(there.error());
-    }
+    if (auto there = check_exists(database, machine, number); !there) return fail(there.error());
     const auto kept =
         sqlite::run(database,
                     "INSERT INTO loaded_setup (machine, number, who, loaded_us) VALUES (?1, ?2, "

@@ -116,9 +116,13 @@ int reject(Context& context, client::Client& client, const OffsetChoice& command
 }
 
 void print_evaluation(const Context& context, const ordered_json& rule) {
-  context.print(fmt::format("{}: {} is {} {} since setup {}\n", offset_word(rule, "rule"),
-                            offset_word(rule, "target"), offset_number(rule, "value"),
-                            offset_word(rule, "unit"), offset_number(rule, "since")));
+  const bool has_setup = rule.at("since") != 0;
+  const std::string value =
+      has_setup ? fmt::format("{} {} since setup {}", offset_number(rule, "value"),
+                              offset_word(rule, "unit"), offset_number(rule, "since"))
+                : std::string("in no setup");
+  context.print(
+      fmt::format("{}: {} is {}\n", offset_word(rule, "rule"), offset_word(rule, "target"), value));
   for (const auto& reason : rule.at("reasons"))
     context.print(fmt::format("  {}\n", printable(reason.get<std::string>())));
   const auto& proposal = rule.at("proposal");

@@ -29,13 +29,30 @@ int say(Context& context, const client::LoadedSetup& loaded) {
   return kExitOk;
 }
 
+/// A run has the setup that was in the control when it was started.
+void warn_of_runs(client::Client& client, const std::string& machine) {
+  for (const char* state : {"ordered", "active"}) {
+    const auto runs = client.runs({.machine = machine, .program = {}, .state = state, .page = {}});
+    if (!runs) return;
+    for (const client::Run& run : *runs) {
+      fmt::print(stderr,
+                 "dnc: run {} of {} was started before and keeps {}: what it makes counts under "
+                 "that\n",
+                 run.id, run.program,
+                 run.setup ? fmt::format("setup {}", *run.setup) : "no known setup");
+    }
+  }
+}
+
 int loaded(Context& context, const LoadedCommand& command) {
   auto client = context.connect();
   if (!client) return context.status;
   const bool is_said = command.revision || command.is_unknown;
   const auto known = is_said ? client->note_loaded_setup(command.machine, command.revision)
                              : client->loaded_setup(command.machine);
-  return known ? say(context, *known) : complain(known.error());
+  if (!known) return complain(known.error());
+  if (is_said) warn_of_runs(*client, command.machine);
+  return say(context, *known);
 }
 
 }  // namespace

@@ -113,6 +113,12 @@ TEST_F(SetupTest, WhichIsInTheControlCanBeUnknownAgain) {
   EXPECT_EQ((*loaded)->number, std::nullopt);
 }
 
+TEST_F(SetupTest, NothingIsSaidOfAMachineWithoutAny) {
+  const auto noted = store_->setups.note_loaded("mill-3", std::nullopt, "olga");
+  ASSERT_FALSE(noted);
+  EXPECT_EQ(noted.error().what, "machine mill-3 has no setup on the server");
+}
+
 TEST_F(SetupTest, OneThatIsNotThereIsNotInTheControl) {
   ASSERT_TRUE(save("[[tool]]\nnumber = 1\n"));
   ASSERT_TRUE(store_->setups.note_loaded("mill-3", 1, "olga"));

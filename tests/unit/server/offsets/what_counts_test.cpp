@@ -246,5 +246,32 @@ TEST_F(WhatCounts, NorWhatGivesTheSameStepByOtherMeasurements) {
   EXPECT_TRUE(offsets_->approve({.id = again.id, .who = "anna", .time = {}}));
 }
 
+/// At the end of a line: what is in the control, not what is the newest, was in force.
+TEST_F(WhatCounts, IsNamedWhereTheControlWaitsForTheNewestSetup) {
+  const auto first = save_setup(setup("")).number;
+  ASSERT_TRUE(store_->setups.note_loaded("lathe-1", first, "olga"));
+  use_rules();
+  measure_three();
+  EXPECT_EQ(only_proposal().used, 3U);
+  const auto second = save_setup(setup("radius = 0.8\n"), "another insert").number;
+  expect(why_nothing(),
+         {fmt::format("setup {} is said to be in the control, and setup {} is the newest", first,
+                      second),
+          fmt::format("`dnc setup loaded lathe-1 {}`", second)});
+  ASSERT_TRUE(store_->setups.note_loaded("lathe-1", std::nullopt, "olga"));
+  expect(why_nothing(), {"no known setup is said to be in the control"});
+}
+
+TEST_F(WhatCounts, AValueThatIsTakenOutOfTheSetupEndsInTheHistory) {
+  save_setup(setup("radius = 0.4\n"));
+  measure(40.0);
+  save_setup(setup(""), "no radius");
+  measure(40.0);
+  const auto history = offsets_->history().list("lathe-1", "T3.radius", {});
+  ASSERT_TRUE(history) << history.error().what;
+  ASSERT_EQ(history->size(), 1U);
+  EXPECT_EQ(history->front().runs.size(), 1U) << "the second run had none";
+}
+
 }  // namespace
 }  // namespace dripline::offsets
