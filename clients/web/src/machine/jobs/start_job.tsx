@@ -17,7 +17,8 @@ export function partsText(job: Job): string {
 /// What keeps every job of the machine from being started; null: nothing.
 export function startFault(machine: Machine, hold: JobList['hold']): string | null {
   const t = texts().jobs;
-  if (hold) return t.isHeld(hold.who, hold.reason);
+  const held = hold ?? machine.queue_hold; // what comes with the machine is there before the queue is read again
+  if (held) return t.isHeld(held.who, held.reason);
   if (!machine.connected) return t.notConnected(machine.name);
   return machine.status?.run == null ? null : t.isRunning(machine.status.program ?? '');
 }
