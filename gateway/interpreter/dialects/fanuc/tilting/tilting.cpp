@@ -150,6 +150,24 @@ bool refuse_excluded(Run& run, std::string_view excluded) {
 
 }  // namespace
 
+namespace {
+
+/// An axis beside X, Y and Z moves the tip too, and is in no kinematics.
+constexpr AddressSet kParallelWords = set_of(U, V, W);
+
+bool refuse_parallel(Run& run, const DiagnosticRow& code) {
+  return run.fail(code, run.block.words.first_column(kParallelWords),
+                  "U, V and W move the tool's tip and are in no kinematics");
+}
+
+/// Where one is when the plane or the tip control begins would be left out, too.
+bool is_beside(const Run& run) {
+  const interpreter::Position& at = run.state.position;
+  return at.raw(Axis::U) != 0 || at.raw(Axis::V) != 0 || at.raw(Axis::W) != 0;
+}
+
+}  // namespace
+
 bool check_tilted_block(Run& run) {
   const Block& block = run.block;
   const bool is_plane = run.tilted.kind() == Kind::Plane;
@@ -167,12 +185,15 @@ bool check_tilted_block(Run& run) {
     return run.fail(ErrorCode::ImproperCommand, block.words.first_column(kRotaryWords),
                     "a rotary axis while G68.2 is in force; G53.1 moves them");
   }
+  if (!is_data && !is_call && block.words.has_any(kParallelWords))
+    return refuse_parallel(run, is_plane ? ErrorCode::ImproperCommand : ErrorCode::TipControl);
   return true;
 }
 
 bool begin_tilted_plane(Run& run) {
   if (const std::string_view why = hindrance(run); !why.empty())
     return refuse(run, ErrorCode::PlaneFormat, why);
+  if (is_beside(run)) return refuse(run, ErrorCode::PlaneFormat, "U, V or W is not at 0");
   Tilt tilt{.kind = Kind::Plane};
   if (!read_plane(run, tilt) || !flush_stages(run)) return false;
   begin(run, tilt);
@@ -192,6 +213,8 @@ bool end_tilted_plane(Run& run) {
 bool begin_tip_control(Run& run) {
   const Words& words = run.block.words;
   if (!words.has(H)) return refuse(run, ErrorCode::TipControl, "H is needed");
+  if (words.has_any(kParallelWords)) return refuse_parallel(run, ErrorCode::TipControl);
+  if (is_beside(run)) return refuse(run, ErrorCode::TipControl, "U, V or W is not at 0");
   if (words.has(P) && run.block.parts.m_count == 0 && run.whole(words[P]) != 0) {
     return run.fail(
         ErrorCode::TipControl, words.column(P),

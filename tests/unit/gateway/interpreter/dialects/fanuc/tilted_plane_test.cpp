@@ -365,6 +365,8 @@ INSTANTIATE_TEST_SUITE_P(
         PlaneRefusal{"coordinates_by_variable", kInPlane + "#5221=5.", "PS116", "#5221"},
         PlaneRefusal{"units", kInPlane + "G20", "PS113", "units"},
         PlaneRefusal{"tip_control", kInPlane + "G43.4 H1", "PS113", "G43.4"},
+        PlaneRefusal{"quill_move", kInPlane + "G01 X1. W-3. F100.", "PS113", "in no kinematics"},
+        PlaneRefusal{"quill_before", "G00 V2.\nG68.2 X0 Y0 Z0 I10. J20. K0", "PS5457", "not at 0"},
         PlaneRefusal{"rotary_move", kInPlane + "G00 X1. A5.", "PS113", "rotary axis"},
         PlaneRefusal{"polar_plane", kInPlane + "G12.1", "PS113", "G12.1"},
         PlaneRefusal{"end_in_compensation", kInPlane + "G41 D1 G01 X5. Y5.\nG69", "PS113", "G40"},

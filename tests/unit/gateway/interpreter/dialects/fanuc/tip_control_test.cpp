@@ -323,6 +323,10 @@ INSTANTIATE_TEST_SUITE_P(
                     TipRefusal{"rotary_word_by_vector", "G43.5 H1\nX1. A5.", "rotary word"},
                     TipRefusal{"inclination", "G43.5 H1\nX1. Q5. I0 J0 K1.", "Q while G43.5"},
                     TipRefusal{"no_vector", "G43.5 H1\nX1. I0 J0 K0", "no direction"},
+                    TipRefusal{"quill", kInTipControl + "G01 X5. W-3.", "in no kinematics"},
+                    TipRefusal{"quill_at_the_start", "G43.4 H1 W-5. Z0", "in no kinematics"},
+                    TipRefusal{"quill_by_vector", "G43.5 H1\nG01 I1. K1. U4.", "in no kinematics"},
+                    TipRefusal{"quill_before", "G01 W-5.\nG43.4 H1", "not at 0"},
                     TipRefusal{"units", kInTipControl + "G20", "units"}),
     [](const auto& each) { return std::string(each.param.name); });
 
