@@ -36,7 +36,7 @@ constexpr std::array<Change, 14> kChanges{{
      "moves left out that are shorter than a step of the target"},
     {&post::AdaptationCounts::split_arcs, "split_arcs", "arcs written as several"},
     {&post::AdaptationCounts::straightened_arcs, "straightened_arcs",
-     "arcs written as their chord, within half the tolerance"},
+     "arcs written as their chord, which is within half a step of them"},
     {&post::AdaptationCounts::arcs_as_lines, "arcs_as_lines", "arcs written as lines"},
     {&post::AdaptationCounts::rounded_feeds, "rounded_feeds", "feeds rounded"},
     {&post::AdaptationCounts::rounded_speeds, "rounded_speeds", "spindle speeds rounded"},
@@ -140,9 +140,10 @@ int complain_of_difference(const Work& work, const MotionResult& result, std::st
                line_at(text, place.second.offset));
   }
   if (!work.command.is_as_set_up) {
-    fmt::print(stderr,
-               "dnc: a program that depends on the position from which it starts is written with "
-               "--as-set-up, for that of the setup\n");
+    fmt::print(
+        stderr,
+        "dnc: it was written from a start 0.7313 mm beside that of the setup, so that a program "
+        "that depends on its start shows; --as-set-up writes it for that of the setup\n");
   }
   return kExitNo;
 }

@@ -34,9 +34,19 @@ double arc_length(const Position& from, const Arc& arc) {
 
 }  // namespace
 
+Position of_target(const Target& target, Position position, const Position& start) {
+  for (const Axis axis : interpreter::kAllAxes) {
+    const bool is_known = target.axes.find(letter(axis)) != std::string_view::npos;
+    if (is_known && position.has(axis)) continue;
+    position.set_raw(axis, start.raw(axis));
+    position.unmark(axis);
+  }
+  return position;
+}
+
 Adaptation::Adaptation(interpreter::EventSink& out, const Grid& grid,
                        const AdaptationOptions& options, const Position& start)
-    : EventGate(out), grid_(grid), options_(options), at_(start) {}
+    : EventGate(out), grid_(grid), options_(options), start_(start), at_(start) {}
 
 void Adaptation::refuse(const Origin& origin, std::string what) {
   if (!refusal_) refusal_ = Refusal{std::move(what), origin};
@@ -47,6 +57,7 @@ void Adaptation::refuse(const Origin& origin, std::string what) {
 bool Adaptation::is_short(const Position& to) const {
   return std::ranges::all_of(interpreter::kAllAxes, [&](Axis axis) {
     const bool is_new = to.has(axis) && !at_.has(axis);
+    if (!to.has(axis)) return true;
     return !is_new && grid_.counts(axis, to.raw(axis)) == grid_.counts(axis, at_.raw(axis));
   });
 }
@@ -74,7 +85,7 @@ bool Adaptation::check_target(const Origin& origin, const Position& to) {
 /// What F means when a rotary axis moves differs between controls, even where the number is one.
 bool Adaptation::check_feed_axes(const Origin& origin, const Position& to) {
   for (const Axis axis : interpreter::kAllAxes) {
-    if (!is_rotary(axis) || to.raw(axis) == at_.raw(axis)) continue;
+    if (!is_rotary(axis) || !to.has(axis) || to.raw(axis) == at_.raw(axis)) continue;
     refuse(origin, fmt::format("feed move of the rotary axis {}: what F means there differs from "
                                "control to control",
                                letter(axis)));
@@ -135,7 +146,9 @@ void Adaptation::on_rapid(const interpreter::Rapid& event) {
     if (!event.to.same_point(at_)) ++counts_.short_moves;
     return;
   }
-  EventGate::on_rapid(event);
+  interpreter::Rapid adapted = event;
+  adapted.to = of_target(target(), event.to, start_);
+  EventGate::on_rapid(adapted);
   at_ = event.to;
 }
 
@@ -150,6 +163,7 @@ void Adaptation::move_line(const Line& line) {
   if (!feed) return;
   Line adapted = line;
   adapted.feed = *feed;
+  adapted.to = of_target(target(), line.to, start_);
   EventGate::on_line(adapted);
   at_ = line.to;
 }
@@ -210,7 +224,8 @@ bool Adaptation::can_be_arc(const Arc& arc, std::string& reason) const {
     return false;
   }
   const bool is_helix = std::ranges::any_of(interpreter::kAllAxes, [&](Axis axis) {
-    return axis != axes.first && axis != axes.second && arc.to.raw(axis) != at_.raw(axis);
+    return axis != axes.first && axis != axes.second && arc.to.has(axis) &&
+           arc.to.raw(axis) != at_.raw(axis);
   });
   if (is_helix && !target().has_helix) {
     reason = fmt::format("helix: {} has arcs in a plane", target().name);
@@ -238,7 +253,8 @@ void Adaptation::arc_piece(const Arc& arc) {
   if (!is_open() || !check_target(arc.origin, arc.to)) return;
   const bool is_closed = is_short(arc.to);
   const double from_chord = distance_from_chord(at_, arc);
-  if (is_closed && from_chord <= options_.tolerance / 2) {
+  const double unseen = std::min(options_.tolerance, grid_.center_step()) / 2;
+  if (is_closed && from_chord <= unseen) {
     ++counts_.short_moves;
     return;
   }
@@ -248,11 +264,12 @@ void Adaptation::arc_piece(const Arc& arc) {
     if (!feed) return;
     Arc adapted = arc;
     adapted.feed = *feed;
+    adapted.to = of_target(target(), arc.to, start_);
     EventGate::on_arc(adapted);
     at_ = arc.to;
     return;
   }
-  if (from_chord <= options_.tolerance / 2) {
+  if (from_chord <= unseen) {
     ++counts_.straightened_arcs;
     move_line({arc.origin, arc.to, arc.feed, arc.rests});
     return;

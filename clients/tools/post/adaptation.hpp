@@ -87,6 +87,7 @@ class Adaptation final : public interpreter::EventGate {
 
   Grid grid_;
   AdaptationOptions options_;
+  interpreter::Position start_;
   interpreter::Position at_;  ///< the last that passed
   interpreter::Spindle spindle_;
   bool has_coolant_ = false;
@@ -94,17 +95,29 @@ class Adaptation final : public interpreter::EventGate {
   std::optional<Refusal> refusal_;
 };
 
+/// The position with the axes that have not moved, or that the target does not have, where they
+/// were at the start: not every control reports those that it does not have.
+interpreter::Position of_target(const Target& target, interpreter::Position position,
+                                const interpreter::Position& start);
+
 /// What a program that was written does, without what belongs to the target and not to the program:
 /// the wait for a tool changed by hand, an M function of the end, off where it is off already.
 class TargetView final : public interpreter::EventFilter {
  public:
-  using EventFilter::EventFilter;
+  TargetView(interpreter::EventSink& out, const Target& target, const interpreter::Position& start)
+      : EventFilter(out), target_(target), start_(start) {}
+  void on_rapid(const interpreter::Rapid& event) override;
+  void on_line(const interpreter::Line& event) override;
+  void on_arc(const interpreter::Arc& event) override;
+  void on_thread(const interpreter::Thread& event) override;
   void on_spindle(const interpreter::Spindle& event) override;
   void on_coolant(const interpreter::Coolant& event) override;
   void on_stop(const interpreter::Stop& event) override;
   void on_miscellaneous(const interpreter::Miscellaneous& event) override;
 
  private:
+  const Target& target_;
+  interpreter::Position start_;
   interpreter::SpindleState spindle_ = interpreter::SpindleState::Off;
   bool has_coolant_ = false;
 };

@@ -27,6 +27,19 @@ bool is_end_code(int code) {
   return code == 2 || code == 30;
 }
 
+/// They mean the same nearly everywhere, and something else at a control that hands them on.
+bool is_common_code(int code) {
+  return code == 19 || code == 98 || code == 99;
+}
+
+/// The speed of a spindle that is oriented means nothing, and not all controls report it.
+interpreter::Spindle without_speed(interpreter::Spindle event) {
+  event.revolutions_per_minute = 0;
+  event.surface_speed.reset();
+  event.max_revolutions.reset();
+  return event;
+}
+
 }  // namespace
 
 /// A lead is rounded by a ten-thousandth of it at most: a screw has to fit.
@@ -58,6 +71,7 @@ void Adaptation::on_thread(const interpreter::Thread& event) {
   adapted.lead = lead_of_path(grid_, at_, event.to, Length::mm(nearest * unit));
   if (event.start_angle)
     adapted.start_angle = Angle::degrees(value_of(counts_of(event.start_angle->degrees(), 3), 3));
+  adapted.to = of_target(target(), event.to, start_);
   EventGate::on_thread(adapted);
   at_ = event.to;
 }
@@ -79,7 +93,8 @@ void Adaptation::on_dwell(const interpreter::Dwell& event) {
 
 void Adaptation::on_spindle(const interpreter::Spindle& event) {
   if (!is_open() || is_off_already(event, spindle_.state)) return;
-  interpreter::Spindle adapted = event;
+  interpreter::Spindle adapted =
+      event.state == SpindleState::Oriented ? without_speed(event) : event;
   if (event.state == SpindleState::Oriented && !target().has_oriented_spindle)
     return refuse(event.origin, fmt::format("oriented spindle: {} has none", target().name));
   if (is_turning(event.state) && event.surface_speed) {
@@ -115,7 +130,7 @@ void Adaptation::on_coolant(const interpreter::Coolant& event) {
 
 void Adaptation::on_tool(const interpreter::ToolChange& event) {
   if (event.is_preselection || !is_open()) return;
-  if (event.number < 0 || event.number > target().max_tool) {
+  if (target().max_tool == 0 || event.number < 0 || event.number > target().max_tool) {
     return refuse(event.origin,
                   target().max_tool == 0
                       ? fmt::format("tool {}: {} has no tool numbers", event.number, target().name)
@@ -137,11 +152,15 @@ void Adaptation::on_tool(const interpreter::ToolChange& event) {
 
 void Adaptation::on_miscellaneous(const interpreter::Miscellaneous& event) {
   if (!is_open() || is_end_code(event.code)) return;
-  if (event.code < 0 || event.code > target().max_m) {
+  if (target().max_m == 0) {
+    return refuse(event.origin, fmt::format("M{}: {} has no M functions of the machine", event.code,
+                                            target().name));
+  }
+  if (event.code < target().min_m || event.code > target().max_m || is_common_code(event.code)) {
     return refuse(event.origin,
-                  fmt::format("M{}: {} has no M function of the machine {} {}", event.code,
-                              target().name, target().max_m == 0 ? "like" : "above",
-                              target().max_m == 0 ? event.code : target().max_m));
+                  fmt::format("M{}: M functions of the machine are {} to {} at {}, but for 19, 98 "
+                              "and 99",
+                              event.code, target().min_m, target().max_m, target().name));
   }
   EventGate::on_miscellaneous(event);
 }
@@ -200,9 +219,33 @@ void Adaptation::on_override_inhibit(const interpreter::OverrideInhibit& event) 
                            : "inhibited overrides or feed hold: they cannot be written");
 }
 
+void TargetView::on_rapid(const interpreter::Rapid& event) {
+  interpreter::Rapid seen = event;
+  seen.to = of_target(target_, event.to, start_);
+  EventFilter::on_rapid(seen);
+}
+
+void TargetView::on_line(const interpreter::Line& event) {
+  interpreter::Line seen = event;
+  seen.to = of_target(target_, event.to, start_);
+  EventFilter::on_line(seen);
+}
+
+void TargetView::on_arc(const interpreter::Arc& event) {
+  interpreter::Arc seen = event;
+  seen.to = of_target(target_, event.to, start_);
+  EventFilter::on_arc(seen);
+}
+
+void TargetView::on_thread(const interpreter::Thread& event) {
+  interpreter::Thread seen = event;
+  seen.to = of_target(target_, event.to, start_);
+  EventFilter::on_thread(seen);
+}
+
 void TargetView::on_spindle(const interpreter::Spindle& event) {
   if (is_off_already(event, spindle_)) return;
-  EventFilter::on_spindle(event);
+  EventFilter::on_spindle(event.state == SpindleState::Oriented ? without_speed(event) : event);
   spindle_ = event.state;
 }
 

@@ -134,6 +134,16 @@ void PostProcessor::name_axes(const Position& to, MoveWords& move) {
   }
 }
 
+/// False: more axes than one move of the target has.
+bool PostProcessor::check_axes(const Origin& origin, const MoveWords& move) {
+  const Target& target = parts_.grid.target();
+  if (move.named.count() <= target.max_axes) return true;
+  refusal_ = Refusal{fmt::format("move of {} axes: {} has up to {} in a block", move.named.count(),
+                                 target.name, target.max_axes),
+                     origin};
+  return false;
+}
+
 void PostProcessor::name_feed(Feed feed, MoveWords& move) {
   const Grid& grid = parts_.grid;
   FeedWord word;
@@ -157,6 +167,7 @@ void PostProcessor::on_rapid(const interpreter::Rapid& event) {
   if (!begin(event.origin)) return;
   MoveWords move;
   name_axes(event.to, move);
+  if (!check_axes(event.origin, move)) return;
   if (move.named.any()) parts_.writer.rapid(text_, move);
   arrive(event.to, move);
 }
@@ -165,6 +176,7 @@ void PostProcessor::on_line(const interpreter::Line& event) {
   if (!begin(event.origin)) return;
   MoveWords move;
   name_axes(event.to, move);
+  if (!check_axes(event.origin, move)) return;
   name_feed(event.feed, move);
   if (move.named.any()) parts_.writer.line(text_, move);
   arrive(event.to, move);

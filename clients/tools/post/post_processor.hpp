@@ -74,6 +74,7 @@ class PostProcessor final : public interpreter::EventSink {
   void check(const interpreter::Origin& origin, const Result<void>& written);
   void check_size(const interpreter::Origin& origin);
   void name_axes(const interpreter::Position& to, MoveWords& move);
+  bool check_axes(const interpreter::Origin& origin, const MoveWords& move);
   void name_feed(Feed feed, MoveWords& move);
   void arrive(const interpreter::Position& to, const MoveWords& move);
 

@@ -29,8 +29,8 @@ Result<comparison::MotionResult> prove(const SourceProgram& source, const Writte
       }};
   const comparison::MotionSide second{
       **dialect, written.target_setup, text,
-      [](EventSink& out, const Position&) -> std::unique_ptr<EventSink> {
-        return std::make_unique<TargetView>(out);
+      [&](EventSink& out, const Position& start) -> std::unique_ptr<EventSink> {
+        return std::make_unique<TargetView>(out, written.grid.target(), start);
       }};
   comparison::MotionOptions how;
   how.tolerance = written.tolerance;

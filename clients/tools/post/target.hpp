@@ -36,17 +36,18 @@ struct Target {
   std::string_view axes = "XYZ";
   bool is_lathe = false;  ///< only programs of lathes; X is a diameter
   ByUnits coordinate{};
-  ByUnits feed{};                 ///< per minute
-  ByUnits feed_per_revolution{};  ///< max 0: it has none
-  NumberRange speed{0, 20'000};   ///< revolutions per minute
-  NumberRange dwell{3, 9999};     ///< seconds
-  int max_tool = 99;              ///< 0: no tool numbers
-  int max_m = 99;                 ///< of M functions that are the machine's
-  std::int64_t max_name = 9999;   ///< of a program's number
-  std::uint64_t max_blocks = 0;   ///< 0: no limit
-  double max_radius_error = 0;    ///< mm: of the radii at start and end of an arc
-  double max_sweep = 360;         ///< degrees of one arc; 90: an arc stays in a quadrant
-  bool has_all_planes = true;     ///< else arcs in XY alone
+  ByUnits feed{};                                  ///< per minute
+  ByUnits feed_per_revolution{};                   ///< max 0: it has none
+  NumberRange speed{0, 20'000};                    ///< revolutions per minute
+  NumberRange dwell{3, 9999};                      ///< seconds
+  int max_tool = 99;                               ///< 0: no tool numbers
+  int min_m = 10, max_m = 99;                      ///< M functions of the machine; max 0: none
+  std::int64_t max_name = 9999;                    ///< of a program's number
+  std::uint64_t max_blocks = 0;                    ///< 0: no limit
+  double max_radius_error = 0;                     ///< mm: of the radii at start and end of an arc
+  std::size_t max_axes = interpreter::kAxisCount;  ///< in one move
+  double max_sweep = 360;      ///< degrees of one arc; 90: an arc stays in a quadrant
+  bool has_all_planes = true;  ///< else arcs in XY alone
   bool has_helix = true;
   bool has_surface_speed = false;
   bool has_threads = false;  ///< straight and tapered ones, G32

@@ -19,12 +19,13 @@ enum class ToolCall : std::uint8_t { Change, Turret, TurretWithM6 };
 
 /// The words of a control of G and M codes.
 struct WordRow {
-  std::string_view target;
-  std::string_view g_format;       ///< of a G or M code below 100
+  std::string_view target = {};
+  std::string_view g_format = {};  ///< of a G or M code below 100
   bool has_program_number = true;  ///< O
   bool has_tape_marks = true;      ///< % around the program
   std::string_view modes = {};     ///< of the head, after G20 or G21
-  std::string_view per_minute = {}, per_revolution = {};
+  std::string_view per_minute = {};
+  std::string_view per_revolution = {};
   bool starts_per_minute = false;  ///< the head puts feed per minute in force
   std::string_view dwell = {};     ///< with the address
   int dwell_shift = 0;  ///< decimals of seconds that its unit takes in: 3 of milliseconds
@@ -180,12 +181,15 @@ class WordWriter final : public ProgramWriter {
     }
     std::string words;
     const bool is_surface = spindle.surface_speed.has_value();
-    if (is_surface) {
-      if (auto limited = limit(out, words, spindle); !limited) return limited;
-    }
-    if (is_surface != is_surface_) append(words, is_surface ? "G96" : "G97");
-    if (is_surface && row_.speed_limit == "D") words = "G96" + words_after(words);
+    const bool has_limit_word = row_.speed_limit == "D";
+    if (is_surface != is_surface_ || (is_surface && has_limit_word))
+      append(words, is_surface ? "G96" : "G97");
     is_surface_ = is_surface;
+    if (is_surface && has_limit_word) {
+      if (spindle.max_revolutions) append(words, fmt::format("D{:g}", *spindle.max_revolutions));
+    } else if (is_surface) {
+      if (auto limited = limit(out, spindle); !limited) return limited;
+    }
     append_speed(words, spindle);
     append(words, code('M', spindle.state == SpindleState::Clockwise ? 3 : 4));
     block(out, words);
@@ -253,9 +257,6 @@ class WordWriter final : public ProgramWriter {
     if (!words.empty()) words += ' ';
     words += word;
   }
-  static std::string words_after(const std::string& words) {
-    return words.starts_with("G96") ? words.substr(3) : words.empty() ? "" : " " + words;
-  }
   std::string code(char address, int number) const {
     return fmt::format(fmt::runtime(row_.g_format), address, number);
   }
@@ -301,13 +302,9 @@ class WordWriter final : public ProgramWriter {
     block(out, words);
   }
 
-  /// Of the revolutions at a constant surface speed.
-  Result<void> limit(std::string& out, std::string& words, const interpreter::Spindle& spindle) {
+  /// Of the revolutions at a constant surface speed, in a block before.
+  Result<void> limit(std::string& out, const interpreter::Spindle& spindle) {
     const double most = spindle.max_revolutions.value_or(0);
-    if (row_.speed_limit == "D") {
-      if (most > 0) words = fmt::format("D{:g}", most);
-      return {};
-    }
     if (most == limit_) return {};
     if (most == 0) {
       return fail(Errc::Unsupported, "the spindle's limit of {:g} rpm ends: {} keeps it", limit_,

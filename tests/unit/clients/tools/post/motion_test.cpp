@@ -46,6 +46,19 @@ TEST(ShortArcs, NeverBecomeCircles) {
   for (const auto& place : converted.result->places) ADD_FAILURE() << place.second_text;
 }
 
+/// However lenient the comparison: what is left out is shorter than a step of the control.
+TEST(Tolerance, LeavesNoLittleCircleOut) {
+  ConversionOptions options;
+  options.tolerance = 1;
+  const auto converted =
+      convert({"rs274ngc", "G21 G90 G17\nG0 X0 Y0 Z0\nG2 X0 Y0 I0.2 J0 F100\nG1 X0.01\nM2\n"},
+              "fanuc", options);
+  EXPECT_TRUE(converted.is_proved) << converted.reason();
+  EXPECT_EQ(converted.written->written.arcs, 1u);
+  EXPECT_EQ(converted.written->written.moves, 3u);
+  EXPECT_EQ(converted.written->adapted.short_moves, 0u);
+}
+
 TEST(FullCircles, StayFullCirclesFromEverySide) {
   std::string source = "G21 G90 G94 G17\nG0 X0 Y0 Z0\nF100\n";
   for (int i = 0; i < 16; ++i) {

@@ -28,9 +28,10 @@ Part part(std::string_view control, std::string_view name) {
 }
 
 /// Without what belongs to a target and not to the program.
-comparison::ComparisonStage view() {
-  return [](interpreter::EventSink& out, const interpreter::Position&) {
-    return std::make_unique<TargetView>(out);
+comparison::ComparisonStage view(const Part& part) {
+  const Target& target = **find_target(part.dialect.name);
+  return [&target](interpreter::EventSink& out, const interpreter::Position& start) {
+    return std::make_unique<TargetView>(out, target, start);
   };
 }
 
@@ -47,7 +48,7 @@ void expect_written(const Part& source, const Part& target) {
 void expect_same_motion(const Part& a, const Part& b, unsigned axes) {
   interpreter::MemorySource first(a.text), second(b.text);
   const auto result = comparison::compare_motion(
-      {a.dialect, a.setup, first, view()}, {b.dialect, b.setup, second, view()},
+      {a.dialect, a.setup, first, view(a)}, {b.dialect, b.setup, second, view(b)},
       {.tolerance = 0.001, .across_controls = true, .started_axes = axes});
   ASSERT_TRUE(result) << result.error().what;
   EXPECT_TRUE(result->is_unconditional())
