@@ -39,9 +39,10 @@ inline constexpr double kNull = std::numeric_limits<double>::quiet_NaN();
 
 struct SpindleModes {
   SpindleState state = SpindleState::Off;
-  double revolutions = 0;  ///< last S under G97
-  double surface = 0;      ///< last S under G96, millimeters a minute
-  double limit = 0;        ///< G92 S; 0 = none
+  double revolutions = 0;   ///< last S under G97
+  double surface = 0;       ///< last S under G96, millimeters a minute
+  double limit = 0;         ///< G92 S; 0 = none
+  bool is_surface = false;  ///< which of both was in force last
 };
 
 struct ToolModes {

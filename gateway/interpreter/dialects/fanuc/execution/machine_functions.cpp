@@ -167,7 +167,15 @@ bool apply_speed(Run& run) {
       return run.fail(ErrorCode::IllegalAxis, words.column(P), fmt::format("G96 P{}", axis));
     }
   }
-  if (!words.has(S)) return true;
+  if (!words.has(S)) {
+    // G96 and G97 without S: the speed that is in force again is the one of before.
+    const double again = is_surface ? state.spindle.surface : state.spindle.revolutions;
+    if (state.spindle.is_surface != is_surface && again > 0) {
+      state.spindle.is_surface = is_surface;
+      state.speed_changed = true;
+    }
+    return true;
+  }
   const double speed = run.whole(words[S]);
   if (!(speed >= 0 && speed <= kMaxSpeed)) {
     return run.fail(ErrorCode::TooManyDigits, words.column(S),
@@ -183,7 +191,9 @@ bool apply_speed(Run& run) {
   } else {
     spindle.revolutions = speed;
   }
-  state.speed_changed |= spindle.limit != before.limit || spindle.surface != before.surface ||
+  if (run.block.parts.one_shot != 92) spindle.is_surface = is_surface;
+  state.speed_changed |= spindle.is_surface != before.is_surface || spindle.limit != before.limit ||
+                         spindle.surface != before.surface ||
                          spindle.revolutions != before.revolutions;
   return true;
 }
