@@ -154,11 +154,6 @@ std::string summary_line(const ConvertCommand& command, CharacterCode from,
   return line + "\n";
 }
 
-int refuse(const Error& error) {
-  complain(error);
-  return kExitUsage;
-}
-
 /// A fault in the tape or the program is no misuse.
 int say_no(const Error& error) {
   complain(error);
@@ -188,7 +183,7 @@ int convert_to(Context& context, const ConvertCommand& command, CharacterCode fr
   }
   TapeConversion conversion(parts_of(command, from),
                             [&](std::string_view bytes) { return target.write(bytes); });
-  if (auto begun = conversion.begin(); !begun) return refuse(begun.error());
+  if (auto begun = conversion.begin(); !begun) return complain(begun.error());
   auto walked = walk(file, command.input,
                      [&](std::span<const std::byte> piece) { return conversion.convert(piece); });
   if (walked && !*walked) return interrupted();
@@ -213,11 +208,11 @@ bool is_between_forms(const ConvertCommand& command, client::FileSource& file) {
 int convert_between_forms(Context& context, const ConvertCommand& command,
                           client::FileSource& file) {
   if (command.output.empty()) {
-    return refuse(Error{Errc::Syntax, "convert needs -o FILE (or -o -)"});
+    return complain(Error{Errc::Syntax, "convert needs -o FILE (or -o -)"});
   }
   if (!command.end_of_block.empty() && command.end_of_block != "lf" &&
       command.end_of_block != "crlf") {
-    return refuse(Error{Errc::Syntax, "--eob of a TNC program is lf or crlf"});
+    return complain(Error{Errc::Syntax, "--eob of a TNC program is lf or crlf"});
   }
   const FormConversion conversion{command.input,
                                   command.output,
@@ -252,8 +247,8 @@ Result<void> check_output_name(const ConvertCommand& command, client::FileSource
 /// To a control's language, from the motion.
 int convert_to_control(Context& context, const ConvertCommand& command) {
   if (command.is_listing || command.from != "auto" || !command.end_of_block.empty()) {
-    return refuse(Error{Errc::Syntax, "--list, --from and --eob are for tapes, --to " + command.to +
-                                          " is a control"});
+    return complain(Error{Errc::Syntax, "--list, --from and --eob are for tapes, --to " +
+                                            command.to + " is a control"});
   }
   MotionConversion conversion = command.motion;
   conversion.source.file = command.input;
@@ -266,20 +261,20 @@ int convert_to_control(Context& context, const ConvertCommand& command) {
 int convert(Context& context, const ConvertCommand& command) {
   if (is_motion_target(command.to)) return convert_to_control(context, command);
   auto file = client::FileSource::open(command.input);
-  if (!file) return refuse(file.error());
+  if (!file) return complain(file.error());
   if (is_between_forms(command, *file)) return convert_between_forms(context, command, *file);
   if (command.to == "plain") {
-    return refuse(Error{Errc::Syntax, "--to plain goes with neither --from nor --list"});
+    return complain(Error{Errc::Syntax, "--to plain goes with neither --from nor --list"});
   }
   if (auto named_right = check_output_name(command, *file); !named_right) {
-    return refuse(named_right.error());
+    return complain(named_right.error());
   }
   const auto from = source_code(command, *file);
   if (!from) return say_no(named(command, from.error()));
   catch_interrupts();
   if (command.is_listing) return list(command, *from, *file);
   if (command.output.empty()) {
-    return refuse(Error{Errc::Syntax, "convert needs -o FILE (or -o -), or --list"});
+    return complain(Error{Errc::Syntax, "convert needs -o FILE (or -o -), or --list"});
   }
   return convert_to(context, command, *from, *file);
 }
@@ -366,7 +361,7 @@ void add_convert_command(Command app, Context& context) {
     options->has_to = command.get_option("--to").count() != 0;
     const std::string stray = given_motion_option(command);
     if (!stray.empty() && !is_motion_target(options->to)) {
-      context.status = refuse(Error{Errc::Syntax, stray + " goes with --to CONTROL"});
+      context.status = complain(Error{Errc::Syntax, stray + " goes with --to CONTROL"});
       return;
     }
     context.status = convert(context, *options);

@@ -140,10 +140,10 @@ int complain_of_difference(const Work& work, const MotionResult& result, std::st
                line_at(text, place.second.offset));
   }
   if (!work.command.is_as_set_up) {
-    fmt::print(
-        stderr,
-        "dnc: it was written from a start 0.7313 mm beside that of the setup, so that a program "
-        "that depends on its start shows; --as-set-up writes it for that of the setup\n");
+    fmt::print(stderr,
+               "dnc: it was written from a start {} mm beside that of the setup, so that a program "
+               "that depends on its start shows; --as-set-up writes it for that of the setup\n",
+               comparison::kStartShift);
   }
   return kExitNo;
 }
@@ -223,10 +223,7 @@ void print_notes(const Work& work, const WrittenProgram& written, const MotionRe
 /// The proved file under its name, or its text on standard output.
 int deliver(const Work& work, client::OutputFile& file, std::string_view text) {
   if (work.command.output == "-") return write_to("-", text);
-  if (auto done = file.commit(); !done) {
-    complain(done.error());
-    return kExitUsage;
-  }
+  if (auto done = file.commit(); !done) return complain(done.error());
   return kExitOk;
 }
 
@@ -272,11 +269,6 @@ Result<post::ConversionOptions> options_of(const MotionConversion& command,
   options.is_as_set_up = command.is_as_set_up;
   options.is_to_stop = [] { return is_interrupted(); };
   return options;
-}
-
-int complain_usage(const Error& error) {
-  complain(error);
-  return kExitUsage;
 }
 
 }  // namespace
@@ -340,20 +332,20 @@ int convert_by_motion(Context& context, const MotionConversion& command) {
     return kExitNo;
   }
   if (command.output.empty())
-    return complain_usage(Error{Errc::Syntax, "convert needs -o FILE (or -o -)"});
+    return complain(Error{Errc::Syntax, "convert needs -o FILE (or -o -)"});
   if (command.output == "-" && context.wants_json)
-    return complain_usage(Error{Errc::Syntax,
-                                "--json needs -o FILE: standard output has one of "
-                                "the program and its summary"});
+    return complain(Error{Errc::Syntax,
+                          "--json needs -o FILE: standard output has one of "
+                          "the program and its summary"});
   auto program = OfflineProgram::open(command.source);
-  if (!program) return complain_usage(program.error());
+  if (!program) return complain(program.error());
   const auto options = options_of(command, **target);
-  if (!options) return complain_usage(options.error());
+  if (!options) return complain(options.error());
   const std::string path = command.output == "-"
                                ? (std::filesystem::temp_directory_path() / "dnc-convert").string()
                                : command.output;
   auto file = client::OutputFile::create(path);
-  if (!file) return complain_usage(file.error());
+  if (!file) return complain(file.error());
   catch_interrupts();
   auto source = program->source();
   return convert_program(context, {command, **target, *program, source}, *options, *file);

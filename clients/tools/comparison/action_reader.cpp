@@ -15,24 +15,13 @@ bool is_state(const Action& action) {
   return action.kind == ActionKind::Spindle || action.kind == ActionKind::Coolant;
 }
 
-interpreter::Setup shifted(interpreter::Setup setup, double shift, unsigned axes) {
-  if (shift == 0) return setup;
-  for (const auto axis : interpreter::kAllAxes) {
-    if ((axes >> static_cast<unsigned>(axis) & 1U) == 0) continue;
-    const bool has_moved = setup.start.has(axis);
-    setup.start.set_raw(axis, setup.start.raw(axis) + shift);
-    if (!has_moved) setup.start.unmark(axis);
-  }
-  return setup;
-}
-
 }  // namespace
 
 ActionReader::ActionReader(const MotionSide& side, bool across_controls, double shift,
                            unsigned shifted_axes)
     : side_(side),
       across_controls_(across_controls),
-      setup_(shifted(side.setup, shift, shifted_axes)),
+      setup_(started_beside(side.setup, shift, shifted_axes)),
       recorder_(queue_, setup_.start, across_controls) {
   setup_.switches.optional_stop = true;  // an optional stop is compared, whatever the switch is
 }

@@ -25,8 +25,6 @@ constexpr std::size_t kMaxTried = 8;
 constexpr std::size_t kMaxPermuted = 32;
 /// Actions of a gap in which those that both programs have are looked for.
 constexpr std::size_t kMaxAligned = 32;
-/// Of the second start, mm and degrees: on no grid of a program.
-constexpr double kShift = 0.7313;
 
 /// Actions that are alike have the same key, but for those at the edge of a step of the grid.
 std::uint64_t key_of(const Action& action, double grid) {
@@ -310,6 +308,17 @@ MotionComparison::MotionComparison(MotionComparison&&) noexcept = default;
 MotionComparison& MotionComparison::operator=(MotionComparison&&) noexcept = default;
 MotionComparison::~MotionComparison() = default;
 
+interpreter::Setup started_beside(interpreter::Setup setup, double shift, unsigned axes) {
+  if (shift == 0) return setup;
+  for (const auto axis : interpreter::kAllAxes) {
+    if ((axes >> static_cast<unsigned>(axis) & 1U) == 0) continue;
+    const bool has_moved = setup.start.has(axis);
+    setup.start.set_raw(axis, setup.start.raw(axis) + shift);
+    if (!has_moved) setup.start.unmark(axis);
+  }
+  return setup;
+}
+
 Result<MotionComparison> MotionComparison::begin(const MotionSide& first, const MotionSide& second,
                                                  MotionOptions options) {
   if (!(options.tolerance >= 0 && options.tolerance <= kMaxTolerance)) {
@@ -327,7 +336,7 @@ bool MotionComparison::step() {
   if (!parts_->result) {
     parts_->result = passed;
     if (!passed.is_same) return true;
-    if (parts_->begin_pass(kShift + 2 * parts_->options.tolerance)) return false;
+    if (parts_->begin_pass(kStartShift + 2 * parts_->options.tolerance)) return false;
   }
   auto& conditions = parts_->result->conditions;
   // Another alarm is where the comparison ended, and not a proof.

@@ -15,7 +15,13 @@
 
 namespace dripline::comparison {
 
-/// What an event passes on its way to the comparison: a stage in front of `out`, for a run that
+/// Millimeters or degrees between two starts, on no grid of a program: what depends on the start is
+/// another path from there.
+inline constexpr double kStartShift = 0.7313;
+/// The setup with another start: by `shift` on these axes (bit 0 is X).
+interpreter::Setup started_beside(interpreter::Setup setup, double shift, unsigned axes = ~0U);
+
+/// What an event passes before it is compared: a stage in front of `out`, for a run that
 /// begins at `start`. `out` outlives it.
 using ComparisonStage = std::function<std::unique_ptr<interpreter::EventSink>(
     interpreter::EventSink& out, const interpreter::Position& start)>;

@@ -8,15 +8,11 @@
 namespace dripline::post {
 namespace {
 
-using interpreter::Axis;
 using interpreter::Origin;
 using interpreter::Setup;
 using interpreter::Units;
 
 constexpr std::uint64_t kStepBlocks = 1024;
-/// Of the start from the setup's, mm and degrees: on no grid of a program. What depends on the
-/// start then differs from what was written.
-constexpr double kStartShift = 0.7313;
 
 auto refused(Errc code, std::string what, std::optional<Origin> origin = {}) {
   return tl::make_unexpected(NotConverted{code, std::move(what), origin});
@@ -108,16 +104,6 @@ Result<Grid::Values> shift_of(const Target& target, const interpreter::Dialect& 
   return shift;
 }
 
-Setup shifted(Setup setup, unsigned axes) {
-  for (const Axis axis : interpreter::kAllAxes) {
-    if ((axes >> static_cast<unsigned>(axis) & 1U) == 0) continue;
-    const bool has_moved = setup.start.has(axis);
-    setup.start.set_raw(axis, setup.start.raw(axis) + kStartShift);
-    if (!has_moved) setup.start.unmark(axis);
-  }
-  return setup;
-}
-
 Result<void> check_kind(const SourceProgram& source, const Target& target) {
   const bool is_lathe = source.dialect.machine == interpreter::MachineKind::Lathe;
   if (is_lathe == target.is_lathe) return {};
@@ -196,8 +182,11 @@ tl::expected<WrittenProgram, NotConverted> write_program(const SourceProgram& so
   result.tolerance = options.tolerance.value_or(result.grid.center_step());
   result.adaptation.tolerance = result.tolerance;
   result.adaptation.chord = options.chord;
+  // What depends on the start then differs from what was written.
   const Setup run_setup =
-      options.is_as_set_up ? source_setup : shifted(source_setup, axes_of(target));
+      options.is_as_set_up
+          ? source_setup
+          : comparison::started_beside(source_setup, comparison::kStartShift, axes_of(target));
   auto adaptation_options = result.adaptation;
   adaptation_options.passes_messages = true;
   const auto writer = make_writer(target, *target_setup);
