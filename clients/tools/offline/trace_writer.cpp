@@ -12,8 +12,6 @@ namespace {
 constexpr std::size_t kFlushAt = 32 * 1024;
 /// Millimeters or degrees: what rounding leaves of a path there and back is no move.
 constexpr double kNoMove = 1e-7;
-constexpr double kMillimetersPerFoot = 12 * Length::kMillimetersPerInch;
-constexpr double kMillimetersPerMeter = 1000;
 
 }  // namespace
 
@@ -210,8 +208,8 @@ void TraceWriter::on_spindle(const Spindle& spindle) {
   member("state", word_of(spindle.state));
   if (spindle.surface_speed) {
     // As every control is programmed: feet or meters a minute.
-    member("surface_speed",
-           spindle.surface_speed->mm() / (is_inch_ ? kMillimetersPerFoot : kMillimetersPerMeter));
+    const Units units = is_inch_ ? Units::Inch : Units::Millimeter;
+    member("surface_speed", spindle.surface_speed->mm() / mm_per_surface_unit(units));
   } else {
     member("speed", spindle.revolutions_per_minute);
   }

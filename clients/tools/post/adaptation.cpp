@@ -11,10 +11,12 @@ namespace dripline::post {
 namespace {
 
 using interpreter::Arc;
+using interpreter::axes_of;
 using interpreter::Axis;
 using interpreter::EventGate;
 using interpreter::Line;
 using interpreter::Origin;
+using interpreter::PlaneVector;
 using interpreter::Position;
 
 constexpr double kSame = 1e-9;  ///< of values that were not rounded, as a part of them
@@ -25,11 +27,16 @@ double distance(const Position& a, const Position& b) {
                     a.raw(Axis::Z) - b.raw(Axis::Z));
 }
 
+/// From the arc's center.
+PlaneVector from_center(const Position& at, const Arc& arc) {
+  return in_plane(at, axes_of(arc.plane)) -
+         PlaneVector{arc.center_first.mm(), arc.center_second.mm()};
+}
+
 double arc_length(const Position& from, const Arc& arc) {
-  const auto axes = interpreter::axes_of(arc.plane);
-  const double radius = std::hypot(from.raw(axes.first) - arc.center_first.mm(),
-                                   from.raw(axes.second) - arc.center_second.mm());
-  return std::hypot(radius * arc.sweep.radians(), arc.to.raw(axes.normal) - from.raw(axes.normal));
+  const Axis normal = axes_of(arc.plane).normal;
+  return std::hypot(length(from_center(from, arc)) * arc.sweep.radians(),
+                    arc.to.raw(normal) - from.raw(normal));
 }
 
 }  // namespace
@@ -124,19 +131,20 @@ std::optional<Feed> Adaptation::feed_of(const Origin& origin, Feed feed, double 
   const bool is_per_minute = feed.per() == Feed::Per::Minute;
   const auto& range = range_of(is_per_minute ? target().feed : target().feed_per_revolution, units);
   if (range.max == 0) {
-    refuse(origin, fmt::format("feed of {:g} {} per revolution: {} has feeds per minute alone",
-                               feed.length().mm() / mm_of(units), unit_name(units), target().name));
+    refuse(origin,
+           fmt::format("feed of {:g} {} per revolution: {} has feeds per minute alone",
+                       feed.length().mm() / mm_per_unit(units), unit_name(units), target().name));
     return std::nullopt;
   }
   if (!(feed.length().mm() > 0)) {
     refuse(origin, fmt::format("feed of {:g}: no control moves at it", feed.length().mm()));
     return std::nullopt;
   }
-  const auto value = rounded(origin, "feed", feed.length().mm() / mm_of(units), range,
+  const auto value = rounded(origin, "feed", feed.length().mm() / mm_per_unit(units), range,
                              fmt::format("{}/{}", unit_name(units), is_per_minute ? "min" : "rev"),
                              counts_.rounded_feeds);
   if (!value) return std::nullopt;
-  const Length length_of_feed = Length::mm(*value * mm_of(units));
+  const Length length_of_feed = Length::mm(*value * mm_per_unit(units));
   return is_per_minute ? Feed::per_minute(length_of_feed) : Feed::per_revolution(length_of_feed);
 }
 
@@ -187,10 +195,8 @@ void Adaptation::on_arc(const Arc& event) {
   const double sweep = event.sweep.degrees();
   std::vector<double> ends;
   if (target().max_sweep == 90) {
-    const auto axes = interpreter::axes_of(event.plane);
-    const double begin = Angle::radians(std::atan2(from.raw(axes.second) - event.center_second.mm(),
-                                                   from.raw(axes.first) - event.center_first.mm()))
-                             .degrees();
+    const PlaneVector start = from_center(from, event);
+    const double begin = Angle::radians(std::atan2(start.second, start.first)).degrees();
     const double sense = event.turn == interpreter::Turn::Counterclockwise ? 1 : -1;
     for (double at = sense > 0 ? std::floor(begin / 90 + 1) * 90 : std::ceil(begin / 90 - 1) * 90;
          std::fabs(at - begin) < sweep; at += sense * 90)
@@ -217,7 +223,7 @@ void Adaptation::on_arc(const Arc& event) {
 }
 
 bool Adaptation::can_be_arc(const Arc& arc, std::string& reason) const {
-  const auto axes = interpreter::axes_of(arc.plane);
+  const auto axes = axes_of(arc.plane);
   if (!target().has_all_planes && arc.plane != interpreter::Plane::XY) {
     reason =
         fmt::format("arc in the plane {}: {} has arcs in XY", word_of(arc.plane), target().name);
@@ -279,11 +285,7 @@ void Adaptation::arc_piece(const Arc& arc) {
 
 void Adaptation::lines_of(const Arc& arc, std::string_view reason) {
   if (!options_.chord) return refuse(arc.origin, std::string(reason));
-  const auto axes = interpreter::axes_of(arc.plane);
-  const double radius = std::max(std::hypot(at_.raw(axes.first) - arc.center_first.mm(),
-                                            at_.raw(axes.second) - arc.center_second.mm()),
-                                 std::hypot(arc.to.raw(axes.first) - arc.center_first.mm(),
-                                            arc.to.raw(axes.second) - arc.center_second.mm()));
+  const double radius = std::max(length(from_center(at_, arc)), length(from_center(arc.to, arc)));
   const double share = std::clamp(1 - *options_.chord / radius, -1.0, 1.0);
   const double angle = std::min(2 * std::acos(share), Angle::kPi / 4);
   const double count = std::ceil(arc.sweep.radians() / angle);

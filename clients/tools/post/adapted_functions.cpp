@@ -10,10 +10,6 @@ namespace {
 using interpreter::EventGate;
 using interpreter::SpindleState;
 
-bool is_turning(SpindleState state) {
-  return state == SpindleState::Clockwise || state == SpindleState::Counterclockwise;
-}
-
 /// Some controls report that again, and others do not.
 bool is_off_already(const interpreter::Spindle& event, SpindleState state) {
   return event.state == SpindleState::Off && state == SpindleState::Off;
@@ -57,7 +53,7 @@ void Adaptation::on_thread(const interpreter::Thread& event) {
   if (is_short(event.to)) return refuse(event.origin, "thread shorter than a step of the target");
   constexpr double kLeadTolerance = 1e-4;
   const auto& range = range_of(target().feed_per_revolution, grid_.units());
-  const double unit = mm_of(grid_.units());
+  const double unit = mm_per_unit(grid_.units());
   const double word = lead_word(grid_, at_, event.to, event.lead).mm() / unit;
   const double nearest = value_of(counts_of(word, range.decimals), range.decimals);
   if (!(nearest > 0) || nearest > range.max ||
@@ -104,7 +100,7 @@ void Adaptation::on_spindle(const interpreter::Spindle& event) {
                                 event.surface_speed->mm() / 1000, target().name));
     }
     const bool is_inch = grid_.units() == interpreter::Units::Inch;
-    const double unit = is_inch ? 12 * Length::kMillimetersPerInch : 1000;
+    const double unit = mm_per_surface_unit(grid_.units());
     const auto value = rounded(event.origin, "surface speed", event.surface_speed->mm() / unit,
                                {target().speed.decimals, 9999}, is_inch ? "ft/min" : "m/min",
                                counts_.rounded_speeds);

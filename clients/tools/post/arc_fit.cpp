@@ -70,7 +70,8 @@ FittedArc fit_arc(const Grid& grid, const Position& from, const Arc& arc, double
         error <= grid.target().max_radius_error * (1 - 1e-9) && std::isfinite(deviation);
     if (best.is_possible && !is_possible) return;
     const bool is_better = is_possible != best.is_possible || deviation < best.deviation;
-    if (is_better) best = {i, j, deviation, error, is_possible};
+    if (is_better)
+      best = {i, j, Angle::radians(fitted.sweep).degrees(), deviation, error, is_possible};
   };
   const auto is_good = [&] { return best.is_possible && best.deviation <= tolerance * (1 - 1e-9); };
   try_center(first, second);

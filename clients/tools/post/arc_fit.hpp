@@ -10,6 +10,7 @@ namespace dripline::post {
 /// of the center's words.
 struct FittedArc {
   std::int64_t first = 0, second = 0;
+  double sweep = 0;          ///< degrees, between the rounded ends
   double deviation = 0;      ///< mm from the arc that was asked for, anywhere along it
   double radius_error = 0;   ///< mm: of the radii at both ends
   bool is_possible = false;  ///< it has a radius, and the control takes it

@@ -22,7 +22,7 @@ constexpr double power_of_ten(int exponent) {
 Grid::Grid(const Target& target, interpreter::Units units, const Values& shift)
     : target_(&target), units_(units), shift_(shift) {
   const double power = power_of_ten(decimals());
-  center_step_ = mm_of(units) / power;
+  center_step_ = mm_per_unit(units) / power;
   for (const Axis axis : interpreter::kAllAxes) {
     double step = interpreter::is_rotary(axis) ? 1 / power : center_step_;
     if (target.is_lathe && axis == Axis::X) step /= 2;

@@ -28,25 +28,6 @@ bool is_same(const interpreter::Spindle& a, const interpreter::Spindle& b) {
          a.surface_speed == b.surface_speed && a.max_revolutions == b.max_revolutions;
 }
 
-/// Of an arc between two points of the grid.
-double sweep_of(const Grid& grid, const Position& from, const interpreter::Arc& arc,
-                const FittedArc& fitted) {
-  const auto axes = interpreter::axes_of(arc.plane);
-  const auto at = [&](const Position& position) {
-    return interpreter::PlaneVector{
-        grid.machine(axes.first, grid.counts(axes.first, position.raw(axes.first))),
-        grid.machine(axes.second, grid.counts(axes.second, position.raw(axes.second)))};
-  };
-  const auto begin = at(from), end = at(arc.to);
-  if (begin == end) return 360;
-  const interpreter::PlaneVector center =
-      begin + grid.center_step() * interpreter::PlaneVector{static_cast<double>(fitted.first),
-                                                            static_cast<double>(fitted.second)};
-  double sweep = interpreter::turn_between(begin - center, end - center) * (180 / Angle::kPi);
-  if (arc.turn == interpreter::Turn::Clockwise) sweep = -sweep;
-  return sweep <= 0 ? sweep + 360 : sweep;
-}
-
 }  // namespace
 
 PostProcessor::PostProcessor(Parts parts) : parts_(std::move(parts)), at_(parts_.start) {
@@ -150,8 +131,8 @@ void PostProcessor::name_feed(Feed feed, MoveWords& move) {
   word.is_per_revolution = feed.per() == Feed::Per::Revolution;
   const auto& ranges =
       word.is_per_revolution ? grid.target().feed_per_revolution : grid.target().feed;
-  word.counts =
-      counts_of(feed.length().mm() / mm_of(grid.units()), range_of(ranges, grid.units()).decimals);
+  word.counts = counts_of(feed.length().mm() / mm_per_unit(grid.units()),
+                          range_of(ranges, grid.units()).decimals);
   if (feed_ == word) return;
   feed_ = move.feed = word;
 }
@@ -201,7 +182,7 @@ void PostProcessor::on_arc(const interpreter::Arc& event) {
   arc.center = {fitted.first, fitted.second};
   arc.absolute_center = {counts_[index_of(axes.first)] + fitted.first,
                          counts_[index_of(axes.second)] + fitted.second};
-  arc.sweep = sweep_of(grid, at_, event, fitted);
+  arc.sweep = fitted.sweep;
   const bool is_exact = parts_.writer.arc(text_, arc);
   arrive(event.to, arc);
   ++written_.arcs;
@@ -216,7 +197,7 @@ void PostProcessor::on_thread(const interpreter::Thread& event) {
   ThreadWords thread;
   name_axes(event.to, thread);
   const Length lead = lead_word(grid, at_, event.to, event.lead);
-  thread.lead = counts_of(lead.mm() / mm_of(grid.units()),
+  thread.lead = counts_of(lead.mm() / mm_per_unit(grid.units()),
                           range_of(grid.target().feed_per_revolution, grid.units()).decimals);
   if (event.start_angle) thread.start = counts_of(event.start_angle->degrees(), 3);
   if (thread.named.any()) parts_.writer.thread(text_, thread);

@@ -70,10 +70,6 @@ Result<const Target*> find_target(std::string_view name);
 /// Its axes as bits; bit 0 is X.
 unsigned axes_of(const Target& target);
 
-/// Millimeters of one unit.
-constexpr double mm_of(interpreter::Units units) {
-  return units == interpreter::Units::Inch ? Length::kMillimetersPerInch : 1.0;
-}
 constexpr const NumberRange& range_of(const ByUnits& ranges, interpreter::Units units) {
   return ranges[static_cast<std::size_t>(units)];
 }

@@ -315,9 +315,9 @@ class WordWriter final : public ProgramWriter {
     return {};
   }
   void append_speed(std::string& words, const interpreter::Spindle& spindle) {
-    const double unit = units_ == Units::Inch ? 12 * Length::kMillimetersPerInch : 1000;
-    const double value =
-        spindle.surface_speed ? spindle.surface_speed->mm() / unit : spindle.revolutions_per_minute;
+    const double value = spindle.surface_speed
+                             ? spindle.surface_speed->mm() / mm_per_surface_unit(units_)
+                             : spindle.revolutions_per_minute;
     if (value == 0 && !has_speed_) return;  // the operator chose it
     has_speed_ = true;
     append(words, "S");

@@ -108,6 +108,17 @@ enum class Turn : std::uint8_t {
   Counterclockwise
 };  ///< seen from the positive third axis
 enum class SpindleState : std::uint8_t { Off, Clockwise, Counterclockwise, Oriented };
+constexpr bool is_turning(SpindleState state) {
+  return state == SpindleState::Clockwise || state == SpindleState::Counterclockwise;
+}
+/// Of one unit of a coordinate or a feed.
+constexpr double mm_per_unit(Units units) {
+  return units == Units::Inch ? Length::kMillimetersPerInch : 1;
+}
+/// Of one unit of a surface speed: a foot or a meter.
+constexpr double mm_per_surface_unit(Units units) {
+  return units == Units::Inch ? 12 * Length::kMillimetersPerInch : 1000;
+}
 enum class StopKind : std::uint8_t { Program, Optional, ToolChange, Operator };
 enum class ProbeUntil : std::uint8_t { Contact, Release };
 enum class OutputDevice : std::uint8_t { File, Port1, Port2, Screen, Printer };

@@ -8,8 +8,7 @@ namespace dripline::machine::impl {
 using interpreter::SpindleState;
 
 bool SpindleModel::is_turning() const {
-  return spindle_.state == SpindleState::Clockwise ||
-         spindle_.state == SpindleState::Counterclockwise;
+  return interpreter::is_turning(spindle_.state);
 }
 
 double SpindleModel::ceiling() const {

@@ -180,7 +180,7 @@ struct ModalState {
   PatternCycle pattern;                    ///< of G70-G73, while one runs
   std::vector<ModalState> before_pattern;  ///< one while a pattern is read: what it must not change
 
-  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetersPerInch : 1.0; }
+  double mm_per_unit() const { return interpreter::mm_per_unit(units); }
   double active_feed() const { return feed[modes.is_feed_per_revolution]; }
 };
 

@@ -267,7 +267,7 @@ struct ModalState {
   Jump jump;
   Counters limits;
 
-  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetersPerInch : 1.0; }
+  double mm_per_unit() const { return interpreter::mm_per_unit(units); }
   bool is_polar() const { return g[kPolarGroup] == 16; }
   bool is_incremental() const { return g[kDistanceGroup] == 91; }
   bool is_inverse_time() const { return g[kFeedGroup] == 93; }

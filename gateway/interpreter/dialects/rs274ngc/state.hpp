@@ -57,9 +57,7 @@ struct SpindleModes {
   bool is_surface = false;
   double most = 0;  ///< revolutions per minute under G96; 0 = none
 
-  bool is_turning() const {
-    return state == SpindleState::Clockwise || state == SpindleState::Counterclockwise;
-  }
+  bool is_turning() const { return interpreter::is_turning(state); }
 };
 
 struct ToolModes {
@@ -208,9 +206,7 @@ struct State {
   std::uint64_t passes = 0;  ///< of loops and calls since the machine last moved or waited
   SavedModes saved;
 
-  double mm_per_unit() const {
-    return units == Units::Inch ? dripline::Length::kMillimetersPerInch : 1.0;
-  }
+  double mm_per_unit() const { return interpreter::mm_per_unit(units); }
   double& operator[](Axis axis) { return position[index_of(axis)]; }
   double operator[](Axis axis) const { return position[index_of(axis)]; }
 };

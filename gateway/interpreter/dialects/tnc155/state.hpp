@@ -209,7 +209,7 @@ struct State {
   bool is_restart = false;      ///< after GOTO
   bool has_positioned = false;  ///< the first positioning of the run was executed
 
-  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetersPerInch : 1.0; }
+  double mm_per_unit() const { return interpreter::mm_per_unit(units); }
   bool is_compensating() const {
     return compensation == Compensation::Left || compensation == Compensation::Right;
   }

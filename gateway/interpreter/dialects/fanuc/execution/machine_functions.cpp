@@ -9,12 +9,7 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-constexpr double kMillimetersPerFoot = 12 * Length::kMillimetersPerInch;
 constexpr double kMaxSpeed = 20000;
-
-bool is_turning(SpindleState state) {
-  return state == SpindleState::Clockwise || state == SpindleState::Counterclockwise;
-}
 
 void deliver_spindle(Run& run) {
   const SpindleModes& spindle = run.state.spindle;
@@ -187,7 +182,7 @@ bool apply_speed(Run& run) {
   if (run.block.parts.one_shot == 92) {
     spindle.limit = speed;
   } else if (is_surface) {
-    spindle.surface = speed * (state.units == Units::Inch ? kMillimetersPerFoot : 1000);
+    spindle.surface = speed * mm_per_surface_unit(state.units);
   } else {
     spindle.revolutions = speed;
   }

@@ -53,7 +53,7 @@ void keep_definition(State& state, const ToolDefinition& tool) {
 void take_definition_ahead(Run& run, int number) {
   const auto& ahead = run.definition_ahead;
   if (!ahead || ahead->block.target != number) return;
-  const double unit = ahead->units == Units::Inch ? Length::kMillimetersPerInch : 1;
+  const double unit = mm_per_unit(ahead->units);
   const ToolData data{run.number(ahead->block.length) * unit,
                       run.number(ahead->block.radius) * unit};
   keep_definition(run.state, {static_cast<std::uint8_t>(number), data});
