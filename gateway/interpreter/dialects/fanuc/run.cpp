@@ -32,6 +32,13 @@ void Run::lead_stages() {
   front = state.uses_compensator ? static_cast<EventSink*>(&path()) : last;
 }
 
+void Run::place_stages() {
+  lead_stages();
+  if (!state.uses_compensator) return;
+  compensator.place(state.position);
+  blender.place(state.position);
+}
+
 bool Run::ask(Question asked) {
   state.limits = {};
   pause = Pause::ForQuestion;

@@ -59,6 +59,9 @@ struct Run : BlockRun {
   /// After the state has another stage: `rotary`, `tilted`, the compensator, the blender, the
   /// recorder.
   void lead_stages();
+  /// The same, and the stages continue from the state's position: that of the flat path or the
+  /// tilted plane, or the machine's.
+  void place_stages();
 
   /// Offset of `at` in the block, and its 1-based column.
   std::uint32_t offset(const char* at) const {

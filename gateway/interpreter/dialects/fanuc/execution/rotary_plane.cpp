@@ -34,14 +34,6 @@ bool check_state(Run& run) {
   return check_compensation(run);
 }
 
-/// The stages go on from the flat path's place, or from the machine's.
-void place_stages(Run& run) {
-  run.lead_stages();
-  if (!run.state.uses_compensator) return;
-  run.compensator.place(run.state.position);
-  run.blender.place(run.state.position);
-}
-
 void begin_mode(Run& run, RotaryPlane plane) {
   ModalState& state = run.state;
   run.events();  // the header first
@@ -54,7 +46,7 @@ void begin_mode(Run& run, RotaryPlane plane) {
   state.position.set_raw(plane.slot, plane.zero_slot);
   state.rotary = plane;
   run.rotary.begin(plane, state.position);
-  place_stages(run);
+  run.place_stages();
 }
 
 void end_mode(Run& run) {
@@ -76,7 +68,7 @@ void end_mode(Run& run) {
   state.g[kPlaneGroup] = plane.plane_before;
   run.rotary.end();
   state.rotary.kind = Kind::None;
-  place_stages(run);
+  run.place_stages();
 }
 
 }  // namespace

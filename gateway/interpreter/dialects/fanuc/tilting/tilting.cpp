@@ -40,13 +40,10 @@ bool flush_stages(Run& run) {
   return check_compensation(run);
 }
 
-/// The stages go on from the program's place, or from the machine's.
-void place_stages(Run& run) {
+/// From here on the program's places are those of another frame.
+void change_frame(Run& run) {
   ++run.frame_changes;
-  run.lead_stages();
-  if (!run.state.uses_compensator) return;
-  run.compensator.place(run.state.position);
-  run.blender.place(run.state.position);
+  run.place_stages();
 }
 
 void begin(Run& run, Tilt tilt) {
@@ -63,13 +60,13 @@ void begin(Run& run, Tilt tilt) {
   tilt.mm_per_unit = run.increments.mm_per_unit;
   run.tilted.begin(tilt, state.position);
   state.position = run.tilted.flat();
-  place_stages(run);
+  change_frame(run);
 }
 
 void end(Run& run) {
   run.state.position = run.tilted.machine();
   run.tilted.end();
-  place_stages(run);
+  change_frame(run);
 }
 
 /// A code of the block that the mode excludes: its name, or nothing.
@@ -296,7 +293,7 @@ bool direct_tool_axis(Run& run) {
   if (!check_last_stage(run)) return false;
   run.block.parts.has_motion = true;
   arrive(run, run.tilted.flat());
-  place_stages(run);
+  change_frame(run);
   return true;
 }
 
