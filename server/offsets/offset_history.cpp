@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "server/offsets/value_in_force.hpp"
 
@@ -83,7 +84,9 @@ Result<std::vector<HistoryEntry>> OffsetHistory::list(const std::string& machine
     const auto stated = values_in_setup(setup->text);
     const auto unit = unit_in_force(setup->text, known->control);
     if (!stated || !unit) continue;  // kept before its control read it so: nothing to compare
+    std::set<std::string_view> names;
     for (const NamedValue& named : *stated) {
+      names.insert(named.target);
       if (!target.empty() && !begins_with(named.target, target)) continue;
       const auto parsed = parse_setup_target(named.target);
       const double value = parsed ? canonical(*parsed, named.value, *unit) : named.value;
@@ -100,8 +103,7 @@ Result<std::vector<HistoryEntry>> OffsetHistory::list(const std::string& machine
     }
     // What it has no more ends here.
     for (auto value = values.begin(); value != values.end();) {
-      const auto is_it = [&](const NamedValue& named) { return named.target == value->first; };
-      if (std::ranges::any_of(*stated, is_it)) {
+      if (names.contains(value->first)) {
         ++value;
         continue;
       }

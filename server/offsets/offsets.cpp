@@ -97,6 +97,9 @@ Result<Offsets::Current> Offsets::current_of(const std::string& machine) {
     now.text = setup->text;
     now.setup = setup->number;
   }
+  auto loaded = parts_.store.setups.loaded(machine);
+  if (!loaded) return fail(loaded.error());
+  now.loaded = *std::move(loaded);
   auto unit = unit_in_force(now.text, now.control);
   if (!unit) return fail(unit.error());
   now.unit = *std::move(unit);
@@ -107,9 +110,7 @@ Result<Offsets::Current> Offsets::current_of(const std::string& machine) {
 Result<std::string> Offsets::what_form_lacks(const Current& now, const std::string& text) {
   const bool is_lathe = now.control == "fanuc-t";
   if (!is_lathe && now.control != "fanuc") return std::string();
-  const auto loaded = parts_.store.setups.loaded(now.machine);
-  if (!loaded) return fail(loaded.error());
-  if (!*loaded) return std::string();
+  if (!now.loaded) return std::string();
   const auto setup = interpreter::parse_control_data(text);
   if (!setup) return fail(setup.error());
   const auto form = interpreter::fanuc::write_offset_text(*setup, is_lathe);
@@ -117,15 +118,13 @@ Result<std::string> Offsets::what_form_lacks(const Current& now, const std::stri
 }
 
 /// What a control that is loaded by hand waits for; empty: nothing.
-Result<std::string> Offsets::what_is_not_loaded(const Current& now) {
-  const auto loaded = parts_.store.setups.loaded(now.machine);
-  if (!loaded) return fail(loaded.error());
-  if (!*loaded || (*loaded)->number == now.setup) return std::string();
+std::string Offsets::what_is_not_loaded(const Current& now) {
+  if (!now.loaded || now.loaded->number == now.setup) return {};
   return fmt::format(
       "{} is said to be in the control, and setup {} is the newest: load it there, "
       "then `dnc setup loaded {} {}`",
-      (*loaded)->number ? fmt::format("setup {}", *(*loaded)->number)
-                        : std::string("no known setup"),
+      now.loaded->number ? fmt::format("setup {}", *now.loaded->number)
+                         : std::string("no known setup"),
       now.setup, now.machine, now.setup);
 }
 
@@ -177,9 +176,8 @@ Result<Evaluation> Offsets::measured(const Current& now, const OffsetRule& rule)
     evaluation.outcome.is_within_policy = false;
     return evaluation;
   }
-  auto waiting = what_is_not_loaded(now);
-  if (!waiting) return fail(waiting.error());
-  if (!waiting->empty()) reasons.insert(reasons.begin(), *std::move(waiting));
+  if (auto waiting = what_is_not_loaded(now); !waiting.empty())
+    reasons.insert(reasons.begin(), std::move(waiting));
   return evaluation;
 }
 

@@ -85,8 +85,8 @@ class Offsets {
   Result<Evaluation> measured(const Current& now, const OffsetRule& rule);
   Result<void> withdraw_of_gone(const std::string& machine, const std::vector<OffsetRule>& rules);
   Result<std::string> doubt_of(const Current& now, const OffsetRule& rule, double value);
-  Result<std::string> what_form_lacks(const Current& now, const std::string& text);
-  Result<std::string> what_is_not_loaded(const Current& now);
+  static Result<std::string> what_form_lacks(const Current& now, const std::string& text);
+  static std::string what_is_not_loaded(const Current& now);
   static Result<void> check_rules(const Current& now, const std::vector<OffsetRule>& rules);
   Result<Evaluation> evaluate(const Current& now, const OffsetRule& rule);
   Result<void> keep(const Current& now, Evaluation& evaluation);

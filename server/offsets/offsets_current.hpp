@@ -12,6 +12,8 @@ inline constexpr int kDecimals = 9;
 struct Offsets::Current {
   std::string machine, control, text, unit;
   std::uint64_t setup = 0;  ///< 0: there is none
+  /// Which one is in a control that is loaded by hand, as it was stated; nothing: it never was.
+  std::optional<storage::LoadedSetup> loaded = {};
   SetupText place() const { return {machine, setup, text}; }
 };
 
