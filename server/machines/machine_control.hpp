@@ -28,11 +28,11 @@ struct MachineView {
   std::optional<storage::MachineHold> held = {};
   std::optional<storage::JobHold> queue_hold = {};
 
+  /// Its gateway says that its control is at the end of a line.
+  bool has_gateway_line() const { return status && status->serial_line; }
   /// Its control is at the end of a line, of the server's or of its gateway's: no setup goes with a
   /// start, and which one it has is known by word alone (SetupStore::loaded).
-  bool has_serial_line() const {
-    return machine.gateway_version.empty() || (status && status->serial_line.has_value());
-  }
+  bool has_serial_line() const { return machine.gateway_version.empty() || has_gateway_line(); }
 };
 
 /// Where a run begins when it does not begin at the program's first byte. At most one is given.

@@ -38,7 +38,7 @@ Result<storage::Run> MachineService::make_run(const StartRequest& request,
 /// server keeps none for it, or does not know.
 Result<std::optional<storage::SetupRevision>> MachineService::setup_of(const MachineView& view) {
   std::optional<std::uint64_t> number;
-  if (view.status && view.status->serial_line) {
+  if (view.has_gateway_line()) {
     const auto loaded = store_.setups.loaded(view.machine.name);
     if (!loaded) return fail(loaded.error());
     if (!*loaded || !(*loaded)->number) return std::optional<storage::SetupRevision>{};

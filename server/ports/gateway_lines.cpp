@@ -211,16 +211,14 @@ PortView GatewayLines::show(const machines::MachineView& machine,
 std::vector<PortView> GatewayLines::ports() const {
   std::vector<PortView> views;
   for (const auto& machine : parts_.machines.machines()) {
-    if (machine.status && machine.status->serial_line)
-      views.push_back(show(machine, *machine.status->serial_line));
+    if (machine.has_gateway_line()) views.push_back(show(machine, *machine.status->serial_line));
   }
   return views;
 }
 
 Result<PortView> GatewayLines::port(const std::string& name) const {
   const auto machine = parts_.machines.machine(name);
-  if (machine && machine->status && machine->status->serial_line)
-    return show(*machine, *machine->status->serial_line);
+  if (machine && machine->has_gateway_line()) return show(*machine, *machine->status->serial_line);
   return fail(Errc::NotFound, "port '{}' is not known", name);
 }
 

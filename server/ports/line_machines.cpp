@@ -226,7 +226,7 @@ Result<machines::MachineView> MachineRouter::machine(const std::string& name) co
 Result<storage::Run> MachineRouter::start(const machines::StartRequest& request) {
   if (!lines_.machine(request.machine)) {
     const auto gateway = gateways_.machine(request.machine);
-    const bool has_line = gateway && gateway->status && gateway->status->serial_line;
+    const bool has_line = gateway && gateway->has_gateway_line();
     if (request.head == machines::StartHead::Ask || has_line) return gateways_.start(request);
     return fail(Errc::Unsupported,
                 "machine '{}' has a gateway, which looks through the program up to the beginning: "
