@@ -1,7 +1,7 @@
 // What retention has moved out of the database: the rules in force, each archive with its state, and its rows, read back.
 import { useState } from 'preact/hooks';
 import type { Archive, Archives, ArchivesMade, RetentionRule } from '../../generated/api';
-import { ApiError, get, pathOf, send } from '../api/request';
+import { getIfThere, pathOf, send } from '../api/request';
 import { CommandFault, useCommand } from '../parts/command';
 import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
@@ -16,12 +16,7 @@ const kPage = 100;
 
 /// null: this server makes no archives.
 async function load(offset: number, signal: AbortSignal): Promise<{ state: Archives | null }> {
-  try {
-    return { state: await get<Archives>(pathOf('archives'), { limit: kPage, offset }, signal) };
-  } catch (failure) {
-    if (failure instanceof ApiError && failure.status === 404) return { state: null };
-    throw failure;
-  }
+  return { state: await getIfThere<Archives>(pathOf('archives'), { limit: kPage, offset }, signal) };
 }
 
 function ruleText({ days, rows }: RetentionRule): string {

@@ -1,6 +1,6 @@
 // The server's backups: whether the newest is recent enough, what is being done, and each one with its age and its last verification.
 import type { Backup, Backups } from '../../generated/api';
-import { ApiError, get, pathOf, send } from '../api/request';
+import { getIfThere, pathOf, send } from '../api/request';
 import { CommandFault, useCommand } from '../parts/command';
 import { Heads } from '../parts/heads';
 import { Loading } from '../parts/loading';
@@ -17,12 +17,7 @@ interface LoadedState {
 }
 
 async function load(signal: AbortSignal): Promise<LoadedState> {
-  try {
-    return { state: await get<Backups>(pathOf('backups'), {}, signal) };
-  } catch (failure) {
-    if (failure instanceof ApiError && failure.status === 404) return { state: null };
-    throw failure;
-  }
+  return { state: await getIfThere<Backups>(pathOf('backups'), {}, signal) };
 }
 
 function Work({ state }: { state: Backups }) {

@@ -72,6 +72,16 @@ export async function get<T>(path: string, query: Query = {}, signal?: AbortSign
   return (await (await fetchApi('GET', withQuery(path, query), { headers }, signal)).json()) as T;
 }
 
+/// null: there is none of it (404).
+export async function getIfThere<T>(path: string, query: Query = {}, signal?: AbortSignal): Promise<T | null> {
+  try {
+    return await get<T>(path, query, signal);
+  } catch (failure) {
+    if (failure instanceof ApiError && failure.status === 404) return null;
+    throw failure;
+  }
+}
+
 /// The answer's JSON; undefined for one without content.
 export async function send<T = void>(method: 'POST' | 'PUT' | 'DELETE', path: string, body: Body = {}): Promise<T> {
   const response = await fetchApi(method, path, body);

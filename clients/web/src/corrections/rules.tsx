@@ -1,7 +1,7 @@
 // The rules by which a machine's corrections are proposed: read, changed by who may approve, and evaluated now, with the reasons in words.
 import { useState } from 'preact/hooks';
 import type { OffsetEvaluation, OffsetRules } from '../../generated/api';
-import { ApiError, get, pathOf, send } from '../api/request';
+import { getIfThere, pathOf, send } from '../api/request';
 import { Allowed } from '../parts/allowed';
 import { CommandFault, useCommand } from '../parts/command';
 import { Loading } from '../parts/loading';
@@ -14,12 +14,7 @@ const kMaxText = 65_536;
 
 /// null: the machine has none.
 async function loadRules(machine: string, signal: AbortSignal): Promise<{ rules: OffsetRules | null }> {
-  try {
-    return { rules: await get<OffsetRules>(pathOf('machines', machine, 'offset-rules'), {}, signal) };
-  } catch (failure) {
-    if (failure instanceof ApiError && failure.status === 404) return { rules: null };
-    throw failure;
-  }
+  return { rules: await getIfThere<OffsetRules>(pathOf('machines', machine, 'offset-rules'), {}, signal) };
 }
 
 function RulesText({ machine, stored, onStored }: { machine: string; stored: string; onStored: () => void }) {

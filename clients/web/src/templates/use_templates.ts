@@ -1,6 +1,6 @@
 // What the API has of templates, as the views take it.
 import type { ReportTemplateText, TemplateAssignment, TemplateAssignments } from '../../generated/api';
-import { ApiError, get, pathOf } from '../api/request';
+import { get, getIfThere, pathOf } from '../api/request';
 import { useLoaded, type Loaded } from '../parts/use_loaded';
 
 export function useAssignments(): Loaded<TemplateAssignments> {
@@ -9,12 +9,8 @@ export function useAssignments(): Loaded<TemplateAssignments> {
 
 /// The newest, or that version; null: there is none of this name yet.
 export async function loadTemplate(name: string, version: number | null, signal?: AbortSignal): Promise<ReportTemplateText | null> {
-  try {
-    return await get<ReportTemplateText>(pathOf('report-templates', name), { version }, signal);
-  } catch (failure) {
-    if (failure instanceof ApiError && failure.status === 404 && version === null) return null;
-    throw failure;
-  }
+  const path = pathOf('report-templates', name);
+  return version === null ? getIfThere<ReportTemplateText>(path, {}, signal) : get<ReportTemplateText>(path, { version }, signal);
 }
 
 export function ofTemplate(assignments: TemplateAssignment[], name: string): TemplateAssignment[] {

@@ -1,6 +1,6 @@
 // A control at the end of a line gets no setup with a start: somebody loads it there, and says here which one it has.
 import type { LoadedSetup as Loaded } from '../../../generated/api';
-import { ApiError, get, pathOf, send } from '../../api/request';
+import { getIfThere, pathOf, send } from '../../api/request';
 import { Allowed } from '../../parts/allowed';
 import { CommandFault, useCommand } from '../../parts/command';
 import { Loading } from '../../parts/loading';
@@ -9,12 +9,7 @@ import { useLoaded } from '../../parts/use_loaded';
 import { dateTimeText, texts } from '../../texts/texts';
 
 async function loadLoaded(machine: string, signal: AbortSignal): Promise<Loaded | 'unsaid'> {
-  try {
-    return await get<Loaded>(pathOf('machines', machine, 'setup', 'loaded'), {}, signal);
-  } catch (failure) {
-    if (failure instanceof ApiError && failure.status === 404) return 'unsaid';
-    throw failure;
-  }
+  return (await getIfThere<Loaded>(pathOf('machines', machine, 'setup', 'loaded'), {}, signal)) ?? 'unsaid';
 }
 
 export function LoadedSetup({ machine, newest }: { machine: string; newest: number }) {

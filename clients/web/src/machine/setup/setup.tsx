@@ -2,7 +2,7 @@
 // made from one revision: if another user was faster the server refuses it, and both are shown.
 import { useEffect, useState } from 'preact/hooks';
 import type { Setup } from '../../../generated/api';
-import { ApiError, get, pathOf, send, withQuery } from '../../api/request';
+import { ApiError, get, getIfThere, pathOf, send, withQuery } from '../../api/request';
 import { addressOf } from '../../app/route';
 import { useFeed } from '../../live/use_feed';
 import { Allowed } from '../../parts/allowed';
@@ -19,12 +19,9 @@ const kNone: Setup = { machine: '', revision: 0, size: 0, sha256: '', comment: n
 
 /// A machine without a setup has an empty one, revision 0.
 async function loadSetup(machine: string, revision: number | null, signal?: AbortSignal): Promise<Setup> {
-  try {
-    return await get<Setup>(pathOf('machines', machine, 'setup'), { revision }, signal);
-  } catch (failure) {
-    if (failure instanceof ApiError && failure.status === 404 && revision === null) return kNone;
-    throw failure;
-  }
+  const path = pathOf('machines', machine, 'setup');
+  if (revision !== null) return get<Setup>(path, { revision }, signal);
+  return (await getIfThere<Setup>(path, {}, signal)) ?? kNone;
 }
 
 function Versions({ machine, newest, onRestore }: { machine: string; newest: Setup; onRestore: (text: string) => void }) {
