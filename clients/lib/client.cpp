@@ -174,6 +174,9 @@ template Reply<WebhookTest> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<Webhook>> Client::fetch_list(const std::string&, const char*);
 template Reply<Job> Client::fetch(HttpRequest, std::string_view);
 template Reply<JobList> Client::fetch(HttpRequest, std::string_view);
+template Reply<Setup> Client::fetch(HttpRequest, std::string_view);
+template Reply<LoadedSetup> Client::fetch(HttpRequest, std::string_view);
+template Reply<std::vector<Setup>> Client::fetch_list(const std::string&, const char*);
 template Reply<Port> Client::fetch(HttpRequest, std::string_view);
 template Reply<PortTest> Client::fetch(HttpRequest, std::string_view);
 template Reply<Transfer> Client::fetch(HttpRequest, std::string_view);
@@ -298,36 +301,6 @@ Reply<std::vector<Machine>> Client::machines() {
 
 Reply<Machine> Client::machine(std::string_view name) {
   return fetch<Machine>(get(path_of("machines", name)));
-}
-
-Reply<std::vector<Setup>> Client::setups(std::string_view machine, Page page) {
-  return fetch_list<Setup>(with_page(path_of("machines", machine) + "/setups", page), "setups");
-}
-
-Reply<Setup> Client::setup(std::string_view machine, std::optional<std::uint64_t> revision) {
-  const std::string path = path_of("machines", machine) + "/setup";
-  return fetch<Setup>(get(with_number(path, "revision", revision)));
-}
-
-Reply<Setup> Client::save_setup(const SetupRequest& request) {
-  std::string path = path_of("machines", request.machine) + "/setup";
-  path = with_query(std::move(path), "comment", request.comment);
-  path = with_number(std::move(path), "base", request.base);
-  HttpRequest http = with_method("PUT", with_query(std::move(path), "control", request.control));
-  http.content_type = "application/toml";
-  return fetch<Setup>(http, request.text);
-}
-
-Reply<LoadedSetup> Client::loaded_setup(std::string_view machine) {
-  return fetch<LoadedSetup>(get(path_of("machines", machine) + "/setup/loaded"));
-}
-
-Reply<LoadedSetup> Client::note_loaded_setup(std::string_view machine,
-                                             std::optional<std::uint64_t> revision) {
-  auto json = nlohmann::json::object();
-  if (revision) json["revision"] = *revision;
-  return fetch<LoadedSetup>(with_method("PUT", path_of("machines", machine) + "/setup/loaded"),
-                            dumped(json));
 }
 
 Reply<std::vector<Memory>> Client::memories(std::string_view machine, std::string_view run,
