@@ -56,7 +56,7 @@ class SetupStore {
   virtual Result<LoadedSetup> note_loaded(const std::string& machine,
                                           std::optional<std::uint64_t> number,
                                           const Actor& who) = 0;
-  /// Nothing: nobody has said so yet.
+  /// Nothing: it was never stated.
   virtual Result<std::optional<LoadedSetup>> loaded(const std::string& machine) = 0;
 };
 

@@ -145,7 +145,7 @@ class Client {
   /// The newest unless a revision is named.
   Reply<Setup> setup(std::string_view machine, std::optional<std::uint64_t> revision);
   Reply<Setup> save_setup(const SetupRequest& request);
-  /// Which one is in a control at the end of a line; refused as not found while nobody has said so.
+  /// Which one is in a control at the end of a line; not found while it was never stated.
   Reply<LoadedSetup> loaded_setup(std::string_view machine);
   /// `revision` nothing: it is not known any more.
   Reply<LoadedSetup> note_loaded_setup(std::string_view machine,

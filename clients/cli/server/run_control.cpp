@@ -18,7 +18,7 @@ struct RunControlCommand {
   int clicks = 1;
 };
 
-/// A hold of the machine can be one of its queue too, which goes on only when it is released.
+/// A hold of the machine can be one of its queue too, which continues only when it is released.
 void say_queue_is_held(client::Client& client, const std::string& name) {
   const auto machine = client.machine(name);
   if (!machine || !machine->queue_hold) return;

@@ -112,7 +112,7 @@ Response show_loaded(Services& services, const Request& request) {
   if (*loaded) return json_response(200, loaded_setup_json(**loaded));
   return error_response(
       {Errc::NotFound,
-       fmt::format("nobody has said which setup is in the control of machine {}", machine)});
+       fmt::format("it was never stated which setup is in the control of machine {}", machine)});
 }
 
 Response note_loaded(Services& services, const Request& request) {

@@ -86,7 +86,7 @@ TEST_F(SetupTest, ARunRemembersItsSetup) {
 TEST_F(SetupTest, WhichIsInTheControlIsKeptWithWhoSaidSo) {
   ASSERT_TRUE(save("[[tool]]\nnumber = 1\n"));
   ASSERT_TRUE(save("[[tool]]\nnumber = 2\n"));
-  EXPECT_FALSE(store_->setups.loaded("mill-3")->has_value()) << "nobody has said so";
+  EXPECT_FALSE(store_->setups.loaded("mill-3")->has_value()) << "never stated";
   const auto noted = store_->setups.note_loaded("mill-3", 1, Actor("olga", "token", "10.0.0.7"));
   ASSERT_TRUE(noted) << noted.error().what;
   reopen();

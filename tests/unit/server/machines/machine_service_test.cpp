@@ -49,7 +49,7 @@ TEST_F(MachineRuns, HaveTheSetupThatIsInTheControlBehindAGatewaysLine) {
   network_.on_status(status);
   const auto unknown = start("O0100");
   ASSERT_TRUE(unknown) << unknown.error().what;
-  EXPECT_EQ(unknown->setup, std::nullopt) << "nobody has said what is in the control";
+  EXPECT_EQ(unknown->setup, std::nullopt) << "never stated what is in the control";
   EXPECT_TRUE(store_->runs.set_state(unknown->id, storage::RunState::Aborted, ""));
   EXPECT_EQ(written_->commands.back().setup, "");
   ASSERT_TRUE(store_->setups.note_loaded("lathe-1", 1, "olga"));

@@ -69,7 +69,7 @@ TEST_F(SetupRoutes, NeedTheToken) {
 TEST_F(SetupRoutes, StateWhichOneIsInAControlAtTheEndOfALine) {
   const std::string loaded = "/api/v1/machines/lathe-1/setup/loaded";
   ASSERT_EQ(put("lathe-1/setup", "a = 1").status, 201);
-  EXPECT_EQ(get(loaded).status, 404) << "nobody has said so";
+  EXPECT_EQ(get(loaded).status, 404) << "never stated";
   const auto stated = put("lathe-1/setup/loaded", R"({"revision": 1})");
   ASSERT_EQ(stated.status, 200) << body(stated);
   EXPECT_EQ(json(stated).at("revision"), 1);
