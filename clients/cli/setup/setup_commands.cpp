@@ -115,7 +115,7 @@ int export_form(Context& context, const SetupCommand& command) {
   const auto map = map_of(command.map);
   if (!map) return complain(map.error());
   const std::string control = control_of(*client, command);
-  const auto text = command.wants_parameters ? machine_parameters_text(setup->text)
+  const auto text = command.wants_parameters ? machine_parameters_text(setup->text, control)
                                              : control_form_of(setup->text, control, *map);
   if (!text) return complain(text.error());
   const bool is_ours = !command.wants_parameters && control == "centurion" && map->empty();
@@ -130,36 +130,68 @@ int export_form(Context& context, const SetupCommand& command) {
 }
 
 struct ImportCommand {
-  std::string file, output, setup, map;
+  std::vector<std::string> files;
+  std::string output, setup, map, units;
 };
 
+int import_tables(const ImportCommand& command, const std::vector<std::string>& texts) {
+  if (command.units.empty()) {
+    return complain(Error{Errc::Syntax,
+                          "LinuxCNC's files do not say their unit: give that of the machine "
+                          "(LINEAR_UNITS of its ini file) with --units mm or in"});
+  }
+  if (!command.setup.empty() || !command.map.empty())
+    return complain(Error{Errc::Syntax, "--setup and --map do not go with LinuxCNC's files"});
+  const auto setup = setup_of_table_files(
+      texts, command.units == "in" ? interpreter::Units::Inch : interpreter::Units::Millimeter);
+  if (!setup) {
+    const std::string files = fmt::format("{}", fmt::join(command.files, ", "));
+    return complain(Error{setup.error().code, files + ": " + setup.error().what});
+  }
+  return put_out(command.output, *setup, "a setup");
+}
+
 int import_form(const ImportCommand& command) {
-  const auto& [path, output, control, map_path] = command;
-  const auto text = read_small_file(path, kMaxSetupFile);
-  if (!text) return complain(text.error());
-  const auto version = tnc_version_of(control);
+  std::vector<std::string> texts;
+  for (const std::string& path : command.files) {
+    auto text = read_small_file(path, kMaxSetupFile);
+    if (!text) return complain(text.error());
+    texts.push_back(*std::move(text));
+  }
+  if (texts.size() > 1 || !command.units.empty() || is_table_file(texts.front()))
+    return import_tables(command, texts);
+  const std::string& path = command.files.front();
+  const auto version = tnc_version_of(command.setup);
   if (!version) return complain(version.error());
-  const auto map = map_of(map_path);
+  const auto map = map_of(command.map);
   if (!map) return complain(map.error());
-  const auto setup = setup_of_control_form(*text, *version, *map);
+  const auto setup = setup_of_control_form(texts.front(), *version, *map);
   if (!setup) return complain(Error{setup.error().code, path + ": " + setup.error().what});
-  return put_out(output, *setup, "a setup");
+  return put_out(command.output, *setup, "a setup");
 }
 
 void add_import(Command group, Context& context) {
   auto command = group.add_subcommand(
-      "import", "Make a setup from the text of a control: TNC tools or MP, Centurion parameters");
+      "import",
+      "Make a setup from the text of a control: TNC tools or MP, Centurion parameters, LinuxCNC's "
+      "tool table and parameter file");
   auto options = std::make_shared<ImportCommand>();
   command
-      .add_option("FILE", options->file,
-                  "A TNC's program 0 or its list MP0: ..., or P... = values between G10 and G11")
-      .required();
+      .add_option("FILE", options->files,
+                  "A TNC's program 0 or its list MP0: ..., P... = values between G10 and G11, or "
+                  "LinuxCNC's tool.tbl, its .var, or both")
+      .required()
+      .expected(1, 2);
   command.add_option("--setup", options->setup,
                      "TOML file whose [control] names the TNC's model and software; what that "
                      "control lacks is refused");
   command.add_option("--map", options->map,
                      "Centurion: which of its numbers from P500 on is which of Dripline's "
                      "(deploy/examples/centurion-parameters.map)");
+  command
+      .add_option("--units", options->units,
+                  "LinuxCNC: the unit of its machine, mm or in (LINEAR_UNITS of its ini file)")
+      .check(one_of({"mm", "in"}));
   command.add_option("-o,--output", options->output,
                      "TOML file to write, - for standard output [-]");
   command.footer(
@@ -246,12 +278,14 @@ void add_setup_commands(Command app, Context& context) {
   auto exporting = add_verb(group, context, "export",
                             "Write a setup in the control's own format: a TNC's tools (program 0), "
                             "tools and offsets of a Fanuc control (G10), a Centurion's parameters "
-                            "(G10; with --map in the control's numbers)",
+                            "(G10; with --map in the control's numbers), LinuxCNC's tool table",
                             export_form);
   exporting.command.add_option("--control", exporting.options->control,
-                               "tnc155, centurion, fanuc or fanuc-t [the machine's]");
-  exporting.command.add_flag("--parameters", exporting.options->wants_parameters,
-                             "TNC: export the machine parameters instead: MP0: ...");
+                               "tnc155, centurion, fanuc, fanuc-t or rs274ngc [the machine's]");
+  exporting.command.add_flag(
+      "--parameters", exporting.options->wants_parameters,
+      "Instead, a TNC's machine parameters (MP0: ...) or LinuxCNC's parameter "
+      "file (.var)");
   exporting.command.add_option("--map", exporting.options->map,
                                "Centurion: its numbers, filled in by its builder "
                                "(deploy/examples/centurion-parameters.map)");

@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/dialects/centurion/memory/parameter_text.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/offset_text.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/memory/table_files.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
@@ -61,9 +62,10 @@ Result<void> check_tool_store(std::string_view toml) {
 
 }  // namespace
 
-Result<std::string> machine_parameters_text(std::string_view toml) {
+Result<std::string> machine_parameters_text(std::string_view toml, std::string_view control) {
   const auto data = interpreter::parse_control_data(toml);
   if (!data) return fail(data.error());
+  if (control == "rs274ngc") return interpreter::rs274ngc::write_parameter_file(*data);
   const auto parameters = interpreter::tnc155::all_machine_parameters(data->control);
   if (!parameters) return fail(parameters.error());
   if (parameters->empty()) {
@@ -101,10 +103,15 @@ Result<std::string> control_form_of(std::string_view toml, std::string_view cont
     if (!data) return fail(data.error());
     return interpreter::fanuc::write_offset_text(*data, control == "fanuc-t");
   }
+  if (control == "rs274ngc") {
+    const auto data = interpreter::parse_control_data(toml);
+    if (!data) return fail(data.error());
+    return interpreter::rs274ngc::write_tool_table(*data);
+  }
   if (control != "centurion") {
     return fail(Errc::Unsupported,
-                "there is no form of a setup that control {} takes; tnc155, centurion, fanuc and "
-                "fanuc-t have one",
+                "there is no form of a setup that control {} takes; tnc155, centurion, fanuc, "
+                "fanuc-t and rs274ngc have one",
                 control);
   }
   const auto data = interpreter::parse_control_data(toml, interpreter::Units::Inch);
@@ -113,6 +120,25 @@ Result<std::string> control_form_of(std::string_view toml, std::string_view cont
   const auto rows = interpreter::centurion::read_parameter_map(map);
   if (!rows) return fail(rows.error().code, "map: {}", rows.error().what);
   return interpreter::centurion::write_parameter_text(*data, &*rows);
+}
+
+bool is_table_file(std::string_view text) {
+  return interpreter::rs274ngc::is_tool_table(text) ||
+         interpreter::rs274ngc::is_parameter_file(text);
+}
+
+Result<std::string> setup_of_table_files(const std::vector<std::string>& texts,
+                                         interpreter::Units units) {
+  std::string_view tools, parameters;
+  for (const std::string& text : texts) {
+    const bool is_tools = !interpreter::rs274ngc::is_parameter_file(text);
+    auto& place = is_tools ? tools : parameters;
+    if (!place.empty()) {
+      return fail(Errc::Syntax, "both files are {}", is_tools ? "tool tables" : "parameter files");
+    }
+    place = text;
+  }
+  return interpreter::rs274ngc::setup_of_table_files(tools, parameters, units);
 }
 
 Result<std::string> setup_of_control_form(std::string_view text, const ControlVersion& tnc,

@@ -71,10 +71,8 @@ double in_memory(const ControlOptions& options, Axis axis, double mm) {
 
 /// G54 to G59.3, G92, G28, G30 as names of records.
 std::optional<int> first_parameter(std::string_view name) {
-  constexpr std::array<std::string_view, kSystems> kNames{"G54", "G55",   "G56",   "G57",  "G58",
-                                                          "G59", "G59.1", "G59.2", "G59.3"};
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (name == kNames[i]) return first_of_system(static_cast<int>(i) + 1);
+  for (std::size_t i = 0; i < kWorkSystems.size(); ++i) {
+    if (name == kWorkSystems[i]) return first_of_system(static_cast<int>(i) + 1);
   }
   if (name == "G92") return kG92Offsets;
   if (name == "G28") return kHome;
@@ -136,6 +134,7 @@ Tool tool_of(const ToolRecord& record) {
     tool.length[index_of(axis)] = record.length.raw(axis) + record.wear.raw(axis);
   }
   tool.diameter = 2 * (record.radius.mm() + record.radius_wear.mm());
+  tool.orientation = record.tip;
   return tool;
 }
 

@@ -36,6 +36,8 @@ inline constexpr std::size_t kMaxBlocks = 100;  ///< loops and conditions within
 inline constexpr std::size_t kMaxLabels = 1000;
 inline constexpr std::size_t kArguments = 30;
 inline constexpr int kSystems = 9;
+inline constexpr std::array<std::string_view, kSystems> kWorkSystems{
+    "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
 
 struct Modes {
   std::int16_t motion = 800;

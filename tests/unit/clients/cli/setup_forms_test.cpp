@@ -98,13 +98,29 @@ TEST(SetupForms, GiveAFanucControlAProgramOfG10) {
             std::string::npos);
 }
 
+TEST(SetupForms, AreTheTablesOfLinuxCnc) {
+  const std::string tools = "T3 P2 Z80 D6 ;drill\n", parameters = "5221 1.5\n";
+  EXPECT_TRUE(is_table_file(tools));
+  EXPECT_FALSE(is_table_file("0 BEGIN PGM 0 MM\n"));
+  const auto toml = setup_of_table_files({parameters, tools}, interpreter::Units::Inch);
+  ASSERT_TRUE(toml) << toml.error().what;
+  EXPECT_EQ(*control_form_of(*toml, "rs274ngc"), "T3 P2 Z80 D6\n");
+  EXPECT_NE(machine_parameters_text(*toml, "rs274ngc")->find("5221\t1.500000\n"),
+            std::string::npos);
+  EXPECT_EQ(setup_of_table_files({tools, tools}, interpreter::Units::Inch).error().what,
+            "both files are tool tables");
+  EXPECT_EQ(setup_of_table_files({"T9 P12 L+1,5"}, interpreter::Units::Inch).error().what,
+            "tool table, line 1: L+1,5 is no word of a tool");
+  EXPECT_FALSE(is_table_file("T9 P12 L+1,5 R+0,25\n")) << "a TNC's tool store";
+}
+
 }  // namespace
 
 TEST(SetupForms, AreNotMadeForAControlThatHasNone) {
-  const auto refused = control_form_of("[[tool]]\nnumber = 1\nlength = 2.0\n", "rs274ngc");
+  const auto refused = control_form_of("[[tool]]\nnumber = 1\nlength = 2.0\n", "prototrak-plus");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Unsupported);
-  EXPECT_NE(refused.error().what.find("control rs274ngc"), std::string::npos)
+  EXPECT_NE(refused.error().what.find("control prototrak-plus"), std::string::npos)
       << refused.error().what;
 }
 
