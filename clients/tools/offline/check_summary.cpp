@@ -14,13 +14,14 @@ constexpr double kSecondsPerMinute = 60;
 /// Over the linear axes; a move of rotary axes alone takes its degrees as millimeters, which is
 /// how controls read the feed of such a move.
 Length distance(const Position& from, const Position& to) {
-  double linear = 0;
-  double rotary = 0;
-  for (const Axis axis : kAllAxes) {
+  const auto square = [&](Axis axis) {
     const double delta = to.raw(axis) - from.raw(axis);
-    (is_rotary(axis) ? rotary : linear) += delta * delta;
-  }
-  return Length::mm(std::sqrt(linear > 0 ? linear : rotary));
+    return delta * delta;
+  };
+  const double linear = square(Axis::X) + square(Axis::Y) + square(Axis::Z) + square(Axis::U) +
+                        square(Axis::V) + square(Axis::W);
+  if (linear > 0) return Length::mm(std::sqrt(linear));
+  return Length::mm(std::sqrt(square(Axis::A) + square(Axis::B) + square(Axis::C)));
 }
 
 }  // namespace
@@ -106,8 +107,9 @@ void CheckSummary::extend_arc(const Arc& arc) {
   const double start = Angle::radians(std::atan2(second, first)).degrees();
   const double sense = arc.turn == Turn::Counterclockwise ? 1 : -1;
   for (int quarter = 0; quarter < 4; ++quarter) {
-    double turned = std::fmod(sense * (quarter * 90.0 - start), 360.0);
-    if (turned < 0) turned += 360;
+    double turned = sense * (quarter * 90.0 - start);  // -450 to 450
+    if (turned >= 360) turned -= 360;
+    while (turned < 0) turned += 360;
     if (turned > arc.sweep.degrees()) continue;
     const double side = quarter < 2 ? radius : -radius;
     if (quarter % 2 == 0) {
