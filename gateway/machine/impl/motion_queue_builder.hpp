@@ -18,6 +18,12 @@ class MotionQueueBuilder final : public interpreter::EventSink {
   /// Takes nothing more until begin().
   void close() { is_closed_ = true; }
 
+  void on_program(const interpreter::ProgramHeader& header) override {
+    builder_.show_as({.units = header.units, .x_is_diameter = header.x_is_diameter});
+  }
+  void on_units(const interpreter::UnitsChange& event) override {
+    builder_.show_as({.units = event.units, .x_is_diameter = builder_.display().x_is_diameter});
+  }
   void on_rapid(const interpreter::Rapid& event) override;
   void on_line(const interpreter::Line& event) override;
   void on_arc(const interpreter::Arc& event) override;

@@ -14,11 +14,6 @@ constexpr char kAxisNames[] = "XYZABCUVW";
 constexpr double kTravelTolerance = 1e-6;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-std::optional<Refusal> beyond(std::size_t axis, double value, double limit) {
-  return Refusal{"MCH0001", fmt::format("axis {} would go to {:.4f}, its travel ends at {:.4f}",
-                                        kAxisNames[axis], value, limit)};
-}
-
 double dot(const Coordinates& a, const Coordinates& b) {
   double sum = 0;
   for (std::size_t i = 0; i < kAxisCount; ++i) sum += a[i] * b[i];
@@ -33,6 +28,16 @@ void make_unit(Coordinates& direction) {
 }
 
 }  // namespace
+
+Refusal MoveBuilder::beyond(std::size_t axis, double value, double limit) const {
+  const auto which = static_cast<interpreter::Axis>(axis);
+  const bool is_doubled = axis == 0 && display_.x_is_diameter;
+  return {"MCH0001", fmt::format("axis {}{} would go to {} {}, its travel ends at {}",
+                                 interpreter::letter(which), is_doubled ? " (diameter)" : "",
+                                 interpreter::shown_axis_number(which, value, display_),
+                                 interpreter::shown_unit(which, display_.units),
+                                 interpreter::shown_axis_number(which, limit, display_))};
+}
 
 std::optional<Refusal> MoveBuilder::build(const MoveTask& task, const SpindleModel& spindle,
                                           Move& move) {
@@ -109,8 +114,11 @@ std::optional<Refusal> MoveBuilder::set_speed(const MoveTask& task, const Spindl
   move.speed = per_revolution * rpm / 60;
   move.spindle_headroom = std::max(1.0, spindle.ceiling() / rpm);
   if (task.pace == Pace::Thread && move.speed > move.ceiling)
-    return Refusal{"MCH0007", fmt::format("the thread needs {:.1f} mm/min, the axes reach {:.1f}",
-                                          move.speed * 60, move.ceiling * 60)};
+    return Refusal{
+        "MCH0007",
+        fmt::format("the thread needs {}/min, the axes reach {}",
+                    interpreter::shown_length(Length::mm(move.speed * 60), display_.units),
+                    interpreter::shown_number(Length::mm(move.ceiling * 60), display_.units))};
   return std::nullopt;
 }
 

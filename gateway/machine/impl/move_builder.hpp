@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/machine/impl/action.hpp"
 #include "gateway/machine/impl/spindle_model.hpp"
 #include "gateway/machine/machine_limits.hpp"
@@ -31,6 +32,9 @@ class MoveBuilder {
 
   /// Fills `move`, or returns why it is impossible. `path.length` must be above 0.
   std::optional<Refusal> build(const MoveTask& task, const SpindleModel& spindle, Move& move);
+  /// How refusals show lengths: as the program's control does.
+  void show_as(const interpreter::LengthDisplay& display) { display_ = display; }
+  const interpreter::LengthDisplay& display() const { return display_; }
   /// The next move starts from standstill.
   void drop_direction() { has_direction_ = false; }
 
@@ -41,7 +45,10 @@ class MoveBuilder {
   void set_axis_limits(Move& move) const;
   void set_corner(Move& move);
 
+  Refusal beyond(std::size_t axis, double value, double limit) const;
+
   const MachineLimits& limits_;
+  interpreter::LengthDisplay display_;
   bool has_direction_ = false;  ///< of the move before:
   Coordinates direction_{};     ///< at its end, of length 1
   double acceleration_ = 0, length_ = 0;

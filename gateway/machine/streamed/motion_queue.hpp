@@ -85,6 +85,12 @@ class QueueBuilder final : public interpreter::EventSink {
   std::size_t lines() const { return lines_; }
   void begin_probe(const interpreter::Probe& probe);
 
+  void on_program(const interpreter::ProgramHeader& header) override {
+    motion_.show_as({.units = header.units, .x_is_diameter = header.x_is_diameter});
+  }
+  void on_units(const interpreter::UnitsChange& event) override {
+    motion_.show_as({.units = event.units, .x_is_diameter = motion_.display().x_is_diameter});
+  }
   void on_rapid(const interpreter::Rapid& event) override;
   void on_line(const interpreter::Line& event) override;
   void on_arc(const interpreter::Arc& event) override;

@@ -120,9 +120,14 @@ std::optional<Refusal> MotionWriter::check_travel(const Coordinates& target) con
     const TextRules::Range travel = *rules_.axes[i]->travel;
     const double slack = rules_.axes[i]->tolerance;
     if (target[i] >= travel.low - slack && target[i] <= travel.high + slack) continue;
-    return Refusal{"MCH0001", fmt::format("{} {:.3f} is outside the machine's travel of {} to {}{}",
-                                          letter_of(i), target[i], travel.low, travel.high,
-                                          rules_.axes[i]->travel_setting)};
+    const auto axis = static_cast<Axis>(i);
+    return Refusal{"MCH0001",
+                   fmt::format("{} {} is outside the machine's travel of {} to {}{}",
+                               interpreter::shown_axis(axis, target[i], display_),
+                               interpreter::shown_unit(axis, display_.units),
+                               interpreter::shown_axis_number(axis, travel.low, display_),
+                               interpreter::shown_axis_number(axis, travel.high, display_),
+                               rules_.axes[i]->travel_setting)};
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/machine/streamed/text_rules.hpp"
 
 namespace dripline::machine::streamed {
@@ -26,6 +27,9 @@ class MotionWriter {
   const TextRules& rules() const { return rules_; }
   /// The axes are at `at`; no feed is in force.
   void begin(const Coordinates& at);
+  /// How refusals show lengths: as the program's control does.
+  void show_as(const interpreter::LengthDisplay& display) { display_ = display; }
+  const interpreter::LengthDisplay& display() const { return display_; }
   /// A probe has moved the axes there.
   void move_to(const Coordinates& at) { at_ = at; }
   const Coordinates& at() const { return at_; }
@@ -64,6 +68,7 @@ class MotionWriter {
   void append_rest(bool rests, MotionText& text) const;
 
   TextRules rules_;
+  interpreter::LengthDisplay display_;
   Coordinates at_{};
   std::string feed_;           ///< as written last
   std::optional<bool> rests_;  ///< the stop mode that was written last

@@ -148,7 +148,7 @@ TEST_F(LinuxCncTest, RefusesAStartWhereSetupAndMachineDisagree) {
   program->line(500, 0, 6000);
   program->end();
   ASSERT_TRUE(wait_over());
-  EXPECT_NE(alarm().find("MCH0001 X 500.000 is outside the machine's travel of -400 to 400"),
+  EXPECT_NE(alarm().find("MCH0001 X 500 mm is outside the machine's travel of -400 to 400"),
             std::string::npos)
       << alarm();
   ASSERT_TRUE(rests());

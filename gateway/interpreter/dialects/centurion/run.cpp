@@ -48,6 +48,7 @@ bool Run::guards_travel() {
   }
   const Point maximum = parameters.point(kMaximumFeed);
   guard.set_maximum_feed({length(maximum.x).mm(), length(maximum.z).mm()});
+  guard.set_units(state.units);
   guard.set_limits(limits);
   guard.set_zone(zone);
   guard.place(passes_compensator() ? compensator.sent() : blender.sent());

@@ -7,6 +7,7 @@
 
 #include "gateway/interpreter/core/interpreter.hpp"
 #include "gateway/interpreter/core/language/word_ledger.hpp"
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/errors.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/rotary_path.hpp"
@@ -122,6 +123,10 @@ struct Run : BlockRun {
     if (is_rotary(axis)) return raw;
     const double value = raw / increments.mm_per_unit;
     return axis == Axis::X ? value / increments.x_factor : value;
+  }
+  /// How texts for people show lengths.
+  LengthDisplay length_display() const {
+    return {.units = state.units, .x_is_diameter = options.x_is_diameter};
   }
   double in_length_units(double raw) const { return raw / increments.mm_per_unit; }
   double from_units(Axis axis, double value) const {

@@ -255,7 +255,8 @@ void Executor::end_chain() {
 
 bool Executor::meets_no_fault() {
   if (!path_.fault()) return true;
-  return fail(Fault::Join, compensation::describe(*path_.fault()));
+  return fail(Fault::Join, compensation::describe(
+                               *path_.fault(), state_.is_metric ? Units::Millimeter : Units::Inch));
 }
 
 // Holes.

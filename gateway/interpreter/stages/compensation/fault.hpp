@@ -24,7 +24,7 @@ enum class FaultKind : std::uint8_t {
 /// Value and limit. ArcTooSmall: the radii of arc and cutter; StartUpTooClose: distance and radius.
 using Fault = look_ahead::ContourFault<FaultKind>;
 
-/// For a diagnostic: what is wrong, with value and limit.
-std::string describe(const Fault& fault);
+/// For a diagnostic: what is wrong, with value and limit in these units.
+std::string describe(const Fault& fault, Units units);
 
 }  // namespace dripline::interpreter::compensation

@@ -20,12 +20,32 @@ TEST(Travel, BeyondIsAnAlarmBeforeTheMoveThatNamesAxisValueAndLimit) {
   test.program.line(50, -250, 1200);
   test.program.output("never");
   test.run_all();
-  EXPECT_EQ(
-      test.recorder.lines,
-      (std::vector<std::string>{
-          "block 1", "alarm MCH0001 axis Z would go to -250.0000, its travel ends at -200.0000"}));
+  EXPECT_EQ(test.recorder.lines,
+            (std::vector<std::string>{
+                "block 1", "alarm MCH0001 axis Z would go to -250 mm, its travel ends at -200"}));
   EXPECT_EQ(test.x(), 50);
   EXPECT_EQ(test.z(), 0);
+}
+
+TEST(Travel, IsShownAsTheProgramsControlShowsIt) {
+  TestMachine test(small_lathe());
+  interpreter::ProgramHeader header;
+  header.units = interpreter::Units::Inch;
+  header.x_is_diameter = true;
+  test.machine.events().on_program(header);
+  test.program.line(127, 0, 1200);
+  test.run_all();
+  EXPECT_EQ(test.recorder.lines.back(),
+            "alarm MCH0001 axis X (diameter) would go to 10 in, its travel ends at 7.874");
+
+  test.machine.begin({});
+  header.x_is_diameter = false;
+  test.machine.events().on_program(header);
+  test.machine.events().on_units({{}, interpreter::Units::Millimeter});
+  test.program.line(127, 0, 1200);
+  test.run_all();
+  EXPECT_EQ(test.recorder.lines.back(),
+            "alarm MCH0001 axis X would go to 127 mm, its travel ends at 100");
 }
 
 TEST(Travel, TheEndsThemselvesAreAllowed) {
@@ -44,9 +64,9 @@ TEST(Travel, OfAnArcCountsItsWholeWay) {
     // through smaller Z, from below through greater Z, out to 15.
     test.program.arc(bulges_out ? 60 : 40, 5, 5, 50, 180, 600);
     test.run_all();
-    EXPECT_EQ(test.recorder.lines.back(),
-              bulges_out ? "alarm MCH0001 axis Z would go to 15.0000, its travel ends at 10.0000"
-                         : "block 1");
+    EXPECT_EQ(
+        test.recorder.lines.back(),
+        bulges_out ? "alarm MCH0001 axis Z would go to 15 mm, its travel ends at 10" : "block 1");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
@@ -100,8 +101,9 @@ bool update_compensation(Run& run) {
   }
   constexpr double kMaxRadius = 1e6;
   if (!(std::fabs(use.radius_mm) <= kMaxRadius)) {
-    return run.fail(ErrorCode::ParameterOutOfRange, 0,
-                    fmt::format("nose radius {} mm", use.radius_mm));
+    return run.fail(
+        ErrorCode::ParameterOutOfRange, 0,
+        fmt::format("nose radius {}", shown_length(Length::mm(use.radius_mm), run.state.units)));
   }
   NoseUse& now = run.state.nose;
   if (now == use) return true;
@@ -146,7 +148,7 @@ bool check_path(Run& run) {
   const auto& fault = run.compensator.fault();
   if (!fault) return true;
   run.origin.line = fault->origin.line;
-  return run.fail(code_of(*fault), 0, compensation::describe(*fault));
+  return run.fail(code_of(*fault), 0, compensation::describe(*fault, run.state.units));
 }
 
 }  // namespace dripline::interpreter::centurion

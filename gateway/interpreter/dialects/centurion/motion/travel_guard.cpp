@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "gateway/interpreter/core/shown_length.hpp"
+
 namespace dripline::interpreter::centurion {
 namespace {
 
@@ -23,7 +25,27 @@ double sweep_to(const Arc& arc, double start, double angle) {
   return sweep;
 }
 
+struct Outside {
+  Axis axis;
+  double value, low, high;  ///< machine millimeters, X a radius
+};
+
+/// "X diameter -1 in is not in -0.2 to 16"
+std::string outside_text(const Outside& found, Units units) {
+  const LengthDisplay display{.units = units, .x_is_diameter = true};
+  return fmt::format("{} {} is not in {} to {}", shown_axis(found.axis, found.value, display),
+                     shown_unit(found.axis, units),
+                     shown_axis_number(found.axis, found.low, display),
+                     shown_axis_number(found.axis, found.high, display));
+}
+
 }  // namespace
+
+std::string TravelGuard::place_text(const Spot& at) const {
+  const LengthDisplay display{.units = units_, .x_is_diameter = true};
+  return fmt::format("{} {} {}", shown_axis(Axis::X, at.x, display),
+                     shown_axis(Axis::Z, at.z, display), shown_unit(Axis::Z, units_));
+}
 
 TravelGuard::Spot TravelGuard::spot_of(const Position& position) {
   return {position.linear(Axis::X).mm(), position.linear(Axis::Z).mm()};
@@ -43,14 +65,12 @@ bool TravelGuard::is_within_limits(const Origin& origin, const Spot& at) {
     return low < high && !(value >= low - kRounding && value <= high + kRounding);
   };
   if (is_outside(at.x, limits_.min_x, limits_.max_x)) {
-    return refuse(
-        ErrorCode::TravelOfX, origin,
-        fmt::format("X radius {:.4f} mm is not in {} to {}", at.x, limits_.min_x, limits_.max_x));
+    return refuse(ErrorCode::TravelOfX, origin,
+                  outside_text({Axis::X, at.x, limits_.min_x, limits_.max_x}, units_));
   }
   if (is_outside(at.z, limits_.min_z, limits_.max_z)) {
-    return refuse(
-        ErrorCode::TravelOfZ, origin,
-        fmt::format("Z {:.4f} mm is not in {} to {}", at.z, limits_.min_z, limits_.max_z));
+    return refuse(ErrorCode::TravelOfZ, origin,
+                  outside_text({Axis::Z, at.z, limits_.min_z, limits_.max_z}, units_));
   }
   return true;
 }
@@ -113,8 +133,7 @@ bool TravelGuard::allows_line(const Origin& origin, const Position& to) {
   if (!is_within_limits(origin, end)) return false;
   // a tool inside the zone may leave it
   if (zone_ && !is_in_zone(at_) && crosses_zone(end)) {
-    return refuse(ErrorCode::SafeZone, origin,
-                  fmt::format("X radius {:.4f} Z {:.4f} mm", end.x, end.z));
+    return refuse(ErrorCode::SafeZone, origin, place_text(end));
   }
   at_ = end;
   return true;
@@ -135,8 +154,7 @@ bool TravelGuard::allows_arc(const Arc& arc) {
   const Spot end = spot_of(arc.to);
   if (!is_within_limits(arc.origin, end)) return false;
   if (zone_ && !is_in_zone(at_) && arc_crosses_zone(arc)) {
-    return refuse(ErrorCode::SafeZone, arc.origin,
-                  fmt::format("X radius {:.4f} Z {:.4f} mm", end.x, end.z));
+    return refuse(ErrorCode::SafeZone, arc.origin, place_text(end));
   }
   at_ = end;
   return true;

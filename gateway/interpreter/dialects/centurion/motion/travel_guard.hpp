@@ -37,6 +37,8 @@ class TravelGuard final : public EventFilter {
   void set_active(bool active) { is_active_ = active; }
   /// An axis whose minimum is not below its maximum is not limited.
   void set_limits(const TravelArea& limits) { limits_ = limits; }
+  /// Of the texts of faults.
+  void set_units(Units units) { units_ = units; }
   void set_maximum_feed(const MaximumFeed& maximum) { max_ = maximum; }
   void set_zone(const std::optional<TravelArea>& zone) { zone_ = zone; }
   bool has_zone() const { return zone_.has_value(); }
@@ -67,7 +69,10 @@ class TravelGuard final : public EventFilter {
   double max_on_line(const Position& to) const;
   bool refuse(ErrorCode code, const Origin& origin, std::string detail);
 
+  std::string place_text(const Spot& at) const;
+
   bool is_active_ = false;
+  Units units_ = Units::Inch;
   TravelArea limits_;
   std::optional<TravelArea> zone_;
   MaximumFeed max_;

@@ -266,12 +266,12 @@ void end_compensated_block(Run& run) {
 bool check_compensation(Run& run) {
   if (const auto& fault = run.blender.fault()) {
     run.origin.line = fault->origin.line;
-    return run.fail(code_of(fault->kind), 0, blending::describe(*fault));
+    return run.fail(code_of(fault->kind), 0, blending::describe(*fault, run.state.units));
   }
   const auto& fault = run.compensator.fault();
   if (!fault) return check_last_stage(run);
   run.origin.line = fault->origin.line;
-  return run.fail(code_of(fault->kind), 0, compensation::describe(*fault));
+  return run.fail(code_of(fault->kind), 0, compensation::describe(*fault, run.state.units));
 }
 
 }  // namespace dripline::interpreter::fanuc

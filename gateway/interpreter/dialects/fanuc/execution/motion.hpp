@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
 
@@ -48,9 +49,15 @@ bool line_to(Run& run, const Position& to, const Feed& feed);
 bool thread_to(Run& run, const Position& to, Length lead, std::optional<Angle> start);
 bool arc_to(Run& run, const Arc& arc);
 
+/// The straight path, and how its text shows lengths.
+struct StrokePath {
+  const Position& from;
+  const Position& to;
+  LengthDisplay display;
+};
 /// What of the straight path is forbidden; empty: nothing.
 std::string stroke_fault(const ControlOptions& options, const StrokeZone& zone,
-                         const Position& from, const Position& to);
+                         const StrokePath& path);
 /// Whether the straight path there keeps out of what is forbidden; else alarm OT500.
 bool check_stroke(Run& run, const Position& to);
 /// The tool is here, by whatever path.

@@ -58,7 +58,8 @@ bool crosses(const StrokeZone& zone, const Position& from, const Position& to) {
 }
 
 bool check_path(Run& run, const Position& from, const Position& to) {
-  const std::string text = stroke_fault(run.options, run.state.zone, from, to);
+  const std::string text =
+      stroke_fault(run.options, run.state.zone, {from, to, run.length_display()});
   return text.empty() || run.fail(ErrorCode::OverTravel, 0, text);
 }
 
@@ -91,12 +92,15 @@ void pieces_of_arc(Run& run, const Arc& arc) {
 }  // namespace
 
 std::string stroke_fault(const ControlOptions& options, const StrokeZone& zone,
-                         const Position& from, const Position& to) {
+                         const StrokePath& path) {
+  const Position& from = path.from;
+  const Position& to = path.to;
   for (std::size_t i = 0; options.has_limits && i < 3; ++i) {
     const auto axis = static_cast<Axis>(i);
     const double at = to.raw(axis);
     if (at >= options.limit_low[i] && at <= options.limit_high[i]) continue;
-    return fmt::format("{} {} is beyond stroke limit 1", letter(axis), at);
+    return fmt::format("{} {} is beyond stroke limit 1", shown_axis(axis, at, path.display),
+                       shown_unit(axis, path.display.units));
   }
   for (const RotaryAxis* rotary : {&options.kinematics.master, &options.kinematics.slave}) {
     const double at = to.raw(rotary->axis);

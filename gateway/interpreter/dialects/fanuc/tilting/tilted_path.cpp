@@ -94,7 +94,8 @@ bool TiltedPath::checks_stroke() const {
 }
 
 bool TiltedPath::check(const Origin& origin, const Position& from, const Position& to) {
-  std::string text = stroke_fault(options_, zone_, from, to);
+  const Units units = state_.tilt.mm_per_unit == 1 ? Units::Millimeter : Units::Inch;
+  std::string text = stroke_fault(options_, zone_, {from, to, {.units = units}});
   if (text.empty()) return true;
   fault_ = Fault{ErrorCode::OverTravel, origin, std::move(text)};
   return false;

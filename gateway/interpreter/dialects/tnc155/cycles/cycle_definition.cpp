@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
@@ -33,8 +34,9 @@ bool take_minimum(Run& run, const Block& block) {
 bool check_side(Run& run, Axis axis, double side) {
   if (side > 0 && side <= kLongestSide) return true;
   return run.fail(ErrorCode::BlankFormIncorrect,
-                  fmt::format("side {} is {} mm long; more than 0 and at most {}", letter(axis),
-                              side, kLongestSide));
+                  fmt::format("side {} is {} long; more than 0 and at most {}", letter(axis),
+                              shown_length(Length::mm(side), run.state.units),
+                              shown_length(Length::mm(kLongestSide), run.state.units)));
 }
 
 /// The place of the workpiece on the machine. Its corners are coordinates relative to the datum, so

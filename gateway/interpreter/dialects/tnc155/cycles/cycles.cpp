@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/tnc155/cycles/cycle_motion.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
@@ -39,7 +40,8 @@ bool check_feeds(Run& run, const MachiningCycle& cycle) {
 bool too_narrow(Run& run, std::string_view what, double size) {
   return run.fail(
       ErrorCode::ToolRadiusTooLarge,
-      fmt::format("{} {:.4f} mm, tool radius {:.4f}", what, size, run.state.tool.data.radius));
+      fmt::format("{} {}, tool radius {}", what, shown_length(Length::mm(size), run.state.units),
+                  shown_number(Length::mm(run.state.tool.data.radius), run.state.units)));
 }
 
 /// The sides along the two axes of the plane, each one of them.

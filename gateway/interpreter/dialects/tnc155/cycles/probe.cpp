@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
@@ -71,7 +72,8 @@ bool finish_probing(Run& run, const ProbeResult& result) {
   state.nominal = state.transformation.to_program(values_of(result.at));
   if (!result.tripped) {
     return run.fail(ErrorCode::TouchPointInaccessible,
-                    fmt::format("no contact within {} mm", run.options.probe_travel));
+                    fmt::format("no contact within {}",
+                                shown_length(Length::mm(run.options.probe_travel), state.units)));
   }
   if (result.at.same_point(event.from)) {
     return run.fail(ErrorCode::TouchPointInaccessible, "the stylus is deflected at the start");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -44,8 +45,9 @@ bool start_from_offset(Run& run, const PlaneMove& move, const compensation::Cutt
   const PlaneVector travel = in_machine(run.state, move.to) - tool;
   const double distance = length(travel);
   if (distance <= std::fabs(offset)) {
-    return run.fail(ErrorCode::ToolRadiusTooLarge,
-                    fmt::format("{:.4f} mm to the first point", distance));
+    return run.fail(
+        ErrorCode::ToolRadiusTooLarge,
+        fmt::format("{} to the first point", shown_length(Length::mm(distance), run.state.units)));
   }
   const double along = std::sqrt(distance * distance - offset * offset);
   const PlaneVector direction =
@@ -374,7 +376,7 @@ bool check_stages(Run& run) {
                             fault->kind == blending::FaultKind::NoElement
                         ? ErrorCode::PlaneWronglyDefined
                         : ErrorCode::RoundingRadiusTooLarge,
-                    blending::describe(*fault));
+                    blending::describe(*fault, run.state.units));
   }
   const auto& fault = run.compensator.fault();
   if (!fault) [[likely]]
@@ -383,13 +385,17 @@ bool check_stages(Run& run) {
   switch (fault->kind) {
     case compensation::FaultKind::StartUpNotStraight:
     case compensation::FaultKind::CancelNotStraight:
-      return run.fail(ErrorCode::PathOffsetWronglyStarted, compensation::describe(*fault));
+      return run.fail(ErrorCode::PathOffsetWronglyStarted,
+                      compensation::describe(*fault, run.state.units));
     case compensation::FaultKind::ArcTooLarge:
-      return run.fail(ErrorCode::RoundingRadiusTooLarge, compensation::describe(*fault));
+      return run.fail(ErrorCode::RoundingRadiusTooLarge,
+                      compensation::describe(*fault, run.state.units));
     case compensation::FaultKind::OtherPlane:
-      return run.fail(ErrorCode::PlaneWronglyDefined, compensation::describe(*fault));
+      return run.fail(ErrorCode::PlaneWronglyDefined,
+                      compensation::describe(*fault, run.state.units));
     default:
-      return run.fail(ErrorCode::ToolRadiusTooLarge, compensation::describe(*fault));
+      return run.fail(ErrorCode::ToolRadiusTooLarge,
+                      compensation::describe(*fault, run.state.units));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
@@ -222,7 +223,9 @@ bool check_radii(Run& run, PlaneVector start, PlaneVector end) {
   constexpr double kRounding = 1e-9;
   if (std::fabs(from - to) <= run.options.circle_tolerance + kRounding) return true;
   return run.fail(ErrorCode::CircleEndIncorrect,
-                  fmt::format("radius {:.4f} at the start, {:.4f} at the end", from, to));
+                  fmt::format("radius {} at the start, {} at the end",
+                              shown_number(Length::mm(from), run.state.units),
+                              shown_number(Length::mm(to), run.state.units)));
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ TEST_F(BoardText, KeepsToTheTravelWhereSoftLimitsAreInForce) {
   make(board);
   EXPECT_EQ(rapid(-200, 0, 0), Lines{"G0X-200"});
   (void)rapid(-200, 1, 0);
-  EXPECT_EQ(refusal->text, "Y 1.000 is outside the machine's travel of -200 to 0 ($20, $23, $131)");
+  EXPECT_EQ(refusal->text, "Y 1 mm is outside the machine's travel of -200 to 0 ($20, $23, $131)");
   (void)arc(-200, -100, 0, -200, -50, 180, Turn::Counterclockwise);
   EXPECT_TRUE(refusal) << "the arc bulges beyond the travel";
 }

@@ -174,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
                   [](Program& it) { it.line(-61, -50, Feed::per_revolution(Length::mm(0.1))); },
                   "this machine cannot feed per revolution"},
         CheckCase{"travel", [](Program& it) { it.line(1, -50, 600); },
-                  "X 1.000 is outside the machine's travel of -300 to 0 ($20, $23, $130)"},
+                  "X 1 mm is outside the machine's travel of -300 to 0 ($20, $23, $130)"},
         CheckCase{"spindle_speed", [](Program& it) { it.spindle(20'000); },
                   "spindle speed 20000 is above the machine's 10000 rpm ($30)"}),
     [](const auto& i) { return std::string(i.param.name); });

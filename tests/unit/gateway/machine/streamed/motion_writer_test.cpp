@@ -126,7 +126,10 @@ TEST(MotionWriter, LongMovesAreWrittenInPiecesWhereTheDeviceHasLittleAhead) {
 TEST(MotionWriter, RefusesWhatTheDeviceCannotDo) {
   Writer it;
   (void)it.line(point({{Axis::X, 101}}), feed(600));
-  EXPECT_EQ(it.refusal->text, "X 101.000 is outside the machine's travel of -100 to 100");
+  EXPECT_EQ(it.refusal->text, "X 101 mm is outside the machine's travel of -100 to 100");
+  it.writer.show_as({.units = interpreter::Units::Inch, .x_is_diameter = true});
+  (void)it.line(point({{Axis::X, 101.6}}), feed(600));
+  EXPECT_EQ(it.refusal->text, "X diameter 8 in is outside the machine's travel of -7.874 to 7.874");
   (void)it.line(point({{Axis::B, 1}}), feed(600));
   EXPECT_EQ(it.refusal->text, "the machine has no B axis");
   (void)it.line(point({{Axis::X, 1}}), feed(0));

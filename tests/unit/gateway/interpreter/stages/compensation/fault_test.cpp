@@ -20,8 +20,10 @@ TEST(Fault, AnArcSmallerThanTheCutterNamesBothRadii) {
   Contour contour{Policy{}, {-20, 0}};
   contour.left(5).line(-10, 0).line(0, 0).arc({0, 4}, 90);
   ASSERT_EQ(contour.fault(), FaultKind::ArcTooSmall);
-  EXPECT_EQ(describe(*contour.compensator.fault()),
+  EXPECT_EQ(describe(*contour.compensator.fault(), Units::Millimeter),
             "arc radius 4 mm is smaller than the cutter radius 5 mm");
+  EXPECT_EQ(describe(*contour.compensator.fault(), Units::Inch),
+            "arc radius 0.1575 in is smaller than the cutter radius 0.1969 in");
 }
 
 TEST(Fault, AStepBelowTheRadiusRunsBackwards) {
