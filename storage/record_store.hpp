@@ -60,6 +60,7 @@ struct RunEnding {
   std::string reason;
   std::optional<std::string> executed_content;
   std::optional<bool> content_verified;
+  std::optional<RunStatistics> statistics = {};
   UtcTime ended;
 };
 

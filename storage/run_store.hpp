@@ -36,6 +36,13 @@ struct Counters {
   std::uint64_t executed = 0;  ///< blocks finished by the machine
 };
 
+/// Of the blocks that a run has executed.
+struct RunStatistics {
+  double motion_seconds = 0;  ///< of moves and dwells, by the machine's time
+  double path_mm = 0;
+  friend bool operator==(const RunStatistics&, const RunStatistics&) = default;
+};
+
 struct Run {
   std::string id;
   std::string machine;
@@ -63,6 +70,7 @@ struct Run {
   /// SHA-256 of the gateway's own setup file, as it reported at the start; absent: none, or
   /// unknown.
   std::optional<std::string> gateway_setup = {};
+  std::optional<RunStatistics> statistics = {};  ///< absent: not ended, cut off, an older gateway
 };
 
 /// A revision that a run's program called: its machine got text of it under this name.

@@ -13,6 +13,7 @@ void ExecutionRecorder::begin(const report::ActiveRun& run, const std::string& s
   run_ = run.run;
   feed_progress_ = std::move(feed_progress);
   reached_ = counted_ = {};
+  path_mm_ = 0;
   outputs_ = 0;
   is_between_blocks_ = true;
   clear_notice();
@@ -37,6 +38,7 @@ void ExecutionRecorder::end(dds::RunEndText end) {
   const FeedProgress now = feed_progress_(reached_.executed);
   reached_.sent = now.sent;
   reached_.accepted = now.accepted;
+  if (end.motion_seconds) end.path_mm = path_mm_;
   append_end(std::move(end));
 }
 
@@ -105,6 +107,7 @@ void ExecutionRecorder::on_block_executed(const interpreter::Origin& origin) {
   const FeedProgress feed_progress = feed_progress_(origin.block);
   reached_ = {feed_progress.sent, feed_progress.accepted, origin.block,      origin.line,
               origin.sequence,    origin.offset,          feed_progress.path};
+  path_mm_ = feed_progress.path_mm;
   is_between_blocks_ = true;
   if (!parts_.outbox.has_staged_records()) {
     parts_.execution_probe.begin(reached_.executed, outputs_);

@@ -37,6 +37,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   /// executed.
   struct FeedProgress {
     std::uint64_t sent = 0, accepted = 0, path = 0;
+    std::optional<double> path_mm = {};  ///< its length; absent: not known
   };
   using ProgressOf = std::function<FeedProgress(std::uint64_t block)>;
   /// A new run; its RunStarted record is staged, not committed. `setup`: SHA-256 of the gateway's
@@ -116,6 +117,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   ProgressOf feed_progress_;
   report::Progress reached_;  ///< by the machine
   report::Progress counted_;  ///< in journal and outbox
+  std::optional<double> path_mm_;  ///< of the executed blocks
   std::uint64_t outputs_ = 0;
   bool is_between_blocks_ = true;
   std::string fault_, notice_, message_;

@@ -122,7 +122,7 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
     parts_.memory.stage_beginning(run.revision);
   parts_.recorder.begin(run, parts_.setup_digest, [&session](std::uint64_t block) {
     return ExecutionRecorder::FeedProgress{session.feed().sent(), session.accepted(),
-                                           session.path_at(block)};
+                                           session.path_at(block), session.length_at(block)};
   });
   if (parts_.keeps_checkpoints) {
     parts_.outbox.checkpoints().stage_run({run,
@@ -155,6 +155,7 @@ void RunLoop::run_slice(SteadyTime now) {
     (void)parts_.machine.poll(machine::Seconds{seconds}, 0);  // comes to rest, begins nothing
     return;
   }
+  parts_.run.session->note_real_time(elapsed);
   for (int round = 0; round < kMaxRounds; ++round) {
     if (!run_round(seconds, now + kSlice)) break;
   }
@@ -302,6 +303,7 @@ void RunLoop::end(dds::RunOutcome outcome, const std::string& reason) {
   dds::RunEndText text;
   text.outcome = outcome;
   text.reason = valid_text(reason, kMaxReason);
+  text.motion_seconds = parts_.run.session->motion_seconds();
   const feed::ProgramFeed& feed = parts_.run.session->feed();
   if (feed.content_length() > 0) {
     text.content_sha256 = feed.content_digest().hex();

@@ -236,7 +236,18 @@ std::int64_t RunSession::clock_ms() const {
 }
 
 void RunSession::pass_machine_time(double seconds, std::optional<double> factor) {
+  if (std::isfinite(seconds)) motion_seconds_ += seconds;
+  if (const auto executed = parts_.recorder.reached().executed; executed != timed_) {
+    timed_ = executed;
+    executed_seconds_ = motion_seconds_;
+  }
   if (std::isfinite(seconds)) clock_ahead_ += factor ? seconds - seconds / *factor : seconds;
+}
+
+void RunSession::note_real_time(SteadyTime::duration elapsed) {
+  const bool moves = parts_.machine.state() == machine::MachineState::Running;
+  if (moves && !parts_.machine.capabilities().simulated_time)
+    motion_seconds_ += std::chrono::duration<double>(elapsed).count();
 }
 
 bool RunSession::machine_rests() const {

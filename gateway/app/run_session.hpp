@@ -66,6 +66,12 @@ class RunSession {
   void keep_memory(std::uint64_t executed);
   /// The hash of the path when `block` ended.
   std::uint64_t path_at(std::uint64_t block) const { return tracker_.path_at(block); }
+  /// Millimeters of path up to its end; nothing: not known any more.
+  std::optional<double> length_at(std::uint64_t block) const { return tracker_.length_at(block); }
+  /// Of moves and dwells of the executed blocks, by the machine's time; as exact as a slice of it.
+  double motion_seconds() const { return executed_seconds_; }
+  /// So much has passed since the last call: what a machine moves that passes time by itself.
+  void note_real_time(SteadyTime::duration elapsed);
 
   std::uint64_t blocks_since_checkpoint() const {
     return checkpoints_ ? accepted() - checkpoints_->last_block() : 0;
@@ -120,6 +126,8 @@ class RunSession {
   Parts parts_;
   interpreter::Setup setup_;  ///< its answers are given here, not by the interpreter
   std::size_t next_answer_ = 0;
+  double motion_seconds_ = 0, executed_seconds_ = 0;  ///< so far, and up to block `timed_`
+  std::uint64_t timed_ = 0;
   double clock_ahead_ = 0;     ///< of the computer's clock, seconds: machine time that was faster
   std::int64_t begun_ms_ = 0;  ///< since 1970, by the computer's clock
   machine::CapabilityFilter events_;  ///< from the tracker to the machine

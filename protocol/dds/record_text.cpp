@@ -74,6 +74,14 @@ class Members {
     if (found->is_number_unsigned() && found->get<std::uint64_t>() > INT64_MAX) blame(name);
     return found->get<std::int64_t>();
   }
+  /// 0 or more.
+  double amount(const char* name) {
+    const Json* found = find(name, &Json::is_number);
+    if (found == nullptr) return 0;
+    const double value = found->get<double>();
+    if (!std::isfinite(value) || value < 0) blame(name);
+    return value;
+  }
   std::map<char, double> axes(const char* name) {
     std::map<char, double> result;
     const Json* found = find(name, &Json::is_object);
@@ -118,6 +126,11 @@ std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+double finite(double value) {
+  invariant(std::isfinite(value), "a number of a record is finite");
+  return value;
+}
+
 Json axes_object(const std::map<char, double>& axes) {
   Json result = Json::object();
   for (const auto& [axis, value] : axes) {
@@ -140,15 +153,18 @@ std::string encode(const RunStartText& value) {
 }
 
 std::string encode(const RunEndText& value) {
-  return dump({{"outcome", std::string(to_string(value.outcome))},
-               {"sent", value.sent},
-               {"accepted", value.accepted},
-               {"executed", value.executed},
-               {"line", value.line},
-               {"sequence", value.sequence},
-               {"reason", value.reason},
-               {"content_sha256", value.content_sha256},
-               {"content_length", value.content_length}});
+  Json json{{"outcome", std::string(to_string(value.outcome))},
+            {"sent", value.sent},
+            {"accepted", value.accepted},
+            {"executed", value.executed},
+            {"line", value.line},
+            {"sequence", value.sequence},
+            {"reason", value.reason},
+            {"content_sha256", value.content_sha256},
+            {"content_length", value.content_length}};
+  if (value.motion_seconds) json["motion_seconds"] = finite(*value.motion_seconds);
+  if (value.path_mm) json["path_mm"] = finite(*value.path_mm);
+  return dump(json);
 }
 
 std::string encode(const AlarmText& value) {
@@ -198,6 +214,8 @@ Result<RunEndText> decode_run_end(std::string_view text) {
   if (!value.content_sha256.empty() && !is_digest(value.content_sha256)) {
     members.blame("content_sha256");
   }
+  if (json->contains("motion_seconds")) value.motion_seconds = members.amount("motion_seconds");
+  if (json->contains("path_mm")) value.path_mm = members.amount("path_mm");
   return members.finish(std::move(value), "run end");
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -39,6 +40,9 @@ struct RunEndText {
   /// empty: unknown.
   std::string content_sha256;
   std::uint64_t content_length = 0;
+  /// Of moves and dwells, by the machine's time, and the path of the executed blocks; both absent
+  /// when they are not known, and from an older gateway.
+  std::optional<double> motion_seconds = {}, path_mm = {};
   friend bool operator==(const RunEndText&, const RunEndText&) = default;
 };
 

@@ -80,6 +80,8 @@ Result<storage::RunEnding> read_run_ending(const storage::Store& store, const dd
   ending.reason = text->reason;
   if (!text->content_sha256.empty()) ending.executed_content = text->content_sha256;
   ending.content_verified = verify(store, record, *text);
+  if (text->motion_seconds && text->path_mm)
+    ending.statistics = storage::RunStatistics{*text->motion_seconds, *text->path_mm};
   ending.ended = record.time;
   return ending;
 }

@@ -16,7 +16,7 @@ const std::string kSelect =
     "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
     "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS revision.sha256, "
     "run.allowed_as, "
-    "run.approval, run.job, run.gateway_setup FROM run "
+    "run.approval, run.job, run.gateway_setup, run.motion_seconds, run.path_mm FROM run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
     "LEFT JOIN content ON content.sha256 = run.sha256 ";
@@ -56,6 +56,8 @@ Run read_run(const sqlite::Statement& row) {
     run.approval = static_cast<std::uint64_t>(*approval);
   if (const auto job = row.optional_integer(25)) run.job = static_cast<std::uint64_t>(*job);
   run.gateway_setup = row.optional_text(26);
+  const auto seconds = row.optional_real(27), path = row.optional_real(28);
+  if (seconds && path) run.statistics = RunStatistics{*seconds, *path};
   return run;
 }
 
@@ -364,6 +366,15 @@ Result<void> apply_beginning(sqlite::Database& database, std::int64_t machine,
                      beginning.run, *beginning.gateway_setup, machine);
 }
 
+namespace {
+
+std::optional<double> optional_real(const std::optional<RunStatistics>& statistics,
+                                    double RunStatistics::*member) {
+  return statistics ? std::optional<double>((*statistics).*member) : std::nullopt;
+}
+
+}  // namespace
+
 Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,
                           const RunEnding& ending) {
   if (!is_finished(ending.state)) {
@@ -373,12 +384,14 @@ Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,
       database,
       "UPDATE run SET state = ?2, sent = max(sent, ?3), accepted = max(accepted, ?4), "
       "executed = max(executed, ?5), line = ?6, sequence = ?7, reason = ?8, "
-      "executed_content = ?9, content_verified = ?10, "
+      "executed_content = ?9, content_verified = ?10, motion_seconds = ?13, path_mm = ?14, "
       "ended_us = max(?11, coalesce(started_us, created_us)) "
       "WHERE id = ?1 AND machine = ?12 AND state IN ('ordered', 'active')",
       ending.run, to_string(ending.state), ending.counters.sent, ending.counters.accepted,
       ending.counters.executed, ending.line, ending.sequence, ending.reason,
-      ending.executed_content, ending.content_verified, ending.ended, machine);
+      ending.executed_content, ending.content_verified, ending.ended, machine,
+      optional_real(ending.statistics, &RunStatistics::motion_seconds),
+      optional_real(ending.statistics, &RunStatistics::path_mm));
   if (!ended || database.changes() == 0) return ended;
   return add_run_end(database, ending.run);
 }

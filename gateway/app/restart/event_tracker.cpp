@@ -80,6 +80,7 @@ void EventTracker::move_to(const Position& to) {
 
 void EventTracker::measure_move(const interpreter::Origin& origin, const Position& to,
                                 double length) {
+  if (!is_closed_) length_ += length;
   if (measured_block_ == 0 || origin.block != measured_block_) return;
   measured_.length += length;
   if (measured_.left) {
@@ -100,16 +101,14 @@ void EventTracker::measure_move(const interpreter::Origin& origin, const Positio
 }
 
 void EventTracker::on_rapid(const interpreter::Rapid& event) {
-  measure_move(event.origin, event.to,
-               measured_block_ != 0 ? distance(state_.position, event.to) : 0);
+  measure_move(event.origin, event.to, distance(state_.position, event.to));
   add(kRapid);
   move_to(event.to);
   EventGate::on_rapid(event);
 }
 
 void EventTracker::on_line(const interpreter::Line& event) {
-  measure_move(event.origin, event.to,
-               measured_block_ != 0 ? distance(state_.position, event.to) : 0);
+  measure_move(event.origin, event.to, distance(state_.position, event.to));
   add(kLine);
   state_.feed = event.feed;
   move_to(event.to);
@@ -117,8 +116,7 @@ void EventTracker::on_line(const interpreter::Line& event) {
 }
 
 void EventTracker::on_arc(const interpreter::Arc& event) {
-  measure_move(event.origin, event.to,
-               measured_block_ != 0 ? arc_length(state_.position, event) : 0);
+  measure_move(event.origin, event.to, arc_length(state_.position, event));
   add(kArc + 16 * static_cast<std::uint64_t>(event.plane) +
       64 * static_cast<std::uint64_t>(event.turn));
   add(event.center_first.mm());
@@ -130,9 +128,8 @@ void EventTracker::on_arc(const interpreter::Arc& event) {
 }
 
 void EventTracker::on_thread(const interpreter::Thread& event) {
-  const double length = measured_block_ == 0 ? 0
-                        : event.arc ? arc_length(state_.position, interpreter::arc_of(event))
-                                    : distance(state_.position, event.to);
+  const double length = event.arc ? arc_length(state_.position, interpreter::arc_of(event))
+                                  : distance(state_.position, event.to);
   measure_move(event.origin, event.to, length);
   add(kThread);
   add(event.lead.mm());
@@ -215,7 +212,7 @@ void EventTracker::note_found(const interpreter::Origin& origin) {
 }
 
 void EventTracker::on_block_end(const interpreter::Origin& origin) {
-  (*paths_)[origin.block % kPaths] = {origin.block, state_.path};
+  (*paths_)[origin.block % kPaths] = {origin.block, state_.path, length_};
   state_.ended = origin;
   if (origin.block == measured_block_ && measured_block_ != 0) {
     measured_.block = origin.block;

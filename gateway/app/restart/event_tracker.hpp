@@ -26,6 +26,13 @@ class EventTracker final : public interpreter::EventGate {
     return one.block == block ? one.path : 0;
   }
 
+  /// Length of the path that the machine was given up to the end of `block`, in millimeters; nothing:
+  /// not known any more.
+  std::optional<double> length_at(std::uint64_t block) const {
+    const PathOfBlock& one = (*paths_)[block % kPaths];
+    return one.block == block ? std::optional(one.length) : std::nullopt;
+  }
+
   /// From `state` on, nothing passes until the block `last` has ended; then `on_open` is called,
   /// with the sink that follows. Without `on_open` nothing passes at all.
   using OnOpen = std::function<void(interpreter::EventSink& out)>;
@@ -93,11 +100,13 @@ class EventTracker final : public interpreter::EventGate {
   static constexpr std::size_t kPaths = 32'768;
   struct PathOfBlock {
     std::uint64_t block = 0, path = 0;
+    double length = 0;
   };
   using Paths = std::array<PathOfBlock, kPaths>;
 
   DeliveredState state_;
   std::unique_ptr<Paths> paths_;
+  double length_ = 0;
   bool is_closed_ = false;
   std::uint64_t last_ = 0;
   OnOpen on_open_;

@@ -254,11 +254,21 @@ TEST_P(KeptFile, HasTheSetupInTheControlSinceVersion18) {
   EXPECT_EQ((*loaded)->who, "anna");
 }
 
+TEST_P(KeptFile, HasTheTimeAndThePathOfARunSinceVersion19) {
+  reopen();
+  const auto run = store_->runs.find("r1");
+  ASSERT_TRUE(run) << run.error().what;
+  ASSERT_EQ(run->statistics.has_value(), version() >= 19);
+  if (version() >= 19) {
+    EXPECT_EQ(*run->statistics, (RunStatistics{12.5, 250.75}));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
                                          "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql",
-                                         "v17.sql", "v18.sql"),
+                                         "v17.sql", "v18.sql", "v19.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

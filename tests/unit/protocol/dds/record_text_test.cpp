@@ -32,6 +32,8 @@ TEST(RecordText, RunEndSurvivesTheRoundTrip) {
   value.content_sha256 = kDigest;
   value.content_length = 4096;
   EXPECT_EQ(decode_run_end(encode(value)).value(), value);
+  value.motion_seconds = 12.5;
+  value.path_mm = 0.1;
   value.content_sha256.clear();  // unknown
   EXPECT_EQ(decode_run_end(encode(value)).value(), value);
 }
@@ -85,6 +87,15 @@ INSTANTIATE_TEST_SUITE_P(
                             Errc::LimitExceeded},
                     BadText{"long", std::string(5000, ' '), Errc::LimitExceeded}),
     [](const auto& i) { return i.param.name; });
+
+TEST(RecordText, RunEndOfAnOlderGatewayHasNoTimeAndNoPath) {
+  const auto text = decode_run_end(encode(RunEndText{}));
+  ASSERT_TRUE(text);
+  EXPECT_FALSE(text->motion_seconds || text->path_mm);
+  RunEndText value;
+  value.path_mm = -1;
+  EXPECT_FALSE(decode_run_end(encode(value))) << "no path is shorter than none";
+}
 
 class BadRunEndText : public testing::TestWithParam<BadText> {};
 

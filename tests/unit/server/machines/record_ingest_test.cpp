@@ -225,6 +225,8 @@ TEST_F(RecordIngestTest, VerifyTheBytesOfARunThatWasCutOff) {
   cut.outcome = dds::RunOutcome::Interrupted;
   cut.reason = "interrupted at block 1";
   cut.executed = 1;
+  cut.motion_seconds = 1.5;
+  cut.path_mm = 20;
   cut.content_length = 5;
   cut.content_sha256 = sha256(text.substr(0, 5)).hex();
   record(1, run, dds::RecordKind::RunEnded, dds::encode(cut));
@@ -232,6 +234,7 @@ TEST_F(RecordIngestTest, VerifyTheBytesOfARunThatWasCutOff) {
   const auto ended = store_->runs.find(run);
   EXPECT_EQ(ended->state, storage::RunState::Interrupted);
   EXPECT_EQ(ended->reason, "interrupted at block 1");
+  EXPECT_EQ(ended->statistics, (storage::RunStatistics{1.5, 20}));
   EXPECT_EQ(ended->content_verified, true);
 }
 
