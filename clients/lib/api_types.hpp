@@ -8,6 +8,7 @@
 
 #include "clients/lib/account_types.hpp"
 #include "clients/lib/intake_types.hpp"
+#include "clients/lib/machine_types.hpp"
 #include "clients/lib/server_types.hpp"
 
 /// The server's answers (server/api/README.md) as plain values. Words and times stay the text that
@@ -141,95 +142,13 @@ struct Upload {
   std::uint64_t max_piece = 0;
 };
 
-/// The modal state that a control's status window shows; millimeters.
-struct ActiveModes {
-  std::string motion, compensation, units;
-  bool incremental = false;
-  std::string feed_unit;
-  double feed = 0;  ///< programmed, in its unit
-  bool feed_limited = false;
-  std::optional<std::int64_t> tool, next_tool, tool_offset;
-  double tool_length_x = 0, tool_length_z = 0, tool_radius = 0;
-  std::string work_system, cycle;
-  double dwell_seconds = 0;
-  bool surface_speed = false;
-  double spindle_speed = 0;  ///< programmed: 1/min, or mm per minute
-  std::optional<double> spindle_load;
-  bool flood = false, mist = false;
-  std::string tool_axis;  ///< its letter; empty: programs do not choose it
-  std::string spindle;    ///< "off", "clockwise", ...; empty: unknown
-};
-
-/// How program coordinates lie on the machine; by axis letter, millimeters and degrees.
-struct ProgramFrame {
-  std::map<std::string, double> position, target;  ///< program coordinates
-  std::map<std::string, double> datum, shift;
-  double rotation = 0, basic_rotation = 0;
-  std::map<std::string, double> scale;
-  std::vector<std::string> mirrored;
-  std::optional<std::map<std::string, double>> pole;
-};
-
-/// The values of a control's position display, along the machine's axes.
-struct Coordinates {
-  std::map<std::string, double> target;  ///< the end of the current move
-  std::map<std::string, double> distance_to_go;
-  /// The following error; absent: not measured.
-  std::optional<std::map<std::string, double>> following_error = {};
-  /// Absent without a run, or when its control reports none.
-  std::optional<ProgramFrame> program = {};
-};
-
-struct MachineStatus {
-  std::string time, execution, mode, run, program;
-  std::uint64_t sent = 0, accepted = 0, executed = 0, total_bytes = 0, offset = 0;
-  std::optional<std::uint64_t> line;
-  std::optional<std::int64_t> sequence;
-  std::map<std::string, double> position;  ///< by axis letter
-  double feed_mm_per_min = 0, spindle_rpm = 0;
-  double feed_override = 1, rapid_override = 1, spindle_override = 1;  ///< 1 = 100 %
-  double buffered_seconds = 0;
-  bool single_block = false;
-  std::string message;
-  std::uint64_t outbox = 0;
-  std::optional<ActiveModes> modes;
-  std::optional<Coordinates> coordinates;
-  bool emergency_stop = false;  ///< pressed
-  std::string remote_enable, waits_for;
-};
-
-/// What a control's own position display shows. Values of the API are millimeters and radii.
-struct Display {
-  std::string units = "mm";  ///< or inch
-  std::string x = "radius";  ///< or diameter
-};
-
-/// How a run can begin on a machine's control.
-struct Starts {
-  std::vector<std::string> at;  ///< what a start can name: block, line, byte, tool, count
-  bool head = false, memory = false, pass = false;
-};
-
-/// Who holds a machine or its job queue, and why.
-struct Hold {
-  std::string who, reason;  ///< reason empty: none was given
-  std::string run;          ///< of a machine; empty: of none
-  std::string since;
-};
-
-struct Machine {
-  std::string name, control, description, gateway_version;
-  bool connected = false;
-  /// How far the gateway's clock is ahead of the server's; negative: it is late.
-  std::optional<double> clock_ahead_seconds;
-  /// What is wrong between server and gateway.
-  std::vector<std::string> notices;
-  std::string first_seen, last_seen;
-  std::optional<Hold> held = {};        ///< absent: nothing is known to hold it
-  std::optional<Hold> queue_hold = {};  ///< absent: its queue is not held
-  std::optional<Display> display = {};  ///< absent: the control is not known
-  std::optional<Starts> starts = {};    ///< absent: an older server
-  std::optional<MachineStatus> status;
+/// Of the blocks that a run has executed, as controls show it of a program that is fed.
+struct RunStatistics {
+  double motion_seconds = 0;  ///< of moves and dwells, by the machine's time
+  double distance_mm = 0;
+  /// Absent where they would divide by nothing.
+  std::optional<double> average_feed_mm_per_min = {}, average_block_seconds = {},
+                        blocks_per_second = {};
 };
 
 struct Run {
@@ -245,10 +164,11 @@ struct Run {
   std::optional<bool> content_verified;
   std::string author, created, started, ended;
   std::uint64_t outputs = 0;
-  std::optional<std::uint64_t> setup;     ///< the machine's setup it was started with
-  std::string allowed_as;                 ///< open, released, prove_out
-  std::optional<std::uint64_t> approval;  ///< the Decision that released its revision
-  std::optional<std::uint64_t> job;       ///< of the machine's queue
+  std::optional<std::uint64_t> setup;            ///< the machine's setup it was started with
+  std::string allowed_as;                        ///< open, released, prove_out
+  std::optional<std::uint64_t> approval;         ///< the Decision that released its revision
+  std::optional<std::uint64_t> job;              ///< of the machine's queue
+  std::optional<RunStatistics> statistics = {};  ///< absent: not ended, not known, an older server
 };
 
 /// A run that is asked for by itself.

@@ -50,12 +50,18 @@ Gateway::Gateway(Parts parts)
              .commands = commands_,
              .consent = consent_,
              .run = run_,
-             .on_begin = [this](const interpreter::Setup& setup) { panel_.take_tables(setup); },
+             .on_begin =
+                 [this](const interpreter::Setup& setup) {
+                   panel_.take_tables(setup);
+                   status_.take_settings(setup);
+                 },
              .on_over =
                  [this] {
                    if (line_) line_->on_run_over();
                  }}),
       status_({.gateway_session = parts_.session,
+               .dialect = parts_.dialect,
+               .setup = parts_.setup,
                .clock = parts_.clock,
                .machine = *machine_,
                .outbox = parts_.outbox,

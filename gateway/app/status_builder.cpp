@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "gateway/app/block_texts.hpp"
 #include "gateway/app/run_texts.hpp"
 #include "protocol/base/utf8.hpp"
 
@@ -35,6 +36,8 @@ Execution execution_of(MachineState state) {
 
 static_assert(static_cast<int>(dds::MotionKind::Thread) ==
               static_cast<int>(machine::MotionKind::Thread));
+static_assert(static_cast<int>(dds::PositionDisplay::DistanceToGo) ==
+              static_cast<int>(interpreter::ShownPosition::DistanceToGo));
 static_assert(static_cast<int>(dds::CompensationSide::Right) ==
               static_cast<int>(interpreter::CompensationSide::Right));
 
@@ -91,8 +94,33 @@ dds::ProgramFrame shown_frame(const CoordinateFrame& frame, const machine::Machi
 
 }  // namespace
 
+void StatusBuilder::take_settings(const interpreter::Setup& setup) {
+  settings_ = parts_.dialect.screen ? parts_.dialect.screen(setup) : interpreter::ScreenSettings{};
+}
+
+/// Without a program the units are those of the control at power on.
+dds::Screen StatusBuilder::screen(const machine::MachineStatus& now) const {
+  const RunSession* session = parts_.run.session.get();
+  const interpreter::Units of_program =
+      session ? session->modes_at(now.origin.block).units : parts_.dialect.units;
+  dds::Screen shown;
+  shown.is_inch = settings_.units.value_or(of_program) == interpreter::Units::Inch;
+  shown.position = static_cast<dds::PositionDisplay>(settings_.position);
+  if (!session) return shown;
+  BlockTexts blocks = block_texts(session->feed(), now.origin);
+  shown.block = std::move(blocks.block);
+  const bool is_large = !shown.block.empty() &&
+                        settings_.large_blocks.find(shown.block.front()) != std::string_view::npos;
+  if (is_large) return shown;
+  shown.previous_block = std::move(blocks.previous);
+  shown.next_block = std::move(blocks.next);
+  shown.further_block = std::move(blocks.further);
+  return shown;
+}
+
 dds::ActiveModes StatusBuilder::modes(const machine::MachineStatus& now) const {
   dds::ActiveModes shown;
+  shown.is_inch = parts_.dialect.units == interpreter::Units::Inch;
   shown.motion = static_cast<dds::MotionKind>(now.motion);
   shown.is_feed_limited = now.is_feed_limited;
   shown.tool = now.tool;
@@ -140,7 +168,9 @@ dds::Status StatusBuilder::build(const LinkState& links) const {
 
 void StatusBuilder::fill_machine(dds::Status& status, const machine::MachineStatus& now) const {
   status.position = values_of(now.position);
-  status.axes = static_cast<std::uint16_t>(parts_.machine.capabilities().axes.to_ulong());
+  auto axes = parts_.machine.capabilities().axes;
+  if (settings_.axes) axes &= *settings_.axes;
+  status.axes = static_cast<std::uint16_t>(axes.to_ulong());
   status.feed_mm_per_min = now.feed_per_minute;
   status.spindle_rpm = now.spindle_rpm;
   const machine::OperatorPanel& panel = parts_.machine.panel();
@@ -151,6 +181,7 @@ void StatusBuilder::fill_machine(dds::Status& status, const machine::MachineStat
   status.emergency_stop = panel.emergency_stop;
   status.modes = modes(now);
   status.coordinates = coordinates(now);
+  status.screen = screen(now);
 }
 
 void StatusBuilder::fill_run(dds::Status& status, const machine::MachineStatus& now) const {

@@ -20,6 +20,8 @@ class StatusBuilder {
  public:
   struct Parts {
     std::uint64_t gateway_session = 0;
+    const interpreter::Dialect& dialect;
+    const interpreter::Setup& setup;  ///< of the gateway, whose settings are in force at first
     const Clock& clock;
     const machine::MotionBackend& machine;
     const report::Outbox& outbox;
@@ -28,12 +30,16 @@ class StatusBuilder {
     const CurrentRun& run;
   };
   /// All references must outlive it.
-  explicit StatusBuilder(const Parts& parts) : parts_(parts) {}
+  explicit StatusBuilder(const Parts& parts) : parts_(parts) { take_settings(parts.setup); }
+
+  /// Those of the control's screen are in force from here on.
+  void take_settings(const interpreter::Setup& setup);
 
   dds::Status build(const LinkState& links) const;
 
  private:
   dds::ActiveModes modes(const machine::MachineStatus& now) const;
+  dds::Screen screen(const machine::MachineStatus& now) const;
   dds::Coordinates coordinates(const machine::MachineStatus& now) const;
   void fill_machine(dds::Status& status, const machine::MachineStatus& now) const;
   void fill_run(dds::Status& status, const machine::MachineStatus& now) const;
@@ -43,6 +49,7 @@ class StatusBuilder {
   dds::RemoteEnable remote_enable() const;
 
   Parts parts_;
+  interpreter::ScreenSettings settings_;
 };
 
 /// The answer to `status` at the machine's panel, one line.

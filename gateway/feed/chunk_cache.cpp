@@ -19,6 +19,25 @@ std::string_view ChunkCache::peek(interpreter::ProgramIndex program, std::uint64
   return {found->second.text->data() + begin, found->second.filled - begin};
 }
 
+HeldText ChunkCache::around(interpreter::ProgramIndex program, std::uint64_t offset,
+                            std::size_t reach) const {
+  HeldText held{.offset = offset - std::min<std::uint64_t>(offset, reach), .text = {}};
+  const std::uint64_t end = offset + reach;
+  for (std::uint64_t at = held.offset; at < end;) {
+    const std::string_view text = peek(program, at).substr(0, end - at);
+    if (text.empty() && at > offset) break;
+    if (text.empty()) {  // a gap before the byte: the text begins after it
+      at += kChunkBytes - at % kChunkBytes;
+      if (at > offset) return {};
+      held = {.offset = at, .text = {}};
+      continue;
+    }
+    held.text += text;
+    at += text.size();
+  }
+  return held;
+}
+
 std::size_t ChunkCache::store(interpreter::ProgramIndex program, std::uint64_t offset,
                               std::string_view text) {
   std::size_t stored = 0;

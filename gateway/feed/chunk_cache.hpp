@@ -5,11 +5,20 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "gateway/interpreter/core/program_source.hpp"
 
 namespace dripline::feed {
+
+/// A piece of a program's text.
+struct HeldText {
+  std::uint64_t offset = 0;  ///< of its first byte in the program
+  std::string text;
+  bool reaches_end = false;  ///< the program ends where `text` ends, as far as that is known
+  std::uint64_t end() const { return offset + text.size(); }
+};
 
 /// Program text in pieces of kChunkBytes, each filled from its beginning; the least recently used
 /// pieces go when the bound is reached. Pure; one thread.
@@ -30,6 +39,9 @@ class ChunkCache {
   std::string_view view(interpreter::ProgramIndex program, std::uint64_t offset);
   /// The same without being a use.
   std::string_view peek(interpreter::ProgramIndex program, std::uint64_t offset) const;
+  /// What is held without a gap around byte `offset`, at most `reach` bytes before and after it;
+  /// empty when that byte is not held. No use either. `reaches_end` is left to the caller.
+  HeldText around(interpreter::ProgramIndex program, std::uint64_t offset, std::size_t reach) const;
   /// Takes what fits: bytes that begin beyond the filled part of a chunk, or lie within it, are
   /// left out. Returns the number of new ones.
   std::size_t store(interpreter::ProgramIndex program, std::uint64_t offset, std::string_view text);

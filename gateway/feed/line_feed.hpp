@@ -42,6 +42,13 @@ class ProgramFeed : public interpreter::ProgramSource {
   virtual std::vector<CalledProgram> called_programs() const { return {}; }
   virtual std::size_t called_program_count() const { return 0; }
 
+  /// What is at hand around byte `offset`, at most `reach` bytes before and after it; empty when
+  /// that byte is not. Nothing is requested for it.
+  virtual HeldText held_around(interpreter::ProgramIndex /*program*/, std::uint64_t /*offset*/,
+                               std::size_t /*reach*/) const {
+    return {};
+  }
+
   /// The *sent* counter: bytes of the main program received without a gap from its beginning.
   virtual std::uint64_t sent() const = 0;
   /// SHA-256 of the first content_length() bytes.
@@ -73,6 +80,12 @@ class LineFeed final : public ProgramFeed {
   interpreter::TextWindow fetch(interpreter::ProgramIndex program, std::uint64_t offset,
                                 std::size_t min_bytes) override;
   interpreter::ProgramLookup find(std::string_view name) override;
+  HeldText held_around(interpreter::ProgramIndex program, std::uint64_t offset,
+                       std::size_t reach) const override {
+    HeldText held = cache_.around(program, offset, reach);
+    held.reaches_end = has_ended_ && held.end() == received_;
+    return held;
+  }
   std::uint64_t sent() const override { return received_; }
   Digest content_digest() const override { return hash_.digest(); }
   std::uint64_t content_length() const override { return received_; }

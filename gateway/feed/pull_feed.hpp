@@ -53,6 +53,12 @@ class PullFeed final : public ProgramFeed {
   interpreter::ProgramLookup find(std::string_view name) override;
   std::vector<CalledProgram> called_programs() const override;
   std::size_t called_program_count() const override { return programs_.size() - 1; }
+  HeldText held_around(interpreter::ProgramIndex program, std::uint64_t offset,
+                       std::size_t reach) const override {
+    HeldText held = cache_.around(program, offset, reach);
+    held.reaches_end = program < programs_.size() && held.end() == programs_[program].size;
+    return held;
+  }
 
   void on_data(const dds::BlockData& data, SteadyTime now) override;
   void poll(SteadyTime now) override;

@@ -11,7 +11,7 @@ auto content(const dds::Status& s) {
                   s.total_bytes, s.offset, s.line, s.sequence, s.position, s.feed_mm_per_min,
                   s.spindle_rpm, s.feed_override, s.rapid_override, s.spindle_override,
                   s.buffered_seconds, s.single_block, s.message, s.outbox, s.modes, s.coordinates,
-                  s.emergency_stop, s.remote_enable, s.waits_for);
+                  s.emergency_stop, s.remote_enable, s.waits_for, s.screen);
 }
 
 }  // namespace

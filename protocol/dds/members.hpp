@@ -199,6 +199,16 @@ void members(V&& v, Is<LineStatus> auto& m) {
 }
 
 template <class V>
+void members(V&& v, Is<Screen> auto& m) {
+  v(DRIPLINE_MEMBER(is_inch), InchOrMetric{});
+  v(DRIPLINE_MEMBER(position));
+  v(DRIPLINE_MEMBER(previous_block), FreeText{});
+  v(DRIPLINE_MEMBER(block), FreeText{});
+  v(DRIPLINE_MEMBER(next_block), FreeText{});
+  v(DRIPLINE_MEMBER(further_block), FreeText{});
+}
+
+template <class V>
 void members(V&& v, Is<Status> auto& m) {
   v(DRIPLINE_MEMBER(machine), MachineName{}, Internal{});
   v(DRIPLINE_MEMBER_AS(time, time_us));
@@ -232,6 +242,7 @@ void members(V&& v, Is<Status> auto& m) {
   v(DRIPLINE_MEMBER(remote_enable));
   v(DRIPLINE_MEMBER(waits_for));
   v(DRIPLINE_MEMBER(serial_line), PresentIf{DRIPLINE_FIELD(serial_line.is_present)}, Internal{});
+  v(DRIPLINE_MEMBER(screen), PresentIf{DRIPLINE_FIELD(screen.is_present)});
 }
 
 template <class V>

@@ -61,6 +61,12 @@ Words words_of(SpindleState) {
   return kWords;
 }
 
+Words words_of(PositionDisplay) {
+  static constexpr std::array<std::string_view, 6> kWords{
+      "unknown", "actual", "reference", "following_error", "nominal", "distance_to_go"};
+  return kWords;
+}
+
 Words words_of(RemoteEnable) {
   static constexpr std::array<std::string_view, 4> kWords{"unknown", "unattended", "given",
                                                           "not_given"};

@@ -66,6 +66,15 @@ enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, Countercloc
 enum class CompensationSide : std::uint8_t { Off, Left, Right };
 enum class FeedUnit : std::uint8_t { PerMinute, PerRevolution, InverseTime };
 enum class SpindleState : std::uint8_t { Unknown, Off, Clockwise, Counterclockwise, Oriented };
+/// The position that a control's screen shows, where its operator chooses one.
+enum class PositionDisplay : std::uint8_t {
+  Unknown,
+  Actual,     ///< in program coordinates
+  Reference,  ///< on the machine
+  FollowingError,
+  Nominal,  ///< where the move ends, in program coordinates
+  DistanceToGo,
+};
 /// Whether the machine's side lets the network start it.
 enum class RemoteEnable : std::uint8_t { Unknown, Unattended, Given, NotGiven };
 /// The event that continues a run. CycleStart: at the machine's panel, or a resume command where
@@ -113,6 +122,7 @@ std::span<const std::string_view> words_of(MotionKind);
 std::span<const std::string_view> words_of(CompensationSide);
 std::span<const std::string_view> words_of(FeedUnit);
 std::span<const std::string_view> words_of(SpindleState);
+std::span<const std::string_view> words_of(PositionDisplay);
 std::span<const std::string_view> words_of(RemoteEnable);
 std::span<const std::string_view> words_of(WaitsFor);
 std::span<const std::string_view> words_of(LinePhase);
@@ -142,6 +152,7 @@ struct Announce {
 
 inline constexpr std::size_t kMaxWorkSystem = 16;
 inline constexpr std::size_t kMaxCycle = 32;
+inline constexpr std::size_t kMaxBlockText = 128;  ///< of a screen
 
 struct ActiveModes {
   MotionKind motion = MotionKind::None;
@@ -227,6 +238,14 @@ struct LineStatus {
   friend bool operator==(const LineStatus&, const LineStatus&) = default;
 };
 
+/// Texts of blocks are empty where there is none, or it is not shown, or not at hand.
+struct Screen {
+  bool is_inch = false;
+  PositionDisplay position = PositionDisplay::Unknown;
+  std::string previous_block = {}, block = {}, next_block = {}, further_block = {};
+  friend bool operator==(const Screen&, const Screen&) = default;
+};
+
 struct Status {
   std::string machine;
   UtcTime time;
@@ -252,6 +271,7 @@ struct Status {
   RemoteEnable remote_enable = RemoteEnable::Unknown;
   WaitsFor waits_for = WaitsFor::Unknown;
   std::optional<LineStatus> serial_line;  ///< of a gateway beside a control
+  std::optional<Screen> screen;           ///< none from an older gateway, nor of such a control
   friend bool operator==(const Status&, const Status&) = default;
 };
 

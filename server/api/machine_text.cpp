@@ -208,18 +208,28 @@ void write_status(Writer& out, const dds::Status& status) {
   out.end('}');
 }
 
-/// What the control's own position display shows: the units of the program while one is there, and
-/// on a lathe X as its programs have it, as a diameter.
+/// What the control's own screen shows: the units that its settings choose, else those of the
+/// program while one is there; on a lathe X as its programs have it, as a diameter; the modes that
+/// it has.
 void write_display(Writer& out, const machines::MachineView& view) {
   const auto dialect = interpreter::find_dialect(view.machine.control);
   if (!dialect) return out.null();
-  const bool has_program = view.status && !view.status->run.empty() && view.status->modes;
-  const bool is_inch =
-      has_program ? view.status->modes->is_inch : (*dialect)->units == interpreter::Units::Inch;
+  const auto* status = view.status ? &*view.status : nullptr;
+  const bool has_program = status != nullptr && !status->run.empty() && status->modes;
+  bool is_inch = (*dialect)->units == interpreter::Units::Inch;
+  if (has_program) is_inch = status->modes->is_inch;
+  if (status != nullptr && status->screen) is_inch = status->screen->is_inch;
   const bool is_lathe = (*dialect)->machine == interpreter::MachineKind::Lathe;
   out.begin('{');
   out.member("units", is_inch ? "inch" : "mm");
   out.member("x", is_lathe ? "diameter" : "radius");
+  out.name("fields");
+  out.begin('[');
+  for (const std::string_view field : (*dialect)->status_fields) {
+    out.separate();
+    out.value(field);
+  }
+  out.end(']');
   out.end('}');
 }
 

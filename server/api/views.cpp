@@ -71,6 +71,20 @@ json hold_json(const std::optional<storage::JobHold>& hold) {
   return {{"who", hold->who}, {"reason", hold->reason}, {"since", to_iso8601(hold->since)}};
 }
 
+json statistics_json(const storage::Run& run) {
+  if (!run.statistics) return nullptr;
+  const auto& [seconds, path] = *run.statistics;
+  const auto blocks = static_cast<double>(run.counters.executed);
+  const auto quotient = [](double dividend, double divisor) {
+    return divisor > 0 ? json(dividend / divisor) : json(nullptr);
+  };
+  return {{"motion_seconds", seconds},
+          {"distance_mm", path},
+          {"average_feed_mm_per_min", quotient(path, seconds / 60)},
+          {"average_block_seconds", quotient(seconds, blocks)},
+          {"blocks_per_second", quotient(blocks, seconds)}};
+}
+
 json run_json(const storage::Run& run) {
   return {{"id", run.id},
           {"machine", run.machine},
@@ -95,7 +109,8 @@ json run_json(const storage::Run& run) {
           {"setup", number_or_null(run.setup)},
           {"allowed_as", storage::to_string(run.allowed_as)},
           {"approval", number_or_null(run.approval)},
-          {"job", number_or_null(run.job)}};
+          {"job", number_or_null(run.job)},
+          {"statistics", statistics_json(run)}};
 }
 
 json loaded_setup_json(const storage::LoadedSetup& loaded) {

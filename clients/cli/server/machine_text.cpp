@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/server/display_text.hpp"
+#include "clients/cli/server/status_window.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -14,10 +15,6 @@ namespace dripline::cli {
 namespace {
 
 constexpr std::size_t kBarCells = 16;
-
-std::string percent(double factor) {
-  return fmt::format("{:.0f} %", factor * 100);
-}
 
 std::string after_gap(const std::string& text) {
   return text.empty() ? std::string() : "  " + text;
@@ -49,80 +46,6 @@ std::string star_text(const std::string& execution) {
   return is_stopped(execution) ? "* flashing (interrupted)" : "off";
 }
 
-std::string with_unit(const std::map<std::string, double>& axes, const client::Display& display) {
-  return fmt::format("{} {}", axes_text(axes, display), unit_name(display));
-}
-
-void add_motion(Details& details, const client::MachineStatus& status,
-                const client::Display& display) {
-  if (!status.position.empty()) details.add("position", with_unit(status.position, display));
-  details.add("feed", length_text(status.feed_mm_per_min, display) + "/min");
-  details.add("spindle", fmt::format("{:.0f} 1/min", status.spindle_rpm));
-  details.add("overrides",
-              fmt::format("feed {}, rapid {}, spindle {}", percent(status.feed_override),
-                          percent(status.rapid_override), percent(status.spindle_override)));
-}
-
-std::string number_text(const std::optional<std::int64_t>& value) {
-  return value ? std::to_string(*value) : "none";
-}
-
-/// "3, offset 13, next 4"
-std::string tool_text(const client::ActiveModes& modes) {
-  std::string text = number_text(modes.tool);
-  if (modes.tool_offset) text += fmt::format(", offset {}", *modes.tool_offset);
-  if (modes.next_tool) text += fmt::format(" (next {})", *modes.next_tool);
-  if (!modes.tool_axis.empty()) text += fmt::format(", axis {}", modes.tool_axis);
-  return text;
-}
-
-std::string programmed_feed_text(const client::ActiveModes& modes, const client::Display& display) {
-  const std::string feed = modes.feed_unit == "inverse_time"
-                               ? fmt::format("{:.3f} moves per minute", modes.feed)
-                               : length_text(modes.feed, display) +
-                                     (modes.feed_unit == "per_revolution" ? "/rev" : "/min");
-  return feed + (modes.feed_limited ? ", limited by an axis" : "");
-}
-
-std::string programmed_speed_text(const client::ActiveModes& modes) {
-  if (!modes.surface_speed) return fmt::format("{:.0f} 1/min", modes.spindle_speed);
-  return fmt::format("{:.1f} m/min at the surface", modes.spindle_speed / 1000);
-}
-
-std::string coolant_text(const client::ActiveModes& modes) {
-  if (modes.flood && modes.mist) return "flood and mist";
-  return modes.flood ? "flood" : modes.mist ? "mist" : "off";
-}
-
-/// "clockwise (M03)"
-std::string spindle_state_text(const client::ActiveModes& modes) {
-  if (modes.spindle == "clockwise") return "clockwise (M03)";
-  if (modes.spindle == "counterclockwise") return "counterclockwise (M04)";
-  if (modes.spindle == "off") return "off (M05)";
-  return modes.spindle.empty() ? "not reported" : modes.spindle;
-}
-
-/// What a status window has besides place, position and speeds, in the control's order.
-void add_modes(Details& details, const client::ActiveModes& modes, const client::Display& display) {
-  details.add("compensation", modes.compensation);
-  details.add("tool", tool_text(modes));
-  details.add("tool lengths",
-              with_unit({{"X", modes.tool_length_x}, {"Z", modes.tool_length_z}},
-                        client::Display{.units = display.units}));  // a radius on lathes too
-  details.add("tool radius", length_text(modes.tool_radius, display));
-  details.add("work system", modes.work_system);
-  details.add("interpolation", modes.motion);
-  details.add("programmed feed", programmed_feed_text(modes, display));
-  details.add("words",
-              fmt::format("{}, {}", modes.incremental ? "incremental" : "absolute", modes.units));
-  details.add("cycle", modes.cycle.empty() ? "none" : modes.cycle);
-  details.add("dwell", fmt::format("{:.1f} s left", modes.dwell_seconds));
-  details.add("programmed speed", programmed_speed_text(modes));
-  details.add("spindle state", spindle_state_text(modes));
-  details.add("spindle load", modes.spindle_load ? percent(*modes.spindle_load) : "not measured");
-  details.add("coolant", coolant_text(modes));
-}
-
 /// Without its unit: the place on a line is scarce.
 std::string bare_feed(double mm, const client::Display& display) {
   const std::string text = feed_text(mm, display);
@@ -149,6 +72,7 @@ std::string buffered_text(double seconds) {
 void add_program(Details& details, const client::MachineStatus& status) {
   details.add("run", status.run);
   details.add("program", status.program);
+  if (status.screen) add_blocks(details, *status.screen);
   details.add("executed", fmt::format("{} blocks, {}", status.executed, place_text(status)));
   details.add("accepted", fmt::format("{} blocks", status.accepted));
   details.add("sent",
@@ -178,7 +102,11 @@ bool has_ended(const client::Run& run) {
 std::string position_text(const client::MachineStatus& status, const client::Display& display) {
   if (status.position.empty()) return {};
   const bool is_usual = unit_name(display) == "mm";
-  return axes_text(status.position, display) + (is_usual ? "" : " in");
+  return axes_text(shown_position(status), display) + (is_usual ? "" : " in");
+}
+
+std::string block_line(const client::MachineStatus& status) {
+  return status.screen ? printable(status.screen->block) : std::string();
 }
 
 std::string place_text(const client::MachineStatus& status) {
@@ -213,10 +141,11 @@ std::string status_line(const client::Machine& machine) {
   if (!status.run.empty()) {
     line += fmt::format("  {} {:3.0f} %  {}", status.program, fraction_executed(status) * 100,
                         place_text(status));
+    line += after_gap(block_line(status));
   }
   line += after_gap(status.message);
   const client::Display display = display_of(machine);
-  if (!status.position.empty()) line += after_gap(with_unit(status.position, display));
+  if (!status.position.empty()) line += after_gap(with_unit(shown_position(status), display));
   return line + "  F " + feed_text(status.feed_mm_per_min, display);
 }
 
@@ -278,6 +207,7 @@ std::vector<std::string> run_lines(const client::Run& run, const client::Machine
                   std::max(run.accepted, status->accepted),
                   std::max(run.executed, status->executed), position_text(*status, display),
                   bare_feed(status->feed_mm_per_min, display))};
+  if (auto block = block_line(*status); !block.empty()) lines.push_back(std::move(block));
   if (auto hint = next_step(run, *status); !hint.empty()) lines.push_back(std::move(hint));
   return lines;
 }
@@ -320,57 +250,6 @@ std::string outcome_line(const client::Run& run) {
   if (run.state != "completed" && run.line) line += fmt::format(", last line {}", *run.line);
   if (!run.reason.empty()) line += "; " + printable(run.reason);
   return line;
-}
-
-namespace {
-
-/// "30.000 degrees", "30.000 degrees, basic rotation 2.500"
-std::string rotation_text(const client::ProgramFrame& frame) {
-  std::string text = fmt::format("{:.3f} degrees", frame.rotation);
-  if (frame.basic_rotation != 0)
-    text += fmt::format(", basic rotation {:.3f}", frame.basic_rotation);
-  return text;
-}
-
-/// One factor where it is the same for all axes that have one: "0.5"; else "X 0.5 Y 0.5 Z 1".
-std::string scale_text(const std::map<std::string, double>& scale) {
-  if (scale.empty()) return "1";
-  const double first = scale.begin()->second;
-  const bool is_even =
-      std::ranges::all_of(scale, [first](const auto& axis) { return axis.second == first; });
-  if (is_even) return fmt::format("{:.6g}", first);
-  std::string text;
-  for (const auto& [axis, factor] : scale)
-    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : " ", axis, factor);
-  return text;
-}
-
-void add_frame(Details& details, const client::ProgramFrame& frame,
-               const client::Display& display) {
-  details.add("datum", with_unit(frame.datum, display));
-  details.add("datum shift", with_unit(frame.shift, display));
-  details.add("rotation (ROT)", rotation_text(frame));
-  details.add("scale (SCL)", scale_text(frame.scale));
-  details.add("mirrored",
-              frame.mirrored.empty() ? "none" : fmt::format("{}", fmt::join(frame.mirrored, " ")));
-  details.add("pole (CC)", frame.pole ? with_unit(*frame.pole, display) : "none");
-}
-
-}  // namespace
-
-void add_coordinates(Details& details, const client::MachineStatus& status,
-                     const client::Display& display) {
-  const client::Coordinates& all = *status.coordinates;
-  if (all.program) {
-    details.add("actual (ACTL)", with_unit(all.program->position, display));
-    details.add("nominal (NOML)",
-                with_unit(all.program->target, display) + ", where the move ends");
-  }
-  details.add("reference (REF)", with_unit(status.position, display));
-  details.add("distance to go (DIST)", with_unit(all.distance_to_go, display));
-  details.add("following error (LAG)",
-              all.following_error ? with_unit(*all.following_error, display) : "not measured");
-  if (all.program) add_frame(details, *all.program, display);
 }
 
 }  // namespace dripline::cli

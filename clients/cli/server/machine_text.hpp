@@ -21,6 +21,8 @@ bool has_ended(const client::Run& run);
 std::string position_text(const client::MachineStatus& status, const client::Display& display = {});
 /// "line 1234 N1200", as far as known.
 std::string place_text(const client::MachineStatus& status);
+/// Text of the executing block; empty: it is not known.
+std::string block_line(const client::MachineStatus& status);
 /// How much of the program's text the machine has executed, 0 to 1.
 double fraction_executed(const client::MachineStatus& status);
 /// "by anna", "by report template bore version 1: part 12 is scrap: D40 is ..."
@@ -48,10 +50,5 @@ std::string waiting_line(const client::Run& run, const client::MachineStatus& st
 std::string record_line(const client::Record& record);
 /// How the run ended, in one line.
 std::string outcome_line(const client::Run& run);
-
-/// The five position displays of a control, and where datum, shift, rotation, scale, mirrored axes
-/// and the last circle center are.
-void add_coordinates(Details& details, const client::MachineStatus& status,
-                     const client::Display& display = {});
 
 }  // namespace dripline::cli

@@ -2,10 +2,12 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/server/attestation_commands.hpp"
+#include "clients/cli/server/display_text.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
 #include "clients/cli/server/run_follower.hpp"
 #include "clients/cli/server/run_restart.hpp"
+#include "clients/cli/server/status_window.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -89,7 +91,8 @@ std::string parts_text(const std::optional<client::ShownRun::Parts>& parts) {
   return text;
 }
 
-Details run_details(const client::ShownRun& shown) {
+/// `display`: of the control that executed it.
+Details run_details(const client::ShownRun& shown, const client::Display& display) {
   const client::Run& run = shown.run;
   Details details;
   details.add("run", run.id);
@@ -107,6 +110,7 @@ Details run_details(const client::ShownRun& shown) {
   details.add("sent", fmt::format("{} of {}", bytes_text(run.sent), bytes_text(run.size)));
   details.add("accepted", fmt::format("{} blocks", run.accepted));
   details.add("executed", fmt::format("{} blocks", run.executed));
+  if (run.statistics) add_statistics(details, *run.statistics, display);
   details.add("last line", run.line ? std::to_string(*run.line) : "");
   details.add("last N", run.sequence ? std::to_string(*run.sequence) : "");
   details.add("report lines", std::to_string(run.outputs));
@@ -123,7 +127,11 @@ int show(Context& context, client::Client& client, const std::string& reference)
   if (!found) return complain(found.error());
   const auto run = client.shown_run(found->id);
   if (const auto status = finished(context, run)) return *status;
-  context.print(run_details(*run));
+  client::Display display;
+  if (run->run.statistics) {
+    if (const auto machine = client.machine(run->run.machine)) display = display_of(*machine);
+  }
+  context.print(run_details(*run, display));
   return kExitOk;
 }
 

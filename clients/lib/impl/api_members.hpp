@@ -75,6 +75,11 @@ void members(V& v, Is<Coordinates> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Screen> auto& x) {
+  DRIPLINE_MEMBERS(units, position, previous_block, block, next_block, further_block);
+}
+
+template <class V>
 void members(V& v, Is<MachineStatus> auto& x) {
   DRIPLINE_MEMBERS(time, execution, mode, run, program, sent, accepted, executed, total_bytes,
                    offset, line, sequence, position, feed_mm_per_min, spindle_rpm, feed_override,
@@ -82,11 +87,13 @@ void members(V& v, Is<MachineStatus> auto& x) {
                    outbox, modes, coordinates);
   v.later("emergency_stop", x.emergency_stop);
   DRIPLINE_MEMBERS(remote_enable, waits_for);
+  v.later("screen", x.screen);
 }
 
 template <class V>
 void members(V& v, Is<Display> auto& x) {
   DRIPLINE_MEMBERS(units, x);
+  v.later("fields", x.fields);
 }
 
 template <class V>
@@ -114,6 +121,12 @@ void members(V& v, Is<Machine> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<RunStatistics> auto& x) {
+  DRIPLINE_MEMBERS(motion_seconds, distance_mm, average_feed_mm_per_min, average_block_seconds,
+                   blocks_per_second);
+}
+
+template <class V>
 void members(V& v, Is<Run> auto& x) {
   DRIPLINE_MEMBERS(id, machine, program, revision, sha256, size, control, state, sent, accepted,
                    executed, line, sequence, reason, content_verified, author, created, started,
@@ -121,6 +134,7 @@ void members(V& v, Is<Run> auto& x) {
   v.later("allowed_as", x.allowed_as);
   v.later("approval", x.approval);
   v.later("job", x.job);
+  v.later("statistics", x.statistics);
 }
 
 template <class V>

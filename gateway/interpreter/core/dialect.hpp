@@ -10,6 +10,7 @@
 
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/screen.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 
 namespace dripline::interpreter {
@@ -109,6 +110,10 @@ struct Dialect {
   /// exists"; empty: it has none for this refusal. nullptr: it numbers no refusals.
   std::string (*refusal_words)(Refusal refusal) = nullptr;
   TextForm text = {};
+  /// Which of status_field its status window has.
+  std::span<const std::string_view> status_fields = {};
+  /// Settings of a setup that are not valid are those of a new control. nullptr: there are none.
+  ScreenSettings (*screen)(const Setup& setup) = nullptr;
 };
 
 }  // namespace dripline::interpreter

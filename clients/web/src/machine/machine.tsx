@@ -5,6 +5,7 @@ import { durationText, percentDigits, progressOf } from '../live/progress';
 import { StatePill } from '../parts/state_pill';
 import { Tabs } from '../parts/tabs';
 import { dateTimeText, numberText, texts } from '../texts/texts';
+import { Blocks } from './blocks';
 import { ExecutedPath } from './executed_path';
 import { ExecutingText } from './executing_text';
 import { MachineQueue, NextJob } from './jobs/queue';
@@ -35,6 +36,7 @@ function Now({ name }: { name: string }) {
       <div class="columns">
         <div>
           {status && <Position machine={machine} status={status} />}
+          {status && <Blocks status={status} />}
           {!hasRun && <NextJob key={`next ${name}`} name={name} />}
           {!hasRun && <StartForm key={name} machine={machine} />}
           {hasPath && executing && <ExecutedPath key={executing.id} run={executing} status={status} />}

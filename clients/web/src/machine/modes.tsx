@@ -2,7 +2,16 @@
 import type { Display, Machine, Status } from '../../generated/api';
 import { Rows } from '../parts/rows';
 import { bufferedText, numberText, texts } from '../texts/texts';
+import { hasField } from './screen';
 import { lengthText, unitOf } from './units';
+
+function toolLengths(modes: NonNullable<NonNullable<Status>['modes']>, display: Display): Array<[string, string]> {
+  const t = texts().machine;
+  const unit = unitOf(display);
+  const z = lengthText(modes.tool_length_z, unit);
+  if (hasField(display, 'tool_length_x')) return [[t.toolLengths, `X ${lengthText(modes.tool_length_x, unit)}  Z ${z}`]];
+  return hasField(display, 'tool_length_z') ? [[t.toolLength, z]] : [];
+}
 
 function rowsOf(status: NonNullable<Status>, display: Display): Array<[string, string]> {
   const t = texts().machine;
@@ -19,18 +28,20 @@ function rowsOf(status: NonNullable<Status>, display: Display): Array<[string, s
   const feedUnit = modes.feed_unit === 'per_minute' ? `${unit.name}/min` : modes.feed_unit === 'per_revolution' ? t.perRevolution(unit.name) : t.inverseTime;
   const programmedFeed = modes.feed_unit === 'inverse_time' ? numberText(modes.feed, 3) : lengthText(modes.feed, unit);
   const speed = modes.surface_speed ? `${numberText(modes.spindle_speed / 1000, 1)} m/min` : `${numberText(modes.spindle_speed)} 1/min`;
+  // What the control does not have is left out.
+  const own = (field: Parameters<typeof hasField>[1], name: string, value: string): Array<[string, string]> => (hasField(display, field) ? [[name, value]] : []);
   const tool = [modes.tool ?? '–', modes.tool_offset !== null ? t.toolOffset(modes.tool_offset) : null, modes.next_tool !== null ? t.nextTool(modes.next_tool) : null];
   rows.push(
     [t.tool, tool.filter((part) => part !== null).join(', ')],
-    [t.toolLengths, `X ${lengthText(modes.tool_length_x, unit)}  Z ${lengthText(modes.tool_length_z, unit)}`],
-    [t.toolRadius, lengthText(modes.tool_radius, unit)],
+    ...toolLengths(modes, display),
+    ...own('tool_radius', t.toolRadius, lengthText(modes.tool_radius, unit)),
     [t.motion, t.motions[modes.motion]],
-    [t.compensation, t.compensations[modes.compensation]],
+    ...own('compensation', t.compensation, t.compensations[modes.compensation]),
     [t.programmedFeed, `${programmedFeed} ${feedUnit}${modes.feed_limited ? `, ${t.limited}` : ''}`],
     [t.programmedSpeed, `${speed}${modes.spindle ? `, ${t.spindles[modes.spindle]}` : ''}`],
-    [t.words, `${modes.incremental ? t.incremental : t.absolute}, ${modes.units}`],
-    [t.workSystem, modes.work_system ?? '–'],
-    [t.cycle, modes.cycle ?? '–'],
+    ...own('incremental', t.words, `${modes.incremental ? t.incremental : t.absolute}, ${modes.units}`),
+    ...own('work_system', t.workSystem, modes.work_system ?? '–'),
+    ...own('cycle', t.cycle, modes.cycle ?? '–'),
     [t.coolant, [modes.flood ? t.flood : null, modes.mist ? t.mist : null].filter(Boolean).join(', ') || t.off],
   );
   if (modes.dwell_seconds > 0) rows.push([t.dwell, `${numberText(modes.dwell_seconds, 1)} s`]);

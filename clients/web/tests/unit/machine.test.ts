@@ -5,10 +5,11 @@ import { probingOf, recordText } from '../../src/live/record_text';
 import { startBody } from '../../src/machine/commands';
 import { addRow, columnsOf, readTables, setCell } from '../../src/machine/setup/setup_tables';
 import { holds, numberLines, rangeAround, type TextWindow } from '../../src/machine/text_window';
+import { blocksOf, hasField, positionsOf } from '../../src/machine/screen';
 import { axisText, isDiameter, lengthText, sortAxes, unitOf } from '../../src/machine/units';
 import { canStartAt, placeOf } from '../../src/machine/start_places';
 import { diffLines, foldDiff } from '../../src/parts/diff';
-import { record } from './samples';
+import { record, status } from './samples';
 
 const program = Array.from({ length: 5000 }, (_, i) => `N${i + 1} X${i}\r\n`).join('');
 const bytes = new TextEncoder().encode(program);
@@ -95,11 +96,11 @@ test('what did not change is folded, and no difference is nothing', () => {
 
 test('lengths are in the unit that the control shows, X of its lathe as a diameter, angles in degrees', () => {
   const mm = unitOf(null);
-  const lathe = { units: 'inch', x: 'diameter' } as const;
+  const lathe = { units: 'inch' as const, x: 'diameter' as const, fields: [] };
   const inch = unitOf(lathe);
   assert.equal(axisText('X', 12.7, inch, isDiameter('X', lathe)), '1.0000');
   assert.equal(axisText('Z', 12.7, inch, isDiameter('Z', lathe)), '0.5000');
-  assert.ok(!isDiameter('X', null) && !isDiameter('X', { units: 'mm', x: 'radius' }));
+  assert.ok(!isDiameter('X', null) && !isDiameter('X', { units: 'mm', x: 'radius', fields: [] }));
   assert.equal(lengthText(25.4, inch), '1.0000');
   assert.equal(lengthText(-0.0001, mm), '0.000');
   assert.equal(axisText('B', 90, inch), '90.000°');
@@ -134,4 +135,28 @@ test('a start can name what the machine\'s control goes to, and nothing else', (
   const tnc = { at: ['block' as const], head: false, memory: false, pass: false };
   assert.deepEqual(['', ' N400 ', '400', 'L7', 'T3', 'soon'].map((typed) => canStartAt(typed, tnc)), [true, true, true, false, false, false]);
   assert.equal(canStartAt('N1', { ...tnc, at: [] }), false);
+});
+
+const screen = { units: 'mm' as const, position: null, previous_block: null, block: 'N2 X2', next_block: 'N3 X3', further_block: null };
+const coordinates = { target: { X: 9 }, distance_to_go: { X: 2 }, following_error: { X: 0 }, program: null };
+
+test('the position that the operator of the control has chosen comes first', () => {
+  const kinds = (position: NonNullable<Parameters<typeof positionsOf>[0]['screen']>['position']) =>
+    positionsOf(status({ position: { X: 7 }, coordinates, screen: { ...screen, position } })).map(([kind]) => kind);
+  assert.deepEqual(kinds(null), ['reference', 'distance_to_go', 'following_error'], 'without a program none is in its coordinates');
+  assert.deepEqual(kinds('distance_to_go'), ['distance_to_go', 'reference', 'following_error']);
+  assert.deepEqual(kinds('nominal'), ['nominal', 'reference', 'distance_to_go', 'following_error']);
+  assert.deepEqual(kinds('actual'), ['reference', 'distance_to_go', 'following_error']);
+  assert.deepEqual(positionsOf(status({ position: { X: 7 } })), [['reference', { X: 7 }]], 'an older gateway');
+});
+
+test('the blocks are those that the control shows', () => {
+  assert.deepEqual(blocksOf(status({ screen })), [{ text: 'N2 X2', isExecuting: true }, { text: 'N3 X3', isExecuting: false }]);
+  assert.deepEqual(blocksOf(status()), []);
+});
+
+test('a control has no fields of another', () => {
+  const tnc = { units: 'mm' as const, x: 'radius' as const, fields: ['tool_length_z' as const] };
+  assert.ok(hasField(tnc, 'tool_length_z') && !hasField(tnc, 'work_system'));
+  assert.ok(hasField(null, 'work_system'), 'of a control that is not known nothing is left out');
 });

@@ -6,7 +6,7 @@ export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<
     time: '2026-11-23T12:00:00Z', execution: 'READY', mode: 'AUTOMATIC', run: 'run-1', program: 'O0100', sent: 0, accepted: 0, executed: 0,
     total_bytes: 0, offset: 0, line: 1, sequence: null, position: { X: 0, Z: 0 }, feed_mm_per_min: 0, spindle_rpm: 0, feed_override: 1,
     rapid_override: 1, spindle_override: 1, buffered_seconds: 0, single_block: false, message: null, outbox: 0, modes: null, coordinates: null,
-    emergency_stop: false, remote_enable: 'unattended', waits_for: 'nothing', ...changed,
+    emergency_stop: false, remote_enable: 'unattended', waits_for: 'nothing', screen: null, ...changed,
   };
 }
 
@@ -14,7 +14,7 @@ export function machine(changed: Partial<Machine> = {}, changedStatus: Partial<N
   return {
     name: 'lathe-1', control: 'centurion', description: null, gateway_version: '0.1.0', connected: true, clock_ahead_seconds: 0, notices: [], held: null, queue_hold: null,
     first_seen: '2026-11-23T10:00:00Z', last_seen: '2026-11-23T12:00:00Z',
-    starts: { at: ['block', 'line', 'byte', 'tool', 'count'], head: false, memory: true, pass: true }, display: { units: 'inch', x: 'diameter' }, status: status(changedStatus), ...changed,
+    starts: { at: ['block', 'line', 'byte', 'tool', 'count'], head: false, memory: true, pass: true }, display: { units: 'inch', x: 'diameter', fields: ['compensation', 'tool_length_x', 'tool_length_z', 'tool_radius', 'work_system', 'incremental', 'cycle'] }, status: status(changedStatus), ...changed,
   };
 }
 
@@ -22,7 +22,7 @@ export function run(changed: Partial<Run> = {}): Run {
   return {
     id: 'run-1', machine: 'lathe-1', program: 'O0100', revision: 1, sha256: '0'.repeat(64), size: 1000, control: 'centurion', state: 'active',
     sent: 0, accepted: 0, executed: 0, line: 0, sequence: null, reason: null, content_verified: null, author: 'admin',
-    created: '2026-11-23T12:00:00Z', started: '2026-11-23T12:00:00Z', ended: null, outputs: 0, setup: null, allowed_as: 'open', approval: null, job: null, ...changed,
+    created: '2026-11-23T12:00:00Z', started: '2026-11-23T12:00:00Z', ended: null, outputs: 0, setup: null, allowed_as: 'open', approval: null, job: null, statistics: null, ...changed,
   };
 }
 

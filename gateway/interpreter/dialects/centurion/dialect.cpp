@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "gateway/interpreter/dialects/centurion/errors.hpp"
@@ -83,6 +84,11 @@ std::string refusal_words(Refusal refusal) {
   return {};
 }
 
+constexpr std::array kStatusFields{status_field::kCompensation, status_field::kToolLengthX,
+                                   status_field::kToolLengthZ,  status_field::kToolRadius,
+                                   status_field::kWorkSystem,   status_field::kIncremental,
+                                   status_field::kCycle};
+
 }  // namespace
 
 const Dialect kCenturionDialect{
@@ -96,6 +102,7 @@ const Dialect kCenturionDialect{
     .waits_at_tool_change = true,  // M6 prompts and waits (manual: M6)
     .panel_tables = &read_panel_tables,
     .options = &list_options,
-    .refusal_words = &refusal_words};
+    .refusal_words = &refusal_words,
+    .status_fields = kStatusFields};
 
 }  // namespace dripline::interpreter

@@ -2,6 +2,7 @@
 #include "gateway/interpreter/dialects/fanuc/options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "gateway/interpreter/dialects/fanuc/interpreter.hpp"
@@ -87,6 +88,14 @@ int lathe_likelihood(std::string_view head, std::string_view file_name) {
   return is_lathe ? likelihood(head, file_name) : 0;
 }
 
+constexpr std::array kStatusFields{status_field::kCompensation, status_field::kToolLengthZ,
+                                   status_field::kToolRadius,   status_field::kWorkSystem,
+                                   status_field::kIncremental,  status_field::kCycle};
+constexpr std::array kLatheStatusFields{status_field::kCompensation, status_field::kToolLengthX,
+                                        status_field::kToolLengthZ,  status_field::kToolRadius,
+                                        status_field::kWorkSystem,   status_field::kIncremental,
+                                        status_field::kCycle};
+
 }  // namespace
 
 const Dialect kFanucDialect{.name = "fanuc",
@@ -96,13 +105,15 @@ const Dialect kFanucDialect{.name = "fanuc",
                             // T selects and M06 exchanges, as the machine's builder has it: only a
                             // machine without `tool_changer` stops for a tool change.
                             .waits_at_tool_change = true,
-                            .options = &list_options};
+                            .options = &list_options,
+                            .status_fields = kStatusFields};
 
 const Dialect kFanucLatheDialect{.name = "fanuc-t",
                                  .title = "Fanuc 0-T, 16/18/21-T, 0i-T, 30i-T (lathe)",
                                  .likelihood = &lathe_likelihood,
                                  .make = &make_lathe,
                                  .machine = MachineKind::Lathe,
-                                 .options = &list_lathe_options};
+                                 .options = &list_lathe_options,
+                                 .status_fields = kLatheStatusFields};
 
 }  // namespace dripline::interpreter

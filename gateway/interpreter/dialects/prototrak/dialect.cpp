@@ -1,6 +1,7 @@
 #include "gateway/interpreter/core/dialects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "gateway/interpreter/core/option_rows.hpp"
@@ -75,6 +76,17 @@ Result<std::string> list(std::string_view text) {
   return list_events(receiver.program());
 }
 
+/// Two axes: Z is the operator's.
+ScreenSettings screen(const Setup&) {
+  ScreenSettings shown;
+  shown.axes.emplace()
+      .set(static_cast<std::size_t>(Axis::X))
+      .set(static_cast<std::size_t>(Axis::Y));
+  return shown;
+}
+
+constexpr std::array kStatusFields{status_field::kCompensation, status_field::kToolRadius};
+
 }  // namespace
 
 const Dialect kProtoTrakDialect{.name = "prototrak-plus",
@@ -87,6 +99,8 @@ const Dialect kProtoTrakDialect{.name = "prototrak-plus",
                                 .waits_at_tool_change = true,
                                 .list = list,
                                 .options = list_options,
-                                .text = {.kind = TextForm::Kind::Events, .is_all_programs = true}};
+                                .text = {.kind = TextForm::Kind::Events, .is_all_programs = true},
+                                .status_fields = kStatusFields,
+                                .screen = screen};
 
 }  // namespace dripline::interpreter

@@ -104,6 +104,7 @@ bool Executor::step() {
   const ProgramEvent event = effective(number);
   origin_ = {state_.blocks + 1, event.offset, event.line, event.sequence, kMainProgram};
   tell_units(event);
+  shown_ = {event.side, event.diameter / 2, event.feed};
   const std::size_t depth = state_.frames.size();
   if (!execute(event)) return false;
   ++state_.blocks;

@@ -55,6 +55,13 @@ class Executor {
   const Diagnostic& alarm() const { return alarm_; }
   const Origin& origin() const { return origin_; }
 
+  /// Of the event executed last, for the screen; no part of the state.
+  struct Shown {
+    ToolSide side = ToolSide::Center;
+    double tool_radius = 0, feed = 0;  ///< mm, mm per minute
+  };
+  const Shown& shown() const { return shown_; }
+
   const ExecutionState& state() const { return state_; }
   const compensation::Compensator& path() const { return path_; }
   EventSink& events() { return path_; }
@@ -102,6 +109,7 @@ class Executor {
   ExecutionState state_;
   Position position_;
   Origin origin_;
+  Shown shown_;
   Diagnostic alarm_;
 };
 

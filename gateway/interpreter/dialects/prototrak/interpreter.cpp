@@ -171,6 +171,19 @@ Result<void> ProtoTrakInterpreter::answer(const Answer&) {
   return fail(Errc::Syntax, "no question is open");
 }
 
+ActiveModes ProtoTrakInterpreter::modes() const {
+  const bool is_running = phase_ != Phase::Receiving;
+  const Executor::Shown& shown = executor_.shown();
+  ActiveModes modes;
+  // While it is received, a program has no unit yet: the control is in inches at power on.
+  modes.units = is_running && executor_.state().is_metric ? Units::Millimeter : Units::Inch;
+  if (shown.side == ToolSide::Left) modes.compensation = CompensationSide::Left;
+  if (shown.side == ToolSide::Right) modes.compensation = CompensationSide::Right;
+  modes.tool_radius = Length::mm(shown.tool_radius);
+  modes.feed = Feed::per_minute(Length::mm(shown.feed));
+  return modes;
+}
+
 /// A snapshot taken while receiving is that of the start, because nothing has been executed.
 Snapshot ProtoTrakInterpreter::snapshot() const {
   const bool is_receiving = phase_ == Phase::Receiving;

@@ -19,6 +19,7 @@ class ProtoTrakInterpreter final : public Interpreter {
   Result<void> answer(const Answer& answer) override;
   std::uint64_t blocks() const override { return executor_.state().blocks; }
   const Origin& origin() const override;
+  ActiveModes modes() const override;
   Snapshot snapshot() const override;
   Result<void> restore(const Snapshot& snapshot) override;
 

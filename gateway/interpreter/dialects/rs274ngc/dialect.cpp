@@ -2,6 +2,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <string>
 
@@ -89,6 +90,11 @@ int likelihood(std::string_view head, std::string_view file_name) {
   return std::min(points, 95);
 }
 
+constexpr std::array kStatusFields{status_field::kCompensation, status_field::kToolLengthX,
+                                   status_field::kToolLengthZ,  status_field::kToolRadius,
+                                   status_field::kWorkSystem,   status_field::kIncremental,
+                                   status_field::kCycle};
+
 }  // namespace
 
 const Dialect kRs274NgcDialect{.name = "rs274ngc",
@@ -99,6 +105,7 @@ const Dialect kRs274NgcDialect{.name = "rs274ngc",
                                // only a machine without `tool_changer` stops for a tool change.
                                .waits_at_tool_change = true,
                                .options = &list_options,
-                               .text = {.has_diameter_codes = true}};
+                               .text = {.has_diameter_codes = true},
+                               .status_fields = kStatusFields};
 
 }  // namespace dripline::interpreter

@@ -2,6 +2,7 @@
 #include "gateway/interpreter/dialects/tektronix1704/options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "gateway/interpreter/dialects/tektronix1704/interpreter.hpp"
@@ -39,6 +40,18 @@ int likelihood(std::string_view head, std::string_view file_name) {
   return has_coordinate ? 70 : 20;
 }
 
+ScreenSettings screen(const Setup& setup) {
+  const auto options = read_options(setup);
+  ScreenSettings shown;
+  if (!options) return shown;
+  shown.units = options->is_metric() ? Units::Millimeter : Units::Inch;
+  shown.axes.emplace();
+  for (std::size_t axis = 0; axis < options->axes; ++axis) shown.axes->set(axis);
+  return shown;
+}
+
+constexpr std::array kStatusFields{status_field::kIncremental};
+
 }  // namespace
 
 /// G20 and G30 are arcs, G50 is rapid traverse.
@@ -55,6 +68,8 @@ const Dialect kTektronix1704Dialect{.name = "tektronix-1704",
                                     .waits_at_tool_change = true,
                                     .list = planning_sheet,
                                     .options = list_options,
-                                    .text = {.motion_codes = kMotionCodes}};
+                                    .text = {.motion_codes = kMotionCodes},
+                                    .status_fields = kStatusFields,
+                                    .screen = screen};
 
 }  // namespace dripline::interpreter

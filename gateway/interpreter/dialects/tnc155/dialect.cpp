@@ -1,12 +1,14 @@
 #include "gateway/interpreter/core/dialects.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 
+#include <array>
 #include <string>
 
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
 #include "gateway/interpreter/dialects/tnc155/interpreter.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/program_memory.hpp"
 #include "protocol/base/decimal.hpp"
 
@@ -128,6 +130,26 @@ int likelihood(std::string_view head, std::string_view) {
   return 0;
 }
 
+/// MOD: mm/inch, position display, large and small characters. Blocks of ISO programs, which begin
+/// with N, G or %, are never large.
+ScreenSettings screen(const Setup& setup) {
+  ScreenSettings shown;
+  shown.position = ShownPosition::Actual;
+  const auto settings = read_mod_settings(setup.control);
+  if (!settings) return shown;
+  shown.units = settings->display_units;
+  constexpr std::array kPositions{ShownPosition::Actual, ShownPosition::Reference,
+                                  ShownPosition::FollowingError, ShownPosition::Nominal,
+                                  ShownPosition::DistanceToGo};
+  shown.position = kPositions[static_cast<std::size_t>(settings->position_display)];
+  if (settings->is_display_large) shown.large_blocks = "0123456789";
+  shown.axes.emplace(0b111).set(static_cast<std::size_t>(settings->fourth_axis));
+  return shown;
+}
+
+constexpr std::array kStatusFields{status_field::kCompensation, status_field::kToolLengthZ,
+                                   status_field::kToolRadius};
+
 }  // namespace
 
 const Dialect kTnc155Dialect{.name = "tnc155",
@@ -141,6 +163,8 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              .check_memory = &check_memory,
                              .is_protected = &is_protected,
                              .options = &list_options,
-                             .text = {.kind = TextForm::Kind::PlainLanguage}};
+                             .text = {.kind = TextForm::Kind::PlainLanguage},
+                             .status_fields = kStatusFields,
+                             .screen = &screen};
 
 }  // namespace dripline::interpreter

@@ -63,6 +63,9 @@ TEST(ApiJson, ReadsAStatusOfAnOlderServer) {
 TEST(ApiJson, GivesBackWhatItRead) {
   auto machine = test_support::machine_json("lathe-1");
   machine["status"] = status_json();
+  machine["status"]["screen"] = {{"units", "inch"},           {"position", "distance_to_go"},
+                                 {"previous_block", nullptr}, {"block", "N2 X2"},
+                                 {"next_block", "N3 X3"},     {"further_block", nullptr}};
   machine["display"] = nullptr;  // from a server before it
   machine["starts"] = nullptr;
   machine["held"] = nullptr;
@@ -70,6 +73,11 @@ TEST(ApiJson, GivesBackWhatItRead) {
   EXPECT_EQ(nlohmann::json(to_json_value(*from_json<client::Machine>(machine))), machine);
   auto run = test_support::run_json("r1", "completed");
   run["job"] = nullptr;
+  run["statistics"] = {{"motion_seconds", 2.5},
+                       {"distance_mm", 0.25},
+                       {"average_feed_mm_per_min", 6.5},
+                       {"average_block_seconds", nullptr},
+                       {"blocks_per_second", 0.5}};
   EXPECT_EQ(nlohmann::json(to_json_value(*from_json<client::Run>(run))), run);
 }
 

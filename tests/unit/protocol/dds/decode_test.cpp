@@ -118,6 +118,20 @@ TEST(Decode, TakesAStatusWithoutCoordinates) {
   EXPECT_FALSE(decode(sample)->modes->tool_axis);
 }
 
+/// A gateway from before there was a screen.
+TEST(Decode, TakesAStatusWithoutAScreen) {
+  Status message = status();
+  message.screen = Screen{.is_inch = true, .position = PositionDisplay::Actual, .block = "N1"};
+  auto sample = sample_of(message);
+  EXPECT_EQ(decode(sample)->screen, message.screen);
+  sample.screen.position = 6;
+  EXPECT_FALSE(decode(sample));
+  sample.screen = {};
+  EXPECT_FALSE(decode(sample)->screen);
+  message.screen->block = std::string(400, 'x');
+  EXPECT_LE(decode(sample_of(message))->screen->block.size(), kMaxBlockText);
+}
+
 TEST(Decode, ChecksTheCoordinates) {
   Status message = status();
   message.modes.emplace().tool_axis = 8;

@@ -310,6 +310,27 @@ TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
   EXPECT_TRUE(shown["coordinates"].is_null()) << "an older gateway";
   EXPECT_EQ(shown["emergency_stop"], false);
   EXPECT_TRUE(shown["remote_enable"].is_null());
+  EXPECT_TRUE(shown["screen"].is_null()) << "an older gateway";
+}
+
+TEST_F(ApiHandlers, ShowTheScreenOfTheControl) {
+  show_machine("lathe-1");
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.screen = dds::Screen{.is_inch = true,
+                              .position = dds::PositionDisplay::DistanceToGo,
+                              .previous_block = "",
+                              .block = "N20 G1 X2",
+                              .next_block = "N30 M30",
+                              .further_block = ""};
+  machines_.views[0].status = status;
+  EXPECT_EQ(json(get("/api/v1/machines/lathe-1"))["status"]["screen"],
+            (Json{{"units", "inch"},
+                  {"position", "distance_to_go"},
+                  {"previous_block", nullptr},
+                  {"block", "N20 G1 X2"},
+                  {"next_block", "N30 M30"},
+                  {"further_block", nullptr}}));
 }
 
 /// HD-082, HD-084.

@@ -263,6 +263,7 @@ TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
   status.axes = 0b111;
   status.modes.emplace().tool_axis = 2;
   status.modes->spindle = dds::SpindleState::Clockwise;
+  status.screen = dds::Screen{.position = dds::PositionDisplay::Actual, .block = "M30"};
   status.coordinates =
       dds::Coordinates{.following_error = std::array<double, 9>{},
                        .program = dds::ProgramFrame{.mirrored = 1, .pole_axes = 3}};

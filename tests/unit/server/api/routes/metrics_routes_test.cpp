@@ -66,12 +66,20 @@ TEST_F(MetricsRoute, AMachineStatesWhatItsControlShows) {
   show_machine("lathe-1");
   const auto display = [this] { return json(get("/api/v1/machines/lathe-1"))["display"]; };
   machines_.views.back().machine.control = "centurion";
-  EXPECT_EQ(display(), (Json{{"units", "inch"}, {"x", "diameter"}}));
+  EXPECT_EQ(display(), (Json{{"units", "inch"},
+                             {"x", "diameter"},
+                             {"fields",
+                              {"compensation", "tool_length_x", "tool_length_z", "tool_radius",
+                               "work_system", "incremental", "cycle"}}}));
   dds::Status status;
   status.run = "run-1";
   status.modes = dds::ActiveModes{};
   machines_.views.back().status = status;
   EXPECT_EQ(display()["units"], "mm") << "the program's unit applies while it is there";
+  machines_.views.back().status->screen = dds::Screen{.is_inch = true};
+  EXPECT_EQ(display()["units"], "inch") << "what the control's settings choose wins";
+  machines_.views.back().machine.control = "tnc155";
+  EXPECT_EQ(display()["fields"], (Json{"compensation", "tool_length_z", "tool_radius"}));
   machines_.views.back().machine.control = "fanuc";
   EXPECT_EQ(display()["x"], "radius");
   machines_.views.back().machine.control = "unheard-of";
