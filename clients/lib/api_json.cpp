@@ -112,6 +112,7 @@ class Writer {
     } else if constexpr (std::same_as<T, std::string>) {
       object_[key] = field.empty() ? OrderedJson(nullptr) : OrderedJson(field);
     } else if constexpr (std::same_as<T, std::vector<std::string>> ||
+                         std::same_as<T, std::vector<std::int64_t>> ||
                          (requires { OrderedJson(field); } && !std::is_class_v<T>)) {
       object_[key] = field;
     } else if constexpr (kIsMap<T>) {
@@ -225,6 +226,7 @@ DRIPLINE_API_TYPE(ShownRun);
 DRIPLINE_API_TYPE(Setup);
 DRIPLINE_API_TYPE(LoadedSetup);
 DRIPLINE_API_TYPE(Memory);
+DRIPLINE_API_TYPE(ControlValues);
 DRIPLINE_API_TYPE(Record);
 DRIPLINE_API_TYPE(Report);
 DRIPLINE_API_TYPE(MachineReport);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "clients/lib/api_types.hpp"
+#include "clients/lib/value_types.hpp"
 #include "protocol/base/result.hpp"
 
 /// The server's JSON as values and back. Reading is strict about types and required members, and

@@ -167,6 +167,7 @@ template Reply<std::vector<FolderFile>> Client::fetch_list(const std::string&, c
 template Reply<AuditState> Client::fetch(HttpRequest, std::string_view);
 template Reply<Backups> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<MachineGroup>> Client::fetch_list(const std::string&, const char*);
+template Reply<ControlValues> Client::fetch(HttpRequest, std::string_view);
 template Reply<Run> Client::fetch(HttpRequest, std::string_view);
 template Reply<ShownRun> Client::fetch(HttpRequest, std::string_view);
 template Reply<Webhook> Client::fetch(HttpRequest, std::string_view);

@@ -12,6 +12,7 @@
 #include "clients/lib/reply.hpp"
 #include "clients/lib/request_types.hpp"
 #include "clients/lib/server_location.hpp"
+#include "clients/lib/value_types.hpp"
 
 namespace dripline::client {
 
@@ -153,6 +154,10 @@ class Client {
   /// What the machine's control retained after its runs, newest first; after `run` alone unless
   /// that is empty.
   Reply<std::vector<Memory>> memories(std::string_view machine, std::string_view run, Page page);
+
+  /// What the control of the machine holds now: a page of the values whose names begin so.
+  Reply<ControlValues> control_values(std::string_view machine, std::string_view beginning,
+                                      std::uint64_t offset);
 
   Reply<Run> start_run(const RunRequest& request);
   /// `at`: executed, block=1234, L7, N120, T3, time=2026-11-23T15:04:05Z.

@@ -88,6 +88,21 @@ void ControlMemory::stage_beginning(const std::string& revision) {
   if (memory_.beginning() != beginning) memory_.stage_beginning(std::move(beginning));
 }
 
+std::vector<ControlMemory::Value> ControlMemory::values() const {
+  std::vector<Value> values;
+  if (known_.empty()) {
+    for (const auto& [name, cell] : cells_) values.push_back({name, cell.kept.value});
+    return values;
+  }
+  values.reserve(known_.size());
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    const auto changed = cells_.find(known_[i].name);
+    values.push_back(
+        {known_[i].name, changed != cells_.end() ? changed->second.kept.value : base_[i]});
+  }
+  return values;
+}
+
 void ControlMemory::discard() {
   cells_.clear();
   memory_.stage_none();

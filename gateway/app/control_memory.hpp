@@ -46,6 +46,13 @@ class ControlMemory {
   std::vector<std::string> report() const;
   /// SHA-256 of the same: two memories with one digest hold the same.
   std::string digest() const;
+  /// What programs read and write, as executed blocks have left it: of the present program, or the
+  /// last one of this process; before the first, what is kept alone.
+  struct Value {
+    std::string name;
+    double value = 0;  ///< not finite: vacant
+  };
+  std::vector<Value> values() const;
   /// Whether anything has changed since this was asked last.
   bool take_change() { return std::exchange(has_changed_, false); }
 

@@ -168,6 +168,16 @@ void ExecutionRecorder::on_probed(const interpreter::Probe& probe) {
   append(probe.origin, {RecordKind::Probe, {}, dds::encode(probe_text(probe))});
 }
 
+/// A pulse ends by itself, at the state before it.
+void ExecutionRecorder::on_pin(const interpreter::PinChange& pin) {
+  switched_[{pin.axis, pin.output}] = pin.pulse_ms ? !pin.state : pin.state;
+}
+
+void ExecutionRecorder::on_miscellaneous(const interpreter::Miscellaneous& function) {
+  codes_.push_front(function.code);
+  if (codes_.size() > kMaxCodes) codes_.pop_back();
+}
+
 void ExecutionRecorder::on_stop(const interpreter::Stop& stop) {
   const std::string_view text = to_text(stop.kind);
   // Only the latest stop applies: an earlier one, such as a tool change without a wait, is over.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -68,6 +70,13 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   const std::optional<interpreter::Diagnostic>& alarm() const { return alarm_; }
   bool has_ended() const { return has_ended_; }
   bool was_aborted() const { return was_aborted_; }
+  /// Outputs that programs have switched since the gateway began, as executed blocks left them.
+  using Outputs = std::map<std::pair<interpreter::Axis, int>, bool>;
+  const Outputs& switched() const { return switched_; }
+  /// M functions handed to the machine, the last one first; at most kMaxCodes.
+  const std::deque<int>& codes() const { return codes_; }
+  static constexpr std::size_t kMaxCodes = 16;
+
   /// Text of the last stop or message, for the operator.
   const std::string& notice() const { return notice_; }
   void clear_notice() {
@@ -84,6 +93,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   void on_message(const interpreter::Message& message) override;
   void on_warning(const interpreter::Warning& warning) override;
   void on_probed(const interpreter::Probe& probe) override;
+  void on_pin(const interpreter::PinChange& pin) override;
+  void on_miscellaneous(const interpreter::Miscellaneous& function) override;
   void on_stop(const interpreter::Stop& stop) override;
   void on_alarm(const interpreter::Alarm& alarm) override;
   void on_end(const interpreter::End& end) override;
@@ -115,8 +126,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   Parts parts_;
   std::string run_;
   ProgressOf feed_progress_;
-  report::Progress reached_;  ///< by the machine
-  report::Progress counted_;  ///< in journal and outbox
+  report::Progress reached_;       ///< by the machine
+  report::Progress counted_;       ///< in journal and outbox
   std::optional<double> path_mm_;  ///< of the executed blocks
   std::uint64_t outputs_ = 0;
   bool is_between_blocks_ = true;
@@ -124,6 +135,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   std::optional<interpreter::Probe> probed_;
   std::optional<interpreter::Diagnostic> alarm_;
   bool has_ended_ = false, was_aborted_ = false;
+  Outputs switched_;
+  std::deque<int> codes_;
 };
 
 }  // namespace dripline::gateway

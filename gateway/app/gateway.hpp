@@ -78,6 +78,7 @@ class Gateway final : public MachineGateway {
   Reply operate(const dds::Command& command);
   Reply resume();
   std::optional<Reply> refusal_of_fault() const;
+  void answer_query(const dds::Command& command);
   void keep_answer(const dds::Command& command, const Reply& reply);
   Reply carry_out(const PanelCommand& command);
   Reply cycle_start();

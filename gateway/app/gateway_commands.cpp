@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <utility>
 
+#include "gateway/app/control_values.hpp"
 #include "gateway/app/gateway.hpp"
 #include "gateway/app/start_checks.hpp"
 #include "gateway/feed/pull_feed.hpp"
@@ -44,6 +46,7 @@ void Gateway::on(const dds::Command& command, SteadyTime) {
                          run_.label());
     return;
   }
+  if (command.action == CommandAction::Query) return answer_query(command);
   const auto known = commands_.find(command.id);
   if (!known) {
     process::log_error("command {} cannot be looked up: {} {}", command.id, known.error().what,
@@ -58,6 +61,19 @@ void Gateway::on(const dds::Command& command, SteadyTime) {
   const bool is_kept = command.action == CommandAction::Start && reply.is_accepted;
   if (!is_kept) keep_answer(command, reply);
   commands_.answer(command.id, reply);
+}
+
+/// It changes nothing, so it is answered at once, as often as it comes, and not kept: its sender
+/// asks again when an answer is lost.
+void Gateway::answer_query(const dds::Command& command) {
+  if (run_.session) run_.session->keep_memory(machine_->status().executed);
+  const double first = std::clamp(command.value, 0.0, 1e9);
+  dds::CommandResult result{
+      .machine = parts_.options.machine, .id = command.id, .accepted = true, .reason = {}};
+  result.values = control_values(
+      {.beginning = command.argument, .passed_over = static_cast<std::size_t>(first)}, memory_,
+      recorder_);
+  [[maybe_unused]] const auto written = parts_.endpoint.write(result);
 }
 
 /// A stop is carried out whenever it arrives and for any session: one stop too many does no harm.

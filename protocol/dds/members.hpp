@@ -293,6 +293,7 @@ void members(V&& v, Is<CommandResult> auto& m) {
   v(DRIPLINE_MEMBER(id), Identifier{});
   v(DRIPLINE_MEMBER(accepted));
   v(DRIPLINE_MEMBER(reason), FreeText{});
+  v(DRIPLINE_MEMBER(values), SetupText{});
 }
 
 template <class V>

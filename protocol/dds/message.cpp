@@ -26,9 +26,9 @@ Words words_of(RecordKind) {
 }
 
 Words words_of(CommandAction) {
-  static constexpr std::array<std::string_view, 11> kWords{
+  static constexpr std::array<std::string_view, 12> kWords{
       "start",         "hold",           "resume",           "abort",     "answer", "switch",
-      "feed_override", "rapid_override", "spindle_override", "handwheel", "refuse"};
+      "feed_override", "rapid_override", "spindle_override", "handwheel", "refuse", "query"};
   return kWords;
 }
 

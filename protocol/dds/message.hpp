@@ -61,6 +61,7 @@ enum class CommandAction : std::uint8_t {
   SpindleOverride,
   Handwheel,
   Refuse,  ///< the server does not command this gateway; `argument` is the reason
+  Query,   ///< asks for values of the control, and changes nothing; needs a gateway with a Screen
 };
 enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, Counterclockwise, Thread };
 enum class CompensationSide : std::uint8_t { Off, Left, Right };
@@ -314,6 +315,7 @@ struct CommandResult {
   std::string machine, id;
   bool accepted = false;
   std::string reason;
+  std::string values = {};  ///< of a query: JSON, at most kMaxCommandSetup
   friend bool operator==(const CommandResult&, const CommandResult&) = default;
 };
 

@@ -103,6 +103,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/machines/{name}/setup/loaded", View},
     RoutePermission{"PUT", "/api/v1/machines/{name}/setup/loaded", Operate, Name},
     RoutePermission{"GET", "/api/v1/machines/{name}/memory", View},
+    RoutePermission{"GET", "/api/v1/machines/{name}/values", View},
 
     RoutePermission{"POST", "/api/v1/runs", Operate, Start},
     RoutePermission{"GET", "/api/v1/runs", View},

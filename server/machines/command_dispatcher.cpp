@@ -64,6 +64,18 @@ Result<void> CommandDispatcher::send_to_present(dds::Command command, SteadyTime
 }
 
 Result<void> CommandDispatcher::carry_out(dds::Command command) {
+  const auto result = send_and_await(command);
+  if (!result) return fail(result.error());
+  return {};
+}
+
+Result<std::string> CommandDispatcher::ask(dds::Command query) {
+  auto result = send_and_await(query);
+  if (!result) return fail(result.error());
+  return std::move(result->values);
+}
+
+Result<dds::CommandResult> CommandDispatcher::send_and_await(dds::Command command) {
   const SteadyTime deadline = stamp(command);
   const std::string id = command.id;
   {
@@ -71,7 +83,7 @@ Result<void> CommandDispatcher::carry_out(dds::Command command) {
     waiting_[id] = {.command = command, .result = {}, .deadline = deadline};
   }
   const auto written = write_in_time(command, deadline);
-  const auto outcome = written ? await(id) : written;
+  auto outcome = written ? await(id) : Result<dds::CommandResult>(fail(written.error()));
   const std::lock_guard lock(mutex_);
   const bool is_unknown = !outcome && outcome.error().code == Errc::Timeout;
   if (is_unknown && command.action == dds::CommandAction::Start) {
@@ -92,7 +104,7 @@ Result<void> CommandDispatcher::write_in_time(const dds::Command& command, Stead
   }
 }
 
-Result<void> CommandDispatcher::await(const std::string& id) {
+Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
   const auto expiry = std::chrono::steady_clock::now() + options_.expiry;
   const auto limit = expiry + options_.grace;
   std::unique_lock lock(mutex_);
@@ -109,7 +121,7 @@ Result<void> CommandDispatcher::await(const std::string& id) {
   }
   const bool is_decided = changed_.wait_until(lock, limit, is_resolved);
   if (waiting.result) {
-    if (waiting.result->accepted) return {};
+    if (waiting.result->accepted) return *waiting.result;
     return fail(Errc::Busy, "machine {} refused {}: {}", waiting.command.machine,
                 dds::to_string(waiting.command.action), waiting.result->reason);
   }

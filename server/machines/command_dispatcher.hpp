@@ -43,6 +43,8 @@ class CommandDispatcher {
   /// (refused: the gateway's reason), Timeout (nothing heard in time), NotFound (never announced),
   /// Io (the server is stopping).
   Result<void> carry_out(dds::Command command);
+  /// Asks for values (CommandAction::Query): as carry_out; returns what the gateway answers.
+  Result<std::string> ask(dds::Command query);
   /// Without waiting for the result; for commands of the server itself.
   Result<void> send(dds::Command command);
 
@@ -63,7 +65,8 @@ class CommandDispatcher {
   SteadyTime stamp(dds::Command& command);
   Result<void> send_to_present(dds::Command command, SteadyTime deadline);
   Result<void> write_in_time(const dds::Command& command, SteadyTime deadline);
-  Result<void> await(const std::string& id);
+  Result<dds::CommandResult> await(const std::string& id);
+  Result<dds::CommandResult> send_and_await(dds::Command command);
 
   const std::uint64_t session_;  ///< of this server
   dds::ServerEndpoint& endpoint_;

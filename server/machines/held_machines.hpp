@@ -74,6 +74,7 @@ class HeldMachines final : public MachineControl {
   Result<MachineView> machine(const std::string& name) const override;
   Result<storage::Run> start(const StartRequest& request) override { return inner_.start(request); }
   Result<void> command(const CommandRequest& request) override;
+  Result<std::string> values(const ValueQuery& query) override { return inner_.values(query); }
 
  private:
   Result<void> hold(const CommandRequest& request, const std::string& machine);

@@ -102,6 +102,13 @@ struct CommandRequest {
   std::string who = {}, reason = {};
 };
 
+/// Which values of a control are asked for.
+struct ValueQuery {
+  std::string machine;
+  std::string beginning;          ///< of their names; empty: all
+  std::uint64_t passed_over = 0;  ///< of the values with such a name
+};
+
 /// Receives what happens at the machines. Called on worker threads, never two calls for one machine
 /// at once; must return soon.
 struct MachineListener {
@@ -127,6 +134,10 @@ class MachineControl {
   /// Errors: NotFound (run, machine), Conflict (it has ended), Busy (refused, with the
   /// gateway's reason), Timeout (not connected, or no answer in time: the outcome is unknown).
   virtual Result<void> command(const CommandRequest& request) = 0;
+  /// What its control's variables, offsets and outputs are now, as the gateway's JSON
+  /// (gateway/app/control_values.hpp); changes nothing. Errors: NotFound, Unsupported (a control at
+  /// the end of a line, an older gateway), Timeout (not connected, no answer in time).
+  virtual Result<std::string> values(const ValueQuery& query) = 0;
 };
 
 }  // namespace dripline::machines

@@ -240,6 +240,29 @@ Result<void> MachineService::command_machine(const CommandRequest& request) {
   return owned_parts_->commands.carry_out(std::move(command));
 }
 
+Result<std::string> MachineService::values(const ValueQuery& query) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  const auto view = connected_machine(query.machine);
+  if (!view) return fail(view.error());
+  if (view->has_serial_line()) {
+    return fail(Errc::Unsupported,
+                "machine {}: its control is at the end of a line, and its values are there",
+                query.machine);
+  }
+  if (view->status && !view->status->screen) {
+    return fail(Errc::Unsupported,
+                "machine {}: its gateway {} is older and answers no questions for values",
+                query.machine, view->machine.gateway_version);
+  }
+  dds::Command command;
+  command.machine = query.machine;
+  command.action = dds::CommandAction::Query;
+  command.argument = query.beginning;
+  command.value = static_cast<double>(query.passed_over);
+  return parts->commands.ask(std::move(command));
+}
+
 /// The sender has got an error for this start, so it must not run.
 void MachineService::on_late_start(const dds::Command& late) {
   storage::Run run;

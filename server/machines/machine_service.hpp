@@ -56,6 +56,7 @@ class MachineService final : public MachineControl {
   Result<MachineView> machine(const std::string& name) const override;
   Result<storage::Run> start(const StartRequest& request) override;
   Result<void> command(const CommandRequest& request) override;
+  Result<std::string> values(const ValueQuery& query) override;
   dds::Rejected rejected() const;
   /// Promises: LineQueries::ask.
   Result<dds::LineData> ask_line(dds::LineRequest request,

@@ -242,6 +242,16 @@ Result<storage::Run> MachineRouter::start(const machines::StartRequest& request)
   return lines_.start(request);
 }
 
+Result<std::string> LineMachines::values(const machines::ValueQuery& query) {
+  return fail(Errc::Unsupported,
+              "machine {}: its control is at the end of a line, and its values are there",
+              query.machine);
+}
+
+Result<std::string> MachineRouter::values(const machines::ValueQuery& query) {
+  return lines_.machine(query.machine) ? lines_.values(query) : gateways_.values(query);
+}
+
 Result<void> MachineRouter::command(const machines::CommandRequest& request) {
   if (request.run.empty()) {
     return lines_.machine(request.machine) ? lines_.command(request) : gateways_.command(request);

@@ -29,6 +29,7 @@ class LineMachines final : public machines::MachineControl {
   Result<storage::Run> start(const machines::StartRequest& request) override;
   /// Hold, Resume and Abort; others are Unsupported.
   Result<void> command(const machines::CommandRequest& request) override;
+  Result<std::string> values(const machines::ValueQuery& query) override;
 
   /// The same as `start` for callers that must not wait: `started` is called on the machine's
   /// strand. `wire_name` is what the control calls the program; empty: as the library does.
@@ -68,6 +69,7 @@ class MachineRouter final : public machines::MachineControl {
   Result<machines::MachineView> machine(const std::string& name) const override;
   Result<storage::Run> start(const machines::StartRequest& request) override;
   Result<void> command(const machines::CommandRequest& request) override;
+  Result<std::string> values(const machines::ValueQuery& query) override;
 
  private:
   storage::RunStore& runs_;

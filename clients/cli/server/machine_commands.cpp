@@ -6,6 +6,7 @@
 #include "clients/cli/server/display_text.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/value_commands.hpp"
 #include "clients/cli/setup/change_log.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
@@ -182,6 +183,7 @@ void add_machine_commands(Command app, Context& context) {
   run_at_server(status, context, name, show_status);
 
   add_switch(group, context);
+  add_value_verbs(group, context);
 
   auto watched = std::make_shared<std::string>();
   auto watch = group.add_subcommand("watch", "Follow a machine, or all, until Ctrl-C");

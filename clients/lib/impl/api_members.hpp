@@ -2,6 +2,7 @@
 
 #include "clients/lib/api_types.hpp"
 #include "clients/lib/impl/server_members.hpp"
+#include "clients/lib/value_types.hpp"
 
 /// The members of every type of api_types.hpp, listed once, in the documented order. A visitor `v`
 /// is called for each: `v(key, member)`; `v.flag` for one that is only present when true, `v.later`
@@ -259,6 +260,21 @@ void members(V& v, Is<LoadedSetup> auto& x) {
 template <class V>
 void members(V& v, Is<MemoryCell> auto& x) {
   DRIPLINE_MEMBERS(name, value, setup);
+}
+
+template <class V>
+void members(V& v, Is<ControlValue> auto& x) {
+  DRIPLINE_MEMBERS(name, value);
+}
+
+template <class V>
+void members(V& v, Is<ControlOutput> auto& x) {
+  DRIPLINE_MEMBERS(axis, output, on);
+}
+
+template <class V>
+void members(V& v, Is<ControlValues> auto& x) {
+  DRIPLINE_MEMBERS(machine, values, next, outputs, codes);
 }
 
 template <class V>

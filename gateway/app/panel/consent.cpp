@@ -23,7 +23,8 @@ bool needs_consent(const dds::Command& command, const machine::OperatorPanel& pa
     case CommandAction::Start:
     case CommandAction::Hold:
     case CommandAction::Abort:
-    case CommandAction::Refuse:  // not a command to the machine
+    case CommandAction::Refuse:  // these two are no commands to the machine
+    case CommandAction::Query:
       return false;
     case CommandAction::Switch:
       return lets_run_on(command, panel);

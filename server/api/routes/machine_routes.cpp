@@ -161,6 +161,34 @@ Response show_machine(Services& services, const Request& request) {
   return value_response(200, services.machines.machine(request.parameter("name")), machine_json);
 }
 
+/// What the gateway answers is checked: it goes on to programs.
+Result<nlohmann::json> values_json(const std::string& machine, const std::string& answer) {
+  auto values = nlohmann::json::parse(answer, nullptr, false);
+  const auto has = [&values](const char* name, bool (nlohmann::json::*is_type)() const noexcept) {
+    return values.contains(name) && (values[name].*is_type)();
+  };
+  const bool is_good = values.is_object() && has("values", &nlohmann::json::is_array) &&
+                       has("outputs", &nlohmann::json::is_array) &&
+                       has("codes", &nlohmann::json::is_array) && values.contains("next");
+  if (!is_good)
+    return fail(Errc::Corrupt, "machine {}: its gateway's answer has no values", machine);
+  values["machine"] = machine;
+  return values;
+}
+
+Response show_values(Services& services, const Request& request) {
+  QueryReader query(request);
+  constexpr std::uint64_t kMaxPassedOver = 1'000'000;
+  machines::ValueQuery asked{.machine = request.parameter("name"),
+                             .beginning = query.text("beginning").value_or(""),
+                             .passed_over = query.number("offset", kMaxPassedOver).value_or(0)};
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto answer = services.machines.values(asked);
+  if (!answer) return error_response(answer.error());
+  const auto values = values_json(asked.machine, *answer);
+  return values ? json_response(200, *values) : error_response(values.error());
+}
+
 Response command_machine(Services& services, const Request& request) {
   auto command = decode_machine_command(request.body);
   if (!command) return error_response(command.error());
@@ -173,6 +201,8 @@ Response command_machine(Services& services, const Request& request) {
 void add_machine_routes(Router& router, Services& services) {
   router.add("GET", "/api/v1/machines", with(services, list_machines));
   router.add("GET", "/api/v1/machines/{name}", with(services, show_machine));
+  router.add("GET", "/api/v1/machines/{name}/values", with(services, show_values),
+             Waits::ForMachine);
   router.add("POST", "/api/v1/machines/{name}/commands", with(services, command_machine),
              Waits::ForMachine);
 }

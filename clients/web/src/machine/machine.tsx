@@ -9,6 +9,7 @@ import { Blocks } from './blocks';
 import { ExecutedPath } from './executed_path';
 import { ExecutingText } from './executing_text';
 import { MachineQueue, NextJob } from './jobs/queue';
+import { LiveValues } from './live_values';
 import { MachineMemory } from './memory';
 import { Modes } from './modes';
 import { Overrides } from './overrides';
@@ -80,6 +81,9 @@ export default function MachineView({ path }: { path: string[] }) {
   const [name = '', tab = 'now'] = path;
   const feed = useFeed('machines', 'link');
   const t = texts().machine;
+  const { connected = false, status = null } = feed.machines.get(name) ?? {};
+  // An older gateway, and a control at the end of a line, answer no questions for values.
+  const canAsk = connected && status?.screen != null;
   if (!feed.machines.has(name)) {
     return <p class="notice">{feed.link.state === 'connecting' ? texts().app.loading : t.unknown(name)}</p>;
   }
@@ -90,7 +94,7 @@ export default function MachineView({ path }: { path: string[] }) {
       {tab === 'now' && <Now name={name} />}
       {tab === 'queue' && <MachineQueue name={name} key={name} />}
       {tab === 'setup' && <MachineSetup machine={name} key={name} />}
-      {tab === 'memory' && <MachineMemory machine={name} />}
+      {tab === 'memory' && <>{canAsk && <LiveValues machine={name} key={name} />}<MachineMemory machine={name} /></>}
       {tab === 'runs' && <MachineRuns machine={name} />}
     </>
   );

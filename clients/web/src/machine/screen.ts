@@ -35,3 +35,8 @@ export function blocksOf(status: Shown): ShownBlock[] {
   const all: Array<[string | null, boolean]> = [[screen.previous_block, false], [screen.block, true], [screen.next_block, false], [screen.further_block, false]];
   return all.filter((entry): entry is [string, boolean] => entry[0] !== null).map(([text, isExecuting]) => ({ text, isExecuting }));
 }
+
+/// Those that are neither 0 nor vacant: most of a control's thousands are.
+export function usedValues<T extends { value: number | null }>(values: T[]): T[] {
+  return values.filter(({ value }) => value !== null && value !== 0);
+}

@@ -5,7 +5,7 @@ import { probingOf, recordText } from '../../src/live/record_text';
 import { startBody } from '../../src/machine/commands';
 import { addRow, columnsOf, readTables, setCell } from '../../src/machine/setup/setup_tables';
 import { holds, numberLines, rangeAround, type TextWindow } from '../../src/machine/text_window';
-import { blocksOf, hasField, positionsOf } from '../../src/machine/screen';
+import { blocksOf, hasField, positionsOf, usedValues } from '../../src/machine/screen';
 import { axisText, isDiameter, lengthText, sortAxes, unitOf } from '../../src/machine/units';
 import { canStartAt, placeOf } from '../../src/machine/start_places';
 import { diffLines, foldDiff } from '../../src/parts/diff';
@@ -159,4 +159,9 @@ test('a control has no fields of another', () => {
   const tnc = { units: 'mm' as const, x: 'radius' as const, fields: ['tool_length_z' as const] };
   assert.ok(hasField(tnc, 'tool_length_z') && !hasField(tnc, 'work_system'));
   assert.ok(hasField(null, 'work_system'), 'of a control that is not known nothing is left out');
+});
+
+test('of a control\'s values those are listed that are in use', () => {
+  const one = (name: string, value: number | null) => ({ name, value });
+  assert.deepEqual(usedValues([one('P1', 0), one('P2', -1), one('#5', null), one('P3', 0.1)]).map(({ name }) => name), ['P2', 'P3']);
 });

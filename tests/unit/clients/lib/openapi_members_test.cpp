@@ -96,6 +96,11 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<client::Webhook>(), described("Webhook"));
   EXPECT_EQ(read_by_the_client<client::WebhookTest>(), described("WebhookTest"));
   EXPECT_EQ(read_by_the_client<Memory>(), described("Memory"));
+  EXPECT_EQ(read_by_the_client<Screen>(), described("Screen"));
+  EXPECT_EQ(read_by_the_client<RunStatistics>(), described("RunStatistics"));
+  EXPECT_EQ(read_by_the_client<ControlValues>(), described("Values"));
+  EXPECT_EQ(read_by_the_client<ControlValue>(), described("Values/properties/values/items"));
+  EXPECT_EQ(read_by_the_client<ControlOutput>(), described("Values/properties/outputs/items"));
   EXPECT_EQ(read_by_the_client<MemoryCell>(), described("Memory/properties/cells/items"));
   EXPECT_EQ(read_by_the_client<Report>(), described("Report"));
   EXPECT_EQ(read_by_the_client<MachineReport>(), described("MachineReport"));

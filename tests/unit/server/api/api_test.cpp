@@ -313,6 +313,23 @@ TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
   EXPECT_TRUE(shown["screen"].is_null()) << "an older gateway";
 }
 
+TEST_F(ApiHandlers, AskTheGatewayForTheValuesOfItsControl) {
+  show_machine("lathe-1");
+  const auto values = json(get("/api/v1/machines/lathe-1/values?beginning=P1&offset=7"));
+  EXPECT_EQ(values["machine"], "lathe-1");
+  EXPECT_EQ(values["values"][0], (Json{{"name", "P10"}, {"value", 7.5}}));
+  EXPECT_TRUE(values["values"][1]["value"].is_null());
+  EXPECT_EQ(values["outputs"][0]["axis"], "X");
+  EXPECT_EQ(machines_.asked.at(0).beginning, "P1");
+  EXPECT_EQ(machines_.asked.at(0).passed_over, 7U);
+  expect_error(get("/api/v1/machines/lathe-9/values"), 404, "not_found", "lathe-9");
+  expect_error(get("/api/v1/machines/lathe-1/values?offset=x"), 400, "syntax", "offset");
+  machines_.answer = "[]";
+  expect_error(get("/api/v1/machines/lathe-1/values"), 500, "corrupt", "lathe-1");
+  machines_.refusal = Error{Errc::Unsupported, "its control is at the end of a line"};
+  expect_error(get("/api/v1/machines/lathe-1/values"), 422, "unsupported", "end of a line");
+}
+
 TEST_F(ApiHandlers, ShowTheScreenOfTheControl) {
   show_machine("lathe-1");
   dds::Status status;

@@ -33,8 +33,18 @@ class FakeMachines final : public machines::MachineControl {
     if (refusal) return fail(*refusal);
     return {};
   }
+  Result<std::string> values(const machines::ValueQuery& query) override {
+    asked.push_back(query);
+    if (refusal) return fail(*refusal);
+    if (auto view = machine(query.machine); !view) return fail(view.error());
+    return answer;
+  }
 
   std::vector<machines::MachineView> views;
+  std::vector<machines::ValueQuery> asked;
+  std::string answer =
+      R"({"values":[{"name":"P10","value":7.5},{"name":"P11","value":null}],"next":null,)"
+      R"("outputs":[{"axis":"X","output":3,"on":true}],"codes":[21]})";
   int sent = 0;  ///< starts that went to a machine
   std::vector<machines::StartRequest> started;
   std::vector<machines::CommandRequest> commands;

@@ -299,6 +299,8 @@ TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
                    call("DELETE", "/api/v1/uploads/" + json(given_up).value("id", "")));
   expect_described("GET", "/api/v1/machines", get("/api/v1/machines"));
   expect_described("GET", "/api/v1/machines/{name}", get("/api/v1/machines/lathe-1"));
+  expect_described("GET", "/api/v1/machines/{name}/values",
+                   get("/api/v1/machines/lathe-1/values?beginning=P"));
   expect_described("POST", "/api/v1/machines/{name}/commands",
                    post("/api/v1/machines/lathe-1/commands",
                         {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}}));

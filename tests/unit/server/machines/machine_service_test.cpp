@@ -218,6 +218,38 @@ TEST_F(MachineRuns, AreNotNeededForCommandsToAMachinesPanel) {
   EXPECT_EQ(service_->command(request).error().code, Errc::Timeout);
 }
 
+/// A gateway with a screen answers queries; an older one would throw them away.
+TEST_F(MachineRuns, AreNotNeededToAskForTheValuesOfAControl) {
+  start_service();
+  EXPECT_EQ(service_->values({.machine = "lathe-1", .beginning = ""}).error().code, Errc::NotFound);
+  announce();
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.session = kSession;
+  status.time = clock_.now();
+  status.steady = gateway_steady();
+  network_.on_status(status);
+  const machines::ValueQuery query{.machine = "lathe-1", .beginning = "P1", .passed_over = 20};
+  EXPECT_EQ(service_->values(query).error().code, Errc::Unsupported) << "an older gateway";
+  EXPECT_TRUE(written_->commands.empty());
+  status.screen.emplace();
+  network_.on_status(status);
+  written_->on_command = [this](const dds::Command& command) {
+    network_.on_command_result(
+        {.machine = "lathe-1", .id = command.id, .accepted = true, .reason = "", .values = "{}"});
+  };
+  const auto values = service_->values(query);
+  ASSERT_TRUE(values) << values.error().what;
+  EXPECT_EQ(*values, "{}");
+  const dds::Command& command = written_->commands.at(0);
+  EXPECT_EQ(command.action, dds::CommandAction::Query);
+  EXPECT_EQ(command.argument, "P1");
+  EXPECT_EQ(command.value, 20);
+  status.serial_line.emplace();
+  network_.on_status(status);
+  EXPECT_EQ(service_->values(query).error().code, Errc::Unsupported) << "a control on a line";
+}
+
 TEST_F(MachineRuns, AreActiveWhenTheMachineShowsThemAfterARestart) {
   const std::string run = stored_run();
   start_service();

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dripline::client {
+
+/// A variable, an offset or a table entry of a control, under the control's own name.
+struct ControlValue {
+  std::string name;
+  std::optional<double> value = {};  ///< absent: vacant
+};
+
+/// An output that a program has switched.
+struct ControlOutput {
+  std::string axis;
+  std::int64_t output = 0;
+  bool on = false;
+};
+
+/// What a machine's control holds now, as executed blocks have left it.
+struct ControlValues {
+  std::string machine;
+  std::vector<ControlValue> values;
+  std::optional<std::uint64_t> next = {};  ///< how many to pass over for the rest
+  std::vector<ControlOutput> outputs;
+  std::vector<std::int64_t> codes;  ///< M functions handed to the machine, the last one first
+};
+
+}  // namespace dripline::client

@@ -1,0 +1,88 @@
+#include "gateway/app/control_values.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "gateway/interpreter/core/dialects.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
+
+/// CEN-245: what the DIAG, PROG and USER pages of a control show, asked of a running gateway.
+namespace dripline::gateway {
+namespace {
+
+using nlohmann::json;
+
+class ControlValues : public testing::Test {
+ protected:
+  json ask(const std::string& beginning, double passed_over = 0) {
+    dds::Command query = fixture_.command(dds::CommandAction::Query);
+    query.argument = beginning;
+    query.value = passed_over;
+    const dds::CommandResult result = fixture_.send(query);
+    EXPECT_TRUE(result.accepted) << result.reason;
+    return json::parse(result.values);
+  }
+  static json value_of(const json& answer, const std::string& name) {
+    for (const json& one : answer["values"])
+      if (one["name"] == name) return one["value"];
+    return "not there";
+  }
+
+  GatewayFixture fixture_{interpreter::kCenturionDialect,
+                          *interpreter::parse_setup("units = \"in\"\nstart = { X = 2, Z = 2 }"),
+                          "1x"};
+};
+
+TEST_F(ControlValues, AreThoseOfTheExecutedBlocksWhileAProgramRuns) {
+  fixture_.push("O1",
+                "G98\nP10=7.5\nSET X 3\nM0\nP10=9\nP11=1\nCLR X 3\nSET Z 1\nM21\nG1 X1 F1\nM30\n");
+  ASSERT_TRUE(fixture_.start("O1").accepted);
+  ASSERT_TRUE(fixture_.run_until([&] {
+    return fixture_.status && fixture_.status->execution == dds::Execution::ProgramStopped;
+  })) << fixture_.status->message;
+  json answer = ask("P1");
+  EXPECT_EQ(value_of(answer, "P10"), 7.5);
+  EXPECT_EQ(value_of(answer, "P11"), 0.0) << "a block that is only read ahead has changed nothing";
+  EXPECT_EQ(value_of(answer, "P20"), "not there") << "another beginning";
+  EXPECT_EQ(answer["outputs"], json::parse(R"([{"axis":"X","output":3,"on":true}])"));
+}
+
+TEST_F(ControlValues, OfALongMemoryComeInPages) {
+  fixture_.push("O1", "P10=7.5\nM30\n");
+  ASSERT_TRUE(fixture_.start("O1").accepted);
+  fixture_.ended();
+  std::size_t values = 0;
+  json next = 0;
+  for (int pages = 0; !next.is_null(); ++pages) {
+    ASSERT_LT(pages, 100);
+    const json answer = ask("", next.get<double>());
+    EXPECT_LE(answer.dump().size(), dds::kMaxCommandSetup);
+    values += answer["values"].size();
+    next = answer["next"];
+  }
+  EXPECT_GT(values, 1000U) << "parameters and bytes";
+  EXPECT_EQ(value_of(ask("P10"), "P10"), 7.5) << "when the program is over, too";
+}
+
+TEST_F(ControlValues, AreNoneBeforeTheFirstProgramAndChangeNothing) {
+  const json answer = ask("");
+  EXPECT_TRUE(answer["values"].empty());
+  EXPECT_TRUE(answer["outputs"].empty());
+  EXPECT_TRUE(answer["next"].is_null());
+  EXPECT_EQ(fixture_.status->execution, dds::Execution::Ready);
+}
+
+TEST_F(ControlValues, AreAnsweredAgainUnderTheSameIdAsTheyAreThen) {
+  dds::Command query = fixture_.command(dds::CommandAction::Query);
+  query.argument = "P10";
+  EXPECT_EQ(json::parse(fixture_.send(query).values)["values"].size(), 0U);
+  fixture_.push("O1", "P10=7.5\nM30\n");
+  ASSERT_TRUE(fixture_.start("O1").accepted);
+  fixture_.ended();
+  fixture_.results.erase(query.id);
+  EXPECT_EQ(value_of(json::parse(fixture_.send(query).values), "P10"), 7.5) << "no answer is kept";
+}
+
+}  // namespace
+}  // namespace dripline::gateway
