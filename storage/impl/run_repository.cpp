@@ -366,20 +366,12 @@ Result<void> apply_beginning(sqlite::Database& database, std::int64_t machine,
                      beginning.run, *beginning.gateway_setup, machine);
 }
 
-namespace {
-
-std::optional<double> optional_real(const std::optional<RunStatistics>& statistics,
-                                    double RunStatistics::*member) {
-  return statistics ? std::optional<double>((*statistics).*member) : std::nullopt;
-}
-
-}  // namespace
-
 Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,
                           const RunEnding& ending) {
   if (!is_finished(ending.state)) {
     return fail(Errc::Syntax, "run {}: {} is not an end", ending.run, to_string(ending.state));
   }
+  const auto& statistics = ending.statistics;
   const auto ended = sqlite::run(
       database,
       "UPDATE run SET state = ?2, sent = max(sent, ?3), accepted = max(accepted, ?4), "
@@ -390,8 +382,8 @@ Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,
       ending.run, to_string(ending.state), ending.counters.sent, ending.counters.accepted,
       ending.counters.executed, ending.line, ending.sequence, ending.reason,
       ending.executed_content, ending.content_verified, ending.ended, machine,
-      optional_real(ending.statistics, &RunStatistics::motion_seconds),
-      optional_real(ending.statistics, &RunStatistics::path_mm));
+      statistics ? std::optional(statistics->motion_seconds) : std::nullopt,
+      statistics ? std::optional(statistics->path_mm) : std::nullopt);
   if (!ended || database.changes() == 0) return ended;
   return add_run_end(database, ending.run);
 }

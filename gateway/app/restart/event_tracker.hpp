@@ -26,8 +26,8 @@ class EventTracker final : public interpreter::EventGate {
     return one.block == block ? one.path : 0;
   }
 
-  /// Length of the path that the machine was given up to the end of `block`, in millimeters; nothing:
-  /// not known any more.
+  /// Length of the path that the machine was given up to the end of `block`, in millimeters;
+  /// nothing: not known any more.
   std::optional<double> length_at(std::uint64_t block) const {
     const PathOfBlock& one = (*paths_)[block % kPaths];
     return one.block == block ? std::optional(one.length) : std::nullopt;

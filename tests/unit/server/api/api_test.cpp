@@ -313,43 +313,6 @@ TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
   EXPECT_TRUE(shown["screen"].is_null()) << "an older gateway";
 }
 
-TEST_F(ApiHandlers, AskTheGatewayForTheValuesOfItsControl) {
-  show_machine("lathe-1");
-  const auto values = json(get("/api/v1/machines/lathe-1/values?beginning=P1&offset=7"));
-  EXPECT_EQ(values["machine"], "lathe-1");
-  EXPECT_EQ(values["values"][0], (Json{{"name", "P10"}, {"value", 7.5}}));
-  EXPECT_TRUE(values["values"][1]["value"].is_null());
-  EXPECT_EQ(values["outputs"][0]["axis"], "X");
-  EXPECT_EQ(machines_.asked.at(0).beginning, "P1");
-  EXPECT_EQ(machines_.asked.at(0).passed_over, 7U);
-  expect_error(get("/api/v1/machines/lathe-9/values"), 404, "not_found", "lathe-9");
-  expect_error(get("/api/v1/machines/lathe-1/values?offset=x"), 400, "syntax", "offset");
-  machines_.answer = "[]";
-  expect_error(get("/api/v1/machines/lathe-1/values"), 500, "corrupt", "lathe-1");
-  machines_.refusal = Error{Errc::Unsupported, "its control is at the end of a line"};
-  expect_error(get("/api/v1/machines/lathe-1/values"), 422, "unsupported", "end of a line");
-}
-
-TEST_F(ApiHandlers, ShowTheScreenOfTheControl) {
-  show_machine("lathe-1");
-  dds::Status status;
-  status.machine = "lathe-1";
-  status.screen = dds::Screen{.is_inch = true,
-                              .position = dds::PositionDisplay::DistanceToGo,
-                              .previous_block = "",
-                              .block = "N20 G1 X2",
-                              .next_block = "N30 M30",
-                              .further_block = ""};
-  machines_.views[0].status = status;
-  EXPECT_EQ(json(get("/api/v1/machines/lathe-1"))["status"]["screen"],
-            (Json{{"units", "inch"},
-                  {"position", "distance_to_go"},
-                  {"previous_block", nullptr},
-                  {"block", "N20 G1 X2"},
-                  {"next_block", "N30 M30"},
-                  {"further_block", nullptr}}));
-}
-
 /// HD-082, HD-084.
 TEST_F(ApiHandlers, ShowThePositionDisplaysAndTheStatusWindow) {
   show_machine("lathe-1");
