@@ -10,7 +10,7 @@ export function Blocks({ status }: { status: NonNullable<Status> }) {
   return (
     <section class="panel live" aria-labelledby="blocks">
       <h2 id="blocks">{texts().machine.screenBlocks}</h2>
-      <ol class="blocks mono" tabIndex={0} aria-labelledby="blocks">
+      <ol class="screen-blocks mono" tabIndex={0} aria-labelledby="blocks">
         {shown.map((block, i) => <li key={i} aria-current={block.isExecuting ? 'step' : undefined}><span class="text">{block.text}</span></li>)}
       </ol>
     </section>

@@ -27,6 +27,7 @@ test('a program is started, held, continued, slowed down and aborted', async () 
   const first = await executing.textContent();
   await page.waitForFunction((old) => document.querySelector('.blocks [aria-current="step"] .number')?.textContent !== old, first);
   assert.match((await page.locator('.blocks [aria-current="step"] .text').textContent()) ?? '', /^N\d+ G1 X/);
+  assert.match((await page.locator('.screen-blocks [aria-current="step"]').textContent()) ?? '', /^N\d+ G1 X/, 'as the gateway has it');
   await page.getByRole('button', { name: 'Feed hold' }).click();
   await state(page, 'Feed hold').waitFor();
   await page.getByText(/^Held by \S+ since /).waitFor();
@@ -206,5 +207,19 @@ test('a control that does not search through a program is offered no start in th
   await page.getByText('The control searches the program up to the block, without motion.').waitFor();
   assert.equal(await page.getByLabel('Pass').count(), 0);
   assert.equal(await page.getByLabel('Memory for the skipped part').count(), 0);
+  assertNoComplaints(complaints);
+});
+
+test('what the variables and outputs of a control are now is shown while its program runs', async () => {
+  await shop.startMachine('lathe-9', { control: 'centurion' });
+  await shop.push('O0990', 'O0990\nP10=7.5\nSET X 3\nM0\nP10=9\nM30\n', 'centurion');
+  const run = await shop.start('lathe-9', 'O0990');
+  const { page, complaints } = await visit('#/machine/lathe-9/memory');
+  await page.getByText('Outputs: X 3 on').waitFor();
+  await page.getByLabel('Names that begin with').fill('P1');
+  await page.getByRole('row', { name: 'P10 7.5' }).waitFor();
+  await shop.api('POST', `runs/${run}/commands`, { action: 'resume' });
+  await page.getByRole('row', { name: 'P10 9' }).first().waitFor();
+  assert.deepEqual(await findBarriers(page), []);
   assertNoComplaints(complaints);
 });
