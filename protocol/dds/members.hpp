@@ -198,10 +198,11 @@ void members(V&& v, Is<LineStatus> auto& m) {
   v(DRIPLINE_MEMBER(recorded));
 }
 
+/// Its members lie among those of the Status in the IDL.
 template <class V>
 void members(V&& v, Is<Screen> auto& m) {
-  v(DRIPLINE_MEMBER(is_inch), InchOrMetric{});
-  v(DRIPLINE_MEMBER(position));
+  v(DRIPLINE_MEMBER_AS(is_inch, screen_is_inch), InchOrMetric{});
+  v(DRIPLINE_MEMBER_AS(position, screen_position));
   v(DRIPLINE_MEMBER(previous_block), FreeText{});
   v(DRIPLINE_MEMBER(block), FreeText{});
   v(DRIPLINE_MEMBER(next_block), FreeText{});
@@ -242,7 +243,7 @@ void members(V&& v, Is<Status> auto& m) {
   v(DRIPLINE_MEMBER(remote_enable));
   v(DRIPLINE_MEMBER(waits_for));
   v(DRIPLINE_MEMBER(serial_line), PresentIf{DRIPLINE_FIELD(serial_line.is_present)}, Internal{});
-  v(DRIPLINE_MEMBER(screen), PresentIf{DRIPLINE_FIELD(screen.is_present)});
+  v(Member{"screen", m.screen, "", WholeSample{}}, PresentIf{DRIPLINE_FIELD(has_screen)});
 }
 
 template <class V>

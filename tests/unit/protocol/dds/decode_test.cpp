@@ -124,9 +124,9 @@ TEST(Decode, TakesAStatusWithoutAScreen) {
   message.screen = Screen{.is_inch = true, .position = PositionDisplay::Actual, .block = "N1"};
   auto sample = sample_of(message);
   EXPECT_EQ(decode(sample)->screen, message.screen);
-  sample.screen.position = 6;
+  sample.screen_position = 6;
   EXPECT_FALSE(decode(sample));
-  sample.screen = {};
+  sample.has_screen = false;
   EXPECT_FALSE(decode(sample)->screen);
   message.screen->block = std::string(400, 'x');
   EXPECT_LE(decode(sample_of(message))->screen->block.size(), kMaxBlockText);
