@@ -45,13 +45,13 @@ struct ListenerDeleter {
 };
 using Listener = std::unique_ptr<dds_listener_t, ListenerDeleter>;
 
-/// Samples on loan from a reader, returned at the end of the scope.
+/// At most `capacity` samples on loan from a reader, returned at the end of the scope. A reader
+/// keeps room for as many as were ever asked for, and clears all of it with each return.
+template <std::size_t capacity>
 class Loan {
  public:
-  static constexpr std::size_t kCapacity = 32;
-
   explicit Loan(dds_entity_t reader)
-      : reader_(reader), size_(dds_take(reader, samples_, infos_, kCapacity, kCapacity)) {}
+      : reader_(reader), size_(dds_take(reader, samples_, infos_, capacity, capacity)) {}
   Loan(const Loan&) = delete;
   Loan& operator=(const Loan&) = delete;
   ~Loan() {
@@ -63,8 +63,8 @@ class Loan {
 
  private:
   dds_entity_t reader_;
-  void* samples_[kCapacity] = {};  // a null first element requests a loan
-  dds_sample_info_t infos_[kCapacity] = {};
+  void* samples_[capacity] = {};  // a null first element requests a loan
+  dds_sample_info_t infos_[capacity] = {};
   dds_return_t size_;
 };
 

@@ -39,6 +39,13 @@ struct ReaderHandlers {
   std::function<void()> on_matched;                  ///< the matched writers changed
 };
 
+/// How many samples are taken at once. A reader of statuses has the latest of one machine: with the
+/// room for 32 of them, its clearing was a sixth of what a status cost.
+template <class Message>
+inline constexpr std::size_t kSamplesAtOnce = 32;
+template <>
+inline constexpr std::size_t kSamplesAtOnce<Status> = 2;
+
 /// Takes every sample in the callback that announces it, checks it and delivers it. After the
 /// destructor no handler runs.
 template <class Message>
@@ -78,11 +85,11 @@ class Reader {
   // The entity is an argument: the first callback can come before create() has stored it.
   void take_all(dds_entity_t entity) {
     for (;;) {
-      const Loan loan(entity);
+      const Loan<kSamplesAtOnce<Message>> loan(entity);
       for (std::size_t i = 0; i < loan.size(); ++i) {
         handle(*static_cast<const SampleOf<Message>*>(loan.sample(i)), loan.info(i));
       }
-      if (loan.size() < Loan::kCapacity) return;
+      if (loan.size() < kSamplesAtOnce<Message>) return;
     }
   }
 
