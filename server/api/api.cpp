@@ -112,7 +112,7 @@ storage::Page read_page(QueryReader& query) {
 
 machines::MachineListener publish_to(EventHub& hub) {
   const auto publish = [&hub](const char* kind, const std::string& machine, const auto& make_text) {
-    if (!hub.has_listeners()) return;
+    if (!hub.has_listeners(machine)) return;
     hub.publish({.kind = kind, .machine = machine, .data = make_text()});
   };
   return {.on_machine =

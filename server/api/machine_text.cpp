@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -36,10 +37,12 @@ class Writer {
   void separate() {
     if (!std::exchange(is_first_, false)) text_ += ',';
   }
+  /// Of a member of ours: a word without anything that would have to be escaped.
   void name(std::string_view name) {
     separate();
-    quote(name);
-    text_ += ':';
+    text_ += '"';
+    text_ += name;
+    text_ += "\":";
   }
   template <class T>
   void member(std::string_view of, const T& what) {
@@ -71,11 +74,14 @@ class Writer {
   void quote(std::string_view text) {
     text_ += '"';
     while (!text.empty()) {
-      const std::size_t length = put_character(text);
-      text.remove_prefix(length);
+      const auto plain = std::find_if_not(text.begin(), text.end(), is_plain) - text.begin();
+      text_ += text.substr(0, static_cast<std::size_t>(plain));
+      text.remove_prefix(static_cast<std::size_t>(plain));
+      if (!text.empty()) text.remove_prefix(put_character(text));
     }
     text_ += '"';
   }
+  static bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; }
   /// The first one; returns its length.
   std::size_t put_character(std::string_view text) {
     constexpr unsigned char kBlank = 0x20, kBeyondAscii = 0x80;

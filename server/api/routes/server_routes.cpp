@@ -95,6 +95,7 @@ Response describe_server(Services& services, const Request& request) {
 Response open_events(Services& services, const Request& request) {
   QueryReader query(request);
   const auto machine = query.text("machine");
+  const auto form = query.flag("changes") ? Interest::Form::Changes : Interest::Form::Whole;
   if (auto good = query.finish(); !good) return error_response(good.error());
   if (machine) {
     if (const auto known = services.machines.machine(*machine); !known) {
@@ -102,11 +103,11 @@ Response open_events(Services& services, const Request& request) {
     }
   }
   Response response;
-  response.events = services.events.subscribe(machine);
+  response.events = services.events.subscribe(machine, form);
   if (!response.events) return too_many_listeners();
   for (const auto& view : services.machines.machines()) {
-    response.events->push(
-        {.kind = "machine", .machine = view.machine.name, .data = machine_text(view)});
+    if (!response.events->wants_machine(view.machine.name)) continue;
+    services.events.show(*response.events, view.machine.name, [&] { return machine_text(view); });
   }
   response.content_type = "text/event-stream";
   return response;

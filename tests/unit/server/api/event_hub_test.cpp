@@ -44,6 +44,76 @@ TEST(EventHub, HasTheStateOfThousandsOfMachinesForASlowListener) {
   EXPECT_EQ(slow->take(), "event: machine\ndata: {}\n\n");
 }
 
+Event machine_event(std::string machine, std::string data) {
+  return {.kind = "machine", .machine = std::move(machine), .data = std::move(data)};
+}
+
+TEST(EventHub, SendsAMachineWholeAndThenItsChanges) {
+  EventHub hub;
+  const auto changes = hub.subscribe({}, Interest::Form::Changes);
+  const auto whole = hub.subscribe({});
+  hub.publish(machine_event("m1", R"({"name":"m1","a":1,"b":1})"));
+  EXPECT_EQ(changes->take(),
+            "event: machine\ndata: {\"version\":1,\"name\":\"m1\",\"a\":1,\"b\":1}\n\n");
+  hub.publish(machine_event("m1", R"({"name":"m1","a":1,"b":2})"));
+  EXPECT_EQ(changes->take(),
+            "event: change\ndata: {\"after\":1,\"version\":2,\"name\":\"m1\",\"b\":2}\n\n");
+  EXPECT_EQ(whole->take(), "event: machine\ndata: {\"name\":\"m1\",\"a\":1,\"b\":2}\n\n");
+  hub.publish(machine_event("m1", R"({"name":"m1","a":1})"));
+  EXPECT_EQ(changes->take(), "event: machine\ndata: {\"version\":3,\"name\":\"m1\",\"a\":1}\n\n")
+      << "it has other members";
+  hub.publish(machine_event("m1", R"({"name":"m1","a":1})"));
+  EXPECT_EQ(changes->take(), "") << "nothing has changed";
+}
+
+TEST(EventHub, SendsASlowListenerAllThatHasChangedSinceItsLastVersion) {
+  EventHub hub;
+  const auto slow = hub.subscribe({}, Interest::Form::Changes);
+  hub.publish(machine_event("m1", R"({"name":"m1","a":1,"b":1,"c":1})"));
+  slow->take();
+  hub.publish(machine_event("m1", R"({"name":"m1","a":2,"b":1,"c":1})"));
+  hub.publish(machine_event("m1", R"({"name":"m1","a":2,"b":2,"c":1})"));
+  EXPECT_EQ(slow->take(),
+            "event: change\ndata: {\"after\":1,\"version\":3,\"name\":\"m1\",\"a\":2,\"b\":2}\n\n");
+}
+
+TEST(EventHub, SendsWholeStatesToAListenerThatComesBackAfterItWasCutOff) {
+  EventHub hub;
+  auto listener = hub.subscribe({}, Interest::Form::Changes);
+  hub.publish(machine_event("m1", R"({"name":"m1","a":1})"));
+  listener->take();
+  for (std::size_t i = 0; i <= EventSubscription::kMaxEvents; ++i)
+    hub.publish({.kind = "record", .machine = "m1", .data = "{}"});
+  hub.publish(machine_event("m1", R"({"name":"m1","a":2})"));
+  ASSERT_TRUE(listener->is_closed());
+  EXPECT_EQ(listener->take(), "");
+  listener = hub.subscribe({}, Interest::Form::Changes);
+  hub.show(*listener, "m1", [] { return R"({"name":"m1","a":3})"; });
+  EXPECT_EQ(listener->take(), "event: machine\ndata: {\"version\":3,\"name\":\"m1\",\"a\":3}\n\n");
+}
+
+TEST(EventHub, ShowsNothingOlderThanWhatWasPublishedSince) {
+  EventHub hub;
+  const auto listener = hub.subscribe({});
+  hub.publish(machine_event("m1", "new"));
+  hub.show(*listener, "m1", []() -> std::string { return "old"; });
+  EXPECT_EQ(listener->take(), "event: machine\ndata: new\n\n");
+  const auto later = hub.subscribe({});
+  hub.show(*later, "m1", []() -> std::string { return "newer"; });
+  EXPECT_EQ(later->take(), "event: machine\ndata: newer\n\n") << "published before it began";
+}
+
+TEST(EventHub, KnowsWhoReceivesTheStateOfAMachine) {
+  EventHub hub;
+  EXPECT_FALSE(hub.has_listeners("m1"));
+  const auto port = hub.subscribe_port("m1");
+  const auto one = hub.subscribe("m1");
+  EXPECT_TRUE(hub.has_listeners("m1"));
+  EXPECT_FALSE(hub.has_listeners("m2"));
+  const auto all = hub.subscribe({});
+  EXPECT_TRUE(hub.has_listeners("m2"));
+}
+
 TEST(EventHub, CutsOffAListenerThatIsTooSlow) {
   EventHub hub;
   const auto slow = hub.subscribe({});
