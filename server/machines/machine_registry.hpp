@@ -53,10 +53,10 @@ class MachineRegistry {
   static constexpr std::chrono::seconds kContested{3};
   /// What only moves on (positions, counters) is published in rounds, so often at most; what else
   /// changes goes out at once.
-  static constexpr std::chrono::milliseconds kShortestRound{50}, kLongestRound{250};
-  /// A round is a millisecond longer for so many machines: a thousand are published four times a
+  static constexpr std::chrono::milliseconds kShortestRound{50}, kLongestRound{200};
+  /// A round is a millisecond longer for so many machines: a thousand are published five times a
   /// second.
-  static constexpr std::size_t kMachinesAMillisecond = 4;
+  static constexpr std::size_t kMachinesAMillisecond = 5;
 
   struct Parts {
     storage::MachineStore& machines;
