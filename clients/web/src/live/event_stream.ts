@@ -24,6 +24,7 @@ export async function readEvents(path: string, signal: AbortSignal, onOpen: () =
       for (const event of parser.take(value)) onEvent(event);
     }
   } finally {
+    end(); // also when an event was refused
     clearTimeout(watch);
     signal.removeEventListener('abort', end);
   }

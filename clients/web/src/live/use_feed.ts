@@ -3,7 +3,25 @@ import { useEffect, useReducer } from 'preact/hooks';
 import { feed, type Feed, type Topic } from './feed';
 
 /// What is not on screen is kept nearly current: for a screen reader, and for the moment in which it is scrolled to.
-const kFarMs = 5000;
+const kFarMs = 10_000;
+
+/// Together with what is on screen, when a notification comes after the time is up: a drawing of its own for each would cost the whole page one. The timer is
+/// for what changes no more.
+function followNowAndThen(topic: Topic, redraw: () => void): () => void {
+  let timer: ReturnType<typeof setTimeout> | null = null;
+  let due = performance.now() + kFarMs * Math.random();
+  const draw = () => {
+    if (timer !== null) clearTimeout(timer);
+    timer = null;
+    due = performance.now() + kFarMs * (0.5 + Math.random());
+    redraw();
+  };
+  const end = feed.on(topic, () => {
+    if (performance.now() >= due) draw();
+    else timer ??= setTimeout(draw, 2 * kFarMs);
+  });
+  return () => { end(); if (timer !== null) clearTimeout(timer); };
+}
 
 /// Of one part: at once while it is near, otherwise now and then.
 export function useFeedNear(topic: Topic, isNear: boolean): Feed {
@@ -13,11 +31,7 @@ export function useFeedNear(topic: Topic, isNear: boolean): Feed {
       redraw(undefined); // what has changed while it was far
       return feed.on(topic, () => redraw(undefined));
     }
-    let timer: ReturnType<typeof setTimeout> | null = null;
-    const end = feed.on(topic, () => {
-      timer ??= setTimeout(() => { timer = null; redraw(undefined); }, kFarMs * (0.5 + Math.random()));
-    });
-    return () => { end(); if (timer !== null) clearTimeout(timer); };
+    return followNowAndThen(topic, () => redraw(undefined));
   }, [topic, isNear]);
   return feed;
 }

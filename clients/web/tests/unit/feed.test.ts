@@ -6,13 +6,15 @@ import { importOf, machine, offset, run } from './samples';
 
 /// Answers requests when the test says so; events go to the readers of the stream.
 class FakeServer {
+  opened = 0;
   private events!: ReadableStreamDefaultController<Uint8Array>;
   private readonly waiting: Array<() => void> = [];
 
   constructor(machines: unknown[], runs: unknown[], imports: unknown[] = [], offsets: unknown[] = []) {
     const answer = (body: unknown) => new Response(JSON.stringify(body));
     globalThis.fetch = (async (path: string, init: RequestInit) => {
-      if (path.endsWith('/events')) {
+      if (path.endsWith('/events?changes=yes')) {
+        ++this.opened;
         init.signal!.addEventListener('abort', () => this.events.error(new Error('aborted')));
         return new Response(new ReadableStream({ start: (controller) => { this.events = controller; } }));
       }
@@ -115,5 +117,50 @@ test('a change of a queue, and a run, are told to those of that machine alone', 
   server.send('run', run());
   await until(() => told.length === 2);
   assert.deepEqual(told, ['jobs:mill-1', 'runs:lathe-1']);
+  feed.end();
+});
+
+test('what has changed of a machine is joined with what is known of it', { timeout: 10_000 }, async () => {
+  const server = new FakeServer([], []);
+  const feed = new Feed();
+  feed.begin();
+  await server.isAsked();
+  server.send('machine', { version: 4, ...machine({}, { execution: 'ACTIVE', line: 1 }) });
+  server.send('change', { after: 4, version: 6, name: 'lathe-1', status: { line: 2 } });
+  await until(() => feed.machines.get('lathe-1')?.version === 6);
+  assert.deepEqual(feed.machines.get('lathe-1'), { version: 6, ...machine({}, { execution: 'ACTIVE', line: 2 }) });
+  assert.equal(server.opened, 1);
+  feed.end();
+});
+
+test('a change after a missed one is not joined: the stream begins again', { timeout: 10_000 }, async () => {
+  const server = new FakeServer([], []);
+  const feed = new Feed();
+  feed.begin();
+  await server.isAsked();
+  server.send('machine', { version: 4, ...machine({}, { line: 1 }) });
+  server.send('change', { after: 5, version: 6, name: 'lathe-1', status: { line: 2 } });
+  await until(() => server.opened === 2);
+  assert.equal(feed.machines.get('lathe-1')?.status?.line, 1);
+  server.send('machine', { version: 6, ...machine({}, { line: 3 }) });
+  await until(() => feed.machines.get('lathe-1')?.status?.line === 3);
+  feed.end();
+});
+
+test('views are notified of a round together, and again only after a pause', { timeout: 10_000 }, async () => {
+  const server = new FakeServer([], []);
+  const feed = new Feed();
+  const notified: number[] = [];
+  feed.on('machine:lathe-1', () => notified.push(performance.now()));
+  feed.begin();
+  await server.isAsked();
+  for (let line = 1; line <= 40; ++line) {
+    server.send('machine', machine({}, { line }));
+    await new Promise((done) => setTimeout(done, 10));
+  }
+  await until(() => feed.machines.get('lathe-1')?.status?.line === 40 && notified.length >= 2);
+  const pauses = notified.slice(1).map((at, i) => at - notified[i]!);
+  assert.ok(pauses.every((ms) => ms >= 119), `pauses of ${pauses.join(', ')} ms`);
+  assert.ok(notified.length <= 6, `${notified.length} notifications of 40 changes within 0.4 s`);
   feed.end();
 });
