@@ -1,7 +1,7 @@
 // A load for dncd and its page: as many gateways as wanted, each of which writes its status so many
 // times a second, as one with a running program does. They are real endpoints of DDS, and no
 // machines: nothing is interpreted, and commands are not answered.
-//   bench_page_fleet DOMAIN TAG FIRST MACHINES CHANGES_PER_SECOND
+//   bench_page_fleet DOMAIN TAG CELLS DISCOVERY_MS LEASE_MS FIRST MACHINES CHANGES_PER_SECOND
 // Each has sockets of its own, and Cyclone takes no descriptor above 1023: at most 100 a process.
 // Prints "connected N" when all are, then runs until its standard input ends.
 #include <poll.h>
@@ -142,22 +142,24 @@ class Fleet {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 8)
+  if (argc != 9)
     give_up(
-        "usage: bench_page_fleet DOMAIN TAG CELLS DISCOVERY_MS FIRST MACHINES CHANGES_PER_SECOND");
+        "usage: bench_page_fleet DOMAIN TAG CELLS DISCOVERY_MS LEASE_MS FIRST MACHINES "
+        "CHANGES_PER_SECOND");
   dds::NetworkOptions options;
   options.domain = static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10));
   options.tag = argv[2];
   options.cells = static_cast<std::uint32_t>(std::strtoul(argv[3], nullptr, 10));
   options.discovery_interval_ms = static_cast<std::uint32_t>(std::strtoul(argv[4], nullptr, 10));
-  const std::size_t first = std::strtoul(argv[5], nullptr, 10);
-  const std::size_t count = std::strtoul(argv[6], nullptr, 10);
+  options.lease_ms = static_cast<std::uint32_t>(std::strtoul(argv[5], nullptr, 10));
+  const std::size_t first = std::strtoul(argv[6], nullptr, 10);
+  const std::size_t count = std::strtoul(argv[7], nullptr, 10);
   Fleet fleet;
   for (std::size_t i = 0; i < count; ++i) fleet.open(options, first + i);
   fleet.wait_until_connected();
   std::printf("connected %zu\n", count);
   std::fflush(stdout);
-  fleet.run(std::strtod(argv[7], nullptr));
+  fleet.run(std::strtod(argv[8], nullptr));
   std::fflush(stdout);
   std::_Exit(0);  // hundreds of endpoints take long to close, and nothing is left to be saved
 }
