@@ -48,6 +48,13 @@ struct Coordinates {
   std::optional<ProgramFrame> program = {};
 };
 
+/// Each "on" or "off"; empty: the control or the machine has none.
+struct PanelSwitches {
+  std::string optional_stop, block_skip;
+  std::string skip_levels;  ///< those from 2 on that are skipped: "2,9"
+  std::string dry_run, machine_lock, handwheel;
+};
+
 /// What the control's screen shows; texts are empty where it shows none.
 struct Screen {
   std::string units = "mm";   ///< or inch
@@ -73,6 +80,7 @@ struct MachineStatus {
   std::string remote_enable, waits_for;
   std::optional<Screen> screen =
       {};  ///< absent: an older gateway or server, or a control on a line
+  std::optional<PanelSwitches> switches = {};  ///< absent: an older gateway or server
 };
 
 /// What a control's own position display shows. Values of the API are millimeters and radii.

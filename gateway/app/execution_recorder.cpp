@@ -211,6 +211,10 @@ void ExecutionRecorder::note_restart(const std::string& text) {
   append(reached_origin(), {RecordKind::Message, kRestartDevice, text});
 }
 
+void ExecutionRecorder::note(const interpreter::Origin& origin, const std::string& text) {
+  append(origin, {RecordKind::Message, {}, text});
+}
+
 void ExecutionRecorder::note_at_panel(const interpreter::Origin& origin, const std::string& text) {
   append(origin, {RecordKind::Message, {}, "at the machine's panel: " + text});
 }

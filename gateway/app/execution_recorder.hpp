@@ -103,6 +103,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   void note_emergency_stop(const interpreter::Origin& origin);
   /// Something was done at the machine's panel, with a run or without.
   void note_at_panel(const interpreter::Origin& origin, const std::string& text);
+  /// Likewise over the network.
+  void note(const interpreter::Origin& origin, const std::string& text);
 
   /// The memory of the control, JSON: a message with a device name of its own.
   void note_memory(const std::string& text);

@@ -68,13 +68,8 @@ Gateway::Gateway(Parts parts)
                .recorder = recorder_,
                .consent = consent_,
                .run = run_}) {
-  machine::OperatorPanel panel;
-  panel.single_block = parts_.setup.switches.single_block;
-  panel.optional_stop = parts_.setup.switches.optional_stop;
-  panel.block_skip = parts_.setup.switches.block_skip;
-  machine_->set_panel(panel);
+  panel_.begin(parts_.setup);
   machine_->begin(parts_.setup.start);
-  panel_.take_tables(parts_.setup);
   if (parts_.line == nullptr) return;
   line_ = std::make_unique<LineOperator>(LineOperator::Parts{
       .line = *parts_.line,
@@ -153,10 +148,12 @@ SteadyTime Gateway::next_turn(SteadyTime now) const {
 }
 
 dds::Status Gateway::status() const {
-  return status_.build({.has_line = line_ != nullptr,
-                        .is_connected = server_.is_connected(),
-                        .line_fault = line_ ? line_->fault() : "",
-                        .refused_by_server = server_.refused()});
+  dds::Status status = status_.build({.has_line = line_ != nullptr,
+                                      .is_connected = server_.is_connected(),
+                                      .line_fault = line_ ? line_->fault() : "",
+                                      .refused_by_server = server_.refused()});
+  status.switches = panel_.switches();
+  return status;
 }
 
 }  // namespace dripline::gateway

@@ -36,7 +36,17 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
     if (!data) return fail(data.error().code, "the server's setup: {}", data.error().what);
     interpreter::use_control_data(*std::move(data), setup);
   }
-  setup.switches.block_skip = parts_.machine.panel().block_skip;
+  const machine::OperatorPanel& panel = parts_.machine.panel();
+  setup.switches.block_skip = panel.block_skip;
+  if (panel.skip_levels) {
+    interpreter::OptionList levels;
+    for (std::int64_t level = 1; level <= parts_.dialect.switches.skip_levels; ++level)
+      if ((*panel.skip_levels >> level & 1) != 0) levels.emplace_back().value = level;
+    setup.control.set("skip_levels", {std::move(levels), 0});
+  }
+  // The machine decides, when it comes to the stop or the move.
+  setup.switches.optional_stop = true;
+  setup.switches.dry_run = false;
   // Axes that nothing places begin where they are, unless the setup names a start to compare with.
   if (!parts_.machine.capabilities().places_axes && setup.start == interpreter::Position{}) {
     setup.start = restart ? restart->conditions.begun_at : parts_.machine.status().position;
@@ -83,7 +93,8 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
                         .checkpoints = parts_.keeps_checkpoints ? &parts_.outbox : nullptr,
                         .restart = *std::move(restart),
                         .check = std::move(check),
-                        .is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe},
+                        .is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe,
+                        .dry_run = dry_run()},
                        parts_.dialect, *setup);
   if (!session) {
     const bool is_memory =
@@ -94,6 +105,13 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
 
   parts_.journal.begin(run.run);
   parts_.on_begin(*setup);
+  locked_at_.reset();
+  if (parts_.machine.panel().machine_lock) {
+    locked_at_ = parts_.machine.status().position;
+    parts_.recorder.note({}, "machine lock: the axes do not move");
+  } else if (parts_.machine.panel().dry_run) {
+    parts_.recorder.note({}, "dry run");
+  }
   parts_.machine.begin(at);
   parts_.run.session = std::move(*session);
   parts_.run.session->size_feed(parts_.options.speed.factor);
@@ -111,6 +129,14 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
     parts_.consent.await(deadline);
   }
   return {};
+}
+
+/// Of a machine that does not obey the panel's switch by itself.
+std::optional<interpreter::PanelTables::DryRun> RunLoop::dry_run() const {
+  const machine::OperatorPanel& panel = parts_.machine.panel();
+  if (!panel.dry_run || parts_.machine.capabilities().dry_run) return std::nullopt;
+  return interpreter::PanelTables::DryRun{Length::mm(panel.dry_run_speed * 60),
+                                          panel.dry_run_spindle};
 }
 
 /// Puts the start on disk: from here on the run exists, and ends exactly once.
@@ -337,6 +363,7 @@ void RunLoop::try_to_finish(SteadyTime now) {
                     recorder.executed().executed, recorder.executed().accepted,
                     recorder.executed().sent, parts_.run.label());
   recorder.finish();
+  if (locked_at_) parts_.machine.begin(*std::exchange(locked_at_, std::nullopt));
   parts_.run.is_ending = false;
   parts_.run.session.reset();
   parts_.on_over();

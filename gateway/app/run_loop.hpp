@@ -87,6 +87,7 @@ class RunLoop {
   Result<interpreter::Setup> setup_of(const StartOrigin& origin,
                                       const std::optional<RestartPlan>& restart) const;
   Conditions conditions_of(const StartOrigin& origin) const;
+  std::optional<interpreter::PanelTables::DryRun> dry_run() const;
   Result<std::optional<RestartPlan>> plan_of(const report::ActiveRun& run,
                                              const StartOrigin& origin) const;
   Result<void> stage_start(const report::ActiveRun& run, const StartOrigin& origin,
@@ -113,6 +114,7 @@ class RunLoop {
 
   Parts parts_;
   bool is_held_by_fault_ = false;
+  std::optional<interpreter::Position> locked_at_;  ///< of this run: the axes end there
   SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_checkpoint_{};
   machine::MachineState last_state_{};
   std::uint64_t look_rounds_ = 0;

@@ -81,12 +81,23 @@ Result<void> RunSession::begin_check(const Make& make, const interpreter::Setup&
   return {};
 }
 
+namespace {
+
+interpreter::EventSink& front_of(std::optional<interpreter::DryRun>& stage,
+                                 const std::optional<interpreter::PanelTables::DryRun>& dry_run,
+                                 interpreter::EventSink& out) {
+  if (!dry_run) return out;
+  return stage.emplace(out, Feed::per_minute(dry_run->feed), dry_run->turns_spindle);
+}
+
+}  // namespace
+
 RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
     : parts_(std::move(parts)),
       setup_(setup),
       begun_ms_(milliseconds(parts_.clock.now())),
       events_(parts_.machine.capabilities(), parts_.machine.events()),
-      tracker_(events_) {
+      tracker_(front_of(dry_run_, parts_.dry_run, events_)) {
   if (parts_.checkpoints != nullptr)
     checkpoints_.emplace(parts_.run.run, *parts_.checkpoints, parts_.clock);
 }
@@ -227,6 +238,12 @@ bool RunSession::resolve(const interpreter::InputQuestion& question) {
 
 bool RunSession::resolve(const interpreter::TimeQuestion&) {
   return machine_rests() && give(interpreter::local_time_at(clock_ms()));
+}
+
+std::optional<std::uint64_t> RunSession::set_block_skip(std::uint16_t levels) {
+  if (is_over_ || !interpreter_->set_block_skip(levels)) return std::nullopt;
+  want_checkpoint();
+  return interpreter_->blocks();
 }
 
 std::int64_t RunSession::clock_ms() const {

@@ -14,6 +14,7 @@
 #include "gateway/app/restart/rebuild.hpp"
 #include "gateway/feed/line_feed.hpp"
 #include "gateway/interpreter/registry.hpp"
+#include "gateway/interpreter/stages/dry_run.hpp"
 #include "gateway/machine/capability_filter.hpp"
 
 namespace dripline::gateway {
@@ -37,6 +38,8 @@ class RunSession {
     std::optional<RestartPlan> restart = {};
     std::unique_ptr<machine::MotionCheck> check = {};  ///< null: the program is not looked through
     bool is_lathe = false;
+    /// In a dry run of a machine that knows none: the events' own feeds change.
+    std::optional<interpreter::PanelTables::DryRun> dry_run = {};
   };
   /// Errors: those of Dialect::make. The machine is unchanged then.
   static Result<std::unique_ptr<RunSession>> make(Parts parts, const interpreter::Dialect& dialect,
@@ -88,6 +91,10 @@ class RunSession {
   /// The restart; null: the run is none.
   const Rebuild* restart() const { return rebuild_.get(); }
 
+  /// For the blocks that are not interpreted yet; a restart in the middle is refused where the
+  /// path differs. Returns the block that was interpreted last; nothing: there is none after it.
+  std::optional<std::uint64_t> set_block_skip(std::uint16_t levels);
+
   /// The machine has used up so much of its time, which passes `factor` times as fast as the
   /// computer's (nullopt: as fast as possible). The clock that the program sees follows it.
   void pass_machine_time(double seconds, std::optional<double> factor);
@@ -131,7 +138,8 @@ class RunSession {
   double clock_ahead_ = 0;     ///< of the computer's clock, seconds: machine time that was faster
   std::int64_t begun_ms_ = 0;  ///< since 1970, by the computer's clock
   machine::CapabilityFilter events_;  ///< from the tracker to the machine
-  EventTracker tracker_;              ///< from the interpreter
+  std::optional<interpreter::DryRun> dry_run_;
+  EventTracker tracker_;  ///< from the interpreter
   std::optional<CheckpointKeeper> checkpoints_;
   bool wants_checkpoint_ = false, is_at_boundary_ = true;
   /// A short program is read to its end at once: its first checkpoints come at doubled distances.

@@ -44,6 +44,7 @@ void ServerLink::announce() {
   if (const auto& certificate = parts_.options.certificate)
     message.certificate_expires = certificate->not_after;
   message.has_line = parts_.options.drives_control();
+  message.commands = static_cast<std::uint32_t>(dds::words_of(dds::CommandAction{}).size());
   is_due_ = !parts_.endpoint.write(message).has_value();
 }
 

@@ -25,6 +25,7 @@ struct MotionCapabilities {
   bool probing = false;
   bool feed_override = false, rapid_override = false, spindle_override = false;
   bool single_block = false;
+  bool dry_run = false;    ///< obeys OperatorPanel::dry_run at once
   bool handwheel = false;  ///< moves the program forward by `turn_handwheel`
   bool simulated_time =
       false;                 ///< `poll` lets machine time pass: another speed than 1x is possible

@@ -18,6 +18,7 @@ OperatorPanel OperatorPanel::clamped() const {
   panel.feed_override = within(0, kMaxFeedOverride, feed_override);
   panel.rapid_override = within(0, kMaxRapidOverride, rapid_override);
   panel.spindle_override = within(0, kMaxSpindleOverride, spindle_override);
+  if (!(dry_run_speed > 0)) panel.dry_run = false;
   return panel;
 }
 

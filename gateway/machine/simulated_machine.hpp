@@ -76,6 +76,7 @@ class SimulatedMachine final : public MotionBackend {
                                    .rapid_override = true,
                                    .spindle_override = true,
                                    .single_block = true,
+                                   .dry_run = true,
                                    .handwheel = true,
                                    .simulated_time = true,
                                    .places_axes = true};

@@ -86,6 +86,7 @@ void members(V&& v, Is<Announce> auto& m) {
   v(DRIPLINE_MEMBER(description), FreeText{});
   v(DRIPLINE_MEMBER_AS(certificate_expires, certificate_expires_us), ExpiryTime{});
   v(DRIPLINE_MEMBER(has_line));
+  v(DRIPLINE_MEMBER(commands));
 }
 
 template <class V>
@@ -139,6 +140,17 @@ void members(V&& v, Is<Coordinates> auto& m) {
   v(DRIPLINE_MEMBER(target));
   v(DRIPLINE_MEMBER(following_error), PresentIf{DRIPLINE_FIELD(has_following_error)});
   v(Member{"program", m.program, "", WholeSample{}}, PresentIf{DRIPLINE_FIELD(has_program)});
+}
+
+/// Its members lie among those of the Status in the IDL.
+template <class V>
+void members(V&& v, Is<PanelSwitches> auto& m) {
+  v(DRIPLINE_MEMBER_AS(optional_stop, switch_optional_stop));
+  v(DRIPLINE_MEMBER_AS(block_skip, switch_block_skip));
+  v(DRIPLINE_MEMBER(skip_levels), Word{});
+  v(DRIPLINE_MEMBER_AS(dry_run, switch_dry_run));
+  v(DRIPLINE_MEMBER_AS(machine_lock, switch_machine_lock));
+  v(DRIPLINE_MEMBER_AS(handwheel, switch_handwheel));
 }
 
 template <class V>
@@ -244,6 +256,7 @@ void members(V&& v, Is<Status> auto& m) {
   v(DRIPLINE_MEMBER(waits_for));
   v(DRIPLINE_MEMBER(serial_line), PresentIf{DRIPLINE_FIELD(serial_line.is_present)}, Internal{});
   v(Member{"screen", m.screen, "", WholeSample{}}, PresentIf{DRIPLINE_FIELD(has_screen)});
+  v(Member{"switches", m.switches, "", WholeSample{}}, PresentIf{DRIPLINE_FIELD(has_switches)});
 }
 
 template <class V>

@@ -79,6 +79,11 @@ Words words_of(WaitsFor) {
   return kWords;
 }
 
+Words words_of(SwitchState) {
+  static constexpr std::array<std::string_view, 3> kWords{"unknown", "off", "on"};
+  return kWords;
+}
+
 Words words_of(LinePhase) {
   static constexpr std::array<std::string_view, 4> kWords{"idle", "sending", "receiving",
                                                           "requesting"};

@@ -81,6 +81,8 @@ enum class RemoteEnable : std::uint8_t { Unknown, Unattended, Given, NotGiven };
 /// The event that continues a run. CycleStart: at the machine's panel, or a resume command where
 /// that is permitted.
 enum class WaitsFor : std::uint8_t { Unknown, Nothing, CycleStart, Text, Answer, Disk };
+/// Unknown: the control or the machine has no such switch.
+enum class SwitchState : std::uint8_t { Unknown, Off, On };
 enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange, Corrupt, Failed };
 
 /// As wire::Phase.
@@ -126,6 +128,7 @@ std::span<const std::string_view> words_of(SpindleState);
 std::span<const std::string_view> words_of(PositionDisplay);
 std::span<const std::string_view> words_of(RemoteEnable);
 std::span<const std::string_view> words_of(WaitsFor);
+std::span<const std::string_view> words_of(SwitchState);
 std::span<const std::string_view> words_of(LinePhase);
 std::span<const std::string_view> words_of(LineCallAction);
 std::span<const std::string_view> words_of(LineAction);
@@ -147,7 +150,8 @@ struct Announce {
   std::uint64_t epoch = 0, session = 0;
   std::string description;
   std::optional<UtcTime> certificate_expires = {};  ///< the gateway's, for DDS Security
-  bool has_line = false;  ///< its machine is a control at the end of a line
+  bool has_line = false;       ///< its machine is a control at the end of a line
+  std::uint32_t commands = 0;  ///< how many values of CommandAction it knows; 0: an older gateway
   friend bool operator==(const Announce&, const Announce&) = default;
 };
 
@@ -191,6 +195,14 @@ struct Coordinates {
   std::optional<std::array<double, 9>> following_error = {};
   std::optional<ProgramFrame> program = {};
   friend bool operator==(const Coordinates&, const Coordinates&) = default;
+};
+
+struct PanelSwitches {
+  SwitchState optional_stop = SwitchState::Unknown, block_skip = SwitchState::Unknown;
+  std::string skip_levels;  ///< those from 2 on that are skipped: "2,9"
+  SwitchState dry_run = SwitchState::Unknown, machine_lock = SwitchState::Unknown;
+  SwitchState handwheel = SwitchState::Unknown;
+  friend bool operator==(const PanelSwitches&, const PanelSwitches&) = default;
 };
 
 /// A program that a control has sent, on the gateway's disk.
@@ -273,6 +285,7 @@ struct Status {
   WaitsFor waits_for = WaitsFor::Unknown;
   std::optional<LineStatus> serial_line;  ///< of a gateway beside a control
   std::optional<Screen> screen;           ///< none from an older gateway, nor of such a control
+  std::optional<PanelSwitches> switches;  ///< none from an older gateway
   friend bool operator==(const Status&, const Status&) = default;
 };
 

@@ -172,11 +172,28 @@ Details machine_details(const client::Machine& machine) {
   if (status.coordinates) add_coordinates(details, status, display);
   if (status.modes) add_modes(details, *status.modes, display);
   if (status.emergency_stop) details.add("emergency stop", Cell("pressed", Style::Bad));
+  details.add("switches on", switches_text(status));
   details.add("remote enable", remote_enable_text(status.remote_enable));
   details.add("waits for", waits_for_text(status.waits_for));
   details.add("message", status.message);
   details.add("records waiting", std::to_string(status.outbox));
   return details;
+}
+
+std::string switches_text(const client::MachineStatus& status) {
+  std::string text = status.single_block ? "single_block" : "";
+  const auto add = [&text](std::string_view name, std::string_view state) {
+    if (state == "on") text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+  };
+  if (!status.switches) return text;
+  const client::PanelSwitches& switches = *status.switches;
+  add("optional_stop", switches.optional_stop);
+  add("block_skip", switches.block_skip);
+  if (!switches.skip_levels.empty()) add("block_skip_" + switches.skip_levels, "on");
+  add("dry_run", switches.dry_run);
+  add("machine_lock", switches.machine_lock);
+  add("handwheel", switches.handwheel);
+  return text;
 }
 
 Cell execution_cell(const client::Machine& machine) {

@@ -31,6 +31,8 @@ std::string hold_text(const client::Hold& hold);
 client::MachineStatus status_of(const client::Machine& machine);
 /// One line of what the machine does now.
 std::string status_line(const client::Machine& machine);
+/// "single_block, dry_run"; empty: none is on.
+std::string switches_text(const client::MachineStatus& status);
 /// What the machine executes; of one that is not connected, the last that it reported.
 Cell execution_cell(const client::Machine& machine);
 /// "1 block", "2 blocks"

@@ -81,6 +81,11 @@ void members(V& v, Is<Screen> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<PanelSwitches> auto& x) {
+  DRIPLINE_MEMBERS(optional_stop, block_skip, skip_levels, dry_run, machine_lock, handwheel);
+}
+
+template <class V>
 void members(V& v, Is<MachineStatus> auto& x) {
   DRIPLINE_MEMBERS(time, execution, mode, run, program, sent, accepted, executed, total_bytes,
                    offset, line, sequence, position, feed_mm_per_min, spindle_rpm, feed_override,
@@ -89,6 +94,7 @@ void members(V& v, Is<MachineStatus> auto& x) {
   v.later("emergency_stop", x.emergency_stop);
   DRIPLINE_MEMBERS(remote_enable, waits_for);
   v.later("screen", x.screen);
+  v.later("switches", x.switches);
 }
 
 template <class V>

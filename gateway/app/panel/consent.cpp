@@ -7,7 +7,10 @@ namespace {
 
 /// Switching these off lets a machine continue where it would have stopped.
 bool lets_run_on(const dds::Command& command, const machine::OperatorPanel& panel) {
+  // These change what is executed, or how fast, both ways.
+  if (command.argument.starts_with("block_skip") || command.argument == "dry_run") return true;
   if (command.value != 0) return false;
+  if (command.argument == "machine_lock") return panel.machine_lock;
   if (command.argument == "emergency_stop") return panel.emergency_stop;
   if (command.argument == "single_block") return panel.single_block;
   if (command.argument == "optional_stop") return panel.optional_stop;

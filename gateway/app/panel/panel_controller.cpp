@@ -48,13 +48,20 @@ std::optional<std::string> refusal_of(const std::vector<double>& table, double f
                      positions);
 }
 
-/// The panel's switch of a command; null when it is none of these.
-bool OperatorPanel::*switch_of(std::string_view name) {
-  if (name == "single_block") return &OperatorPanel::single_block;
-  if (name == "optional_stop") return &OperatorPanel::optional_stop;
-  if (name == "block_skip") return &OperatorPanel::block_skip;
-  if (name == "handwheel") return &OperatorPanel::handwheel;
-  return nullptr;
+constexpr std::string_view kBlockSkip = "block_skip";
+
+/// The level of "block_skip" (1) and "block_skip_2" to "block_skip_9"; 0: another name.
+int skip_level_of(std::string_view name) {
+  if (!name.starts_with(kBlockSkip)) return 0;
+  name.remove_prefix(kBlockSkip.size());
+  if (name.empty()) return 1;
+  const bool is_level = name.size() == 2 && name[0] == '_' && name[1] >= '2' && name[1] <= '9';
+  return is_level ? name[1] - '0' : 0;
+}
+
+dds::SwitchState state_of(bool exists, bool is_on) {
+  if (!exists) return dds::SwitchState::Unknown;
+  return is_on ? dds::SwitchState::On : dds::SwitchState::Off;
 }
 
 }  // namespace
@@ -70,28 +77,161 @@ void PanelController::take_tables(const interpreter::Setup& setup) {
   }
 }
 
+void PanelController::begin(const interpreter::Setup& setup) {
+  take_tables(setup);
+  OperatorPanel panel;
+  panel.single_block = setup.switches.single_block;
+  panel.optional_stop = setup.switches.optional_stop;
+  panel.block_skip = setup.switches.block_skip;
+  panel.dry_run = setup.switches.dry_run && tables_.dry_run;
+  if (tables_.dry_run) {
+    panel.dry_run_speed = tables_.dry_run->feed.mm() / 60;
+    panel.dry_run_spindle = tables_.dry_run->turns_spindle;
+  }
+  parts_.machine.set_panel(panel);
+}
+
+std::uint16_t PanelController::skip_levels() const {
+  const OperatorPanel& panel = parts_.machine.panel();
+  const unsigned first = panel.block_skip ? 1u << 1 : 0u;
+  return panel.skip_levels.value_or(static_cast<std::uint16_t>(tables_.skip_levels | first));
+}
+
+dds::PanelSwitches PanelController::switches() const {
+  const interpreter::SwitchRules& rules = parts_.dialect.switches;
+  const machine::MotionCapabilities& machine = parts_.machine.capabilities();
+  const OperatorPanel& panel = parts_.machine.panel();
+  dds::PanelSwitches shown;
+  shown.optional_stop = state_of(rules.optional_stop, panel.optional_stop);
+  const unsigned levels = skip_levels();
+  shown.block_skip = state_of(rules.block_skip, (levels >> 1 & 1u) != 0);
+  for (int level = 2; level <= rules.skip_levels; ++level) {
+    if ((levels >> level & 1u) == 0) continue;
+    shown.skip_levels += fmt::format("{}{}", shown.skip_levels.empty() ? "" : ",", level);
+  }
+  shown.dry_run = state_of(tables_.dry_run.has_value(), panel.dry_run);
+  shown.machine_lock = state_of(rules.machine_lock && machine.places_axes, panel.machine_lock);
+  shown.handwheel = state_of(machine.handwheel && !tables_.click_seconds.empty(), panel.handwheel);
+  return shown;
+}
+
+std::string PanelController::known_switches() const {
+  const dds::PanelSwitches has = switches();
+  std::string names = parts_.machine.capabilities().single_block ? "single_block, " : "";
+  const auto add = [&names](std::string_view name, dds::SwitchState state) {
+    if (state != dds::SwitchState::Unknown) names += fmt::format("{}, ", name);
+  };
+  add("optional_stop", has.optional_stop);
+  add(kBlockSkip, has.block_skip);
+  const int levels = parts_.dialect.switches.skip_levels;
+  if (levels > 1) names += fmt::format("block_skip_2 to block_skip_{}, ", levels);
+  add("dry_run", has.dry_run);
+  add("machine_lock", has.machine_lock);
+  add("handwheel", has.handwheel);
+  return names + "emergency_stop";
+}
+
 Reply PanelController::set_switch(const dds::Command& command) {
   const std::string& name = command.argument;
   if (command.value != 0 && command.value != 1)
     return refuse(fmt::format("a switch is 0 or 1, not {}", command.value));
-  if (name == "emergency_stop") return set_emergency_stop(command.value == 1);
-  const auto member = switch_of(name);
-  if (member == nullptr)
-    return refuse(
-        fmt::format("no switch '{}': single_block, optional_stop, block_skip, handwheel, "
-                    "emergency_stop",
-                    name));
+  const bool is_on = command.value == 1;
+  if (name == "emergency_stop") return set_emergency_stop(is_on);
   const machine::MotionCapabilities& machine = parts_.machine.capabilities();
-  if ((name == "single_block" && !machine.single_block) ||
-      (name == "handwheel" && !machine.handwheel))
-    return refuse(fmt::format("this machine has no {}", name));
-  if (name == "handwheel" && tables_.click_seconds.empty())
-    return refuse(fmt::format("a handwheel drives no program of control {}", parts_.dialect.name));
   OperatorPanel panel = parts_.machine.panel();
-  panel.*member = command.value == 1;
+  if (name == "single_block" && machine.single_block) {
+    panel.single_block = is_on;
+    parts_.machine.set_panel(panel);
+    return {};
+  }
+  if (name == "optional_stop" && parts_.dialect.switches.optional_stop) {
+    panel.optional_stop = is_on;
+    parts_.machine.set_panel(panel);
+    return note(name, is_on, "");
+  }
+  if (const int level = skip_level_of(name); level > 0 && parts_.dialect.switches.block_skip &&
+                                             level <= parts_.dialect.switches.skip_levels)
+    return set_block_skip(level, is_on);
+  if (name == "dry_run") return set_dry_run(is_on);
+  if (name == "machine_lock" && parts_.dialect.switches.machine_lock)
+    return set_machine_lock(is_on);
+  if (name == "handwheel" && machine.handwheel) {
+    if (tables_.click_seconds.empty())
+      return refuse(
+          fmt::format("a handwheel drives no program of control {}", parts_.dialect.name));
+    panel.handwheel = is_on;
+    parts_.machine.set_panel(panel);
+    return {};
+  }
+  if (name == "single_block" || name == "handwheel")
+    return refuse(fmt::format("this machine has no {}", name));
+  return refuse(fmt::format("no switch '{}': {}", name, known_switches()));
+}
+
+/// What changes how a run's program is executed is on its record, with the block.
+Reply PanelController::note(const std::string& name, bool is_on, const std::string& effect) {
+  if (!parts_.run.is_active()) return {true, effect};
+  parts_.recorder.note(parts_.machine.status().origin,
+                       fmt::format("switch {} {}{}{}", name, is_on ? "on" : "off",
+                                   effect.empty() ? "" : ": ", effect));
+  return {true, effect};
+}
+
+/// What was read ahead was read with the switch as it was: a control does not skip what it has in
+/// its buffer.
+Reply PanelController::set_block_skip(int level, bool is_on) {
+  RunSession* const session = parts_.run.is_active() ? parts_.run.session.get() : nullptr;
+  if (session != nullptr && (session->is_rebuilding() || session->check() != nullptr))
+    return refuse("the program is looked through with the switch as it is: set it after that");
+  OperatorPanel panel = parts_.machine.panel();
+  const unsigned bit = 1u << level;
+  const unsigned levels = is_on ? skip_levels() | bit : skip_levels() & ~bit;
+  if (parts_.dialect.switches.skip_levels > 1)
+    panel.skip_levels = static_cast<std::uint16_t>(levels);
+  panel.block_skip = (levels & 2u) != 0;
   parts_.machine.set_panel(panel);
-  const bool is_for_next_run = parts_.run.session && name == "block_skip";
-  return {true, is_for_next_run ? "block_skip takes effect at the next start" : ""};
+  if (session == nullptr) return {};
+  const std::string name = level == 1 ? "block_skip" : fmt::format("block_skip_{}", level);
+  const auto last = session->set_block_skip(static_cast<std::uint16_t>(levels));
+  if (!last)
+    return note(name, is_on, "the program is read to its end: takes effect at the next start");
+  return note(name, is_on,
+              *last == 0 ? std::string("from the first block on")
+                         : fmt::format("takes effect after block {}, which was read last", *last));
+}
+
+Reply PanelController::set_dry_run(bool is_on) {
+  if (!tables_.dry_run) {
+    const bool may_have = parts_.dialect.panel_tables != nullptr;
+    return refuse(may_have ? "no dry run: [control] dry_run_feed of the setup gives the panel one"
+                           : fmt::format("control {} has no dry run", parts_.dialect.name));
+  }
+  const machine::MachineState state = parts_.machine.state();
+  const bool is_running = parts_.run.is_active() && !parts_.consent.is_awaited() &&
+                          (parts_.machine.is_moving() || state == machine::MachineState::Running ||
+                           state == machine::MachineState::Idle);
+  if (parts_.dialect.switches.dry_run_at_rest && is_running)
+    return refuse("dry run is changed only while the program is halted: hold it first");
+  OperatorPanel panel = parts_.machine.panel();
+  panel.dry_run = is_on;
+  panel.dry_run_speed = tables_.dry_run->feed.mm() / 60;
+  panel.dry_run_spindle = tables_.dry_run->turns_spindle;
+  parts_.machine.set_panel(panel);
+  if (parts_.machine.capabilities().dry_run) return note("dry_run", is_on, "");
+  return note("dry_run", is_on, parts_.run.is_active() ? "takes effect at the next start" : "");
+}
+
+/// Only a machine whose axes can be placed is where it was when the lock is released.
+Reply PanelController::set_machine_lock(bool is_on) {
+  if (!parts_.machine.capabilities().places_axes)
+    return refuse("no machine lock: the axes of this machine are moved by a device");
+  if (parts_.run.session)
+    return refuse(fmt::format("machine lock is changed only without a run: {} is active",
+                              parts_.run.session->run().run));
+  OperatorPanel panel = parts_.machine.panel();
+  panel.machine_lock = is_on;
+  parts_.machine.set_panel(panel);
+  return {};
 }
 
 /// The record is staged before the machine ends the run.

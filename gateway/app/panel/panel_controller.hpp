@@ -24,8 +24,12 @@ class PanelController {
   /// All references must outlive it.
   explicit PanelController(const Parts& parts) : parts_(parts) {}
 
+  /// The switches as the gateway's setup has them, before the first run.
+  void begin(const interpreter::Setup& setup);
   /// Positions of the control's switches, as the setup describes them.
   void take_tables(const interpreter::Setup& setup);
+  /// For the status.
+  dds::PanelSwitches switches() const;
 
   Reply set_switch(const dds::Command& command);
   Reply set_override(const dds::Command& command);
@@ -42,6 +46,12 @@ class PanelController {
   std::optional<Reply> refusal_without_consent(const dds::Command& command) const;
 
  private:
+  Reply set_block_skip(int level, bool is_on);
+  Reply set_dry_run(bool is_on);
+  Reply set_machine_lock(bool is_on);
+  Reply note(const std::string& name, bool is_on, const std::string& effect);
+  std::uint16_t skip_levels() const;
+  std::string known_switches() const;
   std::optional<std::string> refusal_of_feed(double factor) const;
   std::optional<std::string> refusal_of_spindle(double factor) const;
 

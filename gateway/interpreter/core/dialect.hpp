@@ -23,6 +23,22 @@ struct PanelTables {
   /// The program time that a click of the handwheel passes, for each position of the feed switch;
   /// positions beyond the last one have its time. Empty: a handwheel drives no program.
   std::vector<double> click_seconds;
+  struct DryRun {
+    Length feed;  ///< per minute, at 100 %
+    bool turns_spindle = true;
+  };
+  std::optional<DryRun> dry_run = {};  ///< nothing: no dry run, or no feed is known for it
+  std::uint16_t skip_levels = 0;       ///< bit n: blocks with /n are skipped
+};
+
+/// The switches of a control's panel that decide how a program runs. Every control has single
+/// block.
+struct SwitchRules {
+  bool optional_stop = true;
+  bool block_skip = true;        ///< of blocks with / alone, or with /1
+  int skip_levels = 1;           ///< up to 9: the highest number after a slash
+  bool dry_run_at_rest = false;  ///< dry run is changed only while the program is halted
+  bool machine_lock = false;
 };
 
 /// How the text of a control reads where it is searched and not interpreted.
@@ -90,6 +106,7 @@ struct Dialect {
   Units units = Units::Millimeter;
   MachineKind machine = MachineKind::Mill;
   FeedOverrideSwitch feed_override_switch = {};
+  SwitchRules switches = {};
   bool waits_at_tool_change = false;  ///< tools are changed by hand: CYCLE START resumes
   /// What the control makes of a program, in its own words; nullptr: it keeps the text. Errors:
   /// Syntax.

@@ -144,6 +144,11 @@ class Interpreter {
   /// Answers it. Errors: Syntax (an answer of the wrong kind; the question stays open).
   virtual Result<void> answer(const Answer& answer) = 0;
 
+  /// The panel's switches for blocks that begin with a slash, from the next block on that is begun:
+  /// bit n for /n, bit 1 also for / alone. No part of the state: a snapshot does not hold it.
+  /// False: this control skips no blocks.
+  virtual bool set_block_skip(std::uint16_t /*levels*/) { return false; }
+
   /// Blocks finished so far: the *accepted* counter.
   virtual std::uint64_t blocks() const = 0;
   /// The block being executed, or the last one finished.

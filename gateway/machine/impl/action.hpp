@@ -102,6 +102,7 @@ struct Move {
 
  private:
   double asked_speed(const OperatorPanel& panel) const {
+    if (panel.dry_run && pace != Pace::Rapid) return panel.dry_run_speed * panel.feed_override;
     const double spindle = std::min(panel.spindle_override, spindle_headroom);
     switch (pace) {
       case Pace::Rapid:

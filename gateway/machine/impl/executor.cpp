@@ -26,6 +26,7 @@ void Executor::begin(const interpreter::Position& at) {
   queue_builder_.begin(at_);
   planner_.invalidate();
   spindle_.stop();
+  withheld_spindle_.reset();
   stop_ = MachineState::Idle;
   origin_ = {};
   executed_ = 0;
@@ -113,6 +114,7 @@ void Executor::start_front() {
   const bool takes_time = std::holds_alternative<Move>(action.body) ||
                           std::holds_alternative<Wait>(action.body) ||
                           std::holds_alternative<ProbeMarker>(action.body);
+  if (takes_time) return_spindle();
   if (takes_time) sink_.on_motion_starts(origin_);
   if (const auto* move = std::get_if<Move>(&action.body)) {
     planner_.ensure(queue_, panel_);

@@ -124,6 +124,9 @@ class Executor {
   void show(const interpreter::ToolChange& tool);
   void discard();
   void press_emergency_stop();
+  void set_spindle(const interpreter::Spindle& spindle);
+  void stop_spindle();
+  void return_spindle();
   /// The rest of an aborted program is dropped, and the abort reported, only with the emergency
   /// stop released.
   bool may_discard() const { return is_aborting_ && !panel_.emergency_stop; }
@@ -142,6 +145,9 @@ class Executor {
   Planner planner_;
   OperatorPanel panel_;
   SpindleModel spindle_;
+  /// As programmed, in a dry run that it does not turn in; it turns again when a motion begins
+  /// after that.
+  std::optional<interpreter::Spindle> withheld_spindle_;
 
   Motion motion_;  ///< the present move, if any
   Move probe_move_;

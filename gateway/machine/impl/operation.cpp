@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gateway/machine/impl/executor.hpp"
 
@@ -79,20 +80,37 @@ void Executor::set_panel(const OperatorPanel& panel) {
   const bool is_pressed = next.emergency_stop && !panel_.emergency_stop;
   panel_ = next;
   if (is_pressed) press_emergency_stop();
+  if (panel_.dry_run && !panel_.dry_run_spindle && spindle_.is_turning()) {
+    withheld_spindle_ = spindle_.programmed();
+    stop_spindle();
+  }
   if (!panel_.handwheel) handwheel_seconds_ = 0;
   planner_.invalidate();
   plan_motion_again();
   if (may_discard() && speed() == 0) discard();
 }
 
+void Executor::stop_spindle() {
+  if (!spindle_.is_turning()) return;
+  spindle_.stop();
+  interpreter::Spindle off;
+  off.origin = origin_;
+  sink_.on_spindle(off);
+}
+
+/// The dry run is over: as the program has it, before anything moves.
+void Executor::return_spindle() {
+  if (!withheld_spindle_ || (panel_.dry_run && !panel_.dry_run_spindle) || is_emergency_) return;
+  interpreter::Spindle spindle = *std::exchange(withheld_spindle_, std::nullopt);
+  spindle.origin = origin_;
+  spindle_.set(spindle);
+  sink_.on_spindle(spindle);
+}
+
 /// Also for a program that is over: its spindle may still turn.
 void Executor::press_emergency_stop() {
-  if (spindle_.is_turning()) {
-    spindle_.stop();
-    interpreter::Spindle off;
-    off.origin = origin_;
-    sink_.on_spindle(off);
-  }
+  withheld_spindle_.reset();
+  stop_spindle();
   if (shown_.flood || shown_.mist) {
     shown_.flood = shown_.mist = false;
     sink_.on_coolant({origin_, false, false});
@@ -112,6 +130,7 @@ bool Executor::resume() {
   if (!is_held_ && stop_ == MachineState::Idle) return false;
   is_held_ = hold_waits_ = false;
   stop_ = MachineState::Idle;
+  return_spindle();
   plan_motion_again();
   return true;
 }

@@ -33,9 +33,7 @@ void Executor::report(const Action& action) {
                    sink_.on_coolant({origin, coolant.flood, coolant.mist});
                  },
                  [&](const interpreter::Spindle& spindle) {
-                   if (is_emergency_) return;
-                   spindle_.set(spindle);
-                   sink_.on_spindle(spindle);
+                   if (!is_emergency_) set_spindle(spindle);
                  },
                  [&](const interpreter::ToolChange& tool) {
                    show(tool);
@@ -60,6 +58,17 @@ void Executor::report(const Action& action) {
              },
              action.body);
   if (!is_finished) finish_action();
+}
+
+void Executor::set_spindle(const interpreter::Spindle& spindle) {
+  const bool is_off = spindle.state == interpreter::SpindleState::Off;
+  withheld_spindle_.reset();
+  if (!is_off && panel_.dry_run && !panel_.dry_run_spindle) {
+    withheld_spindle_ = spindle;
+    return;
+  }
+  spindle_.set(spindle);
+  sink_.on_spindle(spindle);
 }
 
 void Executor::show(const interpreter::ToolChange& tool) {

@@ -47,6 +47,7 @@ CenturionInterpreter::CenturionInterpreter(ControlOptions options, ModalState st
       start_(start_search_of(options, dry_run_ ? *dry_run_ : sink)),
       run_(std::move(options), source, front_of(start_.get(), dry_run_.get(), sink)),
       search_(run_.text),
+      block_skip_(run_.options.block_skip),
       memory_units_(state.units) {
   run_.state = std::move(state);
   run_.parameters = parameters;
@@ -210,7 +211,7 @@ bool CenturionInterpreter::is_end_of_segment() const {
 }
 
 bool CenturionInterpreter::is_skipped() const {
-  return run_.options.block_skip && *skip_blanks(run_.text.begin()) == '/';
+  return block_skip_ && *skip_blanks(run_.text.begin()) == '/';
 }
 
 /// The program's name comes from its first block that is not empty: the O word (block_reader.cpp

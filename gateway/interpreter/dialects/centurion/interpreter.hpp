@@ -16,6 +16,10 @@ class CenturionInterpreter final : public BlockInterpreter<CenturionInterpreter>
   CenturionInterpreter(ControlOptions options, ModalState state, Parameters parameters,
                        ProgramSource& source, EventSink& sink);
 
+  bool set_block_skip(std::uint16_t levels) override {
+    block_skip_ = (levels & 2u) != 0;
+    return true;
+  }
   ActiveModes modes() const override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
@@ -50,6 +54,7 @@ class CenturionInterpreter final : public BlockInterpreter<CenturionInterpreter>
   Run run_;
   TextSearch search_;
   bool is_way_back_known_ = false, is_looking_back_ = false;
+  bool block_skip_;          ///< the panel's switch
   Units memory_units_;       ///< of the tables at the start
   Parameters known_memory_;  ///< when it was read last
 };

@@ -98,13 +98,18 @@ constexpr std::array kLatheStatusFields{status_field::kCompensation, status_fiel
 
 }  // namespace
 
+/// MACHINE LOCK, DRY RUN and the switches of /1 to /9 are on every panel of the family.
+constexpr SwitchRules kSwitches{.skip_levels = 9, .machine_lock = true};
+
 const Dialect kFanucDialect{.name = "fanuc",
                             .title = "Fanuc 0-M, 6M, 11M, 16/18/21-M, 0i to 30i (machining center)",
                             .likelihood = &likelihood,
                             .make = &make,
+                            .switches = kSwitches,
                             // T selects and M06 exchanges, as the machine's builder has it: only a
                             // machine without `tool_changer` stops for a tool change.
                             .waits_at_tool_change = true,
+                            .panel_tables = &read_panel_tables,
                             .options = &list_options,
                             .status_fields = kStatusFields};
 
@@ -113,6 +118,8 @@ const Dialect kFanucLatheDialect{.name = "fanuc-t",
                                  .likelihood = &lathe_likelihood,
                                  .make = &make_lathe,
                                  .machine = MachineKind::Lathe,
+                                 .switches = kSwitches,
+                                 .panel_tables = &read_lathe_panel_tables,
                                  .options = &list_lathe_options,
                                  .status_fields = kLatheStatusFields};
 

@@ -12,6 +12,10 @@ class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public
   FanucInterpreter(ControlOptions options, ModalState state, const Memory& memory,
                    ProgramSource& source, EventSink& sink);
 
+  bool set_block_skip(std::uint16_t levels) override {
+    run_.skip_levels = levels;
+    return true;
+  }
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
   std::vector<MemoryCell> memory_cells() const override;

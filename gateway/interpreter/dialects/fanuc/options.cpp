@@ -267,6 +267,9 @@ constexpr std::array kSharedRows{
     row<&C::comment_over_eob>("comment_over_eob", kFlag, "a comment may go over ends of blocks"),
     row<&C::feed_unit_inch>("feed_unit_inch", kNumber, "unit of F without a point in inch",
                             kPositive, "inch/min"),
+    row<&C::dry_run_feed>("dry_run_feed", kFeed,
+                          "feed of a dry run at a gateway; 0: its panel has no dry run",
+                          kNotNegative),
     row<&C::before_m>("before_m", kWholes,
                       "M codes that act before the move of their block; none: all do"),
     row<&C::is_dnc>("dnc", kFlag,
@@ -363,6 +366,26 @@ std::vector<ListedOption> list_options() {
 }
 std::vector<ListedOption> list_lathe_options() {
   return list_rows(kLatheOptions);
+}
+
+namespace {
+
+Result<PanelTables> panel_of(const Setup& setup, bool is_lathe) {
+  const auto options = read_options(setup, is_lathe);
+  if (!options) return fail(options.error());
+  PanelTables tables;
+  tables.skip_levels = options->skip_levels;
+  if (options->dry_run_feed > 0) tables.dry_run = {Length::mm(options->dry_run_feed), true};
+  return tables;
+}
+
+}  // namespace
+
+Result<PanelTables> read_panel_tables(const Setup& setup) {
+  return panel_of(setup, false);
+}
+Result<PanelTables> read_lathe_panel_tables(const Setup& setup) {
+  return panel_of(setup, true);
 }
 
 Result<ControlOptions> read_options(const Setup& setup, bool is_lathe) {

@@ -69,6 +69,7 @@ struct ControlOptions {
   std::array<double, 3> limit_high{};
   StrokeZone zone;  ///< limit 2 before any G22
   Kinematics kinematics;
+  double dry_run_feed = 0;        ///< `dry_run_feed`, mm per minute; a panel's, not a program's
   std::uint16_t skip_levels = 0;  ///< bit n: switch n is on
   std::vector<std::int64_t> g_macros;
   std::vector<std::int64_t> m_macros;
@@ -110,6 +111,9 @@ void apply_start_codes(const ControlOptions& options, ModalState& state);
 
 /// The rows of its options, for people.
 std::vector<ListedOption> list_options();
+/// The dry run of the panel, and which switches for block skip are on.
+Result<PanelTables> read_panel_tables(const Setup& setup);
+Result<PanelTables> read_lathe_panel_tables(const Setup& setup);
 std::vector<ListedOption> list_lathe_options();
 
 }  // namespace dripline::interpreter::fanuc

@@ -146,6 +146,7 @@ struct Run : BlockRun {
   }
 
   const ControlOptions options;
+  std::uint16_t skip_levels = options.skip_levels;  ///< the panel's switches
   ProgramSource& source;
   EventSink& sink;
   RotaryPath rotary;

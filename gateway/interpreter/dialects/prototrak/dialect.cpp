@@ -95,6 +95,7 @@ const Dialect kProtoTrakDialect{.name = "prototrak-plus",
                                 .make = make,
                                 .units = Units::Inch,
                                 .machine = MachineKind::Mill,
+                                .switches = {.optional_stop = false, .block_skip = false},
                                 // Every tool is changed by hand at a prompt.
                                 .waits_at_tool_change = true,
                                 .list = list,

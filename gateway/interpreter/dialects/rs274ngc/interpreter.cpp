@@ -146,13 +146,13 @@ bool Rs274NgcInterpreter::execute() {
     if (!is_end_of_line(*at)) state.demarcation = Demarcation::None;
   }
   bool is_skip = *at == '/';
-  if (is_skip && run_.options.block_skip && run_.is_linuxcnc()) [[unlikely]]
+  if (is_skip && run_.block_skip && run_.is_linuxcnc()) [[unlikely]]
     return true;
   if ((is_skip || upper(*at) == 'N') && !read_line_head(run_, at, is_skip)) [[unlikely]]
     return false;
   if (upper(*at) == 'O' && run_.is_linuxcnc()) [[unlikely]]
     return flow_.execute(at);
-  return execute_words(at, is_skip && run_.options.block_skip);
+  return execute_words(at, is_skip && run_.block_skip);
 }
 
 bool Rs274NgcInterpreter::execute_words(const char* at, bool is_skipped) {

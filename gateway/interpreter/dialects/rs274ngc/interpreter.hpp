@@ -18,6 +18,10 @@ class Rs274NgcInterpreter final : public BlockInterpreter<Rs274NgcInterpreter>,
   /// Which free parameters its parameter file lists, rising: these it keeps for good.
   void set_parameter_file(std::vector<int> numbers) { in_file_ = std::move(numbers); }
 
+  bool set_block_skip(std::uint16_t levels) override {
+    run_.block_skip = (levels & 2u) != 0;
+    return true;
+  }
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
   std::vector<MemoryCell> memory_cells() const override;

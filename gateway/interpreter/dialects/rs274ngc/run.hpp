@@ -56,6 +56,7 @@ struct Run : BlockRun {
   bool rests_at_end() const { return state.modes.path == 611; }
 
   const ControlOptions options;
+  bool block_skip = options.block_skip;  ///< the panel's switch
   const std::vector<Tool> setup_tools;
   std::vector<Tool> tools;  ///< the same rows, as G10 has written them
   ProgramSource& source;

@@ -156,6 +156,7 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              .title = "HEIDENHAIN TNC 151/155 (plain language and ISO)",
                              .likelihood = &likelihood,
                              .make = &make,
+                             .switches = {.optional_stop = false, .block_skip = false},
                              // M06 is a program stop where the machine parameter makes it one
                              // (`m06_stop`); TOOL CALL itself never stops, a STOP before
                              // it is programmed.

@@ -23,7 +23,9 @@ nlohmann::json status_json() {
       "following_error":{"X":0,"Z":0},"program":{"position":{"X":1,"Z":2},"target":{"X":1.5,"Z":2},
       "datum":{"X":1,"Z":0},"shift":{"X":-0.5,"Z":0},"rotation":30,"basic_rotation":0.5,
       "scale":{"X":0.5,"Z":1},"mirrored":["X"],"pole":{"X":3,"Y":4}}},
-      "emergency_stop":true,"remote_enable":"not_given","waits_for":"cycle_start"})");
+      "emergency_stop":true,"remote_enable":"not_given","waits_for":"cycle_start",
+      "switches":{"optional_stop":"on","block_skip":"off","skip_levels":"2,9","dry_run":null,
+      "machine_lock":null,"handwheel":"off"}})");
 }
 
 TEST(ApiJson, ReadsAMachineWithItsStatus) {
@@ -35,6 +37,9 @@ TEST(ApiJson, ReadsAMachineWithItsStatus) {
   EXPECT_EQ(machine->status->position.at("Z"), -2);
   EXPECT_EQ(machine->status->sequence, 20);
   EXPECT_EQ(machine->status->message, "");
+  ASSERT_TRUE(machine->status->switches);
+  EXPECT_EQ(machine->status->switches->optional_stop, "on");
+  EXPECT_EQ(machine->status->switches->dry_run, "");
   ASSERT_TRUE(machine->status->modes);
   EXPECT_EQ(machine->status->modes->tool, 3);
   EXPECT_EQ(machine->status->modes->next_tool, std::nullopt);

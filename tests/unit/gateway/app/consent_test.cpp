@@ -34,7 +34,7 @@ class NeedsConsent : public testing::TestWithParam<ConsentCase> {};
 /// All switches on, every override at 50 %.
 TEST_P(NeedsConsent, IsJudged) {
   machine::OperatorPanel panel;
-  panel.single_block = panel.optional_stop = panel.block_skip = true;
+  panel.single_block = panel.optional_stop = panel.block_skip = panel.machine_lock = true;
   panel.handwheel = panel.emergency_stop = true;
   panel.feed_override = panel.rapid_override = panel.spindle_override = 0.5;
   EXPECT_EQ(needs_consent(GetParam().command, panel), GetParam().needs);
@@ -55,8 +55,12 @@ INSTANTIATE_TEST_SUITE_P(
         ConsentCase{"single_block_off", order_of(CommandAction::Switch, 0, "single_block"), true},
         ConsentCase{"optional_stop_off", order_of(CommandAction::Switch, 0, "optional_stop"), true},
         ConsentCase{"handwheel_off", order_of(CommandAction::Switch, 0, "handwheel"), true},
-        ConsentCase{"block_skip_at_next_start", order_of(CommandAction::Switch, 0, "block_skip"),
-                    false},
+        ConsentCase{"block_skip_off", order_of(CommandAction::Switch, 0, "block_skip"), true},
+        ConsentCase{"block_skip_2_on", order_of(CommandAction::Switch, 1, "block_skip_2"), true},
+        ConsentCase{"dry_run_on", order_of(CommandAction::Switch, 1, "dry_run"), true},
+        ConsentCase{"dry_run_off", order_of(CommandAction::Switch, 0, "dry_run"), true},
+        ConsentCase{"machine_lock_on", order_of(CommandAction::Switch, 1, "machine_lock"), false},
+        ConsentCase{"machine_lock_off", order_of(CommandAction::Switch, 0, "machine_lock"), true},
         ConsentCase{"slower", order_of(CommandAction::FeedOverride, 0.4), false},
         ConsentCase{"same", order_of(CommandAction::FeedOverride, 0.5), false},
         ConsentCase{"faster", order_of(CommandAction::FeedOverride, 0.6), true},

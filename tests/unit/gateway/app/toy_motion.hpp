@@ -10,7 +10,7 @@ namespace dripline::gateway {
 /// A back end for tests of the gateway alone, with nearly no capabilities: it moves the X axis on
 /// straight lines, each within one poll, at the pace of the caller's polls. It cannot place its
 /// axis and its input pins read high.
-class ToyMotion final : public machine::MotionBackend, private interpreter::EventSink {
+class ToyMotion : public machine::MotionBackend, private interpreter::EventSink {
  public:
   /// `checks`: its programs are looked through before they move.
   explicit ToyMotion(machine::ExecutionSink& sink, bool checks = false)

@@ -18,7 +18,7 @@ const std::map<std::string, Names> kOutsideTheLists{
     {"Announce", {"heard"}},
     {"ActiveModes", {"is_present"}},
     {"Coordinates", {"is_present", "has_following_error", "has_program"}},
-    {"Status", {"has_screen"}},
+    {"Status", {"has_screen", "has_switches"}},
     {"BlockData", {"crc"}},
     {"LineStatus", {"is_present", "has_upload", "has_call", "has_transfer", "has_asked"}},
     {"LineRequest", {"crc"}},
@@ -85,6 +85,7 @@ TEST(Members, AreThoseOfTheIdlInItsOrder) {
   EXPECT_EQ(names_in_list<LineTransfer>(), names_in_idl("LineTransfer"));
   EXPECT_EQ(names_in_list<LineAsked>(), names_in_idl("LineAsked"));
   EXPECT_EQ(names_in_list<LineStatus>(), names_in_idl("LineStatus"));
+  EXPECT_EQ(names_in_list<PanelSwitches>(), names_in_idl("PanelSwitches"));
   EXPECT_EQ(names_in_list<LineRequest>(), names_in_idl("LineRequest"));
   EXPECT_EQ(names_in_list<LineData>(), names_in_idl("LineData"));
   EXPECT_GE(names_in_idl("Status").size(), 32U);

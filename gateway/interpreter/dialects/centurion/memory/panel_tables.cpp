@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kPositions = 16;
 constexpr double kPulsesOfTurn = 400;
 constexpr double kUsualCranking = 0.001;  // minutes
+constexpr double kUsualDryRun = 75;       // inches per minute
 
 /// One entry for each position of a switch, from 0 to `last_position`.
 Result<std::vector<std::int64_t>> read_table(const Options& options, std::string_view name,
@@ -67,9 +68,14 @@ Result<PanelTables> read_panel_tables(const Setup& setup) {
     return fail(Errc::LimitExceeded, "[control] cranking_minutes: {} is not above 0 and up to 1",
                 *minutes);
   }
+  const auto dry_feed = options.length("dry_run_feed", Length::inch(kUsualDryRun));
+  const auto dry_spindle = options.flag("dry_run_spindle", false);
+  if (!dry_feed) return fail(dry_feed.error());
+  if (!dry_spindle) return fail(dry_spindle.error());
   return PanelTables{.feed = scaled(*feed, kPercent),
                      .spindle = scaled(*spindle, kPercent),
-                     .click_seconds = scaled(*pulses, *minutes * 60 / kPulsesOfTurn)};
+                     .click_seconds = scaled(*pulses, *minutes * 60 / kPulsesOfTurn),
+                     .dry_run = PanelTables::DryRun{*dry_feed, *dry_spindle}};
 }
 
 // What the control keeps when a program has ended and when it is switched off: P0 to P99, what

@@ -182,7 +182,7 @@ bool read_skip(Run& run, const char*& at) {
   }
   if (level == 0) return run.fail(ErrorCode::IllegalAddress, run.column(start), "/0");
   run.block.parts.has_code = true;
-  if ((run.options.skip_levels >> level & 1u) != 0) at = find_block_end(run, at);
+  if ((run.skip_levels >> level & 1u) != 0) at = find_block_end(run, at);
   return true;
 }
 

@@ -90,7 +90,7 @@ OwordHead peek_oword(Run& run) {
   const char* at = run.line_begin;
   bool is_skip = false;
   const bool is_oword = read_line_head(run, at, is_skip) && upper(*at) == 'O' &&
-                        !(is_skip && run.options.block_skip) && read_oword(run, at, head);
+                        !(is_skip && run.block_skip) && read_oword(run, at, head);
   run.pause = Pause::None;
   if (!is_oword) head.word = Oword::None;
   return head;
