@@ -8,7 +8,16 @@ import { commandMachine } from './commands';
 const kStep = 0.1;
 const kMax = 2; // the machine has its own limits
 const kOverrides = ['feed_override', 'rapid_override', 'spindle_override'] as const;
-const kSwitches = ['single_block', 'optional_stop', 'block_skip', 'handwheel'] as const;
+const kSwitches = ['single_block', 'optional_stop', 'block_skip', 'dry_run', 'machine_lock', 'handwheel'] as const;
+type Switch = (typeof kSwitches)[number];
+
+/// Where the switch is; null: there is none, undefined: an older gateway does not report it.
+function stateOf(status: NonNullable<Status>, name: Switch): boolean | null | undefined {
+  if (name === 'single_block') return status.single_block;
+  if (!status.switches) return name === 'dry_run' || name === 'machine_lock' ? null : undefined;
+  const state = status.switches[name];
+  return state === null ? null : state === 'on';
+}
 
 /// To the next tenth: 100 %, 110 % ... whatever it was before.
 export function stepOverride(value: number, step: number): number {
@@ -35,13 +44,16 @@ export function Overrides({ machine, status }: { machine: string; status: NonNul
           <button type="button" disabled={command.isBusy} onClick={() => send({ action, value: 1 })}>100 %</button>
         </div>
       ))}
-      {kSwitches.map((name) => (
-        <div key={name} class="switch" role="group" aria-label={t.switches[name]}>
-          <span>{t.switches[name]}</span>
-          <button type="button" aria-pressed={name === 'single_block' ? status.single_block : undefined} disabled={command.isBusy} onClick={() => turn(name, true)}>{t.on}</button>
-          <button type="button" aria-pressed={name === 'single_block' ? !status.single_block : undefined} disabled={command.isBusy} onClick={() => turn(name, false)}>{t.off}</button>
-        </div>
-      ))}
+      {kSwitches.filter((name) => stateOf(status, name) !== null).map((name) => {
+        const isOn = stateOf(status, name) ?? undefined;
+        return (
+          <div key={name} class="switch" role="group" aria-label={t.switches[name]}>
+            <span>{t.switches[name]}</span>
+            <button type="button" aria-pressed={isOn} disabled={command.isBusy} onClick={() => turn(name, true)}>{t.on}</button>
+            <button type="button" aria-pressed={isOn === undefined ? undefined : !isOn} disabled={command.isBusy} onClick={() => turn(name, false)}>{t.off}</button>
+          </div>
+        );
+      })}
       </fieldset>
       <CommandFault command={command} />
     </section>
