@@ -126,6 +126,8 @@ Reply Gateway::start(const dds::Command& command) {
   if (!from) return refuse(from.error().what);
   if (from->head != line::HeadChoice::Ask)
     return refuse("head is for controls on a serial line: this gateway looks through the program");
+  if (from->is_mdi && parts_.dialect.mdi_blocks == 0)
+    return refuse(fmt::format("control {} has no MDI", parts_.dialect.name));
   auto feed = std::make_unique<feed::PullFeed>(
       feed::FeedRun{parts_.options.machine, parts_.session, command.run, command.size},
       feed::PullFeedOptions{}, [this](const dds::BlockRequest& request) {

@@ -88,6 +88,9 @@ class RunLoop {
                                       const std::optional<RestartPlan>& restart) const;
   Conditions conditions_of(const StartOrigin& origin) const;
   std::optional<interpreter::PanelTables::DryRun> dry_run() const;
+  const interpreter::Snapshot* modes_for(const StartOrigin& origin);
+  void take_modes();
+  void note_beginning(const StartOrigin& origin, bool has_modes);
   Result<std::optional<RestartPlan>> plan_of(const report::ActiveRun& run,
                                              const StartOrigin& origin) const;
   Result<void> stage_start(const report::ActiveRun& run, const StartOrigin& origin,
@@ -114,6 +117,16 @@ class RunLoop {
 
   Parts parts_;
   bool is_held_by_fault_ = false;
+  /// What the control has in force after its last text, for an MDI that follows.
+  struct Modes {
+    interpreter::Snapshot snapshot;
+    interpreter::Position at;
+    interpreter::SpindleState spindle{};
+    std::string setup, memory;  ///< digests
+  };
+  std::optional<Modes> modes_;
+  std::string why_no_modes_ = "nothing has run since the gateway was started";
+  std::string setup_given_;                         ///< digest of the server's setup of this run
   std::optional<interpreter::Position> locked_at_;  ///< of this run: the axes end there
   SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_checkpoint_{};
   machine::MachineState last_state_{};

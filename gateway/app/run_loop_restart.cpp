@@ -116,7 +116,7 @@ void RunLoop::resolve_interrupted(const std::string& run, RunEnding& ending) {
 
 /// Before the record of the run's end, and in the same transaction.
 void RunLoop::stage_ending(dds::RunOutcome outcome) {
-  if (!parts_.keeps_checkpoints) return;
+  if (!parts_.run.session->keeps_checkpoints()) return;
   const bool is_completed = outcome == dds::RunOutcome::Completed;
   RunSession& session = *parts_.run.session;
   if (!is_completed) session.want_checkpoint();

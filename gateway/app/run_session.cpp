@@ -29,6 +29,10 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   if (!made) return fail(made.error());
   session->interpreter_ = std::move(*made);
   if (auto done = session->give_memory(make, given); !done) return fail(done.error());
+  if (const auto* modes = session->parts_.modes) {
+    if (auto restored = session->interpreter_->restore(*modes); !restored)
+      return fail(restored.error());
+  }
   session->note_modes();
   if (auto begun = session->begin_check(make, given); !begun) return fail(begun.error());
   if (!session->parts_.restart) return session;
@@ -73,7 +77,7 @@ Result<void> RunSession::begin_check(const Make& make, const interpreter::Setup&
   if (!parts_.check) return {};
   auto made = make(setup, parts_.check->events());
   if (!made) return fail(made.error());
-  if (retained_ != nullptr)
+  if (retained_ != nullptr || parts_.modes != nullptr)
     if (auto same = (*made)->restore(interpreter_->snapshot()); !same) return same;
   check_ = std::make_unique<ProgramCheck>(ProgramCheck::Parts{.machine = std::move(parts_.check),
                                                               .interpreter = *std::move(made),
@@ -238,6 +242,11 @@ bool RunSession::resolve(const interpreter::InputQuestion& question) {
 
 bool RunSession::resolve(const interpreter::TimeQuestion&) {
   return machine_rests() && give(interpreter::local_time_at(clock_ms()));
+}
+
+Result<interpreter::Snapshot> RunSession::take_modes() {
+  if (auto done = interpreter_->begin_next_text(); !done) return fail(done.error());
+  return interpreter_->snapshot();
 }
 
 std::optional<std::uint64_t> RunSession::set_block_skip(std::uint16_t levels) {

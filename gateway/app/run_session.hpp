@@ -38,6 +38,9 @@ class RunSession {
     std::optional<RestartPlan> restart = {};
     std::unique_ptr<machine::MotionCheck> check = {};  ///< null: the program is not looked through
     bool is_lathe = false;
+    bool is_mdi = false;  ///< keyed in at the control
+    const interpreter::Snapshot* modes =
+        nullptr;  ///< in which the control is; null: as at power on
     /// In a dry run of a machine that knows none: the events' own feeds change.
     std::optional<interpreter::PanelTables::DryRun> dry_run = {};
   };
@@ -58,6 +61,11 @@ class RunSession {
   Result<void> answer(const std::string& text);
 
   const report::ActiveRun& run() const { return parts_.run; }
+  bool is_mdi() const { return parts_.is_mdi; }
+  bool keeps_checkpoints() const { return checkpoints_.has_value(); }
+  /// After the run was completed: the control as its end leaves it, for an MDI. The session is of
+  /// no other use then. Errors: those of Interpreter::begin_next_text.
+  Result<interpreter::Snapshot> take_modes();
   feed::ProgramFeed& feed() { return *parts_.feed; }
   const feed::ProgramFeed& feed() const { return *parts_.feed; }
   std::uint64_t accepted() const { return interpreter_->blocks(); }

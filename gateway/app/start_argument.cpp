@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "protocol/dds/message.hpp"
+
 namespace dripline::gateway {
 namespace {
 
@@ -60,6 +62,10 @@ Result<StartArgument> parse_start_argument(std::string_view text) {
     auto restart = parse_restart(text);
     if (!restart) return fail(restart.error());
     start.restart = *std::move(restart);
+    return start;
+  }
+  if (text == dds::kMdiStart) {
+    start.is_mdi = true;
     return start;
   }
   start.place = take_word(text);

@@ -187,6 +187,7 @@ void StatusBuilder::fill_machine(dds::Status& status, const machine::MachineStat
 void StatusBuilder::fill_run(dds::Status& status, const machine::MachineStatus& now) const {
   const RunSession& session = *parts_.run.session;
   status.run = session.run().run;
+  if (session.is_mdi()) status.mode = dds::ControllerMode::ManualDataInput;
   status.program = session.run().program;
   status.total_bytes = session.run().size;
   status.sent = session.feed().sent();

@@ -71,6 +71,10 @@ class MotionBackend {
   /// panel.
   virtual void begin(const interpreter::Position& at) = 0;
 
+  /// The same for a text that the control continues with (MDI): spindle and coolant run on, and the
+  /// tool is shown.
+  virtual void begin_next(const interpreter::Position& at) { begin(at); }
+
   // -- what the interpreter does --------------------------------------------------------------
   /// Hand this to the interpreter. Events after an alarm or abort are dropped until `begin`.
   virtual interpreter::EventSink& events() = 0;

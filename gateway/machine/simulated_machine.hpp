@@ -26,6 +26,7 @@ class SimulatedMachine final : public MotionBackend {
   const MotionCapabilities& capabilities() const override { return capabilities_; }
   Result<void> check_begin(const interpreter::Position&) const override { return {}; }
   void begin(const interpreter::Position& at) override { executor_.begin(at); }
+  void begin_next(const interpreter::Position& at) override { executor_.begin_next(at); }
 
   interpreter::EventSink& events() override { return queue_builder_; }
   /// A block that has more than kBlockReserve actions or kTextReserve bytes of text beyond this

@@ -21,6 +21,9 @@ namespace dripline::dds {
 /// 2: commands carry number and deadline. A gateway of another version is shown, and its records
 /// are stored, but the server starts no program there.
 inline constexpr std::uint32_t kProtocolVersion = 2;
+/// The argument of a start whose text is keyed in (MDI). A gateway that does not know it refuses
+/// its second word.
+inline constexpr std::string_view kMdiStart = "mdi keyed-in";
 inline constexpr std::size_t kMaxBlockBytes = 32 * 1024;
 inline constexpr std::uint32_t kMaxRequestBytes = 1024 * 1024;
 inline constexpr std::size_t kMaxRecordText = 4096;

@@ -89,6 +89,8 @@ Result<void> SerialRun::start(const dds::Command& command, SteadyTime now) {
   if (!argument) return fail(argument.error());
   if (argument->restart)
     return fail(Errc::Unsupported, "over this line a restart is a start with from and head");
+  if (argument->is_mdi)
+    return fail(Errc::Unsupported, "MDI is the control's own: nothing is keyed in over this line");
   auto place = SerialStart::make(*argument, {command.control, command.size});
   if (!place) return fail(place.error());
   const report::ActiveRun run{command.run, command.program, command.revision, command.control,

@@ -107,6 +107,7 @@ struct Dialect {
   MachineKind machine = MachineKind::Mill;
   FeedOverrideSwitch feed_override_switch = {};
   SwitchRules switches = {};
+  std::size_t mdi_blocks = 0;  ///< so many lines are keyed in at once; 0: the control has no MDI
   bool waits_at_tool_change = false;  ///< tools are changed by hand: CYCLE START resumes
   /// What the control makes of a program, in its own words; nullptr: it keeps the text. Errors:
   /// Syntax.

@@ -149,6 +149,14 @@ class Interpreter {
   /// False: this control skips no blocks.
   virtual bool set_block_skip(std::uint16_t /*levels*/) { return false; }
 
+  /// After the end of a program or of an MDI text: makes the state that of the control before it is
+  /// given another text, from its first byte on. What its end leaves in force stays: modes, tool,
+  /// offsets, variables. For a snapshot, which another interpreter restores. Errors: Unsupported
+  /// (the control has no MDI; cutter compensation is on).
+  virtual Result<void> begin_next_text() {
+    return fail(Errc::Unsupported, "this control keeps no modes between texts");
+  }
+
   /// Blocks finished so far: the *accepted* counter.
   virtual std::uint64_t blocks() const = 0;
   /// The block being executed, or the last one finished.

@@ -55,6 +55,9 @@ struct Setup {
   std::vector<VariableRecord> variables;
   Workpiece workpiece;
   Options control;
+  /// The text is keyed in at the control (MDI): its end needs no program end, and leaves in force
+  /// what is. The owner's; no key of a setup file.
+  bool is_mdi = false;
   std::optional<std::string> library_path;  ///< folder of called programs; resolved by the caller
 };
 

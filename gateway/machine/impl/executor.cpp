@@ -34,6 +34,22 @@ void Executor::begin(const interpreter::Position& at) {
   is_emergency_ = is_aborting_ = panel_.emergency_stop;
 }
 
+void Executor::begin_next(const interpreter::Position& at) {
+  const interpreter::Spindle spindle = spindle_.programmed();
+  const auto withheld = withheld_spindle_;
+  MachineStatus shown;
+  shown.tool = shown_.tool;
+  shown.next_tool = shown_.next_tool;
+  shown.tool_offset = shown_.tool_offset;
+  shown.flood = shown_.flood;
+  shown.mist = shown_.mist;
+  begin(at);
+  spindle_.set(spindle);
+  withheld_spindle_ = withheld;
+  queue_builder_.continue_spindle(withheld.value_or(spindle));
+  shown_ = shown;
+}
+
 // -- time ------------------------------------------------------------------------------------
 
 double Executor::pass(double by, std::size_t max_actions) {

@@ -86,6 +86,8 @@ class Executor {
   explicit Executor(const Parts& parts);
 
   void begin(const interpreter::Position& at);
+  /// Spindle, coolant and what is shown of the tool stay.
+  void begin_next(const interpreter::Position& at);
   double advance(double by, std::size_t max_actions);
 
   const OperatorPanel& panel() const { return panel_; }

@@ -12,6 +12,8 @@ class MotionQueueBuilder final : public interpreter::EventSink {
   MotionQueueBuilder(const MachineLimits& limits, ActionQueue& queue);
 
   void begin(const Coordinates& at);
+  /// After begin: it turns already.
+  void continue_spindle(const interpreter::Spindle& spindle) { spindle_.set(spindle); }
   void begin_probe(const interpreter::Probe& probe);
   /// Where the open probe has ended; what follows starts there.
   void end_probe(const Coordinates& at);

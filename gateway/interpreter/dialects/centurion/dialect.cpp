@@ -100,7 +100,8 @@ const Dialect kCenturionDialect{
     .machine = MachineKind::Lathe,
     .feed_override_switch = {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
     .switches = {.dry_run_at_rest = true},  // error 605: while running
-    .waits_at_tool_change = true,           // M6 prompts and waits (manual: M6)
+    .mdi_blocks = 1,
+    .waits_at_tool_change = true,  // M6 prompts and waits (manual: M6)
     .panel_tables = &read_panel_tables,
     .options = &list_options,
     .refusal_words = &refusal_words,

@@ -274,6 +274,29 @@ ActiveModes CenturionInterpreter::modes() const {
   return modes;
 }
 
+Result<void> CenturionInterpreter::begin_next_text() {
+  ModalState& state = run_.state;
+  if (state.modes.compensation != 0 || state.is_searching)
+    return fail(Errc::Unsupported, "nose compensation is on");
+  state.phase = RunPhase::Running;
+  state.has_header = false;
+  state.blocks = 0;
+  state.at = {};
+  state.uses_compensator = false;
+  state.open_device.reset();
+  state.calls.clear();
+  state.gosubs.clear();
+  state.loops.clear();
+  state.jump = {};
+  state.pattern = {};
+  state.before_pattern.clear();
+  run_.origin = {};
+  run_.name.clear();
+  run_.is_name_final = false;
+  after_restore();
+  return {};
+}
+
 void CenturionInterpreter::after_restore() {
   run_.text.invalidate();
   run_.block.clear();

@@ -20,6 +20,7 @@ class CenturionInterpreter final : public BlockInterpreter<CenturionInterpreter>
     block_skip_ = (levels & 2u) != 0;
     return true;
   }
+  Result<void> begin_next_text() override;
   ActiveModes modes() const override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;

@@ -263,6 +263,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
   control.optional_stop = setup.switches.optional_stop;
   control.single_block = setup.switches.single_block;
   control.is_dry_run = setup.switches.dry_run;
+  control.is_mdi |= setup.is_mdi;
   const auto feed = setup.control.number("power_on_feed", 10);
   if (!feed) return fail(feed.error());
   const bool is_inch = setup.units.value_or(Units::Inch) == Units::Inch;

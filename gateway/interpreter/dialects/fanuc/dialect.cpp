@@ -96,9 +96,27 @@ constexpr std::array kLatheStatusFields{status_field::kCompensation, status_fiel
                                         status_field::kWorkSystem,   status_field::kIncremental,
                                         status_field::kCycle};
 
+/// The dry run of the panel, and which switches for block skip are on.
+Result<PanelTables> panel_of(const Setup& setup, bool is_lathe) {
+  const auto options = read_options(setup, is_lathe);
+  if (!options) return fail(options.error());
+  PanelTables tables;
+  tables.skip_levels = options->skip_levels;
+  if (options->dry_run_feed > 0)
+    tables.dry_run = PanelTables::DryRun{Length::mm(options->dry_run_feed), true};
+  return tables;
+}
+Result<PanelTables> read_panel_tables(const Setup& setup) {
+  return panel_of(setup, false);
+}
+Result<PanelTables> read_lathe_panel_tables(const Setup& setup) {
+  return panel_of(setup, true);
+}
+
 }  // namespace
 
 /// MACHINE LOCK, DRY RUN and the switches of /1 to /9 are on every panel of the family.
+constexpr std::size_t kMdiBlocks = 10;
 constexpr SwitchRules kSwitches{.skip_levels = 9, .machine_lock = true};
 
 const Dialect kFanucDialect{.name = "fanuc",
@@ -106,6 +124,7 @@ const Dialect kFanucDialect{.name = "fanuc",
                             .likelihood = &likelihood,
                             .make = &make,
                             .switches = kSwitches,
+                            .mdi_blocks = kMdiBlocks,
                             // T selects and M06 exchanges, as the machine's builder has it: only a
                             // machine without `tool_changer` stops for a tool change.
                             .waits_at_tool_change = true,
@@ -119,6 +138,7 @@ const Dialect kFanucLatheDialect{.name = "fanuc-t",
                                  .make = &make_lathe,
                                  .machine = MachineKind::Lathe,
                                  .switches = kSwitches,
+                                 .mdi_blocks = kMdiBlocks,
                                  .panel_tables = &read_lathe_panel_tables,
                                  .options = &list_lathe_options,
                                  .status_fields = kLatheStatusFields};

@@ -111,6 +111,12 @@ bool FanucInterpreter::begin_other_block() {
 /// No block is visible: more text is needed, the record is over, or it cannot continue.
 BlockOutcome FanucInterpreter::meet_line_state(TextCursor::State state) {
   if (state == TextCursor::State::NotYet) return BlockOutcome::NeedsText;
+  if (state == TextCursor::State::EndOfText && run_.options.is_mdi && run_.state.calls.empty()) {
+    if (run_.state.is_compensating()) run_.compensator.cancel();
+    run_.events().on_end({run_.origin, run_.state.blocks, false});
+    run_.state.phase = RunPhase::Ended;
+    return BlockOutcome::NoBlock;
+  }
   if (run_.block.parts.stage == Stage::Start) place_origin(run_.state.at);
   switch (state) {
     case TextCursor::State::EndOfText:
@@ -124,6 +130,29 @@ BlockOutcome FanucInterpreter::meet_line_state(TextCursor::State state) {
       break;
   }
   return BlockOutcome::Paused;
+}
+
+Result<void> FanucInterpreter::begin_next_text() {
+  ModalState& state = run_.state;
+  if (state.is_compensating()) return fail(Errc::Unsupported, "cutter compensation is on");
+  state.phase = RunPhase::Running;
+  state.has_header = false;
+  state.blocks = 0;
+  state.at = {};
+  state.uses_compensator = state.uses_blender = false;
+  state.calls.clear();
+  state.loops.clear();
+  state.modals.clear();
+  state.modal_active = -1;
+  state.locals.resize(1);
+  state.jump = {};
+  state.limits = {};
+  run_.origin = {};
+  run_.name.clear();
+  run_.name_is_settled = false;
+  run_.block.parts = kFreshParts;
+  after_restore();
+  return {};
 }
 
 /// Without an O number, the first block's N names the program.

@@ -16,6 +16,7 @@ class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public
     run_.skip_levels = levels;
     return true;
   }
+  Result<void> begin_next_text() override;
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
   std::vector<MemoryCell> memory_cells() const override;

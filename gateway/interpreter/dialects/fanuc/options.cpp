@@ -368,26 +368,6 @@ std::vector<ListedOption> list_lathe_options() {
   return list_rows(kLatheOptions);
 }
 
-namespace {
-
-Result<PanelTables> panel_of(const Setup& setup, bool is_lathe) {
-  const auto options = read_options(setup, is_lathe);
-  if (!options) return fail(options.error());
-  PanelTables tables;
-  tables.skip_levels = options->skip_levels;
-  if (options->dry_run_feed > 0) tables.dry_run = {Length::mm(options->dry_run_feed), true};
-  return tables;
-}
-
-}  // namespace
-
-Result<PanelTables> read_panel_tables(const Setup& setup) {
-  return panel_of(setup, false);
-}
-Result<PanelTables> read_lathe_panel_tables(const Setup& setup) {
-  return panel_of(setup, true);
-}
-
 Result<ControlOptions> read_options(const Setup& setup, bool is_lathe) {
   ControlOptions control;
   control.is_lathe = control.x_is_diameter = is_lathe;
@@ -399,6 +379,8 @@ Result<ControlOptions> read_options(const Setup& setup, bool is_lathe) {
   }
   if (setup.switches.block_skip) control.skip_levels |= 1u << 1;
   control.optional_stop = setup.switches.optional_stop;
+  control.is_mdi = setup.is_mdi;
+  control.is_dnc |= setup.is_mdi;  // GOTO and WHILE are alarm 123 there too
   return control;
 }
 

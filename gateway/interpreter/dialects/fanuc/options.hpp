@@ -80,6 +80,7 @@ struct ControlOptions {
   bool diameter_offset = false;
   std::vector<std::int64_t> before_m;
   bool is_dnc = false;
+  bool is_mdi = false;          ///< Setup::is_mdi
   std::string external_folder;  ///< of M198: what precedes the program in its name
   std::size_t max_call_depth = 4;
   std::size_t max_nesting = 8;
@@ -111,9 +112,6 @@ void apply_start_codes(const ControlOptions& options, ModalState& state);
 
 /// The rows of its options, for people.
 std::vector<ListedOption> list_options();
-/// The dry run of the panel, and which switches for block skip are on.
-Result<PanelTables> read_panel_tables(const Setup& setup);
-Result<PanelTables> read_lathe_panel_tables(const Setup& setup);
 std::vector<ListedOption> list_lathe_options();
 
 }  // namespace dripline::interpreter::fanuc

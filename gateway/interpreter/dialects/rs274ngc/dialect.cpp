@@ -103,6 +103,7 @@ const Dialect kRs274NgcDialect{.name = "rs274ngc",
                                .make = &make,
                                // The language's machine has a changer with slots (NIST 3.6, M6):
                                // only a machine without `tool_changer` stops for a tool change.
+                               .mdi_blocks = 10,
                                .waits_at_tool_change = true,
                                .options = &list_options,
                                .text = {.has_diameter_codes = true},

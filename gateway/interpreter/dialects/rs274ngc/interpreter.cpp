@@ -95,6 +95,8 @@ BlockOutcome Rs274NgcInterpreter::meet_no_line(LineState state) {
     case LineState::NotYet:
       return BlockOutcome::NeedsText;
     case LineState::End:
+      if (run_.options.is_mdi && run_.state.calls.empty() && run_.state.frames.empty())
+        return end_of_mdi();
       run_.next = run_.state.at;
       if (!flow_.end_of_text()) return BlockOutcome::Paused;
       run_.state.at = run_.next;
@@ -106,6 +108,36 @@ BlockOutcome Rs274NgcInterpreter::meet_no_line(LineState state) {
       run_.fail(ErrorCode::TextFailed, 0, run_.reader.reason());
       return BlockOutcome::Paused;
   }
+}
+
+BlockOutcome Rs274NgcInterpreter::end_of_mdi() {
+  if (!check_nurbs_closed(run_)) return BlockOutcome::Paused;
+  release_held(run_);
+  run_.events().on_end({run_.origin, run_.state.blocks, false});
+  run_.state.phase = RunPhase::Ended;
+  return BlockOutcome::NoBlock;
+}
+
+Result<void> Rs274NgcInterpreter::begin_next_text() {
+  State& state = run_.state;
+  if (state.compensation.side != Side::Off || !run_.held.empty())
+    return fail(Errc::Unsupported, "cutter compensation is on");
+  state.phase = RunPhase::Running;
+  state.has_header = false;
+  state.demarcation = Demarcation::Unknown;
+  state.blocks = 0;
+  state.at = {};
+  state.sequence = Origin::kNone;
+  state.frames.clear();
+  state.calls.clear();
+  state.labels.clear();
+  state.label_names.clear();
+  state.skip = {};
+  state.passes = 0;
+  run_.origin = {};
+  run_.block.stage = Stage::Start;
+  after_restore();
+  return {};
 }
 
 /// The first line of a program that is not blank shows how its end is marked (NIST 3.3).

@@ -22,6 +22,7 @@ class Rs274NgcInterpreter final : public BlockInterpreter<Rs274NgcInterpreter>,
     run_.block_skip = (levels & 2u) != 0;
     return true;
   }
+  Result<void> begin_next_text() override;
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
   std::vector<MemoryCell> memory_cells() const override;
@@ -44,6 +45,7 @@ class Rs274NgcInterpreter final : public BlockInterpreter<Rs274NgcInterpreter>,
   BlockOutcome run_line();
   bool load_line(LineState& outcome);
   BlockOutcome meet_no_line(LineState state);
+  BlockOutcome end_of_mdi();
   bool meet_percent(const char* at, bool& is_end);
   bool execute();
   bool execute_words(const char* at, bool is_skipped);

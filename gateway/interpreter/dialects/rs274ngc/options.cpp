@@ -57,6 +57,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
   }
   control.block_skip = setup.switches.block_skip;
   control.optional_stop = setup.switches.optional_stop;
+  control.is_mdi = setup.is_mdi;
   if (setup.units.value_or(Units::Millimeter) == Units::Inch) {
     control.mm_per_machine_unit = Length::kMillimetersPerInch;
   }

@@ -29,6 +29,7 @@ struct Tool {
 struct ControlOptions {
   Profile profile = Profile::Nist;
   bool block_skip = false;
+  bool is_mdi = false;  ///< Setup::is_mdi
   bool optional_stop = false;
   AddressSet axes = 0;           ///< words of the axes the machine has
   bool has_tool_changer = true;  ///< false: M6 stops for the operator's hands

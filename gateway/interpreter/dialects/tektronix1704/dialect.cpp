@@ -65,6 +65,7 @@ const Dialect kTektronix1704Dialect{.name = "tektronix-1704",
                                     .machine = MachineKind::Mill,
                                     .feed_override_switch = {0.125, 1.25, Length::inch(200)},
                                     .switches = {.block_skip = false},
+                                    .mdi_blocks = 1,
                                     // Without a changer M06 is an M00 with a lamp.
                                     .waits_at_tool_change = true,
                                     .list = planning_sheet,

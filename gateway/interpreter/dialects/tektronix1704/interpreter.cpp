@@ -17,7 +17,9 @@ constexpr LineRules kLineRules{.max_bytes = 16 * 1024, .skip_percent = false};
 
 TektronixInterpreter::TektronixInterpreter(ControlOptions options, ProgramSource& source,
                                            EventSink& sink)
-    : run_(std::move(options), sink), reader_(source, kLineRules) {}
+    : run_(std::move(options), sink), reader_(source, kLineRules) {
+  if (run_.options.is_mdi) run_.state.reader = ReaderState::Data;
+}
 
 BlockOutcome TektronixInterpreter::run_block() {
   return run_.state.mdi_done < run_.options.mdi.size() ? run_mdi_block() : run_line();
@@ -106,6 +108,11 @@ void TektronixInterpreter::close_block() {
 
 BlockOutcome TektronixInterpreter::end_of_tape() {
   run_.state.block = {};
+  if (run_.options.is_mdi) {
+    run_.events().on_end({run_.origin, run_.state.blocks, false});
+    run_.state.phase = RunPhase::Ended;
+    return BlockOutcome::NoBlock;
+  }
   if (run_.state.reader == ReaderState::Search) {
     run_.fail(Fault::NumberNotFound, 0, fmt::format("N{:03}", *run_.options.search));
     return BlockOutcome::Paused;
@@ -126,6 +133,20 @@ BlockOutcome TektronixInterpreter::run_mdi_block() {
   if (!execute_block(run_)) return BlockOutcome::Paused;
   run_.state.block = {};
   return BlockOutcome::NoBlock;
+}
+
+Result<void> TektronixInterpreter::begin_next_text() {
+  State& state = run_.state;
+  state.phase = RunPhase::Running;
+  state.reader = ReaderState::Data;
+  state.has_header = false;
+  state.blocks = 0;
+  state.mdi_done = 0;
+  state.place = {};
+  state.block = {};
+  run_.origin = {};
+  after_restore();
+  return {};
 }
 
 ActiveModes TektronixInterpreter::modes() const {

@@ -11,6 +11,7 @@ class TektronixInterpreter final : public BlockInterpreter<TektronixInterpreter>
  public:
   TektronixInterpreter(ControlOptions options, ProgramSource& source, EventSink& sink);
 
+  Result<void> begin_next_text() override;
   ActiveModes modes() const override;
 
  private:

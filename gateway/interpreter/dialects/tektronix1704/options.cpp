@@ -313,6 +313,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
   if (auto done = read_rows(kRows, setup.control, control); !done) return fail(done.error());
   if (auto done = read_mirror_switches(setup, control); !done) return fail(done.error());
   control.optional_stop = setup.switches.optional_stop;
+  control.is_mdi = setup.is_mdi;
+  if (setup.is_mdi) control.mdi.clear();
   for (std::size_t i = 0; i < kAxes; ++i) {
     control.start[i] = counts(control, setup.start.linear(static_cast<Axis>(i)));
   }

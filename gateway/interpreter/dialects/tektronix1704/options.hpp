@@ -65,6 +65,7 @@ struct ControlOptions {
   std::vector<std::string> mdi;             ///< blocks keyed in before the tape starts
   std::optional<int> search;                ///< sequence number to run the tape forward to
   bool optional_stop = false;
+  bool is_mdi = false;  ///< Setup::is_mdi: no leader, and no end code
   std::array<bool, kAxes> mirror{};
   std::array<std::int64_t, kAxes> start{}, zero{};  ///< machine counts
 

@@ -75,6 +75,7 @@ void place_at_start(const Setup& setup, State& state) {
 Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
                                           EventSink& sink) {
   auto options = read_options(setup);
+  if (options) options->is_mdi = setup.is_mdi;
   if (!options) return fail(options.error());
   State state;
   std::vector<ToolDefinition> tools;
@@ -89,6 +90,7 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   state.pockets = *std::move(pockets);
   state.transformation.basic_rotation = options->basic_rotation;
   place_at_start(setup, state);
+  state.has_positioned = setup.is_mdi;  // an incremental block is as good as any there
   if (options->start_block >= 0) {
     state.start.is_searching = true;
     state.start.block = options->start_block;
@@ -157,6 +159,7 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              .likelihood = &likelihood,
                              .make = &make,
                              .switches = {.optional_stop = false, .block_skip = false},
+                             .mdi_blocks = 1,
                              // M06 is a program stop where the machine parameter makes it one
                              // (`m06_stop`); TOOL CALL itself never stops, a STOP before
                              // it is programmed.

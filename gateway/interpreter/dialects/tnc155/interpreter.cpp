@@ -297,6 +297,30 @@ std::optional<CoordinateFrame> TncInterpreter::frame() const {
   return frame_of(run_.state);
 }
 
+Result<void> TncInterpreter::begin_next_text() {
+  State& state = run_.state;
+  if (state.is_compensating()) return fail(Errc::Unsupported, "radius compensation is on");
+  state.phase = RunPhase::Running;
+  state.has_header = state.are_calls_checked = false;
+  state.blocks = 0;
+  state.at = {};
+  state.number_due = Block::kNone;
+  state.reading = {};
+  state.units = Units::Millimeter;
+  state.program_number = -1;
+  state.uses_stages = state.joins = state.is_parallel = state.needs_side = false;
+  state.has_compensated = state.awaits_contour = state.is_restart = false;
+  state.has_positioned = true;
+  state.labels.clear();
+  state.programs.clear();
+  state.known_labels.clear();
+  state.jump = {};
+  state.start = {};
+  run_.origin = {};
+  after_restore();
+  return {};
+}
+
 void TncInterpreter::after_restore() {
   run_.reader.drop_window();
   run_.reader.seek(run_.state.at);

@@ -13,6 +13,7 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>, public Ret
   TncInterpreter(ControlOptions options, State state, std::vector<ToolDefinition> tools,
                  ProgramSource& source, EventSink& sink);
 
+  Result<void> begin_next_text() override;
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
   std::vector<MemoryCell> memory_cells() const override;

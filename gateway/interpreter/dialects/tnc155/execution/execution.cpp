@@ -166,6 +166,11 @@ constexpr std::array<bool (*)(Run&, const Block&), static_cast<std::size_t>(Bloc
 }  // namespace
 
 bool execute(Run& run, const Block& block) {
+  if (run.options.is_mdi && block.kind != BlockKind::SingleAxis &&
+      block.kind != BlockKind::ToolCall) [[unlikely]] {
+    return run.fail(ErrorCode::BlockFormatIncorrect,
+                    "positioning with MDI takes a single-axis block or TOOL CALL");
+  }
   if (is_defining(run) && block.kind != BlockKind::CycleDefinition) [[unlikely]] {
     return run.fail(
         ErrorCode::CycleIncomplete,

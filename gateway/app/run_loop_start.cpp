@@ -1,0 +1,208 @@
+#include <cmath>
+#include <utility>
+
+#include "gateway/app/run_loop.hpp"
+#include "protocol/process/log.hpp"
+
+/// How a run begins.
+namespace dripline::gateway {
+
+using machine::MachineState;
+
+namespace {
+
+bool is_there(const interpreter::Position& a, const interpreter::Position& b) {
+  constexpr double kSamePlace = 1e-6;
+  for (const interpreter::Axis axis : interpreter::kAllAxes)
+    if (std::fabs(a.raw(axis) - b.raw(axis)) > kSamePlace) return false;
+  return true;
+}
+
+}  // namespace
+
+/// The setup of this gateway with the server's tools, offsets and variables in their place. That of
+/// a restart is the one under which its run began.
+Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
+                                             const std::optional<RestartPlan>& restart) const {
+  interpreter::Setup setup = parts_.setup;
+  if (!origin.setup.empty()) {
+    auto data = interpreter::parse_control_data(origin.setup, parts_.dialect.units);
+    if (!data) return fail(data.error().code, "the server's setup: {}", data.error().what);
+    interpreter::use_control_data(*std::move(data), setup);
+  }
+  const machine::OperatorPanel& panel = parts_.machine.panel();
+  setup.switches.block_skip = panel.block_skip;
+  if (panel.skip_levels) {
+    interpreter::OptionList levels;
+    for (std::int64_t level = 1; level <= parts_.dialect.switches.skip_levels; ++level)
+      if ((*panel.skip_levels >> level & 1) != 0) levels.emplace_back().value = level;
+    setup.control.set("skip_levels", {std::move(levels), 0});
+  }
+  // The machine decides, when it comes to the stop or the move.
+  setup.switches.optional_stop = true;
+  setup.switches.dry_run = false;
+  // Axes that nothing places begin where they are, unless the setup names a start to compare with.
+  if (!parts_.machine.capabilities().places_axes && setup.start == interpreter::Position{}) {
+    setup.start = restart ? restart->conditions.begun_at : parts_.machine.status().position;
+    setup.start.unmark_all();
+  }
+  if (origin.from.is_mdi) {
+    setup.is_mdi = true;
+    setup.start = parts_.machine.status().position;
+    setup.start.unmark_all();
+    return setup;
+  }
+  const auto begun = restart ? parse_start_argument(restart->conditions.start)
+                             : Result<StartArgument>(origin.from);
+  if (!begun) return fail(begun.error());
+  const StartArgument& from = *begun;
+  if (from.place.empty()) return setup;
+  setup.control.set("start_at", {from.place, 0});
+  if (from.pass) setup.control.set("start_pass", {std::int64_t{*from.pass}, 0});
+  if (from.memory != StartMemory::Ask) {
+    const bool is_former = from.memory == StartMemory::Begin;
+    setup.control.set("start_memory", {std::string(is_former ? "begin" : "now"), 0});
+  }
+  setup.position = restart ? restart->conditions.begun_at : parts_.machine.status().position;
+  return setup;
+}
+
+Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
+                            const StartOrigin& origin) {
+  if (parts_.machine.panel().emergency_stop) return fail(Errc::Busy, "{}", kEmergencyStop);
+  auto restart = plan_of(run, origin);
+  if (!restart) return fail(restart.error());
+  const bool is_restart = restart->has_value();
+  const auto setup = setup_of(origin, *restart);
+  if (!setup) return fail(setup.error());
+  const interpreter::Position at = is_restart || origin.from.is_mdi
+                                       ? parts_.machine.status().position
+                                       : setup->position.value_or(setup->start);
+  Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
+  if (is_restart) conditions.restart_of = origin.from.restart->run;
+  if (auto done = parts_.machine.check_begin(at); !done) return done;
+  // A line cannot be read again, and the run of a restart was looked through before.
+  auto check = is_restart || !parts_.keeps_checkpoints ? nullptr : parts_.machine.make_check(at);
+  const bool is_mdi = origin.from.is_mdi;
+  const interpreter::Snapshot* const modes = modes_for(origin);
+  auto session = RunSession::make(
+      {.run = run,
+       .feed = std::move(feed),
+       .machine = parts_.machine,
+       .recorder = parts_.recorder,
+       .clock = parts_.clock,
+       .memory = parts_.memory,
+       .begins_with_former_memory = origin.from.memory == StartMemory::Begin,
+       .checkpoints = parts_.keeps_checkpoints && !is_mdi ? &parts_.outbox : nullptr,
+       .restart = *std::move(restart),
+       .check = std::move(check),
+       .is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe,
+       .is_mdi = is_mdi,
+       .modes = modes,
+       .dry_run = dry_run()},
+      parts_.dialect, *setup);
+  if (!session) {
+    const bool is_memory =
+        session.error().code == Errc::Corrupt || session.error().code == Errc::NotFound;
+    return fail(session.error().code, "{}{}", is_memory ? "" : "setup: ", session.error().what);
+  }
+  if (auto done = stage_start(run, origin, std::move(conditions), **session); !done) return done;
+
+  parts_.journal.begin(run.run);
+  parts_.on_begin(*setup);
+  locked_at_.reset();
+  if (parts_.machine.panel().machine_lock) locked_at_ = parts_.machine.status().position;
+  note_beginning(origin, modes != nullptr);
+  setup_given_ = sha256(origin.setup).hex();
+  modes_.reset();
+  why_no_modes_ = "the last run was cut off";
+  is_mdi ? parts_.machine.begin_next(at) : parts_.machine.begin(at);
+  parts_.run.session = std::move(*session);
+  parts_.run.session->size_feed(parts_.options.speed.factor);
+  parts_.run.last_message.clear();
+  parts_.run.was_emergency_stopped = false;
+  last_step_ = parts_.clock.steady_now();
+  last_state_ = MachineState::Idle;
+  has_dropped_checkpoint_ = false;
+  next_sync_ = last_step_;
+  next_checkpoint_ = last_step_ + parts_.options.checkpoint_interval;
+  const SteadyTime deadline = last_step_ + parts_.options.cycle_start_wait;
+  if (is_restart) {
+    parts_.consent.await_confirmation(deadline);
+  } else {
+    parts_.consent.await(deadline);
+  }
+  return {};
+}
+
+/// Of a machine that does not obey the panel's switch by itself.
+std::optional<interpreter::PanelTables::DryRun> RunLoop::dry_run() const {
+  const machine::OperatorPanel& panel = parts_.machine.panel();
+  if (!panel.dry_run || parts_.machine.capabilities().dry_run) return std::nullopt;
+  return interpreter::PanelTables::DryRun{Length::mm(panel.dry_run_speed * 60),
+                                          panel.dry_run_spindle};
+}
+
+/// Puts the start on disk: from here on the run exists, and ends exactly once.
+Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigin& origin,
+                                  Conditions conditions, RunSession& session) {
+  parts_.outbox.discard();
+  parts_.memory.stage();
+  if (origin.from.place.empty() && !origin.from.restart && !origin.from.is_mdi)
+    parts_.memory.stage_beginning(run.revision);
+  parts_.recorder.begin(run, parts_.setup_digest, [&session](std::uint64_t block) {
+    return ExecutionRecorder::FeedProgress{session.feed().sent(), session.accepted(),
+                                           session.path_at(block), session.length_at(block)};
+  });
+  if (session.keeps_checkpoints()) {
+    parts_.outbox.checkpoints().stage_run({run,
+                                           encode(run.run, std::move(conditions)),
+                                           {},
+                                           origin.from.restart ? origin.from.restart->run : ""});
+    session.want_checkpoint();
+  }
+  parts_.commands.stage_start(run.run, origin.command);
+  const auto done = parts_.outbox.commit();
+  if (done) return {};
+  parts_.outbox.discard();
+  return fail(done.error().code, "the start cannot be kept: {}", done.error().what);
+}
+
+/// Modes that do not fit the machine any more would move it to a place that nobody meant.
+const interpreter::Snapshot* RunLoop::modes_for(const StartOrigin& origin) {
+  if (!origin.from.is_mdi || !modes_) return nullptr;
+  const machine::MachineStatus now = parts_.machine.status();
+  std::string changed;
+  if (!is_there(modes_->at, now.position)) changed = "the axes were moved since";
+  if (modes_->spindle != now.spindle.state) changed = "the spindle was switched since";
+  if (modes_->setup != sha256(origin.setup).hex()) changed = "the setup was changed since";
+  if (modes_->memory != parts_.memory.digest()) changed = "the control's memory was changed since";
+  if (changed.empty()) return &modes_->snapshot;
+  why_no_modes_ = std::move(changed);
+  return nullptr;
+}
+
+/// Before the session is gone.
+void RunLoop::take_modes() {
+  if (parts_.run.last_execution != dds::Execution::ProgramCompleted) return;
+  auto snapshot = parts_.run.session->take_modes();
+  if (!snapshot) {
+    why_no_modes_ = snapshot.error().what;
+    return;
+  }
+  const machine::MachineStatus now = parts_.machine.status();
+  modes_ = Modes{*std::move(snapshot), now.position, now.spindle.state, setup_given_,
+                 parts_.memory.digest()};
+}
+
+void RunLoop::note_beginning(const StartOrigin& origin, bool has_modes) {
+  const machine::OperatorPanel& panel = parts_.machine.panel();
+  if (panel.machine_lock) parts_.recorder.note({}, "machine lock: the axes do not move");
+  if (panel.dry_run && !panel.machine_lock) parts_.recorder.note({}, "dry run");
+  if (!origin.from.is_mdi || has_modes) return;
+  parts_.recorder.note(
+      {},
+      fmt::format("MDI begins with the modes of power on, and without a tool: {}", why_no_modes_));
+}
+
+}  // namespace dripline::gateway
