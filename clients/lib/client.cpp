@@ -320,6 +320,11 @@ Reply<Run> Client::start_run(const RunRequest& request) {
   return fetch<Run>(with_method("POST", path_of("runs")), dumped(json));
 }
 
+Reply<Run> Client::key_in(std::string_view machine, std::string_view text) {
+  return fetch<Run>(with_method("POST", path_of("machines", machine) + "/mdi"),
+                    dumped(Json{{"text", text}}));
+}
+
 Reply<Run> Client::restart_run(std::string_view run, std::string_view at) {
   return fetch<Run>(with_method("POST", path_of("runs", run) + "/restart"),
                     dumped(Json{{"at", at}}));

@@ -162,6 +162,8 @@ class Client {
   Reply<Run> start_run(const RunRequest& request);
   /// `at`: executed, block=1234, L7, N120, T3, time=2026-11-23T15:04:05Z.
   Reply<Run> restart_run(std::string_view run, std::string_view at);
+  /// Blocks keyed in at an idle machine. Failures: Refused also while a run is active.
+  Reply<Run> key_in(std::string_view machine, std::string_view text);
   Reply<std::vector<Run>> runs(const RunQuery& query);
   Reply<Run> run(std::string_view id);
   /// With what was measured of it, and who holds it.

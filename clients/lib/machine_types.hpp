@@ -95,6 +95,7 @@ struct Display {
 struct Starts {
   std::vector<std::string> at;  ///< what a start can name: block, line, byte, tool, count
   bool head = false, memory = false, pass = false;
+  std::uint64_t mdi = 0;  ///< how many blocks are keyed in at once; 0: none, or an older server
 };
 
 /// Who holds a machine or its job queue, and why.

@@ -256,6 +256,8 @@ void write_starts(Writer& out, const machines::MachineView& view) {
   out.member("head", has_line);
   out.member("memory", search.has_memory);
   out.member("pass", search.has_pass);
+  const auto dialect = interpreter::find_dialect(view.machine.control);
+  out.member("mdi", has_line || !dialect ? std::size_t{0} : (*dialect)->mdi_blocks);
   out.end('}');
 }
 

@@ -90,6 +90,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/machines", View},
     RoutePermission{"GET", "/api/v1/machines/{name}", View},
     RoutePermission{"POST", "/api/v1/machines/{name}/commands", Operate, Name},
+    RoutePermission{"POST", "/api/v1/machines/{name}/mdi", Operate, Name},
     RoutePermission{"GET", "/api/v1/machines/{name}/jobs", View},
     RoutePermission{"POST", "/api/v1/machines/{name}/jobs", Operate, Name},
     RoutePermission{"PUT", "/api/v1/machines/{name}/jobs/{job}", Operate, Name},

@@ -83,7 +83,8 @@ struct StartRequest {
   StartHead head = StartHead::Ask;
   StartMemory memory = StartMemory::Ask;
   std::optional<RestartRequest> restart = {};  ///< then nothing of the three before
-  std::optional<std::uint64_t> job = {};       ///< of the machine's queue, that it is a run of
+  bool is_mdi = false;  ///< the program was keyed in for this run; only at a gateway
+  std::optional<std::uint64_t> job = {};  ///< of the machine's queue, that it is a run of
   /// Called when the run is stored and nothing has gone to the machine. Its error refuses the run.
   std::function<Result<void>(const storage::Run&)> before = {};
 

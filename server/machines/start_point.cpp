@@ -44,6 +44,7 @@ std::string start_text(const StartPoint& point) {
 }
 
 std::string start_argument(const StartRequest& request) {
+  if (request.is_mdi) return std::string(dds::kMdiStart);
   if (request.restart)
     return fmt::format("restart={} at={}", request.restart->run, request.restart->at);
   std::string text = start_text(request.from);

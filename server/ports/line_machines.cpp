@@ -233,6 +233,10 @@ Result<storage::Run> MachineRouter::start(const machines::StartRequest& request)
                 "head is for serial lines",
                 request.machine);
   }
+  if (request.is_mdi) {
+    return fail(Errc::Unsupported, "machine '{}' is at the end of a line: MDI is its control's own",
+                request.machine);
+  }
   if (const auto view = machine(request.machine); view && view->is_contested) {
     return fail(Errc::Busy,
                 "a gateway claims to be machine '{}', which has a port: stop the gateway or "

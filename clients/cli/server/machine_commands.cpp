@@ -6,6 +6,7 @@
 #include "clients/cli/server/display_text.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/run_follower.hpp"
 #include "clients/cli/server/value_commands.hpp"
 #include "clients/cli/setup/change_log.hpp"
 #include "clients/cli/text/standard_output.hpp"
@@ -166,6 +167,48 @@ void add_switch(Command group, Context& context) {
   run_at_server(command, context, options, set_switch);
 }
 
+struct MdiCommand {
+  std::string machine;
+  std::vector<std::string> blocks;
+  bool waits = false;
+};
+
+int key_in(Context& context, client::Client& client, const MdiCommand& command) {
+  std::string text;
+  for (const std::string& block : command.blocks) text += block + "\n";
+  auto run = client.key_in(command.machine, text);
+  if (!run) return complain(run.error());
+  if (command.waits) return watch_run(context, client, *run, WatchStyle::Silent);
+  if (context.wants_json) {
+    context.print(json_text(*run));
+  } else {
+    context.print(
+        fmt::format("Run {} of what was keyed in started on {}.\n", run->id, run->machine));
+  }
+  return kExitOk;
+}
+
+void add_mdi(Command group, Context& context) {
+  auto command = group.add_subcommand("mdi", "Key in blocks and run them (MDI)");
+  auto options = std::make_shared<MdiCommand>();
+  command.add_option("MACHINE", options->machine, "The machine").required();
+  command.add_option("BLOCK", options->blocks, "One block; a few where the control takes them")
+      .required();
+  command.add_flag("--wait", options->waits, "Wait for its end and print only the outcome");
+  add_json_flag(command, context);
+  command.footer(
+      "It runs on an idle machine, from where its axes are and with what the last text has left "
+      "in force (modes, tool,\noffsets, spindle). After an abort, an alarm or a restart of the "
+      "gateway, and when axes, setup or memory were changed\nmeanwhile, it begins with the modes "
+      "of power on and without a tool; the run's report says so. A program begins\nas always: MDI "
+      "changes nothing for it but position and memory.\n\nIt is a run of the program \"MDI "
+      "MACHINE\", whose revisions are what was keyed in: dnc run hold, abort and show work.\n"
+      "Centurion and Tektronix take one block, the TNC one single-axis block or TOOL CALL, Fanuc "
+      "and RS274/NGC ten\nlines, a ProtoTRAK none.\n\nExample:\n  dnc machine mdi mill-1 'G90 G0 "
+      "X1 Y2' --wait");
+  run_at_server(command, context, options, key_in);
+}
+
 }  // namespace
 
 void add_machine_commands(Command app, Context& context) {
@@ -184,6 +227,7 @@ void add_machine_commands(Command app, Context& context) {
 
   add_switch(group, context);
   add_value_verbs(group, context);
+  add_mdi(group, context);
 
   auto watched = std::make_shared<std::string>();
   auto watch = group.add_subcommand("watch", "Follow a machine, or all, until Ctrl-C");

@@ -106,6 +106,7 @@ void members(V& v, Is<Display> auto& x) {
 template <class V>
 void members(V& v, Is<Starts> auto& x) {
   DRIPLINE_MEMBERS(at, head, memory, pass);
+  v.later("mdi", x.mdi);
 }
 
 template <class V>

@@ -189,6 +189,20 @@ Result<machines::CommandRequest> decode_command(std::string_view body) {
   return command;
 }
 
+Result<std::string> decode_mdi(std::string_view body) {
+  constexpr std::size_t kMaxMdi = 2048;
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  std::string text = object->required_text("text", kMaxMdi);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  if (text.empty()) return fail(Errc::Syntax, "text has no block");
+  const auto is_bad = [](char c) { return c != '\n' && (c < ' ' || c > '~'); };
+  if (std::ranges::any_of(text, is_bad))
+    return fail(Errc::Syntax, "text has a character that cannot be keyed in");
+  return text + "\n";
+}
+
 Result<machines::CommandRequest> decode_machine_command(std::string_view body) {
   auto command = decode_command(body);
   if (!command) return command;

@@ -33,6 +33,9 @@ Result<std::optional<std::uint64_t>> decode_loaded_setup(std::string_view body);
 /// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
 Result<machines::CommandRequest> decode_command(std::string_view body);
 /// The same for a machine's panel: switches and overrides. Unsupported: an action of a run.
+/// The text that is keyed in: its lines, each with its end. Errors: Syntax (none, a control
+/// character), LimitExceeded (its length).
+Result<std::string> decode_mdi(std::string_view body);
 Result<machines::CommandRequest> decode_machine_command(std::string_view body);
 inline constexpr double kMaxOverride = 10;
 inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one command

@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "gateway/interpreter/registry.hpp"
 #include "protocol/base/names.hpp"
+#include "protocol/base/utf8.hpp"
 #include "server/api/api.hpp"
 #include "server/api/bodies/run_bodies.hpp"
 #include "server/api/views.hpp"
@@ -189,6 +193,86 @@ Response show_values(Services& services, const Request& request) {
   return values ? json_response(200, *values) : error_response(values.error());
 }
 
+/// Why nothing can be keyed in there; what the gateway checks is left to it.
+Result<void> check_mdi(const machines::MachineView& view, const std::string& text) {
+  const std::string& name = view.machine.name;
+  if (view.has_serial_line()) {
+    return fail(Errc::Unsupported, "machine '{}' is at the end of a line: MDI is its control's own",
+                name);
+  }
+  const auto dialect = interpreter::find_dialect(view.machine.control);
+  const std::size_t most = dialect ? (*dialect)->mdi_blocks : 0;
+  if (most == 0) {
+    return fail(Errc::Unsupported, "machine '{}': control {} has no MDI", name,
+                view.machine.control);
+  }
+  const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  if (lines > most) {
+    return fail(Errc::LimitExceeded, "{} blocks: MDI of control {} takes {}", lines,
+                view.machine.control, most);
+  }
+  return {};
+}
+
+/// What is refused is not kept. The status may be older than the end of a run.
+Result<void> check_idle(Services& services, const std::string& machine) {
+  for (const auto state : {storage::RunState::Ordered, storage::RunState::Active}) {
+    storage::RunFilter filter;
+    filter.machine = machine;
+    filter.state = state;
+    const auto runs = services.runs.runs(filter, {1, 0});
+    if (!runs) return fail(runs.error());
+    if (runs->empty()) continue;
+    return fail(Errc::Busy, "machine '{}' is busy with run {} of program {}", machine,
+                runs->front().id, runs->front().program);
+  }
+  return {};
+}
+
+/// What was keyed in stays, as a revision of a program of the machine.
+Result<storage::Revision> store_mdi(Services& services, const machines::MachineView& view,
+                                    const std::string& text, const storage::Actor& who) {
+  library::UploadRequest upload;
+  upload.program = "MDI " + view.machine.name;
+  upload.control = view.machine.control;
+  upload.comment = "keyed in";
+  const auto begun = services.programs.begin(upload, who);
+  if (!begun) return fail(begun.error());
+  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+  if (auto done = services.programs.append(begun->id, 0, bytes); !done) return fail(done.error());
+  const auto committed = services.programs.commit(begun->id, std::nullopt, who);
+  if (!committed) return fail(committed.error());
+  return committed->revision;
+}
+
+Response key_in(Services& services, const Request& request) {
+  const auto text = decode_mdi(request.body);
+  if (!text) return error_response(text.error());
+  const auto view = services.machines.machine(request.parameter("name"));
+  if (!view) return error_response(view.error());
+  if (auto good = check_mdi(*view, *text); !good) return error_response(good.error());
+  if (auto idle = check_idle(services, view->machine.name); !idle)
+    return error_response(idle.error());
+  const auto revision = store_mdi(services, *view, *text, request.who);
+  if (!revision) return error_response(revision.error());
+  machines::StartRequest start;
+  start.machine = view->machine.name;
+  start.program = revision->program;
+  start.revision = revision->number;
+  start.author = request.who.name;
+  start.role = request.caller->role;
+  start.is_mdi = true;
+  start.before = [&audit = services.audit, who = request.who, &text](const storage::Run& run) {
+    return audit.write_before({.who = who,
+                               .action = "run.mdi",
+                               .subject = run.id,
+                               .detail = fmt::format("{}: {}", run.machine, one_line(*text))});
+  };
+  const auto run = services.machines.start(start);
+  if (!run) return error_response(run.error());
+  return json_response(201, run_json(*run));
+}
+
 Response command_machine(Services& services, const Request& request) {
   auto command = decode_machine_command(request.body);
   if (!command) return error_response(command.error());
@@ -205,6 +289,7 @@ void add_machine_routes(Router& router, Services& services) {
              Waits::ForMachine);
   router.add("POST", "/api/v1/machines/{name}/commands", with(services, command_machine),
              Waits::ForMachine);
+  router.add("POST", "/api/v1/machines/{name}/mdi", with(services, key_in), Waits::ForMachine);
 }
 
 }  // namespace dripline::api

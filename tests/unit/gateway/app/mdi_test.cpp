@@ -82,7 +82,7 @@ void PrintTo(const ModesCase& shown, std::ostream* out) {
 }
 class MdiModes : public testing::TestWithParam<ModesCase> {};
 
-// Units, distances, feed and motion of one text are in force in the next.
+// TK-51. Units, distances, feed and motion of one text are in force in the next.
 TEST_P(MdiModes, GoOverToTheNextText) {
   const ModesCase& given = GetParam();
   MdiFixture fixture(given.control, given.setup);
@@ -203,7 +203,7 @@ TEST(Mdi, ObeysTheLimitsOfTheControl) {
   EXPECT_EQ(fixture.at(0), 0);
 }
 
-// As the manuals have it: alarm 123; one block; M98 from a program only; no MDI at all.
+// CEN-223 and as the other manuals have it: alarm 123; one block; M98 from a program only; no MDI.
 TEST(Mdi, RefusesWhatIsNotKeyedIn) {
   MdiFixture fanuc(interpreter::kFanucDialect);
   EXPECT_THAT(fanuc.mdi("N1 G21\nGOTO 1\n"), HasSubstr("123"));

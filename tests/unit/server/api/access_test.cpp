@@ -138,6 +138,7 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
   const std::vector<Try> tries{
       {"POST", "/api/v1/machines/lathe-1/commands",
        R"({"action":"switch","name":"emergency_stop","value":0})"},
+      {"POST", "/api/v1/machines/lathe-1/mdi", R"({"text":"G0 X1"})"},
       {"PUT", "/api/v1/machines/lathe-1/setup", "[[tool]]\nnumber = 1\n"},
       {"POST", "/api/v1/runs", start},
       {"POST", "/api/v1/runs/" + run + "/restart", "{}"},

@@ -2,6 +2,7 @@
 #include "tests/unit/server/api/api_fixture.hpp"
 
 #include "server/api/views.hpp"
+#include "server/machines/start_point.hpp"
 
 namespace dripline::server_test {
 namespace {
@@ -161,6 +162,38 @@ TEST_F(ApiHandlers, PassOrdersToAMachinesPanelOn) {
   expect_error(post("/api/v1/machines/lathe-1/commands", {{"action", "resume"}}), 422,
                "unsupported", "resume");
   EXPECT_EQ(machines_.commands.size(), 1u);
+}
+
+TEST_F(ApiHandlers, KeepWhatIsKeyedInAndStartIt) {
+  const std::string path = "/api/v1/machines/lathe-1/mdi";
+  const auto key_in = [&](const std::string& text) { return post(path, {{"text", text}}); };
+  const std::string before = stored_run(0);  // on lathe-1, a Centurion
+  ASSERT_TRUE(store_->runs.set_state(before, storage::RunState::Completed, ""));
+  machines_.views.front().machine.gateway_version = "1";
+  EXPECT_EQ(key_in("G0 X1").status, 201);
+  ASSERT_EQ(machines_.started.size(), 1U);
+  const machines::StartRequest start = machines_.started.front();
+  EXPECT_TRUE(start.is_mdi);
+  EXPECT_EQ(start.program, "MDI lathe-1");
+  EXPECT_EQ(machines::start_argument(start), dds::kMdiStart);
+  const auto kept = store_->programs.revision("MDI lathe-1", 1).value();
+  EXPECT_EQ(kept.content, sha256("G0 X1\n"));
+  EXPECT_EQ(kept.control, "centurion");
+  const auto entry = json(get("/api/v1/audit"))["entries"][0];
+  EXPECT_EQ(entry["action"], "run.mdi");
+  EXPECT_EQ(entry["detail"], "lathe-1: G0 X1\\n");
+  EXPECT_EQ(key_in("G0 X1\nG0 X2").status, 413) << "its MDI takes one block";
+  EXPECT_EQ(key_in("").status, 400);
+  EXPECT_EQ(key_in("G0 X\u00e4").status, 400);
+  ASSERT_TRUE(store_->runs.create(run_of(kept, "run-9")));
+  expect_error(key_in("G0 X9"), 409, "busy", "run-9");
+  EXPECT_EQ(store_->programs.revisions("MDI lathe-1").value().size(), 1U) << "nothing was kept";
+  machines_.views.front().machine.control = "prototrak-plus";
+  EXPECT_EQ(key_in("G0 X1").status, 422) << "it has no MDI";
+  machines_.views.front().machine.control = "centurion";
+  machines_.views.front().machine.gateway_version.clear();
+  EXPECT_EQ(key_in("G0 X1").status, 422) << "at the end of a line";
+  EXPECT_EQ(machines_.started.size(), 1U);
 }
 
 TEST_F(ApiHandlers, ShowRunsAndTheirRecords) {

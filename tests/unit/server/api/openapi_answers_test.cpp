@@ -304,6 +304,9 @@ TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
   expect_described("POST", "/api/v1/machines/{name}/commands",
                    post("/api/v1/machines/lathe-1/commands",
                         {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}}));
+  machines_.views.front().machine.gateway_version = "1";
+  expect_described("POST", "/api/v1/machines/{name}/mdi",
+                   post("/api/v1/machines/lathe-1/mdi", {{"text", "G0 X1"}}));
   expect_described("POST", "/api/v1/runs",
                    post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}}));
   expect_described("GET", "/api/v1/runs", get("/api/v1/runs"));
