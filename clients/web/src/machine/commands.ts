@@ -46,6 +46,11 @@ export function startRun(request: StartRequest): Promise<Run> {
   return send<Run>('POST', pathOf('runs'), { json: startBody(request) });
 }
 
+/// Blocks keyed in at an idle machine (MDI), one a line.
+export function keyIn(machine: string, text: string): Promise<Run> {
+  return send<Run>('POST', pathOf('machines', machine, 'mdi'), { json: { text } });
+}
+
 /// `at` empty: after the block executed last.
 export function restartRun(run: string, at: string): Promise<Run> {
   return send<Run>('POST', pathOf('runs', run, 'restart'), { json: at === '' ? {} : { at } });

@@ -11,6 +11,7 @@ import { ExecutingText } from './executing_text';
 import { MachineQueue, NextJob } from './jobs/queue';
 import { LiveValues } from './live_values';
 import { MachineMemory } from './memory';
+import { Mdi } from './mdi';
 import { Modes } from './modes';
 import { Overrides } from './overrides';
 import { Position } from './position';
@@ -40,6 +41,7 @@ function Now({ name }: { name: string }) {
           {status && <Blocks status={status} />}
           {!hasRun && <NextJob key={`next ${name}`} name={name} />}
           {!hasRun && <StartForm key={name} machine={machine} />}
+          {!hasRun && <Mdi key={`mdi ${name}`} machine={machine} />}
           {hasPath && executing && <ExecutedPath key={executing.id} run={executing} status={status} />}
           {run && <RunRecords run={run.id} />}
         </div>

@@ -132,7 +132,7 @@ test('options of a start are sent with a place in the program alone', () => {
 
 test('a start can name what the machine\'s control goes to, and nothing else', () => {
   assert.deepEqual(['N120', '120', 'l7', 'B4096', 'T3', '+25', 'X3', 'N', ''].map(placeOf), ['block', 'block', 'line', 'byte', 'tool', 'count', null, null, null]);
-  const tnc = { at: ['block' as const], head: false, memory: false, pass: false };
+  const tnc = { at: ['block' as const], head: false, memory: false, pass: false, mdi: 0 };
   assert.deepEqual(['', ' N400 ', '400', 'L7', 'T3', 'soon'].map((typed) => canStartAt(typed, tnc)), [true, true, true, false, false, false]);
   assert.equal(canStartAt('N1', { ...tnc, at: [] }), false);
 });

@@ -21,6 +21,10 @@ export const machine: typeof Shape = {
     asks: 'Die Steuerung fragt:',
     answer: 'Antworten',
     start: 'Starten',
+    mdi: 'Handeingabe',
+    mdiBlocks: (most) => (most === 1 ? 'Ein Satz' : `Bis zu ${most} Sätze, einer je Zeile`),
+    mdiRun: 'Ausführen',
+    mdiSure: (blocks, machine) => `Nochmals drücken: ${blocks} auf ${machine}`,
     startSure: (program, revision, machine, from) =>
       `Nochmals drücken: ${program}, Revision ${revision}, auf ${machine}${from === '' ? '' : ` ab ${from}`} starten`,
     latest: 'neueste',

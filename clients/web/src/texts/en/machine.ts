@@ -19,6 +19,10 @@ export const machine = {
     asks: 'The control asks:',
     answer: 'Answer',
     start: 'Start',
+    mdi: 'MDI',
+    mdiBlocks: (most: number) => (most === 1 ? 'One block' : `Up to ${most} blocks, one a line`),
+    mdiRun: 'Run',
+    mdiSure: (blocks: string, machine: string) => `Press again: ${blocks} on ${machine}`,
     startSure: (program: string, revision: string, machine: string, from: string) =>
       `Press again: start ${program}, revision ${revision}, on ${machine}${from === '' ? '' : ` from ${from}`}`,
     latest: 'latest',
