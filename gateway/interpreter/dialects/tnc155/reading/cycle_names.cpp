@@ -38,7 +38,7 @@ constexpr std::array kProgram{CyclePart{Name, "PGM CALL"}, CyclePart{Program, "P
 }  // namespace
 
 std::span<const CyclePart> cycle_parts(int cycle) {
-  static constexpr std::array<std::span<const CyclePart>, 13> kCycles{{{},
+  static constexpr std::array<std::span<const CyclePart>, kLastCycle + 1> kCycles{{{},
                                                                        kPecking,
                                                                        kTapping,
                                                                        kSlot,

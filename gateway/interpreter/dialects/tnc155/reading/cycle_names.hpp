@@ -28,6 +28,8 @@ struct CyclePart {
   std::string_view word;  ///< as the control writes it; for Name that of the cycle
 };
 
+inline constexpr int kLastCycle = 12;
+
 /// The sub-blocks of a cycle, first its name; empty for a number that is no cycle. Of the datum
 /// shift all four are listed and the first two are needed.
 std::span<const CyclePart> cycle_parts(int cycle);

@@ -23,7 +23,7 @@ bool read_axes(TextCursor& cursor, Block& block) {
   while (is_axis_letter(cursor.peek())) {
     const Axis axis = axis_of_letter(cursor.peek());
     if (block.names(axis)) return cursor.wrong("an axis is programmed twice");
-    if (block.coordinate_count == Block::kMaxCoordinates) {
+    if (block.coordinate_count == 4) {
       return cursor.wrong("more than 4 axes");
     }
     cursor.advance();
@@ -41,12 +41,67 @@ bool read_rotation(TextCursor& cursor, Block& block) {
   return cursor.read_value(block.angle, kAbsoluteAngle, "ROT");
 }
 
+bool has_word(CycleField field) {
+  return field != CycleField::Side && field != CycleField::Shift && field != CycleField::Axes &&
+         field != CycleField::Rotation;
+}
+
+bool is_word_character(char c) {
+  return (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// A word of the control's own table, which is another one's name.
+bool takes_known_word(TextCursor& cursor, bool is_name) {
+  for (int cycle = 1; cycle <= kLastCycle; ++cycle) {
+    for (const CyclePart& part : cycle_parts(cycle)) {
+      if (has_word(part.field) && (part.field == CycleField::Name) == is_name &&
+          cursor.take(part.word)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// The word of a control that was set to another language, up to its value or the block's end: the
+/// number of the sub-block says what it is. A point or hyphen before a letter belongs to the word.
+bool read_foreign_word(TextCursor& cursor, const CyclePart& part) {
+  bool has_any = false;
+  for (;; cursor.advance()) {
+    const char c = cursor.peek();
+    if (cursor.is_at_end() || (c == 'Q' && TextCursor::is_digit(cursor.at()[1]))) break;
+    if (is_word_character(c)) {
+      has_any = true;
+      continue;
+    }
+    if (c != '.' && c != '-' && c != '\'') break;
+    const bool is_value = TextCursor::is_digit(cursor.at()[1]);
+    if (is_value && c == '.' && has_any) {
+      return cursor.wrong(
+          fmt::format("the point before {} is of the word or of the value", cursor.at()[1]));
+    }
+    if (!is_word_character(cursor.at()[1]) && c != '.') break;
+  }
+  return has_any || cursor.wrong(fmt::format("{} is missing", part.word));
+}
+
+/// Whether the sub-block may name its word in another language.
+bool has_translated_word(CycleField field) {
+  using enum CycleField;
+  return field == Name || field == Length || field == Dwell || field == Peck || field == Radius ||
+         field == Scale;
+}
+
 bool read_word(TextCursor& cursor, const CyclePart& part) {
   if (cursor.take(part.word)) return true;
-  if (part.word == "SET-UP" && cursor.take("SET UP")) return true;  // as some listings have it
+  if (part.word == "SET-UP" && cursor.take("SETUP")) return true;  // as some listings have it
   if (part.word.starts_with("PECK") && (cursor.take("PECKING") || cursor.take("PECKG")))
     return true;
-  return cursor.wrong(fmt::format("{} is missing", part.word));
+  if (!has_translated_word(part.field) ||
+      takes_known_word(cursor, part.field == CycleField::Name)) {
+    return cursor.wrong(fmt::format("{} is missing", part.word));
+  }
+  return read_foreign_word(cursor, part);
 }
 
 bool read_field(TextCursor& cursor, Block& block, const CyclePart& part) {
@@ -82,11 +137,6 @@ bool read_field(TextCursor& cursor, Block& block, const CyclePart& part) {
       return read_rotation(cursor, block);
   }
   return false;
-}
-
-bool has_word(CycleField field) {
-  return field != CycleField::Side && field != CycleField::Shift && field != CycleField::Axes &&
-         field != CycleField::Rotation;
 }
 
 bool are_three(TextCursor& cursor, const Block& block) {
