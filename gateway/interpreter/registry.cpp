@@ -17,8 +17,8 @@ constexpr int kClearLead = 30;
 /// One line for each dialect.
 const std::vector<Dialect>& table() {
   static const std::vector<Dialect> kTable{
-      kCenturionDialect, kFanucDialect,         kFanucLatheDialect, kProtoTrakDialect,
-      kRs274NgcDialect,  kTektronix1704Dialect, kTnc155Dialect};
+      kCenturionDialect, kFanucDialect,    kFanucLatheDialect,    kItncDialect,
+      kProtoTrakDialect, kRs274NgcDialect, kTektronix1704Dialect, kTnc155Dialect};
   return kTable;
 }
 
@@ -50,6 +50,7 @@ CallReader call_reader(std::string_view name) {
   if (name == kCenturionDialect.name) return &centurion::program_calls;
   if (name == kRs274NgcDialect.name) return &rs274ngc::program_calls;
   if (name == kTnc155Dialect.name) return &tnc155::program_calls;
+  if (name == kItncDialect.name) return &tnc155::later_program_calls;
   return nullptr;
 }
 

@@ -18,6 +18,8 @@ extern const Dialect kProtoTrakDialect;
 extern const Dialect kRs274NgcDialect;
 /// Tektronix 1704 contouring control for punched tape, two or three axes.
 extern const Dialect kTektronix1704Dialect;
+/// HEIDENHAIN TNC 426/430 and iTNC 530: plain language.
+extern const Dialect kItncDialect;
 /// HEIDENHAIN TNC 151/155: plain language and ISO.
 extern const Dialect kTnc155Dialect;
 

@@ -1,6 +1,7 @@
 #include "gateway/interpreter/core/dialects.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -41,15 +42,16 @@ bool load_datum_cell(const VariableRecord& variable, State& state) {
   return false;
 }
 
+/// Q0 to Q99; a later control has more.
 Result<void> load_parameters(const Setup& setup, State& state) {
+  const auto count = static_cast<std::int64_t>(state.q.size());
   for (const VariableRecord& variable : setup.variables) {
     const std::string_view name = variable.name;
     if (load_datum_cell(variable, state)) continue;
     const auto number = parse_decimal(name.substr(name.starts_with('Q') ? 1 : 0));
     if (!name.starts_with('Q') || !number || number->scale != 0 || number->digits < 0 ||
-        number->digits >= kParameterCount) {
-      return fail(Errc::Unsupported, "variable {}: this control has Q0 to Q{}", name,
-                  kParameterCount - 1);
+        number->digits >= count) {
+      return fail(Errc::Unsupported, "variable {}: this control has Q0 to Q{}", name, count - 1);
     }
     state.q[static_cast<std::size_t>(number->digits)] = variable.value;
   }
@@ -72,19 +74,19 @@ void place_at_start(const Setup& setup, State& state) {
   state.nominal = state.transformation.to_program(at);
 }
 
-Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
-                                          EventSink& sink) {
-  auto options = read_options(setup);
-  if (options) options->is_mdi = setup.is_mdi;
+Result<std::unique_ptr<Interpreter>> make_with(Result<ControlOptions> options, const Setup& setup,
+                                               ProgramSource& source, EventSink& sink) {
   if (!options) return fail(options.error());
   State state;
+  if (options->is_later) state.q.resize(kLaterParameters);
   std::vector<ToolDefinition> tools;
   if (auto done = load_datum(setup, state); !done) return fail(done.error());
   if (auto done = load_parameters(setup, state); !done) return fail(done.error());
   if (options->central_tool_file) {
     if (auto fits = check_tool_store(setup); !fits) return fail(fits.error());
   }
-  if (auto done = load_tools(setup, tools); !done) return fail(done.error());
+  if (auto done = load_tools(setup, tools, options->is_later ? kLastLaterTool : kLastTool); !done)
+    return fail(done.error());
   auto pockets = load_pockets(setup, *options);
   if (!pockets) return fail(pockets.error());
   state.pockets = *std::move(pockets);
@@ -98,6 +100,18 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   }
   return std::unique_ptr<Interpreter>(std::make_unique<TncInterpreter>(
       *std::move(options), std::move(state), std::move(tools), source, sink));
+}
+
+Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
+                                          EventSink& sink) {
+  auto options = read_options(setup);
+  if (options) options->is_mdi = setup.is_mdi;
+  return make_with(std::move(options), setup, source, sink);
+}
+
+Result<std::unique_ptr<Interpreter>> make_later(const Setup& setup, ProgramSource& source,
+                                                EventSink& sink) {
+  return make_with(read_later_options(setup), setup, source, sink);
 }
 
 /// Capitals and marks without blanks, line ends kept.
@@ -122,9 +136,28 @@ bool has_iso_start(const std::string& text) {
   return at > percent + 1 && (text.compare(at, 3, "G71") == 0 || text.compare(at, 3, "G70") == 0);
 }
 
+/// Programs of later controls: a name that is no number, and words that a TNC 155 has not.
+bool is_of_later_control(const std::string& text) {
+  constexpr std::string_view kBegin = "BEGINPGM";
+  const std::size_t begin = text.find(kBegin);
+  if (begin == std::string::npos) return false;
+  const std::string_view name =
+      std::string_view(text).substr(begin + kBegin.size(), text.find('\n', begin) - begin);
+  if (!name.empty() && (name.front() < '0' || name.front() > '9')) return true;
+  const auto letter = std::ranges::find_if(name, [](char c) { return c < '0' || c > '9'; });
+  const std::string_view rest = name.substr(static_cast<std::size_t>(letter - name.begin()));
+  const bool is_number = rest.starts_with("MM") || rest.starts_with("INCH");
+  return !is_number || contains(text, "CYCLDEF2") || contains(text, "TOOLCALL\"") ||
+         contains(text, "FN18") || contains(text, "~\n");
+}
+
+constexpr int kOther = 60;  ///< the other family of this language
+
 int likelihood(std::string_view head, std::string_view) {
   const std::string text = squeeze(head);
-  if (contains(text, "BEGINPGM") && (contains(text, "MM") || contains(text, "INCH"))) return 100;
+  if (contains(text, "BEGINPGM") && (contains(text, "MM") || contains(text, "INCH"))) {
+    return is_of_later_control(text) ? kOther : 100;
+  }
   if (has_iso_start(text)) return 90;
   if (contains(text, "TOOLCALL") || contains(text, "CYCLDEF") || contains(text, "CALLLBL")) {
     return 80;
@@ -152,6 +185,13 @@ ScreenSettings screen(const Setup& setup) {
 constexpr std::array kStatusFields{status_field::kCompensation, status_field::kToolLengthZ,
                                    status_field::kToolRadius};
 
+int later_likelihood(std::string_view head, std::string_view) {
+  const std::string text = squeeze(head);
+  const bool has_frame =
+      contains(text, "BEGINPGM") && (contains(text, "MM") || contains(text, "INCH"));
+  return has_frame && is_of_later_control(text) ? 100 : 0;
+}
+
 }  // namespace
 
 const Dialect kTnc155Dialect{.name = "tnc155",
@@ -170,5 +210,14 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              .text = {.kind = TextForm::Kind::PlainLanguage},
                              .status_fields = kStatusFields,
                              .screen = &screen};
+
+const Dialect kItncDialect{.name = "itnc",
+                           .title = "HEIDENHAIN TNC 426/430, iTNC 530 (plain language)",
+                           .likelihood = &later_likelihood,
+                           .make = &make_later,
+                           .waits_at_tool_change = true,
+                           .options = &list_later_options,
+                           .text = {.kind = TextForm::Kind::PlainLanguage},
+                           .status_fields = kStatusFields};
 
 }  // namespace dripline::interpreter

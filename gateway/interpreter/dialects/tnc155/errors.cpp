@@ -54,6 +54,7 @@ constexpr std::array<ErrorRow, static_cast<std::size_t>(Count)> kRows{{
     {NotSupported, {"TNC-NOT-SUPPORTED", "NOT SUPPORTED"}},
     {PocketMissing, {"TNC-POCKET", "NO FREE POCKET"}},
     {LoopLimit, {"TNC-LOOP-LIMIT", "PROGRAM REPEATS WITHOUT END"}},
+    {ProgramError, {"TNC-PROGRAM-ERROR", "ERROR OF THE PROGRAM"}},
 }};
 
 constexpr bool is_in_order() {

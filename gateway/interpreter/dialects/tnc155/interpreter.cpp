@@ -48,10 +48,10 @@ TncInterpreter::TncInterpreter(ControlOptions options, State state,
                                EventSink& sink)
     : gate_(gate_of(state, sink)),
       run_(std::move(options), source, gate_ ? *gate_ : sink),
-      search_(source, {run_.options.iso_continuation}),
-      calls_ahead_(source, {run_.options.iso_continuation}),
-      definitions_ahead_(source, {run_.options.iso_continuation}),
-      way_back_(source, {run_.options.iso_continuation}) {
+      search_(source, {run_.options.iso_continuation, {}, run_.options.is_later}),
+      calls_ahead_(source, {run_.options.iso_continuation, {}, run_.options.is_later}),
+      definitions_ahead_(source, {run_.options.iso_continuation, {}, run_.options.is_later}),
+      way_back_(source, {run_.options.iso_continuation, {}, run_.options.is_later}) {
   run_.state = std::move(state);
   if (gate_) gate_->attach(run_.state.start);
   run_.tools = std::move(tools);

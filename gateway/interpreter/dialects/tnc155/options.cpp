@@ -201,7 +201,8 @@ Result<void> check_version(const Options& options, ControlOptions& read) {
               version.model(), fmt::join(memories, " or "));
 }
 
-/// Values that exclude each other.
+}  // namespace
+
 Result<void> check_limits(const ControlOptions& read) {
   if (read.spindle_minimum > read.spindle_maximum) {
     return fail(Errc::Syntax, "option spindle_minimum: {} is more than spindle_maximum, {}",
@@ -215,8 +216,6 @@ Result<void> check_limits(const ControlOptions& read) {
   }
   return {};
 }
-
-}  // namespace
 
 std::vector<ListedOption> list_options() {
   return list_rows(kOptionRows);

@@ -22,6 +22,7 @@ enum class ProgramStart : std::uint8_t {
 struct ControlOptions {
   bool is_mdi = false;     ///< Setup::is_mdi: one single-axis block or TOOL CALL (manual: MDI)
   ControlVersion version;  ///< which control it is: what it has not is refused
+  bool is_later = false;   ///< TNC 426/430, iTNC 530: the rules of later/
 
   // touch probe
   double probe_clearance = 2;
@@ -75,7 +76,14 @@ Result<ControlOptions> read_options(const Setup& setup);
 /// `decimal_sign` alone, of options that may be another control's besides. Errors: Syntax.
 Result<char> decimal_sign_of(const Options& options);
 
+/// Limits and speeds that exclude each other. Errors: Syntax.
+Result<void> check_limits(const ControlOptions& read);
+
 /// The rows of its options, for people.
 std::vector<ListedOption> list_options();
+
+/// The options of the later controls, which are fewer; later/later_options.cpp. Errors as above.
+Result<ControlOptions> read_later_options(const Setup& setup);
+std::vector<ListedOption> list_later_options();
 
 }  // namespace dripline::interpreter::tnc155

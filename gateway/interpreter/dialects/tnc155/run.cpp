@@ -34,14 +34,16 @@ Run::Run(ControlOptions control_options, ProgramSource& program_source, EventSin
       sink(limits.has_any() ? static_cast<EventSink&>(limits) : event_sink),
       compensator(policy(), sink),
       blender(corner_policy(), compensator),
-      reader(program_source, ReaderOptions{options.iso_continuation, options.version}) {}
+      reader(program_source,
+             ReaderOptions{options.iso_continuation, options.version, options.is_later}) {}
 
 void Run::deliver_header() {
   state.has_header = true;
   ProgramHeader header;
-  header.control = "tnc155";
+  header.control = options.is_later ? "itnc" : "tnc155";
   const std::string name = fmt::format("{}", state.program_number);
   if (state.program_number >= 0) header.name = name;
+  if (options.is_later) header.name = state.program_name;
   header.units = state.units;
   sink.on_program(header);
 }

@@ -9,7 +9,7 @@ namespace dripline::interpreter::language {
 template <>
 inline constexpr auto kLast<tnc155::Form> = tnc155::Form::Iso;
 template <>
-inline constexpr auto kLast<tnc155::BlockKind> = tnc155::BlockKind::Probe;
+inline constexpr auto kLast<tnc155::BlockKind> = tnc155::BlockKind::Accepted;
 template <>
 inline constexpr auto kLast<tnc155::Compensation> = tnc155::Compensation::Shorter;
 template <>
@@ -33,13 +33,16 @@ void visit(Archive& archive, State& state) {
           state.has_compensated, state.is_first_contour, state.awaits_contour, state.blend,
           state.last, state.pole, state.has_pole, state.polar, state.q, state.cycle, state.blank,
           state.labels, state.programs, state.known_labels, state.jump, state.start,
-          state.is_restart, state.has_positioned);
+          state.is_restart, state.has_positioned, state.program_name, state.cycle_words,
+          state.tool_feed);
 }
 
 namespace {
 
-constexpr std::string_view kDialect = "tnc155";
-constexpr std::uint32_t kVersion = 7;
+std::string_view dialect_of(const Run& run) {
+  return run.options.is_later ? "itnc" : "tnc155";
+}
+constexpr std::uint32_t kVersion = 8;
 
 bool is_plausible(const MachiningCycle& cycle) {
   return std::ranges::all_of(
@@ -54,9 +57,11 @@ bool is_plausible(const State& state) {
       [&](const ProgramFrame& frame) { return frame.label_base <= state.labels.size(); });
   return are_levels_right && state.transformation.scale != 0 && state.phase <= RunPhase::Alarmed &&
          state.labels.size() <= kMaxLabelLevels && state.programs.size() <= kMaxProgramLevels &&
-         state.known_labels.size() <= kMaxLabels && state.definitions.size() <= kLastTool &&
-         state.pockets.size() <= kMaxStoredTools && is_plausible(state.cycle.machining) &&
-         is_plausible(state.cycle.draft) && state.cycle.probe.q >= 0 && state.cycle.probe.q <= 99;
+         state.known_labels.size() <= kMaxLabels && state.definitions.size() <= kLastLaterTool &&
+         (state.q.size() == kParameterCount || state.q.size() == kLaterParameters) &&
+         state.cycle_words.size() <= 32 && state.pockets.size() <= kMaxStoredTools &&
+         is_plausible(state.cycle.machining) && is_plausible(state.cycle.draft) &&
+         state.cycle.probe.q >= 0 && state.cycle.probe.q <= 99;
 }
 
 }  // namespace
@@ -69,17 +74,18 @@ Snapshot take_snapshot(const Run& run) {
   if (state.uses_stages) path = run.compensator.state();
   if (state.joins) corner = run.blender.state();
   writer(state, origin, path, corner);
-  return {std::string(kDialect), kVersion, writer.take()};
+  return {std::string(dialect_of(run)), kVersion, writer.take()};
 }
 
 Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
-  if (auto kind = snapshot.check_kind(kDialect, kVersion); !kind) return kind;
+  if (auto kind = snapshot.check_kind(dialect_of(run), kVersion); !kind) return kind;
   language::StateReader reader(snapshot.bytes, language::Numbers::Finite);
   State state;
   Origin origin;
   std::vector<std::byte> path, corner;
   reader(state, origin, path, corner);
-  if (!reader.is_complete() || !is_plausible(state)) return snapshot.damage();
+  if (!reader.is_complete() || !is_plausible(state) || state.q.size() != run.state.q.size())
+    return snapshot.damage();
   const auto before = run.compensator.state();
   if (state.uses_stages) {
     if (auto restored = run.compensator.restore(path); !restored) return restored;

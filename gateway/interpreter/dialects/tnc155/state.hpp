@@ -4,6 +4,7 @@
 #include <bitset>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gateway/interpreter/core/block_interpreter.hpp"
@@ -26,16 +27,18 @@ inline AxisValues values_of(const Position& position) {
 inline constexpr int kParameterCount = 100;  ///< Q0 to Q99
 inline constexpr int kLastTool = 254;
 inline constexpr int kLastLabel = 254;
+inline constexpr int kLastLaterTool = 32'767;
+
 inline constexpr std::size_t kMaxLabelLevels = 8;  ///< subprograms and repeats together
 inline constexpr std::size_t kMaxProgramLevels = 4;
-inline constexpr std::size_t kMaxLabels = (kLastLabel + 1) * (kMaxProgramLevels + 1);
+inline constexpr std::size_t kMaxLabels = (kLastLaterLabel + 1) * (kMaxProgramLevels + 1);
 
 struct ToolData {
   double length = 0;
   double radius = 0;
 };
 struct ToolDefinition {
-  std::uint8_t number = 0;
+  std::uint16_t number = 0;
   ToolData data;
 };
 /// Where a tool of the store is. Without a pocket: nowhere in the magazine, changed by hand.
@@ -64,7 +67,7 @@ struct CoolantModes {
 /// CALL LBL: where a subprogram goes back to, or what a repeat has left.
 struct LabelFrame {
   bool is_repeat = false;
-  std::uint8_t label = 0;
+  std::uint32_t label = 0;
   std::uint32_t left = 0;  ///< of a repeat: passes still to come
   TextPlace call;          ///< the calling block
   TextPlace back;          ///< after it
@@ -79,7 +82,7 @@ struct ProgramFrame {
 };
 struct LabelPlace {
   ProgramIndex program = kMainProgram;
-  std::uint8_t label = 0;
+  std::uint32_t label = 0;
   TextPlace at;  ///< the block LBL
 };
 
@@ -96,7 +99,8 @@ struct Jump {
   JumpKind kind = JumpKind::None;
   std::uint32_t number = 0;
   std::uint32_t repeats = 0;
-  TextPlace call;  ///< the block that jumps
+  std::string name = {};  ///< of a label or a program of a later control
+  TextPlace call;         ///< the block that jumps
 };
 
 /// The previous positioning block, as CT, RND, chamfers and the single-axis rules need it.
@@ -166,6 +170,7 @@ struct State {
   std::int32_t number_due = Block::kNone;  ///< its number, where that is known
   ReadingState reading;
   std::int64_t program_number = -1;  ///< of the program that was started
+  std::string program_name;          ///< a later control's
   Units units = Units::Millimeter;
 
   Position machine;      ///< as events say, before radius compensation; marked: moved so far
@@ -197,7 +202,9 @@ struct State {
   bool has_pole = false;
   PolarData polar;
 
-  std::array<double, kParameterCount> q{};
+  std::vector<double> q = std::vector<double>(kParameterCount);  ///< a later control has more
+  std::vector<double> cycle_words;  ///< of a later control's cycle, in the order of its rows
+  double tool_feed = 0;             ///< F of TOOL CALL: F AUTO
   CycleState cycle;
   BlankState blank;
 

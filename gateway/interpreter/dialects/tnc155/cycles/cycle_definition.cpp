@@ -8,6 +8,7 @@
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
+#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -300,6 +301,7 @@ bool take_machining(Run& run, const Block& block, const CyclePart& part) {
 bool define_cycle(Run& run, const Block& block) {
   if (!take_place(run, block)) return false;
   if (block.part == 0) return true;
+  if (run.options.is_later && !later::check_order(run, block)) return false;
   switch (block.cycle) {
     case kDatumShift:
       return shift_datum(run, block);

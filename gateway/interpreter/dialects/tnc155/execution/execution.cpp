@@ -10,12 +10,14 @@
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
+#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/word_check.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
 
 bool begin_program(Run& run, const Block& block) {
+  if (run.options.is_later) return later::begin_program(run, block);
   State& state = run.state;
   if (!state.has_header && state.programs.empty()) {
     state.program_number = block.target;
@@ -40,6 +42,8 @@ bool move(Run& run, const Block& block) {
       return run_polar_arc(run, block);
     case BlockKind::TangentArc:
       return run_tangent_arc(run, block);
+    case BlockKind::RadiusArc:
+      return run_radius_arc(run, block);
     default:
       return run_single_axis(run, block);
   }
@@ -70,6 +74,8 @@ bool finish_m(Run& run, int m, bool has_moved) {
 }
 
 bool positioning(Run& run, const Block& block) {
+  if (run.options.is_later) [[unlikely]]
+    return later::position(run, block, move);
   if (block.m == Block::kNone && !run.state.cycle.is_modal_call) [[likely]]
     return move(run, block);
   if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
@@ -86,6 +92,7 @@ bool check_no_coordinates(Run& run, int m) {
 }
 
 bool stop_block(Run& run, const Block& block) {
+  if (run.options.is_later) return later::stop_block(run, block);
   const int m = block.m;
   if (!check_no_coordinates(run, m)) return false;
   if (m != Block::kNone && !begin_m(run, m)) return false;
@@ -101,6 +108,7 @@ bool stop_block(Run& run, const Block& block) {
 }
 
 bool cycle_call(Run& run, const Block& block) {
+  if (run.options.is_later) return later::cycle_call(run, block);
   if (!check_no_coordinates(run, block.m)) return false;
   if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
   run.state.cycle.is_modal_call = false;
@@ -121,8 +129,16 @@ bool end_by_block(Run& run, const Block&) {
   return true;
 }
 
+bool chamfer(Run& run, const Block& block) {
+  return run.options.is_later ? later::corner(run, block) : make_blend(run, block);
+}
+
 bool round(Run& run, const Block& block) {
-  return check_circle_plane(run) && make_blend(run, block);
+  return check_circle_plane(run) && chamfer(run, block);
+}
+
+bool tool(Run& run, const Block& block) {
+  return run.options.is_later ? later::call_tool(run, block) : call_tool(run, block);
 }
 
 bool call(Run& run, const Block& block) {
@@ -130,15 +146,16 @@ bool call(Run& run, const Block& block) {
 }
 
 /// In the order of BlockKind.
-constexpr std::array<bool (*)(Run&, const Block&), static_cast<std::size_t>(BlockKind::Probe) + 1>
+constexpr std::array<bool (*)(Run&, const Block&),
+                     static_cast<std::size_t>(BlockKind::Accepted) + 1>
     kExecute{begin_program,
              end_by_block,
              define_tool,
-             call_tool,
+             tool,
              stop_block,
              positioning /* Line */,
              positioning /* PolarLine */,
-             make_blend /* Chamfer */,
+             chamfer,
              set_pole,
              positioning /* Arc */,
              positioning /* PolarArc */,
@@ -152,7 +169,15 @@ constexpr std::array<bool (*)(Run&, const Block&), static_cast<std::size_t>(Bloc
              define_cycle,
              cycle_call,
              define_blank,
-             probe};
+             probe,
+             positioning /* RadiusArc */,
+             later::assign,
+             later::compare,
+             later::raise_error,
+             later::read_system,
+             later::define_table,
+             later::cycle_call_at,
+             later::accept};
 
 [[gnu::cold, gnu::noinline]] bool refuse_left_words(Run& run, const Block& block) {
   const std::string words = language::listed(run.ledger.left(), [&](std::size_t i) {
@@ -176,7 +201,7 @@ bool execute(Run& run, const Block& block) {
         ErrorCode::CycleIncomplete,
         fmt::format("CYCL DEF {} ends before its last sub-block", run.state.cycle.defining));
   }
-  if (needs_check(block) && !check_words(run, block)) [[unlikely]]
+  if (needs_check(block) && !run.options.is_later && !check_words(run, block)) [[unlikely]]
     return false;
   run.ledger.open((1u << block.coordinate_count) - 1);
   if (!kExecute[static_cast<std::size_t>(block.kind)](run, block)) return false;

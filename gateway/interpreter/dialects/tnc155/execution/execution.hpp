@@ -22,6 +22,7 @@ bool run_polar_line(Run& run, const Block& block);
 bool run_arc(Run& run, const Block& block);
 bool run_polar_arc(Run& run, const Block& block);
 bool run_tangent_arc(Run& run, const Block& block);
+bool run_radius_arc(Run& run, const Block& block);  ///< CR
 bool run_single_axis(Run& run, const Block& block);
 /// CC: no motion.
 bool set_pole(Run& run, const Block& block);

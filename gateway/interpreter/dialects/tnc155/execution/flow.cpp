@@ -25,7 +25,7 @@ std::size_t label_base(const State& state) {
 
 bool check_label(Run& run, std::int32_t label) {
   if (label == 0) return run.fail(ErrorCode::JumpToLabelZero);
-  if (label >= 1 && label <= kLastLabel) return true;
+  if (label >= 1 && (label <= kLastLabel || run.options.is_later)) return true;
   return run.fail(ErrorCode::EntryOutOfRange,
                   fmt::format("label {} is not 1 to {}", label, kLastLabel));
 }
@@ -36,6 +36,7 @@ void request(Run& run, JumpKind kind, std::int32_t number, std::int32_t repeats 
   jump.number = static_cast<std::uint32_t>(number);
   jump.repeats = static_cast<std::uint32_t>(repeats);
   jump.call = run.reader.block_place();
+  jump.name = run.options.is_later ? run.parts.later.name : std::string();
 }
 
 /// The repeat that this block controls, if it is active.
@@ -91,7 +92,7 @@ BlockOutcome arrive_at_label(Run& run, const TextPlace& found) {
     }
     LabelFrame frame;
     frame.is_repeat = jump.kind == JumpKind::Repeat;
-    frame.label = static_cast<std::uint8_t>(jump.number);
+    frame.label = jump.number;
     frame.left = frame.is_repeat ? jump.repeats - 1 : 0;
     frame.call = jump.call;
     frame.back = state.at;
@@ -110,7 +111,7 @@ BlockOutcome find_label(Run& run, TextSearch& search) {
     return arrive_at_label(run, known->at);
   }
   TextPlace found;
-  switch (search.find_label(program, label, found)) {
+  switch (search.find_label(program, label, state.jump.name, found)) {
     case TextSearch::Outcome::Found:
       return arrive_at_label(run, found);
     case TextSearch::Outcome::NotYet:
@@ -121,7 +122,9 @@ BlockOutcome find_label(Run& run, TextSearch& search) {
       run.fail(ErrorCode::TextFailed, search.reason());
       break;
     case TextSearch::Outcome::Missing:
-      run.fail(ErrorCode::LabelNotFound, fmt::format("LBL {}", label));
+      run.fail(ErrorCode::LabelNotFound, state.jump.name.empty()
+                                             ? fmt::format("LBL {}", label)
+                                             : fmt::format("LBL \"{}\"", state.jump.name));
       break;
   }
   return BlockOutcome::Paused;
@@ -133,10 +136,16 @@ BlockOutcome find_program(Run& run) {
     refuse_depth(run, kMaxProgramLevels, "levels of programs");
     return BlockOutcome::Paused;
   }
-  const ProgramLookup lookup = run.reader.find(fmt::format("{}", state.jump.number));
+  const ProgramLookup lookup = run.reader.find(
+      state.jump.name.empty() ? fmt::format("{}", state.jump.number) : state.jump.name);
   if (lookup.state == ProgramLookup::State::NotYet) return BlockOutcome::NeedsText;
   if (lookup.state == ProgramLookup::State::NotFound) {
-    fail_unavailable(run, state.jump.number);
+    if (state.jump.name.empty()) {
+      fail_unavailable(run, state.jump.number);
+    } else {
+      run.fail_as(ErrorCode::ProgramUnavailable,
+                  fmt::format("PGM {} UNAVAILABLE", state.jump.name));
+    }
     return BlockOutcome::Paused;
   }
   const bool is_cycle = state.jump.kind == JumpKind::CycleProgram;
@@ -158,12 +167,13 @@ BlockOutcome find_program(Run& run) {
 
 bool meet_label(Run& run, const Block& block) {
   State& state = run.state;
+  if (block.target == kNameLabel) return true;  // the search finds it by its name
   if (block.target == 0) {
     return_from_label(run);
     return true;
   }
   const TextPlace& here = run.reader.block_place();
-  const auto label = static_cast<std::uint8_t>(block.target);
+  const auto label = static_cast<std::uint32_t>(block.target);
   if (const LabelPlace* known = known_label(state, here.program, label)) {
     if (known->at.offset == here.offset) return true;
     return run.fail(ErrorCode::NumberAllocated,

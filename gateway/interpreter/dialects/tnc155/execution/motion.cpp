@@ -325,6 +325,35 @@ bool run_tangent_arc(Run& run, const Block& block) {
   return round_corner(run, block, arc);
 }
 
+/// R+: the arc of at most half a circle, R-: the other one. Source: TNC 426/430, User's Manual: CR.
+bool run_radius_arc(Run& run, const Block& block) {
+  State& state = run.state;
+  if (!check_circle_axes(run, block, false)) return false;
+  ArcTarget arc;
+  arc.to = here(state);
+  if (!read_arc_end(run, block, arc.to)) return false;
+  const bool has_both = names_plane(state, arc.to);
+  name_plane(state, arc.to);
+  arc.turn = *block.turn;
+  const PlaneVector start = nominal_in_plane(state);
+  const PlaneVector chord = in_plane(state, arc.to) - start;
+  const double half = length(chord) / 2;
+  const double radius = run.length(block.radius);
+  const double reach = radius * radius - half * half;
+  constexpr double kRounding = 1e-9;
+  const double least = std::fabs(radius) + run.options.circle_tolerance + kRounding;
+  if (half == 0 || half > least) {
+    return run.fail(ErrorCode::CircleEndIncorrect,
+                    fmt::format("R {:.4f}, and the end is {:.4f} away", radius, 2 * half));
+  }
+  const bool is_left = (arc.turn == Turn::Counterclockwise) == (radius > 0);
+  const double out = std::sqrt(std::max(reach, 0.0)) / (2 * half);
+  arc.center = start + 0.5 * chord + (is_left ? out : -out) * left_of(chord);
+  arc.sweep = sweep_of(start - arc.center, in_plane(state, arc.to) - arc.center, arc.turn);
+  state.polar.is_current = false;
+  return round_corner(run, block, arc, has_both);
+}
+
 bool run_single_axis(Run& run, const Block& block) {
   if (is_machine_block(block)) return run_machine_block(run, block);
   State& state = run.state;

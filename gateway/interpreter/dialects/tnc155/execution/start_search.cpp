@@ -310,7 +310,8 @@ AheadSearch::LabelUse AheadSearch::label_use() const {
     const Block& block = parts_.blocks[0];
     if (block.kind == BlockKind::Label) use.set = block.target;
     const bool jumps = block.kind == BlockKind::Function && block.function >= 9;
-    if (block.kind == BlockKind::LabelCall || jumps) use.used = block.target;
+    const bool compares = block.kind == BlockKind::Comparison;
+    if (block.kind == BlockKind::LabelCall || jumps || compares) use.used = block.target;
     use.returns = block.kind == BlockKind::LabelCall && block.repeats == Block::kNone;
     return use;
   }
@@ -336,6 +337,8 @@ bool AheadSearch::comes_back(bool is_before) {
     }
     return false;
   }
+  // Labels of later controls beyond those that are noted: it may lead back.
+  if (use.used > 255) return true;
   if (!is_label(use.used)) return false;
   return (use.returns ? is_sub_open_ : before_).test(static_cast<std::size_t>(use.used));
 }

@@ -56,7 +56,7 @@ void take_definition_ahead(Run& run, int number) {
   const double unit = mm_per_unit(ahead->units);
   const ToolData data{run.number(ahead->block.length) * unit,
                       run.number(ahead->block.radius) * unit};
-  keep_definition(run.state, {static_cast<std::uint8_t>(number), data});
+  keep_definition(run.state, {static_cast<std::uint16_t>(number), data});
 }
 
 /// Blockwise transfer keeps no blocks: only the tool defined last is there, but for the tool file.
@@ -85,6 +85,12 @@ bool choose(Run& run, int number) {
   if (data == nullptr) return run.fail(ErrorCode::ToolDefMissing, fmt::format("tool {}", number));
   tool.number = number;
   tool.data = *data;
+  tool.data.length += run.length(run.parts.later.delta_length);
+  tool.data.radius += run.length(run.parts.later.delta_radius);
+  if (tool.data.radius < 0) {
+    return run.fail(ErrorCode::EntryOutOfRange,
+                    fmt::format("DR makes the radius {}", tool.data.radius));
+  }
   return true;
 }
 
@@ -96,18 +102,20 @@ bool define_tool(Run& run, const Block& block) {
     run.events().on_tool({run.origin, block.target, true, {}, {}});
     return true;
   }
-  if (block.target < 1 || block.target > kLastTool) {
+  const int last_tool = run.options.is_later ? kLastLaterTool : kLastTool;
+  if (block.target < 1 || block.target > last_tool) {
     return run.fail(ErrorCode::EntryOutOfRange,
-                    fmt::format("tool {} is not 1 to {}", block.target, kLastTool));
+                    fmt::format("tool {} is not 1 to {}", block.target, last_tool));
   }
-  const auto number = static_cast<std::uint8_t>(block.target);
+  const auto number = static_cast<std::uint16_t>(block.target);
   keep_definition(state, {number, {run.length(block.length), run.length(block.radius)}});
   return true;
 }
 
 std::uint64_t reach_of_definition(const Run& run, const Block& block) {
   if (block.kind != BlockKind::ToolCall || block.target <= 0 ||
-      run.options.blockwise_restrictions || find_known(run, block.target) != nullptr) {
+      run.options.blockwise_restrictions || run.options.is_later ||
+      find_known(run, block.target) != nullptr) {
     return 0;
   }
   if (find(run.tools, block.target) == nullptr) return std::numeric_limits<std::uint64_t>::max();
@@ -118,7 +126,7 @@ bool call_tool(Run& run, const Block& block) {
   State& state = run.state;
   const bool is_change = block.target != Block::kNone;
   const bool names_axis = block.axis.has_value() || block.is_fourth_axis;
-  if (block.axis && !check_axis(run, *block.axis)) return false;
+  if (block.axis && !run.options.is_later && !check_axis(run, *block.axis)) return false;
   if (is_change || names_axis) {
     // Tool 0 has no radius: the travel to the tool change position is not compensated (manual: TOOL
     // CALL 0).
@@ -143,13 +151,13 @@ bool call_tool(Run& run, const Block& block) {
   return !block.spindle.is_programmed() || set_speed(run, run.number(block.spindle));
 }
 
-Result<void> load_tools(const Setup& setup, std::vector<ToolDefinition>& tools) {
+Result<void> load_tools(const Setup& setup, std::vector<ToolDefinition>& tools, int last_tool) {
   for (const ToolRecord& record : setup.tools) {
-    if (record.number < 1 || record.number > kLastTool) {
+    if (record.number < 1 || record.number > last_tool) {
       return fail(Errc::Unsupported, "tool {}: this control has tools 1 to {}", record.number,
-                  kLastTool);
+                  last_tool);
     }
-    tools.push_back({static_cast<std::uint8_t>(record.number),
+    tools.push_back({static_cast<std::uint16_t>(record.number),
                      {record.length.raw(Axis::Z), record.radius.mm()}});
   }
   return {};

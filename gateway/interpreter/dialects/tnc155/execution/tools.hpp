@@ -15,6 +15,6 @@ std::uint64_t reach_of_definition(const Run& run, const Block& block);
 /// TOOL CALL, and the plane functions of ISO.
 bool call_tool(Run& run, const Block& block);
 /// Loads the tools of the setup: the central tool file, or tools defined before.
-Result<void> load_tools(const Setup& setup, std::vector<ToolDefinition>& tools);
+Result<void> load_tools(const Setup& setup, std::vector<ToolDefinition>& tools, int last_tool);
 
 }  // namespace dripline::interpreter::tnc155

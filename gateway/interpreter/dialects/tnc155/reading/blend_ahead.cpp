@@ -14,7 +14,7 @@ bool begins_as_blend(std::string_view text) {
   std::size_t at = skip_blanks(text, 0);
   while (at < text.size() && (language::is_digit(text[at]) || text[at] == ' ')) ++at;
   if (at == text.size()) return false;
-  if (text[at] == 'R') return true;
+  if (text[at] == 'R' || text.substr(at, 3) == "CHF") return true;
   if (text[at] != 'L') return false;
   at = skip_blanks(text, at + 1);
   if (at == text.size()) return false;

@@ -21,6 +21,7 @@ inline bool is_positioning(const Block& block) {
     case BlockKind::Arc:
     case BlockKind::PolarArc:
     case BlockKind::TangentArc:
+    case BlockKind::RadiusArc:
       return true;
     default:
       return false;

@@ -64,6 +64,15 @@ enum class BlockKind : std::uint8_t {
   CycleCall,        ///< CYCL CALL, G79
   BlankForm,        ///< DEF BLK FORM, G30, G31
   Probe,            ///< TCH PROBE 0.0 and 0.1; G55 is both
+  // of later controls alone (later/)
+  RadiusArc,    ///< CR
+  Assignment,   ///< Q1 = formula, FN 0 to FN 8, FN 13
+  Comparison,   ///< FN 9 to FN 12
+  Error,        ///< FN 14
+  SystemRead,   ///< FN 18
+  CycleTable,   ///< CYCL DEF 200 and above
+  CycleCallAt,  ///< CYCL CALL POS
+  Accepted,     ///< what says nothing about the path: a warning names it
 };
 
 enum class Compensation : std::uint8_t {
@@ -83,7 +92,7 @@ enum class ProbeDirection : std::uint8_t { Negative, Positive };
 /// One block. The comments name the kinds that use a member; all other members are as after
 /// `clear`.
 struct Block {
-  static constexpr std::size_t kMaxCoordinates = 4;
+  static constexpr std::size_t kMaxCoordinates = 6;
   static constexpr std::int32_t kNone = -1;
 
   /// Everything not programmed.
@@ -158,23 +167,5 @@ inline void Block::clear(BlockKind new_kind) {
   *this = kEmptyBlock;
   kind = new_kind;
 }
-
-/// The parts of one block of text: one for a plain-language block, one or more for an ISO block.
-/// The room is fixed, so that reading does not allocate.
-struct BlockParts {
-  static constexpr std::size_t kMax = 16;
-
-  void clear() { count = 0; }
-  Block& add(BlockKind kind) {
-    Block& block = blocks[count++];
-    block.clear(kind);
-    return block;
-  }
-  const Block* begin() const { return blocks.data(); }
-  const Block* end() const { return blocks.data() + count; }
-
-  std::size_t count = 0;
-  std::array<Block, kMax> blocks;
-};
 
 }  // namespace dripline::interpreter::tnc155

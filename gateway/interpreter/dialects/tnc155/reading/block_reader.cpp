@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "gateway/interpreter/dialects/tnc155/later/later_end.hpp"
+#include "gateway/interpreter/dialects/tnc155/later/later_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_end.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/word_check.hpp"
@@ -64,6 +66,11 @@ bool BlockReader::read_peeked(ReadingState state, BlockParts& parts) {
 
 ReadState BlockReader::load(ReadingState& state) {
   WindowState loaded = WindowState::Ready;
+  if (options_.is_later) [[unlikely]] {
+    state.program.form = Form::Plain;
+    loaded = window_.load(place_.program, place_.offset, LaterEnd{&is_one_line_});
+    return loaded == WindowState::Ready ? show(Form::Plain) : complain_of(loaded);
+  }
   switch (state.program.form) {
     case Form::Plain:
       loaded = window_.load(place_.program, place_.offset, PlainEnd{&is_one_line_});
@@ -110,8 +117,9 @@ ReadState BlockReader::find_form(ReadingState& state) {
 /// The block without the blanks around it. A star in front belongs to plain language.
 ReadState BlockReader::show(Form form) {
   text_end_ = window_.end();
-  text_ = form == Form::Iso ? IsoEnd::skip(window_.begin(), text_end_)
-                            : skip_blanks(window_.begin(), text_end_);
+  text_ = options_.is_later   ? LaterEnd::skip(window_.begin(), text_end_)
+          : form == Form::Iso ? IsoEnd::skip(window_.begin(), text_end_)
+                              : skip_blanks(window_.begin(), text_end_);
   return text_ == text_end_ ? ReadState::End : ReadState::Ready;
 }
 
@@ -158,6 +166,11 @@ bool BlockReader::read(ReadingState& state, BlockParts& parts) {
            resolve_words(state, parts);
   }
   Block& block = parts.blocks[0];
+  if (options_.is_later) [[unlikely]] {
+    if (!read_later_block(text_, text_end_, state, parts, fault_)) return false;
+    note_plain_block(block, state);
+    return true;
+  }
   if (!read_plain_block(text_, text_end_, state, block, fault_)) return false;
   const ControlVersion& version = options_.version;
   if (!version.takes_all_blocks() && !check_version(version, block, fault_)) return false;

@@ -7,7 +7,7 @@
 #include "gateway/interpreter/core/language/line_reader.hpp"
 #include "gateway/interpreter/core/language/line_window.hpp"
 #include "gateway/interpreter/dialects/tnc155/errors.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_parts.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"
@@ -20,6 +20,7 @@ Form detect_form(std::string_view head);
 struct ReaderOptions {
   bool iso_continuation = true;  ///< an ISO line without a number continues the block before it
   ControlVersion version = {};   ///< blocks that need a feature it lacks are Wrong
+  bool is_later = false;         ///< plain language of later controls (later/)
 };
 
 enum class ReadState : std::uint8_t {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "gateway/interpreter/dialects/tnc155/errors.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_parts.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"
 
 namespace dripline::interpreter::tnc155 {

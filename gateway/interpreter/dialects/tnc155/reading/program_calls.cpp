@@ -7,11 +7,12 @@
 
 namespace dripline::interpreter::tnc155 {
 
-Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source,
-                                   ProgramIndex program) {
-  const auto options = read_options(setup);
+namespace {
+
+Result<ProgramCalls> calls_of(const Result<ControlOptions>& options, ProgramSource& source,
+                              ProgramIndex program) {
   if (!options) return fail(options.error());
-  BlockReader reader(source, {options->iso_continuation, options->version});
+  BlockReader reader(source, {options->iso_continuation, options->version, options->is_later});
   TextPlace start;
   start.program = program;
   reader.seek(start);
@@ -34,14 +35,27 @@ Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source,
     for (const Block& block : parts) {
       const bool is_call = block.kind == BlockKind::ProgramCall ||
                            (block.kind == BlockKind::CycleDefinition && block.cycle == 12);
-      if (!is_call || block.target == Block::kNone) continue;
-      calls.add({.name = fmt::format("{}", block.target),
+      const bool has_name = is_call && !parts.later.name.empty();
+      if (!is_call || (block.target == Block::kNone && !has_name)) continue;
+      calls.add({.name = has_name ? parts.later.name : fmt::format("{}", block.target),
                  .earlier = {},
                  .line = reader.block_place().line});
     }
     if (parts.count != 0 && parts.blocks[parts.count - 1].kind == BlockKind::End)
       return calls.take();
   }
+}
+
+}  // namespace
+
+Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source,
+                                   ProgramIndex program) {
+  return calls_of(read_options(setup), source, program);
+}
+
+Result<ProgramCalls> later_program_calls(const Setup& setup, ProgramSource& source,
+                                         ProgramIndex program) {
+  return calls_of(read_later_options(setup), source, program);
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -9,4 +9,8 @@ namespace dripline::interpreter::tnc155 {
 /// program (core/program_calls.hpp, CallReader).
 Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source, ProgramIndex program);
 
+/// The same for the later controls.
+Result<ProgramCalls> later_program_calls(const Setup& setup, ProgramSource& source,
+                                         ProgramIndex program);
+
 }  // namespace dripline::interpreter::tnc155

@@ -140,6 +140,8 @@ class TextCursor {
   [[gnu::cold]] bool unexpected();
 
   const ProgramForm& form() const { return *form_; }
+  const char* begin() const { return begin_; }
+  Fault& fault() { return *fault_; }
   bool is_inch() const { return form_->units == Units::Inch; }
 
   static constexpr std::int64_t kSteps = Value::kStepsPerUnit;

@@ -79,7 +79,35 @@ BlockHead read_head(std::string_view block, Form form) {
   return head;
 }
 
-TextSearch::TextSearch(ProgramSource& source, ReaderOptions options) : reader_(source, options) {}
+namespace {
+
+/// The label that a block of a later control sets, as the text has it; empty: none.
+std::string later_label(std::string_view block) {
+  block = block.substr(0, block.find(';'));
+  std::size_t at = 0;
+  const auto skip = [&](bool also_digits) {
+    while (at < block.size() && (static_cast<unsigned char>(block[at]) <= ' ' ||
+                                 (also_digits && language::is_digit(block[at])))) {
+      ++at;
+    }
+  };
+  skip(true);
+  if (!block.substr(at).starts_with("LBL")) return {};
+  at += 3;
+  skip(false);
+  if (at < block.size() && block[at] == '"') {
+    const std::size_t end = block.find('"', at + 1);
+    return end == std::string_view::npos ? std::string()
+                                         : std::string(block.substr(at, end + 1 - at));
+  }
+  const std::int64_t number = Characters(block.substr(at)).number();
+  return number > 0 ? fmt::format("{}", number) : std::string();
+}
+
+}  // namespace
+
+TextSearch::TextSearch(ProgramSource& source, ReaderOptions options)
+    : reader_(source, options), is_later_(options.is_later) {}
 
 TextSearch::Index& TextSearch::index_of(ProgramIndex program) {
   Index* oldest = &indexes_[0];
@@ -118,8 +146,34 @@ TextSearch::Outcome TextSearch::next_block(Progress& progress, std::string_view&
   return Outcome::Failed;
 }
 
+TextSearch::Outcome TextSearch::find_later_label(Index& index, const std::string& label,
+                                                 TextPlace& found) {
+  for (unsigned count = 0; count < kBlocksPerCall; ++count) {
+    if (const auto known = index.others.find(label); known != index.others.end()) {
+      found = known->second;
+      return Outcome::Found;
+    }
+    if (index.is_complete) return Outcome::Missing;
+    std::string_view text;
+    const Outcome read = next_block(index.progress, text);
+    if (read == Outcome::Missing) index.is_complete = true;
+    if (read == Outcome::Missing) continue;
+    if (read != Outcome::Found) return read;
+    if (std::string set = later_label(text); !set.empty()) {
+      index.others.try_emplace(std::move(set), reader_.block_place());
+    }
+  }
+  return Outcome::More;
+}
+
 TextSearch::Outcome TextSearch::find_label(ProgramIndex program, std::uint32_t label,
-                                           TextPlace& found) {
+                                           std::string_view name, TextPlace& found) {
+  if (is_later_) {
+    reader_.drop_window();
+    return find_later_label(index_of(program),
+                            name.empty() ? fmt::format("{}", label) : fmt::format("\"{}\"", name),
+                            found);
+  }
   if (label >= kLabels) return Outcome::Missing;
   reader_.drop_window();
   Index& index = index_of(program);

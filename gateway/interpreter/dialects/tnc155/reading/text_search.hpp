@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -27,7 +28,9 @@ class TextSearch {
   TextSearch(ProgramSource& source, ReaderOptions options);
 
   /// The first block of the program that sets this label (not 0).
-  Outcome find_label(ProgramIndex program, std::uint32_t label, TextPlace& found);
+  /// `name`: of a label that has one.
+  Outcome find_label(ProgramIndex program, std::uint32_t label, std::string_view name,
+                     TextPlace& found);
 
   /// Why the last call returned Failed.
   const std::string& reason() const { return reason_; }
@@ -49,12 +52,16 @@ class TextSearch {
     std::uint64_t last_use = 0;
     Progress progress;
     std::array<std::optional<TextPlace>, kLabels> labels;
+    /// Of later controls, as the text has them: a number, or "NAME".
+    std::map<std::string, TextPlace, std::less<>> others;
   };
 
+  Outcome find_later_label(Index& index, const std::string& label, TextPlace& found);
   Index& index_of(ProgramIndex program);
   Outcome next_block(Progress& progress, std::string_view& text);
 
   BlockReader reader_;
+  bool is_later_;
   std::array<Index, kIndexes> indexes_;
   std::uint64_t uses_ = 0;
   std::string reason_;

@@ -1,0 +1,80 @@
+#include "gateway/interpreter/dialects/tnc155/later/cycle_tables.hpp"
+
+#include <array>
+
+namespace dripline::interpreter::tnc155::later {
+namespace {
+
+using enum CycleUse;
+using P = CycleParameter;
+
+constexpr P kClearance{200, Distance}, kDepth{201, Length}, kSurface{203, Length},
+    kSecond{204, Distance}, kPlunge{206, Feed}, kAtBottom{211, Seconds, false},
+    kReference{395, Zero, false};
+
+constexpr std::array kDrillingWords{kClearance,       kDepth,          kPlunge,
+                                    P{202, Distance}, P{210, Seconds}, kSurface,
+                                    kSecond,          kAtBottom,       kReference};
+constexpr std::array kReamingWords{kClearance,   kDepth,   kPlunge, kAtBottom,
+                                   P{208, Feed}, kSurface, kSecond};
+constexpr std::array kUniversalWords{kClearance,
+                                     kDepth,
+                                     kPlunge,
+                                     P{202, Distance},
+                                     P{210, Seconds},
+                                     kSurface,
+                                     kSecond,
+                                     P{212, Distance},
+                                     P{213, Number},
+                                     P{205, Distance},
+                                     kAtBottom,
+                                     P{208, Feed},
+                                     P{256, Distance, false},
+                                     kReference};
+constexpr std::array kPeckingWords{kClearance,
+                                   kDepth,
+                                   kPlunge,
+                                   P{202, Distance},
+                                   kSurface,
+                                   kSecond,
+                                   P{212, Distance},
+                                   P{205, Distance},
+                                   P{258, Distance},
+                                   P{259, Distance},
+                                   P{257, Distance},
+                                   P{256, Distance},
+                                   kAtBottom,
+                                   P{379, Zero, false},
+                                   P{253, Feed, false},
+                                   P{208, Feed, false},
+                                   kReference};
+constexpr std::array kTappingWords{kClearance, kDepth, kPlunge, kAtBottom, kSurface, kSecond};
+constexpr std::array kRigidWords{kClearance, kDepth, P{239, Length}, kSurface, kSecond};
+constexpr std::array kBoreMillingWords{kClearance,       kDepth,           kPlunge,
+                                       P{334, Distance}, kSurface,         kSecond,
+                                       P{335, Distance}, P{342, Distance}, P{351, Number, false}};
+
+}  // namespace
+
+std::span<const CycleParameter> cycle_table(int cycle) {
+  switch (cycle) {
+    case 200:
+      return kDrillingWords;
+    case 201:
+      return kReamingWords;
+    case 203:
+      return kUniversalWords;
+    case 205:
+      return kPeckingWords;
+    case 206:
+      return kTappingWords;
+    case 207:
+      return kRigidWords;
+    case 208:
+      return kBoreMillingWords;
+    default:
+      return {};
+  }
+}
+
+}  // namespace dripline::interpreter::tnc155::later

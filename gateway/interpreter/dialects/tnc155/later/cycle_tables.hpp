@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace dripline::interpreter::tnc155::later {
+
+/// What a Q parameter of a cycle means: its unit, and what it may be.
+enum class CycleUse : std::uint8_t {
+  Length,    ///< a coordinate, or a distance of any sign
+  Distance,  ///< not negative
+  Feed,
+  Seconds,
+  Number,
+  Zero,  ///< only 0 is taken: what other values do is not known well enough
+};
+
+struct CycleParameter {
+  std::int16_t q;
+  CycleUse use;
+  bool is_needed = true;  ///< older controls of the family have not all; absent it is 0
+};
+
+/// The parameters of a cycle; empty: it is none of those that are known.
+std::span<const CycleParameter> cycle_table(int cycle);
+
+}  // namespace dripline::interpreter::tnc155::later

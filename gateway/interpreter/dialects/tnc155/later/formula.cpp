@@ -1,0 +1,197 @@
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/core/language/expression.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
+#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+
+namespace dripline::interpreter::tnc155::later {
+namespace {
+
+using language::Computed;
+using language::MathFault;
+
+constexpr double kLargest = 999'999'999.9999;
+
+Computed arc_sine(double value) {
+  if (!(std::fabs(value) <= 1)) return {0, MathFault::Undefined};
+  return {std::asin(value) * (180 / Angle::kPi)};
+}
+
+Computed apply(FormulaFunction function, double a) {
+  switch (function) {
+    case FormulaFunction::Sqrt:
+      return language::square_root(a);
+    case FormulaFunction::Sin:
+      return language::sine(a);
+    case FormulaFunction::Cos:
+      return language::cosine(a);
+    case FormulaFunction::Tan:
+      return language::tangent(a);
+    case FormulaFunction::Asin:
+      return arc_sine(a);
+    case FormulaFunction::Acos: {
+      const Computed sine = arc_sine(a);
+      return {90 - sine.value, sine.fault};
+    }
+    case FormulaFunction::Atan:
+      return {std::atan(a) * (180 / Angle::kPi)};
+    case FormulaFunction::Sq:
+      return {a * a};
+    case FormulaFunction::Ln:
+      return language::natural_logarithm(a);
+    case FormulaFunction::Log:
+      if (!(a > 0)) return {0, MathFault::LogArgument};
+      return {std::log10(a)};
+    case FormulaFunction::Exp:
+      return language::exponential(a);
+    case FormulaFunction::Neg:
+      return {-a};
+    case FormulaFunction::Int:
+      return {std::trunc(a)};
+    case FormulaFunction::Abs:
+      return {std::fabs(a)};
+    case FormulaFunction::Frac:
+      return {a - std::trunc(a)};
+    default:
+      return {a > 0 ? 1.0 : a < 0 ? -1.0 : 0.0};
+  }
+}
+
+Computed apply(char op, double a, double b) {
+  switch (op) {
+    case '+':
+      return {a + b};
+    case '-':
+      return {a - b};
+    case '*':
+      return {a * b};
+    case '/':
+      if (b == 0) return {0, MathFault::DivisionByZero};
+      return {a / b};
+    case '%':
+      // Of what sign the rest of a negative number is, the manuals do not say.
+      if (a < 0 || b <= 0) return {0, MathFault::Undefined};
+      return {std::fmod(a, b)};
+    case '^':
+      if (a < 0 && b != std::trunc(b)) return {0, MathFault::PowerBase};
+      if (a == 0 && b < 0) return {0, MathFault::DivisionByZero};
+      return {std::pow(a, b)};
+    case 'L':
+      return {std::hypot(a, b)};
+    default: {  // FN 13: the angle of the opposite and the adjacent side, 0 to 360
+      Computed angle = language::arc_tangent(a, b);
+      if (angle.value < 0) angle.value += 360;
+      return angle;
+    }
+  }
+}
+
+bool evaluate(Run& run, const Formula& formula, double& result) {
+  constexpr std::size_t kMaxStack = 64;
+  std::array<double, kMaxStack> stack{};
+  std::size_t size = 0;
+  for (const FormulaStep& step : formula) {
+    Computed computed;
+    switch (step.kind) {
+      case FormulaStep::Kind::Number:
+        computed.value = step.number;
+        break;
+      case FormulaStep::Kind::Parameter:
+        computed.value = run.state.q[static_cast<std::size_t>(step.parameter)];
+        break;
+      case FormulaStep::Kind::Operator:
+        size -= 2;
+        computed = apply(step.op, stack[size], stack[size + 1]);
+        break;
+      case FormulaStep::Kind::Function:
+        --size;
+        computed = apply(step.function, stack[size]);
+        break;
+    }
+    if (computed.fault != MathFault::None) {
+      return run.fail(ErrorCode::ArithmeticalError, language::to_string(computed.fault));
+    }
+    if (!(std::fabs(computed.value) <= kLargest)) {
+      return run.fail(ErrorCode::ArithmeticalError,
+                      fmt::format("{} is beyond {}", computed.value, kLargest));
+    }
+    if (size == kMaxStack) return run.fail(ErrorCode::ArithmeticalError, "the formula is too deep");
+    stack[size++] = computed.value;
+  }
+  result = stack[0];
+  return true;
+}
+
+bool set(Run& run, std::int32_t parameter, double value) {
+  run.state.q[static_cast<std::size_t>(parameter)] = value;
+  return true;
+}
+
+/// A start in the middle would have other values than the run that was interrupted.
+bool refuse_in_search(Run& run, const Block& block) {
+  if (!run.state.start.is_searching) return true;
+  return run.fail(ErrorCode::ProgramStartUndefined,
+                  fmt::format("a start after the computation of Q{}", block.target));
+}
+
+}  // namespace
+
+bool assign(Run& run, const Block& block) {
+  double value = 0;
+  return refuse_in_search(run, block) && evaluate(run, run.parts.later.formula, value) &&
+         set(run, block.target, value);
+}
+
+bool compare(Run& run, const Block& block) {
+  double a = 0, b = 0;
+  const LaterWords& words = run.parts.later;
+  if (!evaluate(run, words.formula, a) || !evaluate(run, words.second, b)) return false;
+  const double apart = std::fabs(a - b);
+  if (apart != 0 && apart < 1e-9 * std::max(1.0, std::fabs(a))) {
+    return run.fail(
+        ErrorCode::ArithmeticalError,
+        fmt::format("{} and {} differ by {}: whether the control takes them as equal is "
+                    "not known",
+                    a, b, apart));
+  }
+  constexpr int kEqual = 9, kNotEqual = 10, kGreater = 11;
+  const bool is_true = block.function == kEqual      ? a == b
+                       : block.function == kNotEqual ? a != b
+                       : block.function == kGreater  ? a > b
+                                                     : a < b;
+  return !is_true || jump_to_label(run, block.target);
+}
+
+bool raise_error(Run& run, const Block& block) {
+  return run.fail_as(ErrorCode::ProgramError, fmt::format("FN 14: ERROR = {}", block.target));
+}
+
+/// iTNC 530, User's Manual: FN 18, table of system data. What is not here is an alarm.
+bool read_system(Run& run, const Block& block) {
+  const State& state = run.state;
+  const auto& ids = run.parts.later.ids;
+  const int id = ids[0], number = ids[1], place = ids[2];
+  const double unit = state.mm_per_unit();
+  if (!refuse_in_search(run, block)) return false;
+  if (place == 0 && (id == 20 || id == 60)) {
+    if (number == 1) return set(run, block.target, state.tool.number);
+    const bool is_axis = number == (id == 20 ? 3 : 2);
+    if (is_axis && state.tool.is_called) {
+      return set(run, block.target, static_cast<double>(state.tool.axis));
+    }
+    if (number == (id == 20 ? 4 : 3)) return set(run, block.target, state.spindle.speed);
+  }
+  if (id == 220 && number == 2 && place >= 1 && place <= 3) {
+    return set(run, block.target,
+               state.transformation.shift[static_cast<std::size_t>(place - 1)] / unit);
+  }
+  if (id == 270 && number == 1 && place >= 1 && place <= 3) {
+    return set(run, block.target, state.nominal[static_cast<std::size_t>(place - 1)] / unit);
+  }
+  return run.fail(ErrorCode::NotSupported,
+                  fmt::format("FN 18: SYSREAD ID{} NR{} IDX{}", id, number, place));
+}
+
+}  // namespace dripline::interpreter::tnc155::later

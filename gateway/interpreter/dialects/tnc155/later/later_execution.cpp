@@ -1,0 +1,248 @@
+#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+
+#include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
+
+namespace dripline::interpreter::tnc155::later {
+namespace {
+
+/// M functions beside the path's own, as they act at the begin and at the end of the block.
+struct Extras {
+  std::array<int, LaterWords::kMaxM> codes{};
+  std::size_t count = 0;
+  bool calls_cycle = false;  ///< M99
+  bool ends = false;         ///< M2, M30
+};
+
+bool is_without_effect(int m) {
+  return m == 90 || m >= 100;
+}
+
+bool sort_m(Run& run, Extras& extras) {
+  const LaterWords& words = run.parts.later;
+  for (std::size_t i = 0; i < words.m_count; ++i) {
+    const int m = words.m[i];
+    if (m == 99) {
+      extras.calls_cycle = true;
+    } else if (m == 89 && run.options.m89_modal) {
+      return run.fail(ErrorCode::NotSupported,
+                      "M89: whether its own block calls the cycle is not known; M99 in each block");
+    } else if (m == 2 || m == 30) {
+      extras.ends = true;
+    } else if (is_without_effect(m)) {
+      if (m == 90 || m == 107 || m == 108 || m == 120) {
+        run.warn("TNC-ACCEPTED", fmt::format("M{} says nothing about the path here", m));
+      }
+    } else {
+      extras.codes[extras.count++] = m;
+    }
+  }
+  return true;
+}
+
+bool begin_codes(Run& run, const Extras& extras) {
+  for (std::size_t i = 0; i < extras.count; ++i) {
+    if (!begin_m(run, extras.codes[i])) return false;
+  }
+  return true;
+}
+
+bool end_codes(Run& run, const Extras& extras) {
+  for (std::size_t i = 0; i < extras.count; ++i) {
+    if (!end_m(run, extras.codes[i])) return false;
+  }
+  return true;
+}
+
+/// M99, then the end of the program.
+bool finish(Run& run, const Extras& extras) {
+  if (!end_codes(run, extras)) return false;
+  if (extras.calls_cycle && !call_cycle(run)) return false;
+  if (extras.ends) end_program(run, true);
+  return true;
+}
+
+bool use_tool_feed(Run& run) {
+  if (!run.parts.later.is_auto_feed) return true;
+  if (!(run.state.tool_feed > 0)) {
+    return run.fail(ErrorCode::FeedRateMissing, "F AUTO, and TOOL CALL had no F");
+  }
+  run.state.feed = run.state.rotary_feed = run.state.tool_feed;
+  return true;
+}
+
+}  // namespace
+
+bool begin_program(Run& run, const Block& block) {
+  State& state = run.state;
+  if (!state.has_header && state.programs.empty()) {
+    state.program_name = run.parts.later.name;
+    state.units = block.units;
+    return true;
+  }
+  if (state.units == block.units) return true;
+  state.units = block.units;
+  run.events().on_units({run.origin, state.units});
+  return true;
+}
+
+bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
+  const LaterWords& words = run.parts.later;
+  if (words.is_auto_feed && !use_tool_feed(run)) return false;
+  if (words.m_count == 0 && block.m == Block::kNone) [[likely]]
+    return move(run, block);
+  Extras extras;
+  if (!sort_m(run, extras) || !begin_codes(run, extras)) return false;
+  return move(run, block) && finish(run, extras);
+}
+
+bool stop_block(Run& run, const Block& block) {
+  Extras extras;
+  if (block.m != Block::kNone) {
+    return run.fail(ErrorCode::BlockFormatIncorrect, fmt::format("STOP with M{}", block.m));
+  }
+  if (!sort_m(run, extras) || !begin_codes(run, extras)) return false;
+  const auto codes = std::span(extras.codes).first(extras.count);
+  const bool stops_itself = std::ranges::find(codes, 0) != codes.end();
+  if (!finish(run, extras)) return false;
+  if (!stops_itself && !extras.ends) stop(run, StopKind::Program);
+  return true;
+}
+
+bool cycle_call(Run& run, const Block& block) {
+  Extras extras;
+  if (block.m != Block::kNone) {
+    return run.fail(ErrorCode::BlockFormatIncorrect, fmt::format("CYCL CALL with M{}", block.m));
+  }
+  if (!sort_m(run, extras) || !begin_codes(run, extras)) return false;
+  extras.calls_cycle = false;  // the call itself
+  return call_cycle(run) && finish(run, extras);
+}
+
+/// In the plane at a height that is free, then the cycle. All three axes are programmed; the one of
+/// the tool shifts the surface of the cycle (iTNC 530, User's Manual Cycles: calling a cycle).
+bool cycle_call_at(Run& run, const Block& block) {
+  State& state = run.state;
+  if (state.cycle.machining.number < 200) {
+    return run.fail(ErrorCode::CycleIncomplete, "CYCL CALL POS without a cycle from 200 on");
+  }
+  if (state.is_compensating()) {
+    return run.fail(ErrorCode::PathOffsetWronglyStarted, "CYCL CALL POS needs R0");
+  }
+  Extras extras;
+  Target target = here(state);
+  read_coordinates(run, block, target);
+  const PlaneAxes axes = axes_of(state.plane);
+  const AxisMask wanted =
+      static_cast<AxisMask>(bit(axes.first) | bit(axes.second) | bit(state.tool.axis));
+  if (target.named != wanted) {
+    return run.fail(ErrorCode::BlockFormatIncorrect,
+                    "CYCL CALL POS names both axes of the plane and the tool axis");
+  }
+  const double shift = target.at[index(state.tool.axis)];
+  if (shift != 0) {
+    return run.fail(
+        ErrorCode::NotSupported,
+        fmt::format("CYCL CALL POS with {}{:+.4f}: give the surface as Q203, and 0 here",
+                    letter(state.tool.axis), shift));
+  }
+  if (!sort_m(run, extras) || !begin_codes(run, extras) || !use_tool_feed(run)) return false;
+  Pace pace = kRapid;
+  const Value& feed = run.parts.later.feed;
+  if (feed.is_programmed()) {
+    pace.is_rapid = false;
+    if (!read_cycle_feed(run, feed, pace.feed)) return false;
+  } else if (!block.is_rapid) {
+    pace = {false, state.feed, state.rotary_feed};
+  }
+  if (!pace.is_rapid && !(pace.feed > 0)) {
+    return run.fail(ErrorCode::FeedRateMissing, "no F above 0 before CYCL CALL POS");
+  }
+  interrupt_contour(run);
+  const double free = clearance_height(run);
+  Target up = here(state);
+  up.set(state.tool.axis, std::max(free, state.nominal_of(state.tool.axis)));
+  line_to(run, up, pace);
+  Target over = here(state);
+  over.set(axes.first, target.at[index(axes.first)]);
+  over.set(axes.second, target.at[index(axes.second)]);
+  line_to(run, over, pace);
+  state.has_positioned = true;
+  return call_cycle(run) && finish(run, extras);
+}
+
+bool corner(Run& run, const Block& block) {
+  State& state = run.state;
+  const double feed = state.feed;
+  const Value& own = run.parts.later.feed;
+  if (own.is_programmed() && !read_cycle_feed(run, own, state.feed)) return false;
+  if (!use_tool_feed(run)) return false;
+  const bool is_made = make_blend(run, block);
+  state.feed = feed;
+  return is_made;
+}
+
+bool call_tool(Run& run, const Block& block) {
+  State& state = run.state;
+  const LaterWords& words = run.parts.later;
+  Block call = block;
+  if (!words.name.empty()) {
+    return run.fail(ErrorCode::ToolDefMissing,
+                    fmt::format("tool \"{}\": the setup has tools by number", words.name));
+  }
+  if (words.tool.is_programmed()) {
+    const double number = run.number(words.tool);
+    if (!(number >= 0 && number <= kLastLaterTool) || number != static_cast<int>(number)) {
+      return run.fail(ErrorCode::EntryOutOfRange, fmt::format("TOOL CALL {}", number));
+    }
+    call.target = static_cast<std::int32_t>(number);
+  }
+  const bool has_delta = words.delta_length.is_programmed() || words.delta_radius.is_programmed();
+  if (has_delta && call.target == Block::kNone) {
+    return run.fail(ErrorCode::NotSupported, "DL or DR in TOOL CALL without a tool");
+  }
+  if (!tnc155::call_tool(run, call)) return false;
+  if (call.target != Block::kNone) state.tool_feed = 0;
+  if (words.feed.is_programmed()) {
+    if (!read_cycle_feed(run, words.feed, state.tool_feed)) return false;
+    state.feed = state.rotary_feed = state.tool_feed;
+  }
+  return true;
+}
+
+bool accept(Run& run, const Block&) {
+  run.warn("TNC-ACCEPTED", fmt::format("{} is not followed", run.parts.later.name));
+  return true;
+}
+
+bool check_order(Run& run, const Block& block) {
+  const Transformation& now = run.state.transformation;
+  const bool is_mirrored = std::ranges::any_of(now.mirrored, [](bool is) { return is; });
+  std::string_view before;
+  if (now.rotation != 0) before = "a rotation";
+  if (is_mirrored) before = "a mirror image";
+  if (now.scale != 1 && block.cycle == 7) before = "a scaling";
+  bool changes = false;
+  if (block.cycle == 7) {
+    for (const Coordinate& word : block.words()) changes |= run.number(word.value) != 0;
+  } else if (block.cycle == 8) {
+    changes = block.coordinate_count != 0 && !is_mirrored;
+  } else if (block.cycle == 10) {
+    changes = is_mirrored && run.number(block.angle) != 0;
+  }
+  if (!changes || before.empty()) return true;
+  return run.fail(ErrorCode::NotSupported,
+                  fmt::format("CYCL DEF {} after {}: which comes first is not known; end it before",
+                              block.cycle, before));
+}
+
+}  // namespace dripline::interpreter::tnc155::later

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/tnc155/run.hpp"
+
+/// What blocks of the later controls do where that differs from a TNC 155. Functions return false
+/// when the run cannot continue (`Run::pause`).
+namespace dripline::interpreter::tnc155::later {
+
+/// BEGIN PGM: a program with a name.
+bool begin_program(Run& run, const Block& block);
+/// Positioning with several M functions and F AUTO; `move` makes the motion.
+bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&));
+bool stop_block(Run& run, const Block& block);
+bool cycle_call(Run& run, const Block& block);
+bool cycle_call_at(Run& run, const Block& block);
+/// RND and CHF with a feed of their own.
+bool corner(Run& run, const Block& block);
+/// TOOL CALL with DL, DR and F.
+bool call_tool(Run& run, const Block& block);
+bool accept(Run& run, const Block& block);
+
+bool assign(Run& run, const Block& block);
+bool compare(Run& run, const Block& block);
+bool raise_error(Run& run, const Block& block);
+bool read_system(Run& run, const Block& block);
+
+inline constexpr int kFirstTable = 200;  ///< cycles from this number on are tables of Q words
+bool define_table(Run& run, const Block& block);
+/// A call of the cycle that was defined last, with a number from 200 on.
+bool run_table(Run& run);
+/// Where the cycle begins, program coordinates of the tool axis.
+double clearance_height(Run& run);
+/// Transformations whose order matters, and whose order the control's manual does not state.
+bool check_order(Run& run, const Block& block);
+
+}  // namespace dripline::interpreter::tnc155::later

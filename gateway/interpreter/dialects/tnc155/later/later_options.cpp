@@ -1,0 +1,82 @@
+#include <fmt/core.h>
+#include <charconv>
+
+#include "gateway/interpreter/core/option_rows.hpp"
+#include "gateway/interpreter/dialects/tnc155/options.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace later {
+namespace {
+
+using C = ControlOptions;
+using Row = OptionRow<C>;
+
+constexpr int kHighestBlock = 99'999'999;
+constexpr OptionRange kSpeeds{0, 100'000};
+
+Result<void> read_start(const Options& options, const OptionKey& key, C& control) {
+  const auto text = options.text(key.key, "");
+  if (!text) return fail(text.error());
+  if (text->empty()) return {};
+  const std::string_view digits = std::string_view(*text).substr(text->front() == 'N' ? 1 : 0);
+  int number = -1;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || number < 0 ||
+      number > kHighestBlock) {
+    return fail(Errc::Syntax,
+                "option start_at: \"{}\" is no block of this control: it goes to N0 to N{}", *text,
+                kHighestBlock);
+  }
+  control.start_block = number;
+  return {};
+}
+
+constexpr auto kRows = in_table(
+    "option",
+    std::array{
+        row<&C::start_block>("start_block", kWhole,
+                             "start in the middle: number of the first block; -1: none",
+                             {-1, kHighestBlock}),
+        Row{{"start_at", kText, "the same, as a start names it: N400 or 400"}, read_start},
+        row<&C::cancels_transformations>("cancel_transformations", kFlag,
+                                         "M2, M30 and END PGM cancel transformations"),
+        row<&C::scales_three_axes>("scale_three_axes", kFlag,
+                                   "cycle 11 scales all main axes; else those of the plane"),
+        row<&C::pocket_overlap>("pocket_overlap", kNumber,
+                                "stepover of cycles 4 and 5 as a share of the tool radius",
+                                kPositive),
+        row<&C::m89_modal>(
+            "m89_modal", kFlag,
+            "M89 is the modal cycle call, which is an alarm; else a free M function"),
+        row<&C::m06_stop>("m06_stop", kFlag, "M6 stops the program"),
+        row<&C::spindle_minimum>("spindle_minimum", kNumber, "lowest speed", kSpeeds, "rpm"),
+        row<&C::spindle_maximum>("spindle_maximum", kNumber, "highest speed", kSpeeds, "rpm"),
+        row<&C::contour_feed>(
+            "rotary_feed", "rotary|contour",
+            "feed of a move with linear and rotary axes: of the rotary axis, or along the path"),
+        row<&C::circle_tolerance>("circle_tolerance", kLength,
+                                  "between the radii at start and end of an arc", kNotNegative),
+        row<&C::limit_low>("limit_low", kAxisTable, "software limits, machine coordinates"),
+        row<&C::limit_high>("limit_high", kAxisTable, "software limits, machine coordinates"),
+        row<&C::m92_position>("m92_position", kAxisTable, "what coordinates of M92 refer to"),
+    });
+
+}  // namespace
+}  // namespace later
+
+std::vector<ListedOption> list_later_options() {
+  return list_rows(later::kRows);
+}
+
+Result<ControlOptions> read_later_options(const Setup& setup) {
+  ControlOptions read;
+  read.is_later = true;
+  read.program_start = ProgramStart::Any;
+  read.checks_calls = false;
+  read.decimal_sign = '.';
+  if (auto done = read_rows(later::kRows, setup.control, read); !done) return fail(done.error());
+  if (auto good = check_limits(read); !good) return fail(good.error());
+  return read;
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,279 @@
+#include <fmt/format.h>
+
+#include "gateway/interpreter/dialects/tnc155/later/later_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
+
+namespace dripline::interpreter::tnc155::later {
+namespace {
+
+/// Of several M functions one may say how the path runs.
+bool is_of_path(int m) {
+  return m == 91 || m == 92 || m == 97 || m == 98;
+}
+
+/// After the M.
+bool read_m(Reading& in, const char* start) {
+  if (!in.cursor.is_digit_next()) return true;
+  std::int32_t m = 0;
+  if (!in.cursor.read_integer(m, 0, 9999, "M")) return false;
+  if (m > 99 || m == 93 || m == 95 || m == 96) {
+    switch (m) {
+      case 107:
+      case 108:
+      case 120:
+      case 127:
+      case 129:
+      case 135:
+      case 137:
+      case 145:
+      case 149:
+        break;
+      default:
+        return refuse(in, start);
+    }
+  }
+  if (m == 120 && in.cursor.take("LA")) {
+    Value blocks;
+    if (!read_value(in, blocks, "LA")) return false;
+  }
+  if (is_of_path(m) && in.block.m == Block::kNone) {
+    in.block.m = static_cast<std::int8_t>(m);
+    return true;
+  }
+  if (in.words.m_count == LaterWords::kMaxM || is_of_path(m)) {
+    return in.cursor.wrong(fmt::format("M{} is one too many in the block", m));
+  }
+  in.words.m[in.words.m_count++] = static_cast<std::int16_t>(m);
+  return true;
+}
+
+/// After the R: R0, RL, RR, and R+ or R- of single axes.
+bool read_compensation(Reading& in) {
+  TextCursor& cursor = in.cursor;
+  const bool is_single = in.block.kind == BlockKind::SingleAxis;
+  switch (cursor.peek()) {
+    case '0':
+      in.block.compensation = Compensation::Off;
+      break;
+    case 'L':
+    case 'R':
+      if (is_single) return cursor.wrong("a single-axis block has R0, R+ or R-");
+      in.block.compensation = *cursor.at() == 'L' ? Compensation::Left : Compensation::Right;
+      break;
+    case '+':
+    case '-':
+      if (!is_single) return cursor.wrong("R+ and R- are for single-axis blocks");
+      in.block.compensation = *cursor.at() == '+' ? Compensation::Longer : Compensation::Shorter;
+      break;
+    default:
+      return true;  // "not programmed"
+  }
+  cursor.advance();
+  return true;
+}
+
+/// After the P of PR or PA.
+bool read_polar(Reading& in, bool is_incremental) {
+  Block& block = in.block;
+  const bool is_line = block.kind == BlockKind::PolarLine;
+  if (is_line && in.cursor.take('R')) {
+    block.is_radius_incremental = is_incremental;
+    return read_value(in, block.radius, "PR");
+  }
+  if ((is_line || block.kind == BlockKind::PolarArc) && in.cursor.take('A')) {
+    block.is_angle_incremental = is_incremental;
+    return read_value(in, block.angle, "PA");
+  }
+  return in.cursor.unexpected();
+}
+
+bool read_turn(Reading& in) {
+  if (!in.cursor.take('R')) return in.cursor.unexpected();
+  if (in.cursor.take('+')) return in.block.turn = Turn::Counterclockwise, true;
+  if (in.cursor.take('-')) return in.block.turn = Turn::Clockwise, true;
+  return in.cursor.missing("DR");
+}
+
+/// After the R of CR: its radius comes first.
+bool is_radius_next(Reading& in) {
+  return in.block.kind == BlockKind::RadiusArc && !in.block.radius.is_programmed();
+}
+
+bool read_path_word(Reading& in) {
+  TextCursor& cursor = in.cursor;
+  const char c = cursor.peek();
+  const char* start = cursor.at();
+  if (c == 'I' || c == 'P') {
+    const bool is_incremental = cursor.take('I');
+    if (cursor.take('P')) return read_polar(in, is_incremental);
+    cursor.back_to(start);
+  }
+  if (c == 'I' || is_axis_letter(c)) return read_axis_word(in);
+  cursor.advance();
+  switch (c) {
+    case 'D':
+      return read_turn(in);
+    case 'R':
+      return is_radius_next(in) ? read_value(in, in.block.radius, "R") : read_compensation(in);
+    case 'F':
+      return read_feed(in, false);
+    case 'M':
+      return read_m(in, start);
+    default:
+      return refuse(in, start);
+  }
+}
+
+bool is_complete(Reading& in) {
+  const Block& block = in.block;
+  const bool is_arc = block.kind == BlockKind::Arc || block.kind == BlockKind::PolarArc ||
+                      block.kind == BlockKind::RadiusArc;
+  if (is_arc != block.turn.has_value()) {
+    return is_arc ? in.cursor.missing("DR") : in.cursor.wrong("DR is for circles");
+  }
+  if (block.kind == BlockKind::PolarArc && !block.angle.is_programmed()) {
+    return in.cursor.missing("PA");
+  }
+  if (block.kind == BlockKind::RadiusArc && !block.radius.is_programmed()) {
+    return in.cursor.missing("R");
+  }
+  const bool needs_end = block.kind == BlockKind::Arc || block.kind == BlockKind::TangentArc ||
+                         block.kind == BlockKind::RadiusArc || block.kind == BlockKind::SingleAxis;
+  if (needs_end && block.coordinate_count == 0) return in.cursor.missing("the end point");
+  return true;
+}
+
+}  // namespace
+
+bool read_feed(Reading& in, bool is_own) {
+  TextCursor& cursor = in.cursor;
+  const char* start = cursor.at() - 1;
+  if (cursor.take("MAX")) return in.block.is_rapid = true;
+  if (cursor.take("AUTO")) return in.words.is_auto_feed = true;
+  if (cursor.is_value_next()) return read_value(in, is_own ? in.words.feed : in.block.feed, "F");
+  const char next = cursor.peek();
+  if (!cursor.is_at_end() && next >= 'A' && next <= 'Z' && next != 'M') return refuse(in, start);
+  return true;
+}
+
+bool read_path(Reading& in, BlockKind kind) {
+  in.block.kind = kind;
+  while (!in.cursor.is_at_end()) {
+    if (!read_path_word(in)) return false;
+  }
+  if (kind == BlockKind::SingleAxis && in.block.coordinate_count > 1) {
+    return in.cursor.wrong("more than one axis without L");
+  }
+  return is_complete(in);
+}
+
+bool read_corner(Reading& in, BlockKind kind) {
+  in.block.kind = kind;
+  in.cursor.take('R');
+  if (!read_value(in, in.block.radius, kind == BlockKind::Rounding ? "RND" : "CHF")) return false;
+  if (in.cursor.take('F') && !read_feed(in, true)) return false;
+  return in.cursor.ends();
+}
+
+bool read_center(Reading& in) {
+  in.block.kind = BlockKind::Center;
+  while (!in.cursor.is_at_end()) {
+    if (!read_axis_word(in)) return false;
+    if (is_rotary(in.block.words().back().axis)) return in.cursor.wrong("CC takes linear axes");
+  }
+  return true;
+}
+
+bool read_call_at(Reading& in) {
+  in.block.kind = BlockKind::CycleCallAt;
+  while (!in.cursor.is_at_end()) {
+    const char* start = in.cursor.at();
+    if (in.cursor.take('F')) {
+      if (!read_feed(in, true)) return false;
+    } else if (in.cursor.take('M')) {
+      if (!read_m(in, start)) return false;
+    } else if (!read_axis_word(in)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool read_m_words(Reading& in) {
+  while (!in.cursor.is_at_end()) {
+    const char* start = in.cursor.at();
+    if (!in.cursor.take('M')) return refuse(in, start);
+    if (!read_m(in, start)) return false;
+  }
+  return true;
+}
+
+bool read_tool_definition(Reading& in) {
+  in.block.kind = BlockKind::ToolDefinition;
+  if (in.cursor.peek() == '"') return refuse(in, in.cursor.at());
+  if (!in.cursor.read_integer(in.block.target, 0, 32'767, "TOOL DEF")) return false;
+  if (in.cursor.take('L') && !read_value(in, in.block.length, "L")) return false;
+  if (in.cursor.take('R') && !read_value(in, in.block.radius, "R")) return false;
+  return in.cursor.is_at_end() || refuse(in, in.cursor.at());
+}
+
+bool read_tool_call(Reading& in) {
+  TextCursor& cursor = in.cursor;
+  in.block.kind = BlockKind::ToolCall;
+  if (cursor.peek() == '"') {
+    if (!read_quoted(in, in.words.name)) return false;
+  } else if (cursor.peek() == 'Q') {
+    if (!read_value(in, in.words.tool, "TOOL CALL")) return false;
+  } else if (cursor.is_digit_next()) {
+    if (!cursor.read_integer(in.block.target, 0, 32'767, "TOOL CALL")) return false;
+    if (*cursor.at() == '.') return refuse(in, cursor.at());  // an indexed tool
+  }
+  if (is_axis_letter(cursor.peek())) {
+    in.block.axis = axis_of_letter(*cursor.at());
+    if (is_rotary(*in.block.axis)) return refuse(in, cursor.at());
+    cursor.advance();
+  }
+  while (!cursor.is_at_end()) {
+    const char* start = cursor.at();
+    if (cursor.take("DR2")) return refuse(in, start);
+    const bool is_read = cursor.take("DL")   ? read_value(in, in.words.delta_length, "DL")
+                         : cursor.take("DR") ? read_value(in, in.words.delta_radius, "DR")
+                         : cursor.take('S')  ? read_value(in, in.block.spindle, "S")
+                         : cursor.take('F')  ? read_feed(in, true)
+                                             : refuse(in, start);
+    if (!is_read) return false;
+  }
+  return true;
+}
+
+bool read_blank(Reading& in) {
+  TextCursor& cursor = in.cursor;
+  in.block.kind = BlockKind::BlankForm;
+  const char* start = cursor.at();
+  if (cursor.take("0.2")) {
+    in.block.is_maximum = true;
+  } else if (!cursor.take("0.1")) {
+    return refuse(in, start);
+  }
+  const char axis = cursor.peek();
+  if (is_axis_letter(axis)) {
+    const char* at = cursor.at();
+    cursor.advance();
+    if (cursor.is_value_next()) {
+      cursor.back_to(at);
+    } else {
+      in.block.axis = axis_of_letter(axis);
+    }
+  }
+  while (!cursor.is_at_end()) {
+    if (!read_axis_word(in)) return false;
+  }
+  for (const Coordinate& word : in.block.words()) {
+    if (word.is_incremental && !in.block.is_maximum) {
+      return cursor.wrong("the MIN corner is not incremental");
+    }
+  }
+  return in.block.coordinate_count == 3 || cursor.wrong("BLK FORM needs three coordinates");
+}
+
+}  // namespace dripline::interpreter::tnc155::later

@@ -1,0 +1,240 @@
+#include "gateway/interpreter/dialects/tnc155/later/later_reader.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
+
+namespace dripline::interpreter::tnc155::later {
+
+bool refuse(Reading& in, const char* start) {
+  std::string words(start, in.end);
+  while (!words.empty() && static_cast<unsigned char>(words.back()) <= ' ') words.pop_back();
+  constexpr std::size_t kShown = 40;
+  if (words.size() > kShown) words = words.substr(0, kShown) + "...";
+  return in.cursor.wrong(ErrorCode::NotSupported, start, words);
+}
+
+bool read_value(Reading& in, Value& value, std::string_view name) {
+  TextCursor& cursor = in.cursor;
+  const char* start = (cursor.peek(), cursor.at());
+  const bool is_negative = cursor.take('-');
+  if (!is_negative) cursor.take('+');
+  cursor.peek();
+  if (cursor.take('Q')) {
+    std::int32_t parameter = 0;
+    if (!TextCursor::is_digit(*cursor.at())) return refuse(in, start);  // QL, QR, QS
+    if (!cursor.read_integer(parameter, 0, kLaterParameters - 1, "Q")) return false;
+    value = Value::q(parameter, is_negative);
+    return true;
+  }
+  std::int64_t steps = 0, unit = Value::kStepsPerUnit, digits = 0;
+  const char* at = cursor.at();
+  for (; TextCursor::is_digit(*at) && digits < 9; ++at, ++digits) steps = steps * 10 + (*at - '0');
+  steps *= unit;
+  if (*at == '.' || *at == ',') {
+    for (++at; TextCursor::is_digit(*at); ++at, ++digits) {
+      if (unit == 1 && *at >= '5') ++steps;  // the fifth decimal rounds, those after it do not
+      unit /= 10;
+      steps += unit * (*at - '0');
+    }
+  }
+  if (digits == 0) return cursor.missing(name);
+  cursor.back_to(at);
+  constexpr std::int64_t kMost = 100'000 * kUnit - 1;
+  if (steps > kMost) {
+    return cursor.wrong(ErrorCode::EntryOutOfRange, start,
+                        fmt::format("{} is beyond 99999.9999", name));
+  }
+  value = Value::steps(static_cast<std::int32_t>(is_negative ? -steps : steps));
+  return true;
+}
+
+std::string read_word(Reading& in) {
+  std::string word;
+  in.cursor.peek();
+  const char* at = in.cursor.at();
+  while (at != in.end && static_cast<unsigned char>(*at) > ' ' && word.size() < 1000) word += *at++;
+  in.cursor.back_to(at);
+  return word;
+}
+
+bool read_quoted(Reading& in, std::string& text) {
+  if (!in.cursor.take('"')) return in.cursor.unexpected();
+  const char* at = in.cursor.at();
+  const char* close = std::find(at, in.end, '"');
+  if (close == in.end || close == at) return in.cursor.missing("the name");
+  text.assign(at, close);
+  in.cursor.back_to(close + 1);
+  return true;
+}
+
+bool read_axis_word(Reading& in) {
+  TextCursor& cursor = in.cursor;
+  Coordinate word;
+  word.is_incremental = cursor.take('I');
+  const char c = cursor.peek();
+  if (!is_axis_letter(c)) return cursor.unexpected();
+  cursor.advance();
+  word.axis = axis_of_letter(c);
+  if (in.block.names(word.axis)) return cursor.wrong(fmt::format("{} is programmed twice", c));
+  if (in.block.coordinate_count == Block::kMaxCoordinates) {
+    return cursor.wrong(fmt::format("more than {} axes", Block::kMaxCoordinates));
+  }
+  if (!read_value(in, word.value, {&c, 1})) return false;
+  in.block.add(word);
+  return true;
+}
+
+namespace {
+
+bool read_frame(Reading& in, BlockKind kind) {
+  in.block.kind = kind;
+  in.words.name = read_word(in);
+  if (in.words.name.empty()) return in.cursor.missing("PGM");
+  if (in.cursor.take("INCH")) {
+    in.block.units = Units::Inch;
+  } else if (!in.cursor.take("MM")) {
+    return in.cursor.missing("MM or INCH");
+  }
+  return in.cursor.ends();
+}
+
+/// LBL 5, LBL "NAME"; `least`: LBL 0 ends a subprogram.
+bool read_label(Reading& in, BlockKind kind, std::int32_t least) {
+  in.block.kind = kind;
+  if (in.cursor.peek() == '"') {
+    in.block.target = kNameLabel;
+    return read_quoted(in, in.words.name);
+  }
+  return in.cursor.read_integer(in.block.target, least, kLastLaterLabel, "LBL");
+}
+
+bool read_label_call(Reading& in) {
+  if (!read_label(in, BlockKind::LabelCall, 1)) return false;
+  if (in.cursor.take("REP") && in.cursor.is_digit_next()) {
+    if (!in.cursor.read_integer(in.block.repeats, 0, kLastLaterLabel, "REP")) return false;
+    std::int32_t left = 0;  // as a listing shows it; a run begins with all
+    if (in.cursor.take('/') && !in.cursor.read_integer(left, 0, in.block.repeats, "REP")) {
+      return false;
+    }
+  }
+  return in.cursor.ends();
+}
+
+/// The file's name without folder and .H: the control's own folders are not ours.
+std::string program_name(std::string text) {
+  text.erase(0, text.find_last_of("\\/:") + 1);
+  if (text.ends_with(".H") || text.ends_with(".h")) text.resize(text.size() - 2);
+  return text;
+}
+
+bool read_program_call(Reading& in) {
+  in.block.kind = BlockKind::ProgramCall;
+  const char* start = (in.cursor.peek(), in.cursor.at());
+  std::string text;
+  if (*start == '"') {
+    if (!read_quoted(in, text)) return false;
+  } else {
+    text = read_word(in);
+  }
+  if (text.ends_with(".I") || text.ends_with(".i")) return refuse(in, start);
+  in.words.name = program_name(text);
+  if (in.words.name.empty()) return in.cursor.missing("CALL PGM");
+  return in.cursor.ends();
+}
+
+bool read_keyword(Reading& in, const char* start) {
+  TextCursor& cursor = in.cursor;
+  if (cursor.take("TOOL CALL")) return read_tool_call(in);
+  if (cursor.take("TOOL DEF")) return read_tool_definition(in);
+  if (cursor.take("BEGIN PGM")) return read_frame(in, BlockKind::Begin);
+  if (cursor.take("END PGM")) return read_frame(in, BlockKind::End);
+  if (cursor.take("BLK FORM")) return read_blank(in);
+  if (cursor.take("STOP")) return in.block.kind = BlockKind::Stop, read_m_words(in);
+  if (cursor.take("RND")) return read_corner(in, BlockKind::Rounding);
+  if (cursor.take("FN")) return read_function(in);
+  if (*start == 'Q' && TextCursor::is_digit(start[1])) return cursor.advance(), read_assignment(in);
+  const bool is_axis = is_axis_letter(*start) && !(start[1] >= 'A' && start[1] <= 'P');
+  if (*start == 'I' || is_axis) return read_path(in, BlockKind::SingleAxis);
+  if (*start == 'M' && TextCursor::is_digit(start[1])) {
+    return in.block.kind = BlockKind::Line, read_m_words(in);
+  }
+  return refuse(in, start);
+}
+
+bool read_c(Reading& in, const char* start) {
+  TextCursor& cursor = in.cursor;
+  if (cursor.take("CYCL DEF")) return cursor.wrong("CYCL DEF without its number");
+  if (cursor.take("CYCL CALL POS")) return read_call_at(in);
+  if (cursor.take("CYCL CALL PAT")) return refuse(in, start);
+  if (cursor.take("CYCL CALL")) return in.block.kind = BlockKind::CycleCall, read_m_words(in);
+  if (cursor.take("CALL LBL")) return read_label_call(in);
+  if (cursor.take("CALL PGM")) return read_program_call(in);
+  if (cursor.take("CALL")) return refuse(in, start);
+  if (cursor.take("CHF")) return read_corner(in, BlockKind::Chamfer);
+  if (cursor.take("CTP")) return refuse(in, start);
+  if (cursor.take("CC")) return read_center(in);
+  if (cursor.take("CP")) return read_path(in, BlockKind::PolarArc);
+  if (cursor.take("CT")) return read_path(in, BlockKind::TangentArc);
+  if (cursor.take("CR")) return read_path(in, BlockKind::RadiusArc);
+  if ((kCharacterBits[static_cast<unsigned char>(start[1])] & kValueBit) != 0) {
+    return read_path(in, BlockKind::SingleAxis);
+  }
+  return cursor.advance(), read_path(in, BlockKind::Arc);
+}
+
+bool read_l(Reading& in, const char* start) {
+  TextCursor& cursor = in.cursor;
+  if (cursor.take("LBL")) return read_label(in, BlockKind::Label, 0) && cursor.ends();
+  if (cursor.take("LP")) return read_path(in, BlockKind::PolarLine);
+  cursor.advance();
+  const bool is_other = start[1] >= 'A' && start[1] <= 'Z' && start[1] != 'I' &&
+                        !is_axis_letter(start[1]) && start[1] != 'R' && start[1] != 'F' &&
+                        start[1] != 'M';
+  if (is_other) return refuse(in, start);  // LN and others
+  return read_path(in, BlockKind::Line);
+}
+
+/// The end of the first line without its comment and `~`.
+const char* line_without_comment(const char* begin, const char* end) {
+  const char* at = begin;
+  bool is_quoted = false;
+  for (; at != end && *at != '\n' && *at != '\r'; ++at) {
+    if (*at == '"') is_quoted = !is_quoted;
+    if ((*at == ';' && !is_quoted) || *at == '~') return at;
+  }
+  return at;
+}
+
+}  // namespace
+
+}  // namespace dripline::interpreter::tnc155::later
+
+namespace dripline::interpreter::tnc155 {
+
+bool read_later_block(const char* begin, const char* end, const ReadingState& state,
+                      BlockParts& parts, Fault& fault) {
+  parts.clear();
+  parts.later.clear();
+  Block& block = parts.add(BlockKind::Line);
+  const char* line_end = later::line_without_comment(begin, end);
+  TextCursor cursor(begin, line_end, state.program, fault);
+  later::Reading in{cursor, block, parts.later, line_end};
+  constexpr std::int32_t kHighest = 99'999'999;
+  if (cursor.is_digit_next() && !cursor.read_integer(block.number, 0, kHighest, "block number")) {
+    return false;
+  }
+  const char* start = (cursor.peek(), cursor.at());
+  if (cursor.is_at_end()) return cursor.unexpected();
+  if (cursor.take("CYCL DEF") && cursor.is_digit_next()) return later::read_cycle(in, end);
+  cursor.back_to(start);
+  if (line_end != end && std::find(line_end, end, '\n') != end) {
+    return cursor.wrong(ErrorCode::NotSupported, start, "~ in a block other than CYCL DEF");
+  }
+  if (*start == 'L') return later::read_l(in, start);
+  if (*start == 'C') return later::read_c(in, start);
+  return later::read_keyword(in, start);
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/tnc155/reading/block_parts.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/text_cursor.hpp"
+
+/// Plain language of the later controls. Numbers are kept as a Value, to 1/10000: what has more
+/// decimals is rounded, as CAM systems write more than the control's resolution.
+namespace dripline::interpreter::tnc155 {
+
+/// Reads one block, [begin, end) with all its lines; `*end` can be read. False: `fault` has the
+/// reason. `parts` has one block then.
+bool read_later_block(const char* begin, const char* end, const ReadingState& state,
+                      BlockParts& parts, Fault& fault);
+
+}  // namespace dripline::interpreter::tnc155
+
+namespace dripline::interpreter::tnc155::later {
+
+/// A block in hand: the text, and where its words go.
+struct Reading {
+  TextCursor& cursor;
+  Block& block;
+  LaterWords& words;
+  const char* end;  ///< of the block's first line, without its comment
+};
+
+bool read_value(Reading& in, Value& value, std::string_view name);
+/// 1 to 1000 characters up to a blank.
+std::string read_word(Reading& in);
+/// The text between two quotes.
+bool read_quoted(Reading& in, std::string& text);
+bool read_axis_word(Reading& in);
+/// F and what follows it; `is_own`: of this block alone.
+bool read_feed(Reading& in, bool is_own);
+/// NOT SUPPORTED: the words up to the end of the block.
+bool refuse(Reading& in, const char* start);
+
+bool read_path(Reading& in, BlockKind kind);    ///< after L, LP, C, CP, CT, CR
+bool read_corner(Reading& in, BlockKind kind);  ///< after RND, CHF
+bool read_center(Reading& in);                  ///< after CC
+bool read_call_at(Reading& in);                 ///< after CYCL CALL POS
+bool read_m_words(Reading& in);                 ///< up to the end of the block
+bool read_tool_definition(Reading& in);
+bool read_tool_call(Reading& in);
+bool read_blank(Reading& in);       ///< after BLK FORM
+bool read_assignment(Reading& in);  ///< after the Q
+bool read_function(Reading& in);    ///< after FN
+/// After CYCL DEF; `end` of the whole block.
+bool read_cycle(Reading& in, const char* block_end);
+
+}  // namespace dripline::interpreter::tnc155::later

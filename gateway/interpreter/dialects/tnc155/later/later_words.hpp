@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
+
+/// What blocks of the later controls (TNC 426/430, iTNC 530) have besides the words of a TNC 155.
+namespace dripline::interpreter::tnc155 {
+
+inline constexpr int kLaterParameters = 2000;  ///< Q0 to Q1999
+inline constexpr std::int32_t kLastLaterLabel = 65'534;
+/// The label of a block whose label has a name (LaterWords::name); run labels have it plus a
+/// number.
+inline constexpr std::int32_t kNameLabel = 1 << 30;
+
+enum class FormulaFunction : std::uint8_t {
+  Sqrt,
+  Sin,
+  Cos,
+  Tan,
+  Asin,
+  Acos,
+  Atan,
+  Sq,
+  Ln,
+  Log,
+  Exp,
+  Neg,
+  Int,
+  Abs,
+  Frac,
+  Sgn,
+  Count
+};
+
+/// One step of a formula in reverse Polish order.
+struct FormulaStep {
+  enum class Kind : std::uint8_t { Number, Parameter, Operator, Function };
+  Kind kind = Kind::Number;
+  char op = 0;  ///< + - * / ^ %, L: length of two sides, A: their angle
+  FormulaFunction function = FormulaFunction::Sqrt;
+  std::int32_t parameter = 0;
+  double number = 0;
+};
+using Formula = std::vector<FormulaStep>;
+
+/// Q200=+2 of a cycle.
+struct CycleWord {
+  std::int32_t parameter = 0;
+  Value value;
+  bool is_auto = false;  ///< FAUTO: the feed of TOOL CALL
+};
+
+struct LaterWords {
+  static constexpr std::size_t kMaxM = 4;
+
+  void clear() {
+    m_count = 0;
+    is_auto_feed = false;
+    tool = feed = delta_length = delta_radius = Value{};
+    name.clear();
+    formula.clear();
+    second.clear();
+    words.clear();
+    ids.clear();
+  }
+
+  std::array<std::int16_t, kMaxM> m{};  ///< besides Block::m, which says how the path runs
+  std::size_t m_count = 0;
+  bool is_auto_feed = false;
+  Value tool;                        ///< TOOL CALL Q1
+  Value feed;                        ///< of this block alone: RND, CHF, CYCL CALL POS; TOOL CALL
+  Value delta_length, delta_radius;  ///< TOOL CALL: DL, DR
+  std::string name;                  ///< of a program, a label, a tool
+  Formula formula, second;           ///< Assignment; Comparison: both sides
+  std::vector<CycleWord> words;      ///< CycleTable
+  std::vector<std::int32_t> ids;     ///< SYSREAD: ID, NR, IDX
+};
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/tnc155/later/later_words.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// The parts of one block of text: one for a plain-language block, one or more for an ISO block.
+/// The room is fixed, so that reading does not allocate.
+struct BlockParts {
+  static constexpr std::size_t kMax = 16;
+
+  void clear() { count = 0; }
+  Block& add(BlockKind kind) {
+    Block& block = blocks[count++];
+    block.clear(kind);
+    return block;
+  }
+  const Block* begin() const { return blocks.data(); }
+  const Block* end() const { return blocks.data() + count; }
+
+  std::size_t count = 0;
+  std::array<Block, kMax> blocks;
+  LaterWords later;  ///< of a later control's one block
+};
+
+}  // namespace dripline::interpreter::tnc155
