@@ -19,8 +19,9 @@ namespace {
 using namespace tnc155;
 
 /// "datum": where the workpiece's datum lies in machine coordinates.
-Result<void> load_datum(const Setup& setup, State& state) {
+Result<void> load_datum(const Setup& setup, bool is_later, State& state) {
   for (const OffsetRecord& offset : setup.offsets) {
+    if (is_later && offset.name.starts_with("preset")) continue;  // of the options
     if (offset.name != "datum") {
       return fail(Errc::Unsupported, "offset {}: this control has datum", offset.name);
     }
@@ -80,7 +81,7 @@ Result<std::unique_ptr<Interpreter>> make_with(Result<ControlOptions> options, c
   State state;
   if (options->is_later) state.q.resize(kLaterParameters);
   std::vector<ToolDefinition> tools;
-  if (auto done = load_datum(setup, state); !done) return fail(done.error());
+  if (auto done = load_datum(setup, options->is_later, state); !done) return fail(done.error());
   if (auto done = load_parameters(setup, state); !done) return fail(done.error());
   if (options->central_tool_file) {
     if (auto fits = check_tool_store(setup); !fits) return fail(fits.error());

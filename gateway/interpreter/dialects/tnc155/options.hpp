@@ -22,7 +22,13 @@ enum class ProgramStart : std::uint8_t {
 struct ControlOptions {
   bool is_mdi = false;     ///< Setup::is_mdi: one single-axis block or TOOL CALL (manual: MDI)
   ControlVersion version;  ///< which control it is: what it has not is refused
-  bool is_later = false;   ///< TNC 426/430, iTNC 530: the rules of later/
+  /// A row of the preset table: the setup's offset "preset1".
+  struct Preset {
+    int number = 0;
+    Position datum;
+  };
+  std::vector<Preset> presets;
+  bool is_later = false;  ///< TNC 426/430, iTNC 530: the rules of later/
 
   // touch probe
   double probe_clearance = 2;

@@ -50,6 +50,7 @@ constexpr std::array kPeckingWords{kClearance,
                                    kReference};
 constexpr std::array kTappingWords{kClearance, kDepth, kPlunge, kAtBottom, kSurface, kSecond};
 constexpr std::array kRigidWords{kClearance, kDepth, P{239, Length}, kSurface, kSecond};
+constexpr std::array kPresetWords{P{339, Number}};
 constexpr std::array kBoreMillingWords{kClearance,       kDepth,           kPlunge,
                                        P{334, Distance}, kSurface,         kSecond,
                                        P{335, Distance}, P{342, Distance}, P{351, Number, false}};
@@ -72,6 +73,8 @@ std::span<const CycleParameter> cycle_table(int cycle) {
       return kRigidWords;
     case 208:
       return kBoreMillingWords;
+    case 247:
+      return kPresetWords;
     default:
       return {};
   }

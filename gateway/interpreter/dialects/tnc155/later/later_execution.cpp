@@ -80,6 +80,45 @@ bool use_tool_feed(Run& run) {
   return true;
 }
 
+/// M140: back along the tool axis, in rapid traverse where the block has no F.
+bool retract(Run& run, const Block& block) {
+  State& state = run.state;
+  const LaterWords& words = run.parts.later;
+  const Axis axis = state.tool.axis;
+  if (block.coordinate_count != 0 || block.kind != BlockKind::Line || block.m != Block::kNone) {
+    return run.fail(ErrorCode::NotSupported, "M140 in a block that moves otherwise");
+  }
+  if (!state.tool.is_called || state.is_compensating() || state.is_parallel) {
+    return run.fail(ErrorCode::NotSupported, "M140 without a tool axis, or within a contour");
+  }
+  if (!read_feed(run, block)) return false;
+  Pace pace = kRapid;
+  if (block.feed.is_programmed()) pace = {false, state.feed, state.rotary_feed};
+  if (!pace.is_rapid && !(pace.feed > 0))
+    return run.fail(ErrorCode::FeedRateMissing, "M140 with F0");
+  Target target = here(state);
+  interrupt_contour(run);
+  if (words.retracts_to_limit) {
+    if (!run.options.limit_high.has(axis)) {
+      return run.fail(ErrorCode::NotSupported,
+                      fmt::format("M140 MB MAX: the setup has no limit_high of {}", letter(axis)));
+    }
+    const double limit = run.options.limit_high.raw(axis);
+    if (limit > state.machine.raw(axis)) {
+      target.set(axis, limit);
+      machine_line_to(run, target, pace);
+    }
+  } else {
+    const double way = run.length(words.retract);
+    if (way < 0) return run.fail(ErrorCode::EntryOutOfRange, fmt::format("MB {}", way));
+    target.set(axis, state.nominal_of(axis) + way);
+    line_to(run, target, pace);
+  }
+  state.last = LastMove{};
+  state.polar.is_current = false;
+  return true;
+}
+
 }  // namespace
 
 bool begin_program(Run& run, const Block& block) {
@@ -98,11 +137,11 @@ bool begin_program(Run& run, const Block& block) {
 bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   const LaterWords& words = run.parts.later;
   if (words.is_auto_feed && !use_tool_feed(run)) return false;
-  if (words.m_count == 0 && block.m == Block::kNone) [[likely]]
+  if (words.m_count == 0 && block.m == Block::kNone && !words.retracts) [[likely]]
     return move(run, block);
   Extras extras;
   if (!sort_m(run, extras) || !begin_codes(run, extras)) return false;
-  return move(run, block) && finish(run, extras);
+  return (words.retracts ? retract(run, block) : move(run, block)) && finish(run, extras);
 }
 
 bool stop_block(Run& run, const Block& block) {
@@ -216,6 +255,27 @@ bool call_tool(Run& run, const Block& block) {
     if (!read_cycle_feed(run, words.feed, state.tool_feed)) return false;
     state.feed = state.rotary_feed = state.tool_feed;
   }
+  return true;
+}
+
+/// Cycle 247: a row of the preset table becomes the datum, and the transformations of the program
+/// end (iTNC 530, User's Manual Cycles: datum setting).
+bool use_preset(Run& run, int number) {
+  const auto& presets = run.options.presets;
+  const auto at = std::ranges::find_if(
+      presets, [=](const ControlOptions::Preset& preset) { return preset.number == number; });
+  if (at == presets.end()) {
+    return run.fail(ErrorCode::NotSupported,
+                    fmt::format("CYCL DEF 247: the setup has no offset preset{}", number));
+  }
+  if (run.state.is_compensating()) {
+    return run.fail(ErrorCode::PathOffsetWronglyStarted, "CYCL DEF 247 within a contour");
+  }
+  end_contour(run, false);
+  Transformation changed = run.state.transformation;
+  changed.cancel_cycles();
+  changed.datum = values_of(at->datum);
+  change_transformation(run, changed);
   return true;
 }
 

@@ -17,6 +17,7 @@ bool cycle_call_at(Run& run, const Block& block);
 bool corner(Run& run, const Block& block);
 /// TOOL CALL with DL, DR and F.
 bool call_tool(Run& run, const Block& block);
+bool use_preset(Run& run, int number);
 bool accept(Run& run, const Block& block);
 
 bool assign(Run& run, const Block& block);

@@ -76,6 +76,18 @@ Result<ControlOptions> read_later_options(const Setup& setup) {
   read.decimal_sign = '.';
   if (auto done = read_rows(later::kRows, setup.control, read); !done) return fail(done.error());
   if (auto good = check_limits(read); !good) return fail(good.error());
+  for (const OffsetRecord& offset : setup.offsets) {
+    constexpr std::string_view kPreset = "preset";
+    if (!offset.name.starts_with(kPreset)) continue;
+    int number = 0;
+    const char* const end = offset.name.data() + offset.name.size();
+    const auto done = std::from_chars(offset.name.data() + kPreset.size(), end, number);
+    if (done.ec != std::errc{} || done.ptr != end || number < 0) {
+      return fail(Errc::Unsupported, "offset {}: this control has datum and preset0, preset1 ...",
+                  offset.name);
+    }
+    read.presets.push_back({number, offset.value});
+  }
   return read;
 }
 

@@ -11,11 +11,20 @@ bool is_of_path(int m) {
   return m == 91 || m == 92 || m == 97 || m == 98;
 }
 
+/// After M140: MB and the way back, or MAX.
+bool read_retract(Reading& in, const char* start) {
+  if (in.words.retracts || !in.cursor.take("MB")) return refuse(in, start);
+  in.words.retracts = true;
+  if (in.cursor.take("MAX")) return in.words.retracts_to_limit = true;
+  return read_value(in, in.words.retract, "MB");
+}
+
 /// After the M.
 bool read_m(Reading& in, const char* start) {
   if (!in.cursor.is_digit_next()) return true;
   std::int32_t m = 0;
   if (!in.cursor.read_integer(m, 0, 9999, "M")) return false;
+  if (m == 140) return read_retract(in, start);
   if (m > 99 || m == 93 || m == 95 || m == 96) {
     switch (m) {
       case 107:

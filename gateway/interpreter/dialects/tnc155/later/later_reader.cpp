@@ -154,6 +154,12 @@ bool read_keyword(Reading& in, const char* start) {
   if (cursor.take("STOP")) return in.block.kind = BlockKind::Stop, read_m_words(in);
   if (cursor.take("RND")) return read_corner(in, BlockKind::Rounding);
   if (cursor.take("FN")) return read_function(in);
+  if (cursor.take("PLANE RESET STAY") && cursor.is_at_end()) {  // no plane is ever tilted here
+    in.block.kind = BlockKind::Accepted;
+    in.words.name = "PLANE RESET STAY";
+    return true;
+  }
+  cursor.back_to(start);
   if (*start == 'Q' && TextCursor::is_digit(start[1])) return cursor.advance(), read_assignment(in);
   const bool is_axis = is_axis_letter(*start) && !(start[1] >= 'A' && start[1] <= 'P');
   if (*start == 'I' || is_axis) return read_path(in, BlockKind::SingleAxis);

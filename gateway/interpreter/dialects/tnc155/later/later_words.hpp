@@ -60,7 +60,8 @@ struct LaterWords {
   void clear() {
     m_count = 0;
     is_auto_feed = false;
-    tool = feed = delta_length = delta_radius = Value{};
+    retracts = retracts_to_limit = false;
+    tool = feed = retract = delta_length = delta_radius = Value{};
     name.clear();
     formula.clear();
     second.clear();
@@ -71,6 +72,9 @@ struct LaterWords {
   std::array<std::int16_t, kMaxM> m{};  ///< besides Block::m, which says how the path runs
   std::size_t m_count = 0;
   bool is_auto_feed = false;
+  bool retracts = false;           ///< M140 MB: along the tool axis
+  bool retracts_to_limit = false;  ///< M140 MB MAX
+  Value retract;
   Value tool;                        ///< TOOL CALL Q1
   Value feed;                        ///< of this block alone: RND, CHF, CYCL CALL POS; TOOL CALL
   Value delta_length, delta_radius;  ///< TOOL CALL: DL, DR
