@@ -200,6 +200,9 @@ struct State {
   LastMove last;
   std::array<double, 3> pole{};  ///< X, Y, Z; program coordinates
   bool has_pole = false;
+  /// Of a later control: CC named the tool axis, so circles lie in this plane, not in the working
+  /// plane.
+  std::optional<Plane> pole_plane;
   PolarData polar;
 
   std::vector<double> q = std::vector<double>(kParameterCount);  ///< a later control has more

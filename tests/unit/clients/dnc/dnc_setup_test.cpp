@@ -308,7 +308,7 @@ TEST(DncSetupOptions, ListTheKeysOfAControlWithoutAServer) {
 TEST(DncSetupOptions, GiveEveryControlAsJson) {
   const test_support::Dnc dnc(DNC_PATH);
   const auto all = json::parse(dnc({"setup", "options", "--json"}).out).at("controls");
-  ASSERT_EQ(all.size(), 7U);
+  ASSERT_EQ(all.size(), 8U);
   for (const json& control : all) {
     for (const json& option : control.at("options")) {
       for (const char* member : {"key", "type", "default", "text"}) {

@@ -49,6 +49,10 @@ bool move(Run& run, const Block& block) {
   }
 }
 
+bool move_across(Run& run, const Block& block) {
+  return later::move_in_pole_plane(run, block, move);
+}
+
 /// M99 and M89: the machining cycle, after the motion.
 bool call_cycle_by_m(Run& run, int m, bool has_moved) {
   CycleState& cycle = run.state.cycle;
@@ -75,7 +79,7 @@ bool finish_m(Run& run, int m, bool has_moved) {
 
 bool positioning(Run& run, const Block& block) {
   if (run.options.is_later) [[unlikely]]
-    return later::position(run, block, move);
+    return later::position(run, block, run.state.pole_plane ? move_across : move);
   if (block.m == Block::kNone && !run.state.cycle.is_modal_call) [[likely]]
     return move(run, block);
   if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
@@ -124,6 +128,10 @@ bool function(Run& run, const Block& block) {
   return !is_true(run, block) || jump_to_label(run, block.target);
 }
 
+bool pole(Run& run, const Block& block) {
+  return run.options.is_later ? later::set_pole(run, block) : set_pole(run, block);
+}
+
 bool end_by_block(Run& run, const Block&) {
   end_program(run, false);
   return true;
@@ -156,7 +164,7 @@ constexpr std::array<bool (*)(Run&, const Block&),
              positioning /* Line */,
              positioning /* PolarLine */,
              chamfer,
-             set_pole,
+             pole,
              positioning /* Arc */,
              positioning /* PolarArc */,
              positioning /* TangentArc */,

@@ -87,7 +87,7 @@ bool choose(Run& run, int number) {
   tool.data = *data;
   tool.data.length += run.length(run.parts.later.delta_length);
   tool.data.radius += run.length(run.parts.later.delta_radius);
-  if (tool.data.radius < 0) {
+  if (run.options.is_later && tool.data.radius < 0) {
     return run.fail(ErrorCode::EntryOutOfRange,
                     fmt::format("DR makes the radius {}", tool.data.radius));
   }

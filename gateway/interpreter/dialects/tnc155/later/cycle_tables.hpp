@@ -21,6 +21,10 @@ struct CycleParameter {
   bool is_needed = true;  ///< older controls of the family have not all; absent it is 0
 };
 
+inline constexpr int kRetractionFeed = 208;
+/// What a parameter holds whose feed is FMAX.
+inline constexpr double kRapidFeed = 99'999;
+
 /// The parameters of a cycle; empty: it is none of those that are known.
 std::span<const CycleParameter> cycle_table(int cycle);
 

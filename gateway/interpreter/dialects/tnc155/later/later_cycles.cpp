@@ -32,8 +32,11 @@ bool read_cycle_word(Reading& in, int cycle) {
   if (cursor.take("FAUTO") || cursor.take("AUTO")) {
     if (row->use != CycleUse::Feed) return refuse(in, start);
     word.is_auto = true;
+  } else if (cursor.take("FMAX") || cursor.take("MAX")) {
+    if (word.parameter != kRetractionFeed) return refuse(in, start);
+    word.is_rapid = true;
   } else if (!cursor.is_value_next()) {
-    return refuse(in, start);  // FMAX and others
+    return refuse(in, start);
   } else if (!read_value(in, word.value, fmt::format("Q{}", word.parameter))) {
     return false;
   }

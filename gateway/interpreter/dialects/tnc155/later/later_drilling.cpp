@@ -54,6 +54,11 @@ class Table {
 
   void rapid(double height) const { move(height, kRapid); }
   void cut(double height, double feed) const { move(height, {false, feed, feed}); }
+  /// Out of the hole at Q208; 0: at the feed into it.
+  void retract(double height) const {
+    if (of(kRetractionFeed) >= kRapidFeed) return rapid(height);
+    cut(height, feed(of(kRetractionFeed) > 0 ? kRetractionFeed : 206));
+  }
   void dwell(double seconds) const {
     if (seconds > 0 && !run_.is_measuring) run_.events().on_dwell({run_.origin, seconds, {}});
   }
@@ -105,10 +110,9 @@ void drill(const Table& table) {
 }
 
 void ream(const Table& table) {
-  const double back = table.feed(208) > 0 ? table.feed(208) : table.feed(206);
   table.cut(table.bottom(), table.feed(206));
   table.dwell(table.of(211));
-  table.cut(table.clearance(), back);
+  table.retract(table.clearance());
   table.rapid(table.last());
 }
 
@@ -118,7 +122,6 @@ double next_infeed(const Table& table, double infeed) {
 }
 
 void drill_universally(const Table& table) {
-  const double back = table.feed(208) > 0 ? table.feed(208) : table.feed(206);
   const int breaks = static_cast<int>(table.of(213));
   double infeed = table.mm(202);
   double depth = table.surface();
@@ -129,17 +132,17 @@ void drill_universally(const Table& table) {
     if (!(depth > table.bottom())) break;
     if (broken < breaks) {
       ++broken;
-      table.cut(std::min(table.clearance(), depth + table.mm(256)), back);
+      table.retract(std::min(table.clearance(), depth + table.mm(256)));
     } else {
       broken = 0;
-      table.cut(table.clearance(), back);
+      table.retract(table.clearance());
       table.dwell(table.of(210));
       table.rapid(std::min(table.clearance(), depth + table.mm(200)));
     }
     infeed = next_infeed(table, infeed);
   }
   table.dwell(table.of(211));
-  table.cut(table.clearance(), back);
+  table.retract(table.clearance());
   table.rapid(table.last());
 }
 
@@ -384,6 +387,7 @@ bool define_table(Run& run, const Block& block) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].q != word.parameter) continue;
       double value = run.number(word.value);
+      if (word.is_rapid) value = kRapidFeed;
       if (word.is_auto) {
         if (!(state.tool_feed > 0)) {
           return run.fail(ErrorCode::FeedRateMissing, "FAUTO, and TOOL CALL had no F");

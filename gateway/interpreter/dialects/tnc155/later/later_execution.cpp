@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <utility>
 
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
@@ -142,6 +143,41 @@ bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   Extras extras;
   if (!sort_m(run, extras) || !begin_codes(run, extras)) return false;
   return (words.retracts ? retract(run, block) : move(run, block)) && finish(run, extras);
+}
+
+bool set_pole(Run& run, const Block& block) {
+  State& state = run.state;
+  state.pole_plane.reset();
+  const Plane working = state.plane;
+  for (const Plane plane : {Plane::XY, Plane::ZX, Plane::YZ}) {
+    const PlaneAxes axes = axes_of(plane);
+    if (plane == working || !block.names(axes.first) || !block.names(axes.second)) continue;
+    state.plane = plane;
+    state.pole_plane = plane;
+  }
+  const bool is_set = tnc155::set_pole(run, block);
+  state.plane = working;
+  return is_set;
+}
+
+/// Only circles without compensation: what continues them would be in another plane.
+bool move_in_pole_plane(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
+  State& state = run.state;
+  const bool is_circle = block.kind == BlockKind::Arc || block.kind == BlockKind::PolarArc;
+  if (!is_circle && block.kind != BlockKind::PolarLine) return move(run, block);
+  const bool is_plain = block.compensation <= Compensation::Off && !state.is_compensating() &&
+                        !state.is_parallel && !state.joins && !run.blend_follows;
+  if (!is_circle || !is_plain ||
+      (block.kind == BlockKind::PolarArc && block.coordinate_count != 0)) {
+    return run.fail(ErrorCode::PlaneWronglyDefined,
+                    "CC with the tool axis is for C and CP without compensation and corners");
+  }
+  const Plane working = std::exchange(state.plane, *state.pole_plane);
+  const bool is_made = move(run, block);
+  state.plane = working;
+  state.last = LastMove{};
+  state.polar.is_current = false;
+  return is_made;
 }
 
 bool stop_block(Run& run, const Block& block) {

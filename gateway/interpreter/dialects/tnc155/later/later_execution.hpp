@@ -10,6 +10,9 @@ namespace dripline::interpreter::tnc155::later {
 bool begin_program(Run& run, const Block& block);
 /// Positioning with several M functions and F AUTO; `move` makes the motion.
 bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&));
+/// CC, which may name the tool axis: circles then lie in a plane across the working plane.
+bool set_pole(Run& run, const Block& block);
+bool move_in_pole_plane(Run& run, const Block& block, bool (*move)(Run&, const Block&));
 bool stop_block(Run& run, const Block& block);
 bool cycle_call(Run& run, const Block& block);
 bool cycle_call_at(Run& run, const Block& block);

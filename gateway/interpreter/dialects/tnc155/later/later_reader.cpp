@@ -90,14 +90,26 @@ namespace {
 
 bool read_frame(Reading& in, BlockKind kind) {
   in.block.kind = kind;
-  in.words.name = read_word(in);
-  if (in.words.name.empty()) return in.cursor.missing("PGM");
-  if (in.cursor.take("INCH")) {
+  in.cursor.peek();
+  std::string_view text(in.cursor.at(), in.end);
+  const auto trim = [&text] {
+    while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
+  };
+  trim();
+  constexpr std::string_view kMetric = " MM", kInch = " INCH";  // a name may have blanks
+  if (text.ends_with(kInch)) {
     in.block.units = Units::Inch;
-  } else if (!in.cursor.take("MM")) {
+    text.remove_suffix(kInch.size());
+  } else if (text.ends_with(kMetric)) {
+    text.remove_suffix(kMetric.size());
+  } else {
     return in.cursor.missing("MM or INCH");
   }
-  return in.cursor.ends();
+  trim();
+  in.words.name = text;
+  if (in.words.name.empty()) return in.cursor.missing("PGM");
+  in.cursor.back_to(in.end);
+  return true;
 }
 
 /// LBL 5, LBL "NAME"; `least`: LBL 0 ends a subprogram.
@@ -154,9 +166,12 @@ bool read_keyword(Reading& in, const char* start) {
   if (cursor.take("STOP")) return in.block.kind = BlockKind::Stop, read_m_words(in);
   if (cursor.take("RND")) return read_corner(in, BlockKind::Rounding);
   if (cursor.take("FN")) return read_function(in);
-  if (cursor.take("PLANE RESET STAY") && cursor.is_at_end()) {  // no plane is ever tilted here
+  // No plane is ever tilted here, and no tool center point control on.
+  for (const std::string_view words : {"PLANE RESET STAY", "FUNCTION RESET TCPM"}) {
+    cursor.back_to(start);
+    if (!cursor.take(words) || !cursor.is_at_end()) continue;
     in.block.kind = BlockKind::Accepted;
-    in.words.name = "PLANE RESET STAY";
+    in.words.name = words;
     return true;
   }
   cursor.back_to(start);

@@ -51,7 +51,8 @@ using Formula = std::vector<FormulaStep>;
 struct CycleWord {
   std::int32_t parameter = 0;
   Value value;
-  bool is_auto = false;  ///< FAUTO: the feed of TOOL CALL
+  bool is_auto = false;   ///< FAUTO: the feed of TOOL CALL
+  bool is_rapid = false;  ///< FMAX
 };
 
 struct LaterWords {

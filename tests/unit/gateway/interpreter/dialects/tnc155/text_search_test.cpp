@@ -46,7 +46,7 @@ std::string found_in(const std::string& text, ReaderOptions options, Find find) 
 
 std::string label_in(const std::string& text, std::uint32_t label, ReaderOptions options = {}) {
   return found_in(text, options, [&](TextSearch& search, TextPlace& place) {
-    return search.find_label(kMainProgram, label, place);
+    return search.find_label(kMainProgram, label, {}, place);
   });
 }
 
