@@ -250,12 +250,11 @@ bool read_later_block(const char* begin, const char* end, const ReadingState& st
   if (cursor.is_at_end()) return cursor.unexpected();
   if (cursor.take("CYCL DEF") && cursor.is_digit_next()) return later::read_cycle(in, end);
   cursor.back_to(start);
-  if (line_end != end && std::find(line_end, end, '\n') != end) {
-    return cursor.wrong(ErrorCode::NotSupported, start, "~ in a block other than CYCL DEF");
-  }
-  if (*start == 'L') return later::read_l(in, start);
-  if (*start == 'C') return later::read_c(in, start);
-  return later::read_keyword(in, start);
+  const bool is_read = *start == 'L'   ? later::read_l(in, start)
+                       : *start == 'C' ? later::read_c(in, start)
+                                       : later::read_keyword(in, start);
+  if (!is_read || line_end == end || std::find(line_end, end, '\n') == end) return is_read;
+  return cursor.wrong(ErrorCode::NotSupported, start, "~ in a block other than CYCL DEF");
 }
 
 }  // namespace dripline::interpreter::tnc155

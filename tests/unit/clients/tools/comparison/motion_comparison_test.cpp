@@ -52,6 +52,28 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text.replace(at, from.size(), to);
 }
 
+/// One part for both families of this language: contour with compensation, corners, a helix, a
+/// repeat.
+TEST(MotionComparison, APartForATnc155AndOneForAnItncAreTheSameMotion) {
+  const std::string older =
+      "0 BEGIN PGM 7 MM\n1 TOOL DEF 1 L+0 R+4,5\n2 TOOL CALL 1 Z S2000\n3 L Z+5 R0 F MAX M03\n"
+      "4 L X-20 Y+20 R0 F MAX\n5 L Z-2 F200\n6 L X+0 Y+20 RL F300\n7 L X+0 Y+40\n8 RND R3\n"
+      "9 L X+40 Y+40\n10 L 4\n11 L X+40 Y+0\n12 L X+0 Y+0\n13 L X+0 Y+20\n"
+      "14 L X-20 Y+20 R0 F MAX\n15 CC X-10 Y+20\n16 CP IPA+720 IZ-4 DR+ F300\n"
+      "17 LBL 1\n18 L IX+5 F MAX\n19 CALL LBL 1 REP 2/2\n20 L Z+5 F MAX M05\n"
+      "21 END PGM 7 MM\n";
+  const std::string later =
+      "BEGIN PGM PART_7 MM\n; the same\nTOOL DEF 1 L+0 R+5\nTOOL CALL 1 Z S2000 F300 DR-0.5\n"
+      "L Z+5 R0 FMAX M3\nL X-20 Y+20 R0 FMAX\n* - contour\nL Z-2 F200\nL X+0 Y+20 RL FAUTO\n"
+      "L Y+40 X+0\nRND R3\nQ1 = 4 * (7 + 3)\nL X+Q1 Y+Q1\nCHF 4\nL X+40 Y+0\nL X+0 Y+0\n"
+      "L X+0 Y+20\nL X-20 Y+20 FMAX R0\nCC X-10 Y+20\nCP IPA+720 IZ-4 DR+ F300\n"
+      "LBL \"STEP\"\nL IX+5 FMAX\nCALL LBL \"STEP\" REP 2\nL Z+5 FMAX M5\nEND PGM PART_7 MM\n";
+  const auto same = compare({"tnc155", older}, {"itnc", later});
+  EXPECT_TRUE(same.is_unconditional()) << testing::PrintToString(words_of(same));
+  const auto other = compare({"tnc155", older}, {"itnc", replaced(later, "DR-0.5", "DR-0.4")});
+  EXPECT_FALSE(other.is_unconditional());
+}
+
 TEST(MotionComparison, AnotherTextOfTheSameMovesIsTheSameMotion) {
   const auto result =
       compare_fanuc(kPart,
