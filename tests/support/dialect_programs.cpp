@@ -58,6 +58,17 @@ const std::vector<DialectProgram>& dialect_programs() {
        "X2500Y1000\n"
        "G00X0Y0\n"
        "M02\n"},
+      {"itnc", "PART_5",
+       "BEGIN PGM PART_5 MM\n"
+       "L X+10 Y+0 Z+0 R0 F2000\n"
+       "CC X+0 Y+0\n"
+       "CP IPA-720 IZ-3 DR-\n"
+       "LP PR+8 PA+60\n"
+       "LBL \"STEP\" ; a repeat\n"
+       "L IX+1.25 IY-0.5\n"
+       "CALL LBL \"STEP\" REP 3\n"
+       "L X+0 Y+0 Z+0 FMAX\n"
+       "END PGM PART_5 MM\n"},
       {"tnc155", "5",
        "0 BEGIN PGM 5 MM\n"
        "1 L X+10 Y+0 Z+0 R0 F2000\n"

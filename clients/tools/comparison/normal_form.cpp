@@ -39,6 +39,13 @@ constexpr std::array kRules{LexicalRules{.control = "centurion",
                                          .begins_with_number = true,
                                          .has_block_numbers = true,
                                          .variable = 'Q'},
+                            LexicalRules{.control = "itnc",
+                                         .has_semicolon = true,
+                                         .has_numbers = true,
+                                         .has_comma = true,
+                                         .begins_with_number = true,
+                                         .has_block_numbers = true,
+                                         .variable = 'Q'},
                             LexicalRules{.control = "tektronix-1704"},
                             LexicalRules{.control = "prototrak-plus"}};
 constexpr LexicalRules kUnknown{};

@@ -92,7 +92,7 @@ enum class ProbeDirection : std::uint8_t { Negative, Positive };
 /// One block. The comments name the kinds that use a member; all other members are as after
 /// `clear`.
 struct Block {
-  static constexpr std::size_t kMaxCoordinates = 6;
+  static constexpr std::size_t kMaxCoordinates = 5;
   static constexpr std::int32_t kNone = -1;
 
   /// Everything not programmed.

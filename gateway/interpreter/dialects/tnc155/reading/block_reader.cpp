@@ -66,11 +66,8 @@ bool BlockReader::read_peeked(ReadingState state, BlockParts& parts) {
 
 ReadState BlockReader::load(ReadingState& state) {
   WindowState loaded = WindowState::Ready;
-  if (options_.is_later) [[unlikely]] {
-    state.program.form = Form::Plain;
-    loaded = window_.load(place_.program, place_.offset, LaterEnd{&is_one_line_});
-    return loaded == WindowState::Ready ? show(Form::Plain) : complain_of(loaded);
-  }
+  if (options_.is_later) [[unlikely]]
+    return load_later(state);
   switch (state.program.form) {
     case Form::Plain:
       loaded = window_.load(place_.program, place_.offset, PlainEnd{&is_one_line_});
@@ -117,10 +114,24 @@ ReadState BlockReader::find_form(ReadingState& state) {
 /// The block without the blanks around it. A star in front belongs to plain language.
 ReadState BlockReader::show(Form form) {
   text_end_ = window_.end();
-  text_ = options_.is_later   ? LaterEnd::skip(window_.begin(), text_end_)
-          : form == Form::Iso ? IsoEnd::skip(window_.begin(), text_end_)
-                              : skip_blanks(window_.begin(), text_end_);
+  text_ = form == Form::Iso ? IsoEnd::skip(window_.begin(), text_end_)
+                            : skip_blanks(window_.begin(), text_end_);
   return text_ == text_end_ ? ReadState::End : ReadState::Ready;
+}
+
+ReadState BlockReader::load_later(ReadingState& state) {
+  state.program.form = Form::Plain;
+  const WindowState loaded = window_.load(place_.program, place_.offset, LaterEnd{&is_one_line_});
+  if (loaded != WindowState::Ready) return complain_of(loaded);
+  text_end_ = window_.end();
+  text_ = LaterEnd::skip(window_.begin(), text_end_);
+  return text_ == text_end_ ? ReadState::End : ReadState::Ready;
+}
+
+bool BlockReader::read_later(ReadingState& state, BlockParts& parts) {
+  if (!read_later_block(text_, text_end_, state, parts, fault_)) return false;
+  note_plain_block(parts.blocks[0], state);
+  return true;
 }
 
 void BlockReader::find_place() {
@@ -166,11 +177,8 @@ bool BlockReader::read(ReadingState& state, BlockParts& parts) {
            resolve_words(state, parts);
   }
   Block& block = parts.blocks[0];
-  if (options_.is_later) [[unlikely]] {
-    if (!read_later_block(text_, text_end_, state, parts, fault_)) return false;
-    note_plain_block(block, state);
-    return true;
-  }
+  if (options_.is_later) [[unlikely]]
+    return read_later(state, parts);
   if (!read_plain_block(text_, text_end_, state, block, fault_)) return false;
   const ControlVersion& version = options_.version;
   if (!version.takes_all_blocks() && !check_version(version, block, fault_)) return false;

@@ -90,6 +90,8 @@ class BlockReader {
 
  private:
   ReadState load(ReadingState& state);
+  [[gnu::noinline]] ReadState load_later(ReadingState& state);
+  [[gnu::noinline]] bool read_later(ReadingState& state, BlockParts& parts);
   ReadState find_form(ReadingState& state);
   ReadState show(Form form);
   void find_place();

@@ -39,18 +39,18 @@ constexpr std::array kProgram{CyclePart{Name, "PGM CALL"}, CyclePart{Program, "P
 
 std::span<const CyclePart> cycle_parts(int cycle) {
   static constexpr std::array<std::span<const CyclePart>, kLastCycle + 1> kCycles{{{},
-                                                                       kPecking,
-                                                                       kTapping,
-                                                                       kSlot,
-                                                                       kPocket,
-                                                                       kCircularPocket,
-                                                                       {},
-                                                                       kShift,
-                                                                       kMirror,
-                                                                       kDwell,
-                                                                       kRotation,
-                                                                       kScaling,
-                                                                       kProgram}};
+                                                                                   kPecking,
+                                                                                   kTapping,
+                                                                                   kSlot,
+                                                                                   kPocket,
+                                                                                   kCircularPocket,
+                                                                                   {},
+                                                                                   kShift,
+                                                                                   kMirror,
+                                                                                   kDwell,
+                                                                                   kRotation,
+                                                                                   kScaling,
+                                                                                   kProgram}};
   return cycle >= 0 && cycle < static_cast<int>(kCycles.size())
              ? kCycles[static_cast<std::size_t>(cycle)]
              : kCycles[0];

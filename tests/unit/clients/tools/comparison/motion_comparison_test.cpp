@@ -69,9 +69,9 @@ TEST(MotionComparison, APartForATnc155AndOneForAnItncAreTheSameMotion) {
       "L X+0 Y+20\nL X-20 Y+20 FMAX R0\nCC X-10 Y+20\nCP IPA+720 IZ-4 DR+ F300\n"
       "LBL \"STEP\"\nL IX+5 FMAX\nCALL LBL \"STEP\" REP 2\nL Z+5 FMAX M5\nEND PGM PART_7 MM\n";
   const auto same = compare({"tnc155", older}, {"itnc", later});
-  EXPECT_TRUE(same.is_unconditional()) << testing::PrintToString(words_of(same));
+  EXPECT_TRUE(same.is_same) << testing::PrintToString(words_of(same));
   const auto other = compare({"tnc155", older}, {"itnc", replaced(later, "DR-0.5", "DR-0.4")});
-  EXPECT_FALSE(other.is_unconditional());
+  EXPECT_FALSE(other.is_same);
 }
 
 TEST(MotionComparison, AnotherTextOfTheSameMovesIsTheSameMotion) {

@@ -94,7 +94,7 @@ TEST_P(RestartOfGolden, CutsThePathOfAnUndisturbedRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, RestartOfGolden,
-                         testing::Values("centurion", "fanuc", "prototrak-plus", "rs274ngc",
+                         testing::Values("centurion", "fanuc", "itnc", "prototrak-plus", "rs274ngc",
                                          "tektronix-1704", "tnc155"),
                          [](const auto& i) {
                            std::string name = i.param;
