@@ -6,92 +6,13 @@
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/cycle_tables.hpp"
+#include "gateway/interpreter/dialects/tnc155/later/cycle_table_run.hpp"
 #include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
 
 /// Cycles 200 to 208. Source: iTNC 530 (and TNC 426/430), User's Manual, Cycles: drilling, tapping
 /// and thread milling; the steps of each are in this folder's README.
 namespace dripline::interpreter::tnc155::later {
 namespace {
-
-enum Cycle : std::uint8_t {
-  kDrill = 200,
-  kReam = 201,
-  kUniversal = 203,
-  kPeck = 205,
-  kTap = 206,
-  kRigidTap = 207,
-  kBoreMill = 208
-};
-
-constexpr double kMaxPasses = 2000;
-
-/// The words of the cycle, and the moves in the tool axis.
-class Table {
- public:
-  explicit Table(Run& run)
-      : run_(run),
-        rows_(cycle_table(run.state.cycle.machining.number)),
-        unit_(run.state.mm_per_unit()) {}
-
-  /// As programmed; 0 for one that this control's definition has not.
-  double of(int q) const {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (rows_[i].q == q) return run_.state.cycle_words[i];
-    }
-    return 0;
-  }
-  double mm(int q) const { return of(q) * unit_; }
-  /// Millimeters per minute; F of an inch program is tenths of an inch.
-  double feed(int q) const {
-    constexpr double kTenths = 10;
-    return run_.state.units == Units::Inch ? of(q) * Length::kMillimetersPerInch / kTenths : of(q);
-  }
-  double surface() const { return mm(203); }
-  double clearance() const { return surface() + mm(200); }
-  double bottom() const { return surface() + mm(201); }
-  double last() const { return std::max(clearance(), surface() + mm(204)); }
-
-  void rapid(double height) const { move(height, kRapid); }
-  void cut(double height, double feed) const { move(height, {false, feed, feed}); }
-  /// Out of the hole at Q208; 0: at the feed into it.
-  void retract(double height) const {
-    if (of(kRetractionFeed) >= kRapidFeed) return rapid(height);
-    cut(height, feed(of(kRetractionFeed) > 0 ? kRetractionFeed : 206));
-  }
-  void dwell(double seconds) const {
-    if (seconds > 0 && !run_.is_measuring) run_.events().on_dwell({run_.origin, seconds, {}});
-  }
-  void turn(SpindleState state) const {
-    if (!run_.is_measuring) turn_spindle(run_, state);
-  }
-  void thread(double height, double pitch) const {
-    if (run_.is_measuring) return cut(height, 1);
-    State& state = run_.state;
-    Target target = here(state);
-    target.set(state.tool.axis, height);
-    Thread event;
-    event.origin = run_.origin;
-    event.to = machine_position(state, target);
-    event.lead = Length::mm(std::fabs(pitch));
-    if (event.to.same_point(state.machine)) return;
-    run_.loops.note_progress();
-    run_.events().on_thread(event);
-    state.machine = event.to;
-    state.nominal = target.at;
-  }
-  Run& run() const { return run_; }
-
- private:
-  void move(double height, Pace pace) const {
-    Target target = here(run_.state);
-    target.set(run_.state.tool.axis, height);
-    line_to(run_, target, pace);
-  }
-  Run& run_;
-  std::span<const CycleParameter> rows_;
-  double unit_;
-};
 
 void drill(const Table& table) {
   double depth = table.surface();
@@ -275,83 +196,6 @@ void make(const Table& table, int cycle) {
   }
 }
 
-/// Programs may set Q200 and above after the definition: whether the control takes that over is not
-/// stated.
-bool check_unchanged(Run& run) {
-  const auto rows = cycle_table(run.state.cycle.machining.number);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double now = run.state.q[static_cast<std::size_t>(rows[i].q)];
-    if (now == run.state.cycle_words[i]) continue;
-    return run.fail(ErrorCode::NotSupported,
-                    fmt::format("Q{} was changed from {} to {} after CYCL DEF {}", rows[i].q,
-                                run.state.cycle_words[i], now, run.state.cycle.machining.number));
-  }
-  return true;
-}
-
-bool check_spindle(Run& run, int cycle) {
-  const State& state = run.state;
-  if (!state.tool.is_called || !state.spindle.has_speed) {
-    return run.fail(ErrorCode::ToolCallMissing, "a cycle needs TOOL CALL with axis and S");
-  }
-  if (cycle == kRigidTap || state.spindle.state != SpindleState::Off) return true;
-  return run.fail(ErrorCode::SpindleRotatesMissing, "M3 or M4 before a cycle");
-}
-
-bool check_bore(Run& run, const Table& table) {
-  const State& state = run.state;
-  const double diameter = 2 * state.tool.data.radius / state.transformation.factor(state.plane);
-  if (!check_circle_plane(run)) return false;
-  constexpr double kSame = 1e-6;
-  if (!(diameter > 0) || table.mm(335) < diameter - kSame) {
-    return run.fail(ErrorCode::ToolRadiusTooLarge,
-                    fmt::format("bore {:.4f} mm, tool {:.4f} mm", table.mm(335), diameter));
-  }
-  if (table.mm(342) == 0 && table.mm(335) > 2 * diameter + kSame) {
-    return run.fail(ErrorCode::EntryOutOfRange,
-                    fmt::format("bore {:.4f} mm is more than two tools of {:.4f} mm, and Q342 is 0",
-                                table.mm(335), diameter));
-  }
-  if (table.of(351) != 0 && std::fabs(table.of(351)) != 1) {
-    return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q351 {}", table.of(351)));
-  }
-  return true;
-}
-
-/// Depth below the surface, infeeds, feeds, and a bounded number of moves.
-bool check_values(Run& run, const Table& table, int cycle) {
-  const auto wrong = [&](int q, std::string_view what) {
-    return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q{} {} {}", q, table.of(q), what));
-  };
-  if (table.of(201) > 0) return wrong(201, "is above the surface");
-  if (cycle != kRigidTap && !(table.of(206) > 0)) return wrong(206, "is no feed");
-  if (cycle == kRigidTap && table.of(239) == 0) return wrong(239, "is no pitch");
-  const double depth = -table.of(201);
-  double passes = 1;
-  if (cycle == kDrill || cycle == kUniversal || cycle == kPeck) {
-    if (!(table.of(202) > 0)) return wrong(202, "is no infeed");
-    double least = table.of(202);
-    if (table.of(212) > 0) {
-      if (!(table.of(205) > 0)) return wrong(205, "is no least infeed, and Q212 makes it smaller");
-      least = std::min(least, table.of(205));
-    }
-    if (table.of(257) > 0) least = std::min(least, table.of(257));
-    passes = depth / least;
-  }
-  if (cycle == kUniversal && table.of(213) > 0 && !(table.of(256) > 0)) {
-    return wrong(256, "is no way back to break chips");
-  }
-  if (cycle == kBoreMill) {
-    if (!(table.of(334) > 0)) return wrong(334, "is no infeed");
-    passes = depth / table.of(334);
-    if (!check_bore(run, table)) return false;
-  }
-  if (passes <= kMaxPasses) return true;
-  return run.fail(ErrorCode::EntryOutOfRange,
-                  fmt::format("CYCL DEF {} would be {:.0f} infeeds, at most {:.0f}", cycle, passes,
-                              kMaxPasses));
-}
-
 bool stays_within_limits(Run& run, const Table& table, int cycle) {
   if (!run.limits.has_any()) return true;
   const Position machine = run.state.machine;
@@ -364,63 +208,7 @@ bool stays_within_limits(Run& run, const Table& table, int cycle) {
   return !run.limits.reached();
 }
 
-bool is_allowed(CycleUse use, double value) {
-  switch (use) {
-    case CycleUse::Distance:
-    case CycleUse::Feed:
-    case CycleUse::Seconds:
-      return value >= 0;
-    case CycleUse::Zero:
-      return value == 0;
-    default:
-      return true;
-  }
-}
-
 }  // namespace
-
-bool define_table(Run& run, const Block& block) {
-  State& state = run.state;
-  const auto rows = cycle_table(block.cycle);
-  std::vector<double> values(rows.size());
-  for (const CycleWord& word : run.parts.later.words) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].q != word.parameter) continue;
-      double value = run.number(word.value);
-      if (word.is_rapid) value = kRapidFeed;
-      if (word.is_auto) {
-        if (!(state.tool_feed > 0)) {
-          return run.fail(ErrorCode::FeedRateMissing, "FAUTO, and TOOL CALL had no F");
-        }
-        value =
-            state.tool_feed * (state.units == Units::Inch ? 10 / Length::kMillimetersPerInch : 1);
-      }
-      if (!is_allowed(rows[i].use, value)) {
-        return run.fail(
-            rows[i].use == CycleUse::Zero ? ErrorCode::NotSupported : ErrorCode::EntryOutOfRange,
-            fmt::format("Q{} = {} in CYCL DEF {}", rows[i].q, value, block.cycle));
-      }
-      values[i] = value;
-    }
-  }
-  constexpr int kPreset = 247;
-  if (block.cycle == kPreset) {
-    const double preset = values[0];
-    if (preset != static_cast<int>(preset)) {
-      return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q339 = {}", preset));
-    }
-    state.q[339] = preset;
-    return use_preset(run, static_cast<int>(preset));
-  }
-  // The words of a definition are what the parameters hold from then on.
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    state.q[static_cast<std::size_t>(rows[i].q)] = values[i];
-  }
-  state.cycle_words = std::move(values);
-  state.cycle.machining = MachiningCycle{};
-  state.cycle.machining.number = block.cycle;
-  return true;
-}
 
 double clearance_height(Run& run) {
   return Table(run).clearance();
@@ -429,13 +217,13 @@ double clearance_height(Run& run) {
 bool run_table(Run& run) {
   State& state = run.state;
   const int cycle = state.cycle.machining.number;
-  if (!refuse_before_positioning(run, "a cycle call") || !check_unchanged(run)) return false;
+  if (!refuse_before_positioning(run, "a cycle call")) return false;
   if (state.is_compensating() || state.is_parallel || state.blend.kind != BlendKind::None) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted,
                     fmt::format("cycle {} within a contour: R0 before it", cycle));
   }
   const Table table(run);
-  if (!check_spindle(run, cycle)) return false;
+  if (!check_ready(run, cycle)) return false;
   if (table.of(201) == 0) {
     run.warn("TNC-ACCEPTED", fmt::format("cycle {} has depth 0 and does nothing", cycle));
     return true;

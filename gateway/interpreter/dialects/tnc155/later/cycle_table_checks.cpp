@@ -1,0 +1,152 @@
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
+#include "gateway/interpreter/dialects/tnc155/later/cycle_table_run.hpp"
+#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+
+namespace dripline::interpreter::tnc155::later {
+namespace {
+
+bool is_allowed(CycleUse use, double value) {
+  switch (use) {
+    case CycleUse::Distance:
+    case CycleUse::Feed:
+    case CycleUse::Seconds:
+      return value >= 0;
+    case CycleUse::Zero:
+      return value == 0;
+    default:
+      return true;
+  }
+}
+
+constexpr double kMaxPasses = 2000;
+
+/// Programs may set Q200 and above after the definition: whether the control takes that over is not
+/// stated.
+bool check_unchanged(Run& run) {
+  const auto rows = cycle_table(run.state.cycle.machining.number);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double now = run.state.q[static_cast<std::size_t>(rows[i].q)];
+    if (now == run.state.cycle_words[i]) continue;
+    return run.fail(ErrorCode::NotSupported,
+                    fmt::format("Q{} was changed from {} to {} after CYCL DEF {}", rows[i].q,
+                                run.state.cycle_words[i], now, run.state.cycle.machining.number));
+  }
+  return true;
+}
+
+bool check_spindle(Run& run, int cycle) {
+  const State& state = run.state;
+  if (!state.tool.is_called || !state.spindle.has_speed) {
+    return run.fail(ErrorCode::ToolCallMissing, "a cycle needs TOOL CALL with axis and S");
+  }
+  if (cycle == kRigidTap || state.spindle.state != SpindleState::Off) return true;
+  return run.fail(ErrorCode::SpindleRotatesMissing, "M3 or M4 before a cycle");
+}
+
+bool check_bore(Run& run, const Table& table) {
+  const State& state = run.state;
+  const double diameter = 2 * state.tool.data.radius / state.transformation.factor(state.plane);
+  if (!check_circle_plane(run)) return false;
+  constexpr double kSame = 1e-6;
+  if (!(diameter > 0) || table.mm(335) < diameter - kSame) {
+    return run.fail(ErrorCode::ToolRadiusTooLarge,
+                    fmt::format("bore {:.4f} mm, tool {:.4f} mm", table.mm(335), diameter));
+  }
+  if (table.mm(342) == 0 && table.mm(335) > 2 * diameter + kSame) {
+    return run.fail(ErrorCode::EntryOutOfRange,
+                    fmt::format("bore {:.4f} mm is more than two tools of {:.4f} mm, and Q342 is 0",
+                                table.mm(335), diameter));
+  }
+  if (table.of(351) != 0 && std::fabs(table.of(351)) != 1) {
+    return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q351 {}", table.of(351)));
+  }
+  return true;
+}
+
+}  // namespace
+
+bool check_ready(Run& run, int cycle) {
+  return check_unchanged(run) && check_spindle(run, cycle);
+}
+
+bool check_values(Run& run, const Table& table, int cycle) {
+  const auto wrong = [&](int q, std::string_view what) {
+    return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q{} {} {}", q, table.of(q), what));
+  };
+  if (table.of(201) > 0) return wrong(201, "is above the surface");
+  if (cycle != kRigidTap && !(table.of(206) > 0)) return wrong(206, "is no feed");
+  if (cycle == kRigidTap && table.of(239) == 0) return wrong(239, "is no pitch");
+  const double depth = -table.of(201);
+  double passes = 1;
+  if (cycle == kDrill || cycle == kUniversal || cycle == kPeck) {
+    if (!(table.of(202) > 0)) return wrong(202, "is no infeed");
+    double least = table.of(202);
+    if (table.of(212) > 0) {
+      if (!(table.of(205) > 0)) return wrong(205, "is no least infeed, and Q212 makes it smaller");
+      least = std::min(least, table.of(205));
+    }
+    if (table.of(257) > 0) least = std::min(least, table.of(257));
+    passes = depth / least;
+  }
+  if (cycle == kUniversal && table.of(213) > 0 && !(table.of(256) > 0)) {
+    return wrong(256, "is no way back to break chips");
+  }
+  if (cycle == kBoreMill) {
+    if (!(table.of(334) > 0)) return wrong(334, "is no infeed");
+    passes = depth / table.of(334);
+    if (!check_bore(run, table)) return false;
+  }
+  if (passes <= kMaxPasses) return true;
+  return run.fail(ErrorCode::EntryOutOfRange,
+                  fmt::format("CYCL DEF {} would be {:.0f} infeeds, at most {:.0f}", cycle, passes,
+                              kMaxPasses));
+}
+
+bool define_table(Run& run, const Block& block) {
+  State& state = run.state;
+  const auto rows = cycle_table(block.cycle);
+  std::vector<double> values(rows.size());
+  for (const CycleWord& word : run.parts.later.words) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].q != word.parameter) continue;
+      double value = run.number(word.value);
+      if (word.is_rapid) value = kRapidFeed;
+      if (word.is_auto) {
+        if (!(state.tool_feed > 0)) {
+          return run.fail(ErrorCode::FeedRateMissing, "FAUTO, and TOOL CALL had no F");
+        }
+        value =
+            state.tool_feed * (state.units == Units::Inch ? 10 / Length::kMillimetersPerInch : 1);
+      }
+      if (!is_allowed(rows[i].use, value)) {
+        return run.fail(
+            rows[i].use == CycleUse::Zero ? ErrorCode::NotSupported : ErrorCode::EntryOutOfRange,
+            fmt::format("Q{} = {} in CYCL DEF {}", rows[i].q, value, block.cycle));
+      }
+      values[i] = value;
+    }
+  }
+  constexpr int kPreset = 247;
+  if (block.cycle == kPreset) {
+    const double preset = values[0];
+    if (preset != static_cast<int>(preset)) {
+      return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q339 = {}", preset));
+    }
+    state.q[339] = preset;
+    return use_preset(run, static_cast<int>(preset));
+  }
+  // The words of a definition are what the parameters hold from then on.
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    state.q[static_cast<std::size_t>(rows[i].q)] = values[i];
+  }
+  state.cycle_words = std::move(values);
+  state.cycle.machining = MachiningCycle{};
+  state.cycle.machining.number = block.cycle;
+  return true;
+}
+
+}  // namespace dripline::interpreter::tnc155::later

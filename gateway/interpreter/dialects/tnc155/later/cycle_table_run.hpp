@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/path.hpp"
+#include "gateway/interpreter/dialects/tnc155/later/cycle_tables.hpp"
+
+namespace dripline::interpreter::tnc155::later {
+
+enum Cycle : std::uint8_t {
+  kDrill = 200,
+  kReam = 201,
+  kUniversal = 203,
+  kPeck = 205,
+  kTap = 206,
+  kRigidTap = 207,
+  kBoreMill = 208
+};
+
+/// The words of the cycle, and the moves in the tool axis.
+class Table {
+ public:
+  explicit Table(Run& run)
+      : run_(run),
+        rows_(cycle_table(run.state.cycle.machining.number)),
+        unit_(run.state.mm_per_unit()) {}
+
+  /// As programmed; 0 for one that this control's definition has not.
+  double of(int q) const {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (rows_[i].q == q) return run_.state.cycle_words[i];
+    }
+    return 0;
+  }
+  double mm(int q) const { return of(q) * unit_; }
+  /// Millimeters per minute; F of an inch program is tenths of an inch.
+  double feed(int q) const {
+    constexpr double kTenths = 10;
+    return run_.state.units == Units::Inch ? of(q) * Length::kMillimetersPerInch / kTenths : of(q);
+  }
+  double surface() const { return mm(203); }
+  double clearance() const { return surface() + mm(200); }
+  double bottom() const { return surface() + mm(201); }
+  double last() const { return std::max(clearance(), surface() + mm(204)); }
+
+  void rapid(double height) const { move(height, kRapid); }
+  void cut(double height, double feed) const { move(height, {false, feed, feed}); }
+  /// Out of the hole at Q208; 0: at the feed into it.
+  void retract(double height) const {
+    if (of(kRetractionFeed) >= kRapidFeed) return rapid(height);
+    cut(height, feed(of(kRetractionFeed) > 0 ? kRetractionFeed : 206));
+  }
+  void dwell(double seconds) const {
+    if (seconds > 0 && !run_.is_measuring) run_.events().on_dwell({run_.origin, seconds, {}});
+  }
+  void turn(SpindleState state) const {
+    if (!run_.is_measuring) turn_spindle(run_, state);
+  }
+  void thread(double height, double pitch) const {
+    if (run_.is_measuring) return cut(height, 1);
+    State& state = run_.state;
+    Target target = here(state);
+    target.set(state.tool.axis, height);
+    Thread event;
+    event.origin = run_.origin;
+    event.to = machine_position(state, target);
+    event.lead = Length::mm(std::fabs(pitch));
+    if (event.to.same_point(state.machine)) return;
+    run_.loops.note_progress();
+    run_.events().on_thread(event);
+    state.machine = event.to;
+    state.nominal = target.at;
+  }
+  Run& run() const { return run_; }
+
+ private:
+  void move(double height, Pace pace) const {
+    Target target = here(run_.state);
+    target.set(run_.state.tool.axis, height);
+    line_to(run_, target, pace);
+  }
+  Run& run_;
+  std::span<const CycleParameter> rows_;
+  double unit_;
+};
+
+// Conditions of a call; false: the run has failed.
+
+/// Tool and spindle, and no parameter changed since the definition.
+bool check_ready(Run& run, int cycle);
+/// Signs, sizes, feeds and a bounded number of moves.
+bool check_values(Run& run, const Table& table, int cycle);
+
+}  // namespace dripline::interpreter::tnc155::later
