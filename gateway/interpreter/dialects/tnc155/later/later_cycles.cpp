@@ -64,8 +64,7 @@ bool read_table(Reading& in, int cycle, const char* block_end) {
   while (words != block_end) {
     const char* line = words + 1;
     words = std::find(line, block_end, '\n');
-    const char* line_end =
-        std::find_if(line, words, [](char c) { return c == ';' || c == '~' || c == '\r'; });
+    const char* line_end = line_without_comment(line, words);
     TextCursor cursor(begin, line_end, in.cursor.form(), in.cursor.fault());
     cursor.back_to(line);
     Reading part{cursor, in.block, in.words, line_end};

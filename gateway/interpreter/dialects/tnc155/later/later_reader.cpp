@@ -7,6 +7,20 @@
 
 namespace dripline::interpreter::tnc155::later {
 
+const char* line_without_comment(const char* begin, const char* end) {
+  bool is_quoted = false;
+  const char* at = begin;
+  for (; at != end && *at != '\n' && *at != '\r'; ++at) {
+    if (*at == '"') is_quoted = !is_quoted;
+    if (*at == ';' && !is_quoted) return at;
+    if (*at != '~') continue;
+    const char* rest = at + 1;
+    while (rest != end && (*rest == ' ' || *rest == '\t')) ++rest;
+    if (rest == end || *rest == '\n' || *rest == '\r') return at;
+  }
+  return at;
+}
+
 bool refuse(Reading& in, const char* start) {
   std::string words(start, in.end);
   while (!words.empty() && static_cast<unsigned char>(words.back()) <= ' ') words.pop_back();
@@ -215,17 +229,6 @@ bool read_l(Reading& in, const char* start) {
                         start[1] != 'M';
   if (is_other) return refuse(in, start);  // LN and others
   return read_path(in, BlockKind::Line);
-}
-
-/// The end of the first line without its comment and `~`.
-const char* line_without_comment(const char* begin, const char* end) {
-  const char* at = begin;
-  bool is_quoted = false;
-  for (; at != end && *at != '\n' && *at != '\r'; ++at) {
-    if (*at == '"') is_quoted = !is_quoted;
-    if ((*at == ';' && !is_quoted) || *at == '~') return at;
-  }
-  return at;
 }
 
 }  // namespace

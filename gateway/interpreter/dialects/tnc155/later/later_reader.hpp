@@ -25,6 +25,8 @@ struct Reading {
 };
 
 bool read_value(Reading& in, Value& value, std::string_view name);
+/// The end of the first line without its comment, and without the `~` at its end.
+const char* line_without_comment(const char* begin, const char* end);
 /// 1 to 1000 characters up to a blank.
 std::string read_word(Reading& in);
 /// The text between two quotes.
