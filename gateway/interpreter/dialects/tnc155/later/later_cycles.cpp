@@ -103,10 +103,15 @@ bool read_cycle(Reading& in, const char* block_end) {
   if (!cycle_table(cycle).empty()) return read_table(in, cycle, block_end);
   const bool has_part = cursor.take('.');
   if (has_part && !cursor.read_integer(part, 0, 99, "CYCL DEF")) return false;
-  constexpr int kProgramCall = 12, kTolerance = 32;
+  constexpr int kProgramCall = 12, kWorkingPlane = 19, kTolerance = 32;
   if (has_part && cycle == kTolerance) {
     in.block.kind = BlockKind::Accepted;
     in.words.name = "CYCL DEF 32 (tolerance of the path)";
+    return true;
+  }
+  if (has_part && cycle == kWorkingPlane && (part == 0 || (part == 1 && cursor.is_at_end()))) {
+    in.block.kind = BlockKind::Accepted;  // without angles: no plane is tilted, and none ever is
+    in.words.name = "CYCL DEF 19 without angles";
     return true;
   }
   const bool is_known = has_part && cycle <= kLastCycle && !cycle_parts(cycle).empty();

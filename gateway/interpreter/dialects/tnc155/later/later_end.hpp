@@ -39,12 +39,29 @@ struct LaterEnd {
       const char* word = begin;
       while (word != limit && (is_decimal(*word) || *word == ' ')) ++word;
       if (word == limit || (*word != ';' && *word != '*')) return begin;
-      while (word != limit && *word != '\n' && *word != '\r') ++word;
-      at = word;
+      at = end_of_comment(word, limit, is_decimal(*begin));
     }
   }
 
  private:
+  /// A numbered comment goes on in indented lines without numbers after a `~` at its end.
+  static const char* end_of_comment(const char* at, const char* limit, bool is_numbered) {
+    for (;;) {
+      const char* end = find_line_end(at, limit);
+      if (!end) return limit;
+      const char* last = end;
+      while (last != at && is_blank_or_control(last[-1])) --last;
+      if (!is_numbered || last == at || last[-1] != '~') return end;
+      const char* next = end + 1;
+      if (next == limit) return limit;
+      if (*next != ' ' && *next != '\t') return end;
+      const char* word = skip_blanks(next, limit);
+      if (word == limit) return limit;
+      if (is_decimal(*word)) return end;
+      at = next;
+    }
+  }
+
   static bool is_numbered_cycle(const char* at, const char* end) {
     if (!is_decimal(*at)) return false;
     while (at != end && (is_decimal(*at) || *at == ' ')) ++at;
