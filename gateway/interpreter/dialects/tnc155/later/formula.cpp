@@ -88,6 +88,25 @@ Computed apply(char op, double a, double b) {
   }
 }
 
+/// Before a TOOL CALL of this run its tool is not known.
+bool read_parameter(Run& run, std::int32_t parameter, double& value) {
+  const State& state = run.state;
+  const double unit = state.mm_per_unit();
+  value = state.q[static_cast<std::size_t>(parameter)];
+  if (!is_of_control(parameter)) return true;
+  if (parameter == kInchProgram) {
+    value = state.units == Units::Inch ? 1 : 0;
+    return true;
+  }
+  if (!state.tool.is_called) {
+    return run.fail(ErrorCode::ToolCallMissing, fmt::format("Q{} is of the tool", parameter));
+  }
+  value = parameter == kToolRadius   ? state.tool.data.radius / unit
+          : parameter == kToolLength ? state.tool.data.length / unit
+                                     : static_cast<double>(state.tool.axis);
+  return true;
+}
+
 bool evaluate(Run& run, const Formula& formula, double& result) {
   constexpr std::size_t kMaxStack = 64;
   std::array<double, kMaxStack> stack{};
@@ -99,7 +118,7 @@ bool evaluate(Run& run, const Formula& formula, double& result) {
         computed.value = step.number;
         break;
       case FormulaStep::Kind::Parameter:
-        computed.value = run.state.q[static_cast<std::size_t>(step.parameter)];
+        if (!read_parameter(run, step.parameter, computed.value)) return false;
         break;
       case FormulaStep::Kind::Operator:
         size -= 2;

@@ -42,8 +42,11 @@ bool read_operand(Reading& in, Formula& formula) {
   if (cursor.take('Q')) {
     if (!TextCursor::is_digit(*cursor.at())) return refuse(in, start);  // QL, QR, QS
     step.kind = Kind::Parameter;
-    return cursor.read_integer(step.parameter, 0, kLaterParameters - 1, "Q") &&
-           add(in, formula, step);
+    if (!cursor.read_integer(step.parameter, 0, kLaterParameters - 1, "Q")) return false;
+    const bool is_known = step.parameter == kToolRadius || step.parameter == kToolAxis ||
+                          step.parameter == kInchProgram || step.parameter == kToolLength;
+    if (is_of_control(step.parameter) && !is_known) return refuse(in, start);
+    return add(in, formula, step);
   }
   std::string digits;
   const char* at = cursor.at();
@@ -136,7 +139,9 @@ bool read_signed(Reading& in, Formula& formula) {
 
 bool read_target(Reading& in) {
   if (!in.cursor.take('Q') || !in.cursor.is_digit_next()) return in.cursor.missing("Q");
+  const char* start = in.cursor.at();
   if (!in.cursor.read_integer(in.block.target, 0, kLaterParameters - 1, "Q")) return false;
+  if (is_of_control(in.block.target)) return refuse(in, start);
   return in.cursor.take('=') || in.cursor.missing("=");
 }
 
@@ -221,7 +226,9 @@ bool read_system(Reading& in) {
 
 bool read_assignment(Reading& in) {
   in.block.kind = BlockKind::Assignment;
+  const char* start = in.cursor.at();
   if (!in.cursor.read_integer(in.block.target, 0, kLaterParameters - 1, "Q")) return false;
+  if (is_of_control(in.block.target)) return refuse(in, start);
   if (!in.cursor.take('=')) return in.cursor.missing("=");
   return read_sum(in, in.words.formula, 0) && (in.cursor.is_at_end() || refuse(in, in.cursor.at()));
 }

@@ -39,6 +39,7 @@ bool read_value(Reading& in, Value& value, std::string_view name) {
     std::int32_t parameter = 0;
     if (!TextCursor::is_digit(*cursor.at())) return refuse(in, start);  // QL, QR, QS
     if (!cursor.read_integer(parameter, 0, kLaterParameters - 1, "Q")) return false;
+    if (is_of_control(parameter)) return refuse(in, start);
     value = Value::q(parameter, is_negative);
     return true;
   }

@@ -16,6 +16,17 @@ inline constexpr std::int32_t kLastLaterLabel = 65'534;
 /// number.
 inline constexpr std::int32_t kNameLabel = 1 << 30;
 
+/// Q100 to Q199 are the control's own: what it knows of the tool, of probing, of the PLC.
+constexpr bool is_of_control(std::int32_t parameter) {
+  return parameter >= 100 && parameter <= 199;
+}
+enum ControlParameter : std::int32_t {
+  kToolRadius = 108,
+  kToolAxis = 109,
+  kInchProgram = 113,
+  kToolLength = 114
+};
+
 enum class FormulaFunction : std::uint8_t {
   Sqrt,
   Sin,
