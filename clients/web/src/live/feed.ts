@@ -38,6 +38,8 @@ export class Feed {
   /// Pending corrections, by id.
   readonly offsets = new Map<number, Offset>();
   link: Link = { state: 'connecting' };
+  /// How often views were notified: a view that is drawn and does not listen yet sees by it that it missed something.
+  notified = 0;
 
   private readonly listeners = new Map<Topic, Set<() => void>>();
   private readonly recordListeners = new Set<(record: ReportRecord) => void>();
@@ -236,6 +238,7 @@ export class Feed {
 
   private flush(): void {
     this.flushing = false;
+    this.notified += 1;
     this.flushed = performance.now();
     const topics = [...this.changed];
     this.changed.clear();

@@ -38,7 +38,9 @@ export function useFeedNear(topic: Topic, isNear: boolean): Feed {
 
 export function useFeed(...topics: Topic[]): Feed {
   const [, redraw] = useReducer((count: number) => count + 1, 0);
+  const drawn = feed.notified;
   useEffect(() => {
+    if (feed.notified !== drawn) redraw(undefined); // what came between the first drawing and now
     const ends = topics.map((topic) => feed.on(topic, () => redraw(undefined)));
     return () => ends.forEach((end) => end());
   }, topics);
