@@ -128,14 +128,14 @@ Result<void> load_variable(const VariableRecord& variable, const ControlOptions&
   return {};
 }
 
-Tool tool_of(const ToolRecord& record) {
+Tool tool_of(const ToolRecord& record, const ControlOptions& options) {
   Tool tool;
   tool.number = record.number;
   for (const Axis axis : kAllAxes) {
     tool.length[index_of(axis)] = record.length.raw(axis) + record.wear.raw(axis);
   }
   tool.diameter = 2 * (record.radius.mm() + record.radius_wear.mm());
-  tool.orientation = record.tip;
+  if (options.is_linuxcnc()) tool.orientation = record.tip;
   return tool;
 }
 
@@ -170,7 +170,7 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Stat
       return fail(Errc::Unsupported, "tool {}: this changer has {} slots", record.number,
                   options.slots);
     }
-    tools.push_back(tool_of(record));
+    tools.push_back(tool_of(record, options));
   }
   if (auto loaded = load_tool_cells(setup, tools); !loaded) return loaded;
   const double system = parameters[kSystemNumber];

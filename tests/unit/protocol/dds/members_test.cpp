@@ -85,7 +85,6 @@ TEST(Members, AreThoseOfTheIdlInItsOrder) {
   EXPECT_EQ(names_in_list<LineTransfer>(), names_in_idl("LineTransfer"));
   EXPECT_EQ(names_in_list<LineAsked>(), names_in_idl("LineAsked"));
   EXPECT_EQ(names_in_list<LineStatus>(), names_in_idl("LineStatus"));
-  EXPECT_EQ(names_in_list<PanelSwitches>(), names_in_idl("PanelSwitches"));
   EXPECT_EQ(names_in_list<LineRequest>(), names_in_idl("LineRequest"));
   EXPECT_EQ(names_in_list<LineData>(), names_in_idl("LineData"));
   EXPECT_GE(names_in_idl("Status").size(), 32U);

@@ -19,6 +19,7 @@ struct Cutting {
   const char* control;
   const char* settings;
   const char* program;  ///< takes tool 3 with its offsets and cuts with its radius
+  int tip = 3;          ///< 0: a mill's tool
 };
 
 class ToolValues : public testing::TestWithParam<Cutting> {
@@ -28,8 +29,9 @@ class ToolValues : public testing::TestWithParam<Cutting> {
     const bool is_wear = key.starts_with("wear.");
     std::string tool = fmt::format("{} = {}", is_wear ? key.substr(5) : key, value);
     if (is_wear) tool = fmt::format("wear = {{ {} }}", tool);
-    return fmt::format("units = \"mm\"\n{}[[tool]]\nnumber = 3\ntip = 3\n{}{}\n",
-                       GetParam().settings, key == "radius" ? "" : "radius = 1.0\n", tool);
+    return fmt::format("units = \"mm\"\n{}[[tool]]\nnumber = 3\ntip = {}\n{}{}\n",
+                       GetParam().settings, GetParam().tip, key == "radius" ? "" : "radius = 1.0\n",
+                       tool);
   }
   struct Effect {
     std::vector<double> memory;  ///< what the control knows before the program, its tool table
@@ -84,7 +86,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "M30\n%\n"},
         Cutting{"rs274ngc", "[control]\nprofile = \"linuxcnc\"\ntool_changer = true\n",
                 "G21 G90 G17\nT3 M6\nG43 H3\nG0 X0 Y0 Z10\nG41 D3\nG1 X10 Y0 F100\nY20\nX30\nG40\n"
-                "M30\n"}),
+                "M30\n",
+                0}),
     [](const auto& row) {
       std::string name = row.param.control;
       std::ranges::replace(name, '-', '_');
