@@ -55,22 +55,9 @@ Result<void> read_fourth_axis(const Options& options, const OptionKey& key, C& c
   return {};
 }
 
-/// As a start names it: "N400" or "400". It goes before `start_block`, which is above this row.
-Result<void> read_start_at(const Options& options, const OptionKey& key, C& control) {
-  const auto text = options.text(key.key, "");
-  if (!text) return fail(text.error());
-  if (text->empty()) return {};
-  const std::string_view digits = std::string_view(*text).substr(text->front() == 'N' ? 1 : 0);
-  int number = -1;
-  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || number < 0 ||
-      number > kMaxBlockNumber) {
-    return fail(Errc::Syntax,
-                "option start_at: \"{}\" is no block of this control: it goes to N0 to N{}", *text,
-                kMaxBlockNumber);
-  }
-  control.start_block = number;
-  return {};
+/// It goes before `start_block`, which is above this row.
+Result<void> read_start_at(const Options& options, const OptionKey& /*key*/, C& control) {
+  return read_start_block(options, kMaxBlockNumber, control);
 }
 
 constexpr auto kOptionRows = in_table(
@@ -214,6 +201,23 @@ Result<void> check_limits(const ControlOptions& read) {
     return fail(Errc::Syntax, "option limit_low: {} {} is above limit_high, {}", letter(axis),
                 read.limit_low.raw(axis), read.limit_high.raw(axis));
   }
+  return {};
+}
+
+Result<void> read_start_block(const Options& options, int highest, ControlOptions& control) {
+  const auto text = options.text("start_at", "");
+  if (!text) return fail(text.error());
+  if (text->empty()) return {};
+  const std::string_view digits = std::string_view(*text).substr(text->front() == 'N' ? 1 : 0);
+  int number = -1;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || number < 0 ||
+      number > highest) {
+    return fail(Errc::Syntax,
+                "option start_at: \"{}\" is no block of this control: it goes to N0 to N{}", *text,
+                highest);
+  }
+  control.start_block = number;
   return {};
 }
 

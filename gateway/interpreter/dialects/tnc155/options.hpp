@@ -88,6 +88,10 @@ Result<void> check_limits(const ControlOptions& read);
 /// The rows of its options, for people.
 std::vector<ListedOption> list_options();
 
+/// `start_at`: a block as a start names it, "N400" or "400", up to `highest`; empty changes
+/// nothing. Errors: Syntax.
+Result<void> read_start_block(const Options& options, int highest, ControlOptions& control);
+
 /// The options of the later controls, which are fewer; later/later_options.cpp. Errors as above.
 Result<ControlOptions> read_later_options(const Setup& setup);
 std::vector<ListedOption> list_later_options();

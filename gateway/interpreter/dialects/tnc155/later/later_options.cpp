@@ -1,6 +1,3 @@
-#include <fmt/core.h>
-#include <charconv>
-
 #include "gateway/interpreter/core/option_rows.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 
@@ -14,21 +11,8 @@ using Row = OptionRow<C>;
 constexpr int kHighestBlock = 99'999'999;
 constexpr OptionRange kSpeeds{0, 100'000};
 
-Result<void> read_start(const Options& options, const OptionKey& key, C& control) {
-  const auto text = options.text(key.key, "");
-  if (!text) return fail(text.error());
-  if (text->empty()) return {};
-  const std::string_view digits = std::string_view(*text).substr(text->front() == 'N' ? 1 : 0);
-  int number = -1;
-  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || number < 0 ||
-      number > kHighestBlock) {
-    return fail(Errc::Syntax,
-                "option start_at: \"{}\" is no block of this control: it goes to N0 to N{}", *text,
-                kHighestBlock);
-  }
-  control.start_block = number;
-  return {};
+Result<void> read_start(const Options& options, const OptionKey& /*key*/, C& control) {
+  return read_start_block(options, kHighestBlock, control);
 }
 
 constexpr auto kRows = in_table(

@@ -146,11 +146,11 @@ TextSearch::Outcome TextSearch::next_block(Progress& progress, std::string_view&
   return Outcome::Failed;
 }
 
-TextSearch::Outcome TextSearch::find_later_label(Index& index, const std::string& label,
-                                                 TextPlace& found) {
+template <class Known, class Note>
+TextSearch::Outcome TextSearch::search(Index& index, Known known, Note note, TextPlace& found) {
   for (unsigned count = 0; count < kBlocksPerCall; ++count) {
-    if (const auto known = index.others.find(label); known != index.others.end()) {
-      found = known->second;
+    if (const TextPlace* place = known()) {
+      found = *place;
       return Outcome::Found;
     }
     if (index.is_complete) return Outcome::Missing;
@@ -159,11 +159,22 @@ TextSearch::Outcome TextSearch::find_later_label(Index& index, const std::string
     if (read == Outcome::Missing) index.is_complete = true;
     if (read == Outcome::Missing) continue;
     if (read != Outcome::Found) return read;
-    if (std::string set = later_label(text); !set.empty()) {
-      index.others.try_emplace(std::move(set), reader_.block_place());
-    }
+    note(text);
   }
   return Outcome::More;
+}
+
+TextSearch::Outcome TextSearch::find_later_label(Index& index, const std::string& label,
+                                                 TextPlace& found) {
+  const auto known = [&]() -> const TextPlace* {
+    const auto place = index.others.find(label);
+    return place == index.others.end() ? nullptr : &place->second;
+  };
+  const auto note = [&](std::string_view text) {
+    if (std::string set = later_label(text); !set.empty())
+      index.others.try_emplace(std::move(set), reader_.block_place());
+  };
+  return search(index, known, note, found);
 }
 
 TextSearch::Outcome TextSearch::find_label(ProgramIndex program, std::uint32_t label,
@@ -177,23 +188,17 @@ TextSearch::Outcome TextSearch::find_label(ProgramIndex program, std::uint32_t l
   if (label >= kLabels) return Outcome::Missing;
   reader_.drop_window();
   Index& index = index_of(program);
-  for (unsigned count = 0; count < kBlocksPerCall; ++count) {
-    if (const auto& place = index.labels[label]) {
-      found = *place;
-      return Outcome::Found;
-    }
-    if (index.is_complete) return Outcome::Missing;
-    std::string_view text;
-    const Outcome read = next_block(index.progress, text);
-    if (read == Outcome::Missing) index.is_complete = true;
-    if (read == Outcome::Missing) continue;
-    if (read != Outcome::Found) return read;
+  const auto known = [&]() -> const TextPlace* {
+    const auto& place = index.labels[label];
+    return place ? &*place : nullptr;
+  };
+  const auto note = [&](std::string_view text) {
     const std::int32_t set = read_head(text, index.progress.state.program.form).label;
-    if (set < 0 || static_cast<std::size_t>(set) >= kLabels) continue;
+    if (set < 0 || static_cast<std::size_t>(set) >= kLabels) return;
     auto& place = index.labels[static_cast<std::size_t>(set)];
     if (!place) place = reader_.block_place();
-  }
-  return Outcome::More;
+  };
+  return search(index, known, note, found);
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -56,6 +56,9 @@ class TextSearch {
     std::map<std::string, TextPlace, std::less<>> others;
   };
 
+  /// Until `known()` has the place; `note` takes what each block on the path sets.
+  template <class Known, class Note>
+  Outcome search(Index& index, Known known, Note note, TextPlace& found);
   Outcome find_later_label(Index& index, const std::string& label, TextPlace& found);
   Index& index_of(ProgramIndex program);
   Outcome next_block(Progress& progress, std::string_view& text);
