@@ -1,5 +1,6 @@
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
 
+#include <gtest/gtest.h>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -19,6 +20,12 @@ struct GatewayFixture::Process {
   report::RunJournal journal;
   ExecutionProbe execution_probe;
 };
+
+interpreter::Setup setup_from(const std::string& toml) {
+  auto setup = interpreter::parse_setup(toml);
+  EXPECT_TRUE(setup) << setup.error().what;
+  return *setup;
+}
 
 GatewayFixture::GatewayFixture(const std::string& speed)
     : GatewayFixture(toy_control(), {}, speed) {}

@@ -27,6 +27,9 @@ class TestClock final : public Clock {
   }
 };
 
+/// Of a setup file's text, which is good.
+interpreter::Setup setup_from(const std::string& toml);
+
 /// A gateway with everything around it in a test's hands: its clock, its server and its disk.
 /// The server answers requests and acknowledges records between two passes, while `is_up`.
 class GatewayFixture : public dds::GatewayEndpoint {

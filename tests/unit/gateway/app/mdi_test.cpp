@@ -16,17 +16,11 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-interpreter::Setup mdi_setup(const std::string& toml) {
-  auto setup = interpreter::parse_setup(toml);
-  EXPECT_TRUE(setup) << setup.error().what;
-  return *setup;
-}
-
 class MdiFixture : public GatewayFixture {
  public:
   explicit MdiFixture(const interpreter::Dialect& control, const std::string& toml = "",
                       const std::string& speed = "max")
-      : GatewayFixture(control, mdi_setup(toml), speed) {}
+      : GatewayFixture(control, setup_from(toml), speed) {}
   dds::CommandResult key_in(const std::string& text) {
     const std::string name = "MDI " + std::to_string(++texts_);
     push(name, text);
@@ -89,12 +83,12 @@ TEST_P(MdiModes, GoOverToTheNextText) {
   EXPECT_EQ(fixture.mdi(given.incremental), "completed");
   EXPECT_NEAR(fixture.at(0), given.after_one, 1e-9);
   EXPECT_THAT(fixture.messages(), Contains(HasSubstr("MDI begins with the modes of power on")));
-  const std::size_t told = fixture.messages().size();
+  const std::size_t before = fixture.messages().size();
   EXPECT_EQ(fixture.mdi(given.move), "completed");
   EXPECT_NEAR(fixture.at(0), given.after_two, 1e-9);
   EXPECT_EQ(fixture.mdi(given.move), "completed") << "repeated";
   EXPECT_NEAR(fixture.at(0), given.after_three, 1e-9);
-  EXPECT_EQ(fixture.messages().size(), told);
+  EXPECT_EQ(fixture.messages().size(), before);
   const auto& end = fixture.records.back();
   EXPECT_EQ(dds::decode_run_end(end.text)->executed, 1U) << "counted for each text";
 }

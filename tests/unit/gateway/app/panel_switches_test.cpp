@@ -16,17 +16,11 @@ using dds::SwitchState;
 using testing::Contains;
 using testing::HasSubstr;
 
-interpreter::Setup switch_setup(const std::string& toml) {
-  auto setup = interpreter::parse_setup(toml);
-  EXPECT_TRUE(setup) << setup.error().what;
-  return *setup;
-}
-
 class SwitchFixture : public GatewayFixture {
  public:
   explicit SwitchFixture(const interpreter::Dialect& control, const std::string& toml = "",
                          const std::string& speed = "1x")
-      : GatewayFixture(control, switch_setup(toml), speed) {}
+      : GatewayFixture(control, setup_from(toml), speed) {}
   dds::CommandResult turn(const std::string& name, bool is_on) {
     dds::Command asked = command(CommandAction::Switch);
     asked.argument = name;
