@@ -165,7 +165,7 @@ Response show_machine(Services& services, const Request& request) {
   return value_response(200, services.machines.machine(request.parameter("name")), machine_json);
 }
 
-/// What the gateway answers is checked: it goes on to programs.
+/// What the gateway answers is checked: programs read it.
 Result<nlohmann::json> values_json(const std::string& machine, const std::string& answer) {
   auto values = nlohmann::json::parse(answer, nullptr, false);
   const auto has = [&values](const char* name, bool (nlohmann::json::*is_type)() const noexcept) {

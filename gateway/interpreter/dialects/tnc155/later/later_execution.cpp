@@ -110,9 +110,9 @@ bool retract(Run& run, const Block& block) {
       machine_line_to(run, target, pace);
     }
   } else {
-    const double way = run.length(words.retract);
-    if (way < 0) return run.fail(ErrorCode::EntryOutOfRange, fmt::format("MB {}", way));
-    target.set(axis, state.nominal_of(axis) + way);
+    const double distance = run.length(words.retract);
+    if (distance < 0) return run.fail(ErrorCode::EntryOutOfRange, fmt::format("MB {}", distance));
+    target.set(axis, state.nominal_of(axis) + distance);
     line_to(run, target, pace);
   }
   state.last = LastMove{};

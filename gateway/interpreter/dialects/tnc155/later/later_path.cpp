@@ -11,7 +11,7 @@ bool is_of_path(int m) {
   return m == 91 || m == 92 || m == 97 || m == 98;
 }
 
-/// After M140: MB and the way back, or MAX.
+/// After M140: MB and the distance to retract, or MAX.
 bool read_retract(Reading& in, const char* start) {
   if (in.words.retracts || !in.cursor.take("MB")) return refuse(in, start);
   in.words.retracts = true;
