@@ -290,11 +290,10 @@ std::string machine_text(const machines::MachineView& view) {
   write_notices(out, view);
   out.member("first_seen", view.machine.first_seen);
   out.member("last_seen", view.machine.last_seen);
-  // Few machines are held.
   out.name("held");
-  out.json(to_text(hold_json(view.held)));
+  view.held ? out.json(to_text(hold_json(view.held))) : out.null();
   out.name("queue_hold");
-  out.json(to_text(hold_json(view.queue_hold)));
+  view.queue_hold ? out.json(to_text(hold_json(view.queue_hold))) : out.null();
   out.name("starts");
   write_starts(out, view);
   out.name("display");

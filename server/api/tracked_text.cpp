@@ -1,6 +1,8 @@
 #include "server/api/tracked_text.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 #include <utility>
 
 namespace dripline::api {
@@ -8,78 +10,41 @@ namespace dripline::api {
 namespace {
 
 constexpr std::string_view kName = "\"name\":";
+constexpr std::size_t kMaxSize = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t place_of(std::size_t at) {
+  return static_cast<std::uint32_t>(at);
+}
+
+/// The first place from `at` on at which `before` differs from `now` from `at_now` on, or its end.
+std::size_t first_difference(std::string_view before, std::string_view now, std::size_t at,
+                             std::size_t at_now) {
+  constexpr std::size_t kAtOnce = 64;
+  const std::size_t end = at + std::min(before.size() - at, now.size() - at_now);
+  while (end - at >= kAtOnce && std::memcmp(&before[at], &now[at_now], kAtOnce) == 0) {
+    at += kAtOnce;
+    at_now += kAtOnce;
+  }
+  while (at < end && before[at] == now[at_now]) {
+    ++at;
+    ++at_now;
+  }
+  return at;
+}
 
 }  // namespace
 
-/// Finds the members of an object and of the objects in it, and compares them with those of the
-/// text before. Strict only as far as it must be to stay within the text: what it reads was written
-/// by this program.
+/// Walks through a text. Strict only as far as it must be to stay within the text: what it reads
+/// was written by this program.
 class TrackedText::Reader {
  public:
-  struct Before {
-    std::string_view text;
-    const std::vector<Member>& members;
-  };
-  Reader(std::string_view text, std::vector<Member>& members, const Before& before,
-         std::uint64_t version)
-      : text_(text), members_(members), before_(before), version_(version) {}
+  explicit Reader(std::string_view text, std::size_t at = 0) : text_(text), at_(at) {}
 
-  bool read() { return read_object(1) && at_ == text_.size(); }
-  /// Whether both texts have the same members, and an object where the other one has one.
-  bool are_same() const { return are_same_ && members_.size() == before_.members.size(); }
+  /// The members of the object that the text is, and of the objects in it.
+  bool read(std::vector<Member>& members) { return read_object(members, 1) && at_ == text_.size(); }
 
- private:
-  char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
-  bool skip(char c) {
-    if (peek() != c) return false;
-    ++at_;
-    return true;
-  }
-
-  bool read_object(std::size_t depth) {
-    if (!skip('{')) return false;
-    if (skip('}')) return true;
-    do {
-      if (!read_member(depth)) return false;
-    } while (skip(','));
-    return skip('}');
-  }
-
-  bool read_member(std::size_t depth) {
-    const std::size_t place = members_.size();
-    members_.push_back({.name = at_, .value = 0, .end = 0, .next = 0, .changed = 0});
-    if (!skip_string() || !skip(':')) return false;
-    members_[place].value = at_;
-    const bool is_good = peek() == '{' ? depth < kMaxDepth && read_object(depth + 1) : skip_value();
-    members_[place].end = at_;
-    members_[place].next = members_.size();
-    if (is_good) compare(place);
-    return is_good;
-  }
-
-  void compare(std::size_t place) {
-    Member& now = members_[place];
-    now.changed = version_;
-    if (place >= before_.members.size()) are_same_ = false;
-    if (!are_same_) return;
-    const Member& before = before_.members[place];
-    const bool is_object = text_[now.value] == '{';
-    const bool was_object = before_.text[before.value] == '{';
-    are_same_ = before.next == now.next && is_object == was_object &&
-                part(text_, now.name, now.value) == part(before_.text, before.name, before.value);
-    if (now.next > place + 1) {
-      now.changed = 0;
-      for (std::size_t i = place + 1; i < now.next; i = members_[i].next)
-        now.changed = std::max(now.changed, members_[i].changed);
-    } else if (part(text_, now.value, now.end) == part(before_.text, before.value, before.end)) {
-      now.changed = before.changed;
-    }
-  }
-
-  static std::string_view part(std::string_view text, std::size_t begin, std::size_t end) {
-    return text.substr(begin, end - begin);
-  }
-
+  std::size_t at() const { return at_; }
+  /// A value that is no object or is one within a list.
   bool skip_value() {
     switch (peek()) {
       case '{':
@@ -90,6 +55,35 @@ class TrackedText::Reader {
       default:
         return skip_word();
     }
+  }
+
+ private:
+  char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  bool skip(char c) {
+    if (peek() != c) return false;
+    ++at_;
+    return true;
+  }
+
+  bool read_object(std::vector<Member>& members, std::size_t depth) {
+    if (!skip('{')) return false;
+    if (skip('}')) return true;
+    do {
+      if (!read_member(members, depth)) return false;
+    } while (skip(','));
+    return skip('}');
+  }
+
+  bool read_member(std::vector<Member>& members, std::size_t depth) {
+    const std::size_t place = members.size();
+    members.push_back({.name = place_of(at_), .value = 0, .end = 0, .next = 0, .changed = 0});
+    if (!skip_string() || !skip(':')) return false;
+    members[place].value = place_of(at_);
+    const bool is_good =
+        peek() == '{' ? depth < kMaxDepth && read_object(members, depth + 1) : skip_value();
+    members[place].end = place_of(at_);
+    members[place].next = place_of(members.size());
+    return is_good;
   }
 
   /// A number, true, false or null.
@@ -128,25 +122,60 @@ class TrackedText::Reader {
   }
 
   std::string_view text_;
-  std::vector<Member>& members_;
-  const Before before_;
-  const std::uint64_t version_;
-  std::size_t at_ = 0;
-  bool are_same_ = true;
+  std::size_t at_;
 };
 
 void TrackedText::update(std::string text) {
-  if (text == text_) return;
+  if (text == text_ || text.size() > kMaxSize) return;
   const std::string before = std::exchange(text_, std::move(text));
-  members_.swap(earlier_);
-  members_.clear();
   written_after_ = 0;
   ++version_;
-  Reader reader(text_, members_, {.text = before, .members = earlier_}, version_);
-  if (!reader.read()) members_.clear();
-  if (!members_.empty() && reader.are_same()) return;
+  if (!members_.empty() && follow(before)) return;
+  members_.clear();
+  if (!Reader(text_).read(members_)) members_.clear();
   same_members_since_ = version_;
   for (auto& member : members_) member.changed = version_;
+}
+
+/// Moves the members of the text before to where they are now. Only what differs is read again:
+/// most of a machine stays as it is, and comparing bytes is a tenth of reading them. False: the
+/// members are other ones, or it is not sure that they are the same.
+bool TrackedText::follow(std::string_view before) {
+  std::size_t differs = first_difference(before, text_, 0, 0);  // in `before`
+  std::size_t shift = 0;                                        // modulo its range: it may be back
+  std::size_t open[kMaxDepth] = {};
+  std::size_t depth = 0;
+  const auto close_until = [&](std::size_t place) {
+    while (depth > 0 && members_[open[depth - 1]].next <= place) {
+      Member& member = members_[open[--depth]];
+      member.end = place_of(member.end + shift);
+    }
+  };
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    close_until(i);
+    Member& member = members_[i];
+    const std::size_t value = member.value, end = member.end;
+    if (differs < value) return false;
+    member.name = place_of(member.name + shift);
+    member.value = place_of(value + shift);
+    if (member.next > i + 1) {
+      open[depth++] = i;
+      continue;
+    }
+    if (differs <= end) {
+      // A number's end is where a longer one goes on.
+      Reader reader(text_, member.value);
+      if (before[value] == '{' || text_[member.value] == '{' || !reader.skip_value()) return false;
+      shift = reader.at() - end;
+      differs = first_difference(before, text_, end, reader.at());
+      if (differs == end) return false;
+      member.changed = version_;
+      for (std::size_t k = 0; k < depth; ++k) members_[open[k]].changed = version_;
+    }
+    member.end = place_of(end + shift);
+  }
+  close_until(members_.size());
+  return differs == before.size() && before.size() + shift == text_.size();
 }
 
 std::string TrackedText::whole() const {

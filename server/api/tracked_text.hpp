@@ -16,7 +16,8 @@ class TrackedText {
   static constexpr std::size_t kMaxDepth = 16;
 
   /// `text`: an object in one line, without blanks between its parts, as machine_text writes it.
-  /// Anything else, and objects nested deeper than kMaxDepth, are always sent whole.
+  /// Anything else, and objects nested deeper than kMaxDepth, are always sent whole; texts of 4 GiB
+  /// are not taken.
   void update(std::string text);
 
   const std::string& text() const { return text_; }
@@ -35,16 +36,16 @@ class TrackedText {
  private:
   /// `"name":value` in the text.
   struct Member {
-    std::size_t name, value, end;  ///< where they begin; the value's end
-    std::size_t next;              ///< the one after it and all that it contains
+    std::uint32_t name, value, end;  ///< where they begin; the value's end
+    std::uint32_t next;              ///< the one after it and all that it contains
     std::uint64_t changed;
   };
   class Reader;
+  bool follow(std::string_view before);
   void write(std::string& out, std::size_t place, std::uint64_t since) const;
 
   std::string text_;
   std::vector<Member> members_;
-  std::vector<Member> earlier_;  ///< of the text before; kept for its room
   std::uint64_t version_ = 0, same_members_since_ = 0;
   std::uint64_t written_after_ = 0;  ///< change_ is the one after this version; 0: it is none
   std::string change_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/base/result.hpp"
+#include "protocol/base/shared.hpp"
 #include "protocol/dds/message.hpp"
 #include "server/library/releases.hpp"
 #include "storage/store.hpp"
@@ -17,9 +18,11 @@ namespace dripline::machines {
 struct MachineView {
   storage::Machine machine;
   bool is_connected = false;
-  std::uint64_t session = 0;          ///< of the gateway heard last; commands go to this one
-  bool is_contested = false;          ///< two gateways claim to be this machine
-  std::optional<dds::Status> status;  ///< absent until one was received since the server started
+  std::uint64_t session = 0;  ///< of the gateway heard last; commands go to this one
+  bool is_contested = false;  ///< two gateways claim to be this machine
+  /// Null until one was received since the server started. Shared by all copies of a view: it has
+  /// two dozen texts, and a thousand machines are looked at five times a second.
+  Shared<dds::Status> status;
   std::optional<std::uint32_t> protocol;  ///< of its gateway; absent: not announced, or on a line
   /// How far the gateway's time of day is ahead of the server's; absent: not known yet.
   std::optional<std::chrono::microseconds> clock_ahead = {};

@@ -190,14 +190,14 @@ Result<MachineView> MachineRegistry::view(const std::string& name) const {
 /// However many changes arrive meanwhile, one task per machine publishes the latest.
 void MachineRegistry::schedule(Entry& entry) {
   if (std::exchange(entry.is_scheduled, true) || entry.is_telling) return;
-  parts_.pool.post([this, name = entry.view.machine.name] { publish(name); });
+  parts_.pool.post([this, &entry] { publish(entry); });
 }
 
 /// One task for all machines whose positions or counters have changed meanwhile.
 void MachineRegistry::schedule_in_round(Entry& entry) {
   if (entry.is_scheduled || std::exchange(entry.is_in_round, true)) return;
   if (round_.empty()) parts_.pool.post_after(round(), [this] { publish_round(); });
-  round_.push_back(entry.view.machine.name);
+  round_.push_back(&entry);
 }
 
 std::chrono::milliseconds MachineRegistry::round() const {
@@ -206,66 +206,62 @@ std::chrono::milliseconds MachineRegistry::round() const {
 }
 
 void MachineRegistry::publish_round() {
-  std::vector<std::string> names;
+  std::vector<Entry*> entries;
   {
     const std::lock_guard lock(mutex_);
-    names.swap(round_);
+    entries.swap(round_);
     // One that is about to be published, or is being published, follows by itself.
-    std::erase_if(names, [this](const std::string& name) {
-      Entry& entry = entries_.at(name);
-      entry.is_in_round = false;
-      return std::exchange(entry.is_scheduled, true) || entry.is_telling;
+    std::erase_if(entries, [](Entry* entry) {
+      entry->is_in_round = false;
+      return std::exchange(entry->is_scheduled, true) || entry->is_telling;
     });
   }
-  for (const auto& name : names) publish(name);
+  for (Entry* entry : entries) publish(*entry);
 }
 
-void MachineRegistry::publish(const std::string& name) {
+void MachineRegistry::publish(Entry& entry) {
   MachineView view;
   bool is_dirty = false;
   {
     const std::lock_guard lock(mutex_);
-    Entry& entry = entries_.at(name);
     if (!std::exchange(entry.is_scheduled, false)) return;
     entry.is_telling = true;
     is_dirty = entry.machine_is_dirty;
     view = shown(entry);
   }
-  if (is_dirty) save_machine(name);
+  if (is_dirty) save_machine(entry);
   parts_.on_change(view);
   const std::lock_guard lock(mutex_);
-  Entry& entry = entries_.at(name);
   entry.is_telling = false;
-  if (entry.is_scheduled) parts_.pool.post([this, name] { publish(name); });
+  if (entry.is_scheduled) parts_.pool.post([this, &entry] { publish(entry); });
 }
 
-void MachineRegistry::save_machine(const std::string& name) {
+void MachineRegistry::save_machine(Entry& entry) {
   storage::Machine machine;
   {
     const std::lock_guard lock(mutex_);
-    Entry& entry = entries_.at(name);
     entry.machine_is_dirty = false;
     machine = entry.view.machine;
   }
   if (auto saved = parts_.machines.save(machine); !saved) {
-    process::log_warning("machine not saved machine={}: {}", name, saved.error().what);
+    process::log_warning("machine not saved machine={}: {}", machine.name, saved.error().what);
     const std::lock_guard lock(mutex_);
-    entries_.at(name).machine_is_dirty = true;
+    entry.machine_is_dirty = true;
   }
 }
 
 void MachineRegistry::save() {
   std::vector<storage::RunProgress> progressed;
-  std::vector<std::string> dirty;
+  std::vector<Entry*> dirty;
   {
     const std::lock_guard lock(mutex_);
     for (auto& [name, entry] : entries_) {
-      if (entry.machine_is_dirty) dirty.push_back(name);
+      if (entry.machine_is_dirty) dirty.push_back(&entry);
       if (std::exchange(entry.counters_are_dirty, false))
         progressed.push_back(progress_of(*entry.view.status));
     }
   }
-  for (const auto& name : dirty) save_machine(name);
+  for (Entry* entry : dirty) save_machine(*entry);
   if (progressed.empty()) return;
   const auto saved = parts_.runs.update_all_counters(progressed);
   for (std::size_t i = 0; i < saved.size(); ++i) {

@@ -96,7 +96,7 @@ class MachineRegistry {
     GatewayClocks clocks;
     bool clock_is_off = false;  ///< and the log has it
     bool is_scheduled = false;  ///< a change is about to be published
-    bool is_in_round = false;   ///< its name waits for the next round
+    bool is_in_round = false;   ///< it waits for the next round
     bool is_telling = false;
     bool machine_is_dirty = false;  ///< the stored part changed
     bool counters_are_dirty = false;
@@ -105,17 +105,17 @@ class MachineRegistry {
   void contest(Entry& entry);
   void compare_clocks(Entry& entry, const dds::Status& status);
   MachineView shown(const Entry& entry) const;
-  void publish(const std::string& name);
+  void publish(Entry& entry);
   void schedule(Entry& entry);
   void schedule_in_round(Entry& entry);
   void publish_round();
   std::chrono::milliseconds round() const;
-  void save_machine(const std::string& name);
+  void save_machine(Entry& entry);
 
   Parts parts_;
   mutable std::mutex mutex_;
-  std::map<std::string, Entry> entries_;
-  std::vector<std::string> round_;  ///< not empty: a round is due
+  std::map<std::string, Entry> entries_;  ///< none is ever removed
+  std::vector<Entry*> round_;             ///< not empty: a round is due
 };
 
 /// Whether `now` differs from `before` in more than what moves on while a program runs: positions,

@@ -230,7 +230,7 @@ void Observer::observe_locked(const machines::MachineView& view, Batch& batch) {
   if (!seen.status) observe_conditions(seen, status.time, batch);
   Writer writer(*seen.device, status.time, batch);
   write_status(writer, status, seen.status ? &*seen.status : nullptr);
-  seen.status = status;
+  seen.status = view.status;
 }
 
 void Observer::observe_conditions(const Seen& seen, UtcTime time, Batch& batch) const {

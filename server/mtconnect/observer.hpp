@@ -52,9 +52,9 @@ class Observer {
     std::shared_ptr<const Device> device;
     DeviceFacts facts;  ///< that `device` was made of
     bool is_available = false;
-    std::optional<dds::Status> status;  ///< the values observed last; absent: UNAVAILABLE
-    UtcTime stale;                      ///< of the status before the machine was lost
-    std::vector<Fault> faults;          ///< not cleared
+    Shared<dds::Status> status;  ///< the values observed last; absent: UNAVAILABLE
+    UtcTime stale;               ///< of the status before the machine was lost
+    std::vector<Fault> faults;   ///< not cleared
   };
 
   Seen& know(const DeviceFacts& facts, Batch& batch);

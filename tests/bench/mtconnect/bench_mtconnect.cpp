@@ -58,16 +58,16 @@ class Shop {
       view.machine.control = "fanuc";
       view.is_connected = true;
       view.status.emplace();
-      view.status->axes = kAxes;
-      view.status->modes.emplace();
-      view.status->modes->work_system = "G54";
+      view.status.edit().axes = kAxes;
+      view.status.edit().modes.emplace();
+      view.status.edit().modes->work_system = "G54";
       views_.push_back(view);
       agent_.observer().observe(view);
     }
   }
   void step() {
     auto& view = views_[static_cast<std::size_t>(count_++) % views_.size()];
-    auto& status = *view.status;
+    auto& status = view.status.edit();
     status.time =
         std::chrono::time_point_cast<std::chrono::microseconds>(std::chrono::system_clock::now());
     status.line++;

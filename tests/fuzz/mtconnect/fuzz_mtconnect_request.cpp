@@ -20,7 +20,7 @@ std::unique_ptr<mtconnect::Agent> make_agent() {
     view.machine.name = name;
     view.is_connected = true;
     view.status.emplace();
-    view.status->axes = 0b100111;
+    view.status.edit().axes = 0b100111;
     agent->observer().observe(view);
   }
   storage::SetupRevision setup;

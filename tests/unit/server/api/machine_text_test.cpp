@@ -12,15 +12,15 @@ machines::MachineView a_view() {
   view.machine.name = "mill-7";
   view.machine.control = "fanuc";
   view.status.emplace();
-  view.status->machine = "mill-7";
-  view.status->axes = 0b101;
+  view.status.edit().machine = "mill-7";
+  view.status.edit().axes = 0b101;
   return view;
 }
 
 TEST(MachineText, EscapesWhatJsonCannotHold) {
   auto view = a_view();
   view.machine.description = "a \"mill\" \\ of\nD\xC3\xBCsen\x01";
-  view.status->message = "cut \xFF off \xE2\x82";
+  view.status.edit().message = "cut \xFF off \xE2\x82";
   const auto json = machine_json(view);
   EXPECT_EQ(json["description"], view.machine.description);
   EXPECT_EQ(json["status"]["message"], "cut \xEF\xBF\xBD off \xEF\xBF\xBD\xEF\xBF\xBD");
@@ -29,9 +29,9 @@ TEST(MachineText, EscapesWhatJsonCannotHold) {
 
 TEST(MachineText, KeepsEveryNumberWhole) {
   auto view = a_view();
-  view.status->position = {0.1 + 0.2, 7, -1e-7};
-  view.status->feed_mm_per_min = 1e300;
-  view.status->executed = std::numeric_limits<std::uint64_t>::max();
+  view.status.edit().position = {0.1 + 0.2, 7, -1e-7};
+  view.status.edit().feed_mm_per_min = 1e300;
+  view.status.edit().executed = std::numeric_limits<std::uint64_t>::max();
   const auto status = machine_json(view)["status"];
   EXPECT_EQ(status["position"].size(), 2U) << "of the axes that it has";
   EXPECT_EQ(status["position"]["X"].get<double>(), 0.1 + 0.2);
@@ -44,8 +44,8 @@ TEST(MachineText, KeepsEveryNumberWhole) {
 
 TEST(MachineText, HasNullForWhatIsNoNumber) {
   auto view = a_view();
-  view.status->spindle_rpm = std::numeric_limits<double>::quiet_NaN();
-  view.status->feed_mm_per_min = -std::numeric_limits<double>::infinity();
+  view.status.edit().spindle_rpm = std::numeric_limits<double>::quiet_NaN();
+  view.status.edit().feed_mm_per_min = -std::numeric_limits<double>::infinity();
   const auto status = machine_json(view)["status"];
   EXPECT_TRUE(status["spindle_rpm"].is_null());
   EXPECT_TRUE(status["feed_mm_per_min"].is_null());

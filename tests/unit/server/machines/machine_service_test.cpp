@@ -274,7 +274,7 @@ TEST_F(MachineRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShow
   view.machine.name = "lathe-1";
   view.is_connected = true;
   view.status.emplace();
-  view.status->outbox = 3;
+  view.status.edit().outbox = 3;
   const auto compare_twice = [&] {
     reconciler.compare({view});
     clock_.advance(machines::RunReconciler::kAbsence);
@@ -283,7 +283,7 @@ TEST_F(MachineRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShow
   };
   EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
   view.is_connected = false;
-  view.status->outbox = 0;
+  view.status.edit().outbox = 0;
   EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
   view.is_connected = true;
   EXPECT_EQ(compare_twice(), storage::RunState::Refused);

@@ -34,9 +34,9 @@ class AgentTest : public testing::Test {
     view.machine.control = "centurion";
     view.is_connected = true;
     view.status.emplace();
-    view.status->machine = name;
-    view.status->axes = axes;
-    view.status->time = clock_.now();
+    view.status.edit().machine = name;
+    view.status.edit().axes = axes;
+    view.status.edit().time = clock_.now();
     return view;
   }
   void observe(const machines::MachineView& view) { agent_->observer().observe(view); }

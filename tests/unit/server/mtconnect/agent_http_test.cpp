@@ -37,8 +37,8 @@ class AgentHttp : public AgentTest {
   }
   void move(double x, const std::string& message = "") {
     auto lathe = view("lathe-1");
-    lathe.status->position[0] = x;
-    lathe.status->message = message;
+    lathe.status.edit().position[0] = x;
+    lathe.status.edit().message = message;
     observe(lathe);
   }
 

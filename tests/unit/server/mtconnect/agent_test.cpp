@@ -98,7 +98,7 @@ TEST_F(AgentTest, OnlyReads) {
 TEST_F(AgentTest, CurrentIsNewAfterEveryObservation) {
   auto lathe = view("lathe-1");
   for (int i = 1; i <= 3; ++i) {
-    lathe.status->position[0] = i;
+    lathe.status.edit().position[0] = i;
     observe(lathe);
     const auto xml = get("/current");
     EXPECT_EQ(value(xml, "position-x.lathe-1"), std::to_string(i));
@@ -111,7 +111,7 @@ TEST_F(AgentTest, CurrentAtANumberIsTheStateThen) {
   observe(lathe);
   const auto next = std::stoull(attribute(get("/current"), "nextSequence"));
   for (int i = 1; i <= 3; ++i) {
-    lathe.status->position[0] = i;
+    lathe.status.edit().position[0] = i;
     observe(lathe);
   }
   EXPECT_EQ(value(get("/current?at=" + std::to_string(next + 1)), "position-x.lathe-1"), "2");
@@ -167,7 +167,7 @@ TEST_F(AgentTest, AHostilePathCostsLittle) {
 TEST_F(AgentTest, NamesFromMachinesCannotBreakADocument) {
   auto lathe = view("lathe-1");
   lathe.machine.description = "</Description><Evil a=\"";
-  lathe.status->message = "]]> & <!-- \x02";
+  lathe.status.edit().message = "]]> & <!-- \x02";
   observe(lathe);
   EXPECT_EQ(get("/probe").find("<Evil"), std::string::npos);
   EXPECT_EQ(value(get("/current"), "message.lathe-1"), "]]&gt; &amp; &lt;!-- \uFFFD");
@@ -178,7 +178,7 @@ TEST_F(AgentTest, IsReadWhileMachinesComeAndMove) {
   threads.emplace_back([this] {
     for (int i = 0; i < 2000; ++i) {
       auto mill = view("mill-" + std::to_string(i % 40), i % 3 == 0 ? 0 : kXYZC);
-      mill.status->position[0] = i;
+      mill.status.edit().position[0] = i;
       mill.is_connected = i % 11 != 0;
       observe(mill);
     }
@@ -232,7 +232,7 @@ class StreamTest : public AgentTest {
   }
   void move(double x) {
     auto lathe = view("lathe-1");
-    lathe.status->position[0] = x;
+    lathe.status.edit().position[0] = x;
     observe(lathe);
   }
   api::Response response_;

@@ -43,7 +43,7 @@ class SchemaTest : public AgentTest {
   /// Everything that a document can have.
   void play() {
     auto mill = view("mill-1", kXYZC);
-    auto& status = *mill.status;
+    auto& status = mill.status.edit();
     status.execution = dds::Execution::Waiting;
     status.program = "O1 <&\"'>";
     status.message = "asks: \x01 \xFF how?\n\ttell";

@@ -9,12 +9,12 @@ using ObserverTest = AgentTest;
 
 TEST_F(ObserverTest, ReportsAStatusInTheUnitsOfTheStandard) {
   auto mill = view("mill-1", kXYZC);
-  mill.status->feed_mm_per_min = 600;
-  mill.status->feed_override = 0.8;
-  mill.status->position = {1, 2.5, -3, 0, 0, 90, 0, 0, 0};
-  mill.status->sequence = 120;
-  mill.status->line = 7;
-  mill.status->program = "O0100";
+  mill.status.edit().feed_mm_per_min = 600;
+  mill.status.edit().feed_override = 0.8;
+  mill.status.edit().position = {1, 2.5, -3, 0, 0, 90, 0, 0, 0};
+  mill.status.edit().sequence = 120;
+  mill.status.edit().line = 7;
+  mill.status.edit().program = "O0100";
   observe(mill);
   const auto xml = get("/mill-1/current");
   EXPECT_EQ(value(xml, "feed.mill-1"), "10") << "mm a second";
@@ -36,11 +36,11 @@ TEST_F(ObserverTest, OnlyChangesBecomeObservations) {
   observe(lathe);
   const auto before = attribute(get("/current"), "nextSequence");
   observe(lathe);
-  lathe.status->time += std::chrono::seconds(1);
-  lathe.status->accepted = 5;
+  lathe.status.edit().time += std::chrono::seconds(1);
+  lathe.status.edit().accepted = 5;
   observe(lathe);
   EXPECT_EQ(attribute(get("/current"), "nextSequence"), before);
-  lathe.status->position[0] = 4;
+  lathe.status.edit().position[0] = 4;
   observe(lathe);
   const auto xml = get("/sample?from=" + before);
   EXPECT_EQ(count(xml, "sequence="), 1U);
@@ -49,7 +49,7 @@ TEST_F(ObserverTest, OnlyChangesBecomeObservations) {
 
 TEST_F(ObserverTest, TimesAreTheGateways) {
   auto lathe = view("lathe-1");
-  lathe.status->time = UtcTime{std::chrono::seconds(1'600'000'000)};
+  lathe.status.edit().time = UtcTime{std::chrono::seconds(1'600'000'000)};
   observe(lathe);
   EXPECT_NE(get("/current").find("name=\"execution\" timestamp=\"2020-09-13T12:26:40.000000Z\""),
             std::string::npos);
@@ -68,7 +68,7 @@ TEST_F(ObserverTest, ALostMachineIsUnavailableInEverything) {
 
 TEST_F(ObserverTest, AMachineThatIsBackShowsNothingOld) {
   auto lathe = view("lathe-1");
-  lathe.status->program = "O1";
+  lathe.status.edit().program = "O1";
   observe(lathe);
   alarm("CEN0103", "bad block");
   lathe.is_connected = false;
@@ -77,7 +77,7 @@ TEST_F(ObserverTest, AMachineThatIsBackShowsNothingOld) {
   observe(lathe);  // its announcement; the status is the one from before
   EXPECT_EQ(value(get("/current"), "availability.lathe-1"), "AVAILABLE");
   EXPECT_EQ(value(get("/current"), "program.lathe-1"), "UNAVAILABLE");
-  lathe.status->time += std::chrono::seconds(9);
+  lathe.status.edit().time += std::chrono::seconds(9);
   observe(lathe);
   EXPECT_EQ(value(get("/current"), "program.lathe-1"), "O1");
   EXPECT_EQ(value(get("/current"), "motion-program.lathe-1"), "bad block") << "it was not cleared";

@@ -76,7 +76,7 @@ TEST_F(MetricsRoute, AMachineStatesWhatItsControlShows) {
   status.modes = dds::ActiveModes{};
   machines_.views.back().status = status;
   EXPECT_EQ(display()["units"], "mm") << "the program's unit applies while it is there";
-  machines_.views.back().status->screen = dds::Screen{.is_inch = true};
+  machines_.views.back().status.edit().screen = dds::Screen{.is_inch = true};
   EXPECT_EQ(display()["units"], "inch") << "what the control's settings choose wins";
   machines_.views.back().machine.control = "tnc155";
   EXPECT_EQ(display()["fields"], (Json{"compensation", "tool_length_z", "tool_radius"}));
