@@ -14,7 +14,7 @@ Result<void> open_reader(std::unique_ptr<PeerReader<Message>>& reader, const Ent
   auto created = PeerReader<Message>::create(subscriber, topic, rejections,
                                              {.machine = machine,
                                               .on_message =
-                                                  [&handler](Message message) {
+                                                  [&handler](Message&& message) {
                                                     if (handler) handler(std::move(message));
                                                   },
                                               .wake = on_matched});

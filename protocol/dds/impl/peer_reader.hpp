@@ -25,7 +25,7 @@ class Sources {
       64;  ///< known writers; further ones are looked up again
 
   struct Handlers {
-    std::function<void(Message)> deliver;
+    std::function<void(Message&&)> deliver;
     std::function<void()> refuse;
     std::function<void()> on_waiting;  ///< the owner must call resolve
   };
@@ -38,7 +38,7 @@ class Sources {
   }
 
   /// On the reader's thread.
-  void take(dds_instance_handle_t writer, Message message) {
+  void take(dds_instance_handle_t writer, Message&& message) {
     switch (judge(writer, message)) {
       case Verdict::Believed:
         return handlers_.deliver(std::move(message));
@@ -110,7 +110,7 @@ class PeerReader {
  public:
   struct Options {
     std::string machine;  ///< samples with another key are rejected
-    std::function<void(Message)> on_message;
+    std::function<void(Message&&)> on_message;
     std::function<void()> wake;
   };
   static Result<std::unique_ptr<PeerReader>> create(const Entity& subscriber, const Entity& topic,
@@ -125,7 +125,7 @@ class PeerReader {
     auto created =
         Reader<Message>::create(subscriber, topic, std::move(options.machine), rejections,
                                 {.on_message =
-                                     [sources = &reader->sources_](Message message, const auto&,
+                                     [sources = &reader->sources_](Message&& message, const auto&,
                                                                    dds_instance_handle_t writer) {
                                        sources->take(writer, std::move(message));
                                      },

@@ -33,7 +33,7 @@ class Rejections {
 template <class Message>
 struct ReaderHandlers {
   /// `sample` has members that the message lacks, `writer` is its origin.
-  std::function<void(Message, const SampleOf<Message>& sample, dds_instance_handle_t writer)>
+  std::function<void(Message&&, const SampleOf<Message>& sample, dds_instance_handle_t writer)>
       on_message;
   std::function<void(std::string machine)> on_gone;  ///< no writer of this machine is left
   std::function<void()> on_matched;                  ///< the matched writers changed
