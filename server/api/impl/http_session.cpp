@@ -30,8 +30,7 @@ constexpr auto kFarewell = 2s;      ///< for TLS to be shut down
 constexpr auto kDiscardLimit = 5s;  ///< for a refused body to be read away
 constexpr std::uint64_t kDiscardSize = 8ull * 1024 * 1024;
 constexpr int kStreamBuffer = 64 * 1024;  ///< bytes that the kernel buffers for a listener
-/// From the first event that waits to the writing of all: those of a round go out together, not by
-/// the dozen.
+/// From the first event that waits to the writing of all: those of a round go out together.
 constexpr auto kEventGather = 10ms;
 
 class Session final : public HttpSession, public std::enable_shared_from_this<Session> {

@@ -254,4 +254,7 @@ class ApiTest : public ServerTest {
   std::unique_ptr<api::Api> api_;
 };
 
+/// What the handlers answer, without sockets.
+class ApiHandlers : public ApiTest {};
+
 }  // namespace dripline::server_test

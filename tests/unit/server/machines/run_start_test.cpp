@@ -1,0 +1,236 @@
+// Starting runs: what a gateway is told, and who refuses.
+#include "server/machines/machine_registry.hpp"
+#include "tests/unit/server/machines/machine_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST_F(MachineRuns, SendAStartCommandAndAreActiveOnceItIsAccepted) {
+  const auto revision = push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  const auto run = start("O0100");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(run->state, storage::RunState::Active);
+  EXPECT_EQ(run->author, "cam");
+  const dds::Command& command = written_->commands.at(0);
+  EXPECT_EQ(command.action, dds::CommandAction::Start);
+  EXPECT_EQ(command.run, run->id);
+  EXPECT_EQ(command.revision, revision.content.hex());
+  EXPECT_EQ(command.size, 4u);
+  EXPECT_EQ(command.session, kSession);
+  EXPECT_NE(command.server, 0u);
+  EXPECT_EQ(command.deadline, gateway_steady() + 200ms) << "by the gateway's clock";
+}
+
+/// A gateway with a line gives its control no setup: it has what was loaded there.
+TEST_F(MachineRuns, HaveTheSetupThatIsInTheControlBehindAGatewaysLine) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  const std::string first = "[[tool]]\nnumber = 1\n", second = "[[tool]]\nnumber = 2\n";
+  for (const auto& text : {first, second})
+    ASSERT_TRUE(setups_->save({"lathe-1", "centurion", text, ""}, "cam"));
+  const auto newest = start("O0100");
+  EXPECT_EQ(newest->setup, 2u) << "no line: the newest goes with the start";
+  EXPECT_EQ(written_->commands.back().setup, second);
+  EXPECT_TRUE(store_->runs.set_state(newest->id, storage::RunState::Aborted, ""));
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.session = kSession;
+  status.time = clock_.now();
+  status.steady = gateway_steady();
+  status.serial_line.emplace();
+  network_.on_status(status);
+  const auto unknown = start("O0100");
+  ASSERT_TRUE(unknown) << unknown.error().what;
+  EXPECT_EQ(unknown->setup, std::nullopt) << "never stated what is in the control";
+  EXPECT_TRUE(store_->runs.set_state(unknown->id, storage::RunState::Aborted, ""));
+  EXPECT_EQ(written_->commands.back().setup, "");
+  ASSERT_TRUE(store_->setups.note_loaded("lathe-1", 1, "olga"));
+  const auto known = start("O0100");
+  ASSERT_TRUE(known) << known.error().what;
+  EXPECT_EQ(known->setup, 1u);
+  EXPECT_EQ(written_->commands.back().setup, first);
+}
+
+TEST_F(MachineRuns, TellTheGatewayWhereToBegin) {  // CEN-163
+  push("O0100", "N5 M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  machines::StartRequest elsewhere;
+  elsewhere.machine = "lathe-1";
+  elsewhere.program = "O0100";
+  elsewhere.author = "cam";
+  elsewhere.from.tool = 12;
+  elsewhere.from.pass = 3;
+  elsewhere.memory = machines::StartMemory::Begin;
+  ASSERT_TRUE(service_->start(elsewhere));
+  EXPECT_EQ(written_->commands.at(0).argument, "T12 pass=3 memory=begin");
+}
+
+TEST_F(MachineRuns, AreRefusedWithTheGatewaysReason) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(false, "the door is open");
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Busy);
+  EXPECT_NE(run.error().what.find("the door is open"), std::string::npos);
+  const auto runs = store_->runs.list({}, {});
+  ASSERT_EQ(runs->size(), 1u);
+  EXPECT_EQ(runs->front().state, storage::RunState::Refused);
+}
+
+TEST_F(MachineRuns, AreRefusedWhenTheGatewayDoesNotAnswerAndAbortedShouldItAnswerLate) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Timeout);
+  EXPECT_EQ(store_->runs.list({}, {})->front().state, storage::RunState::Refused);
+  const dds::Command command = written_->commands.at(0);
+  network_.on_command_result(
+      {.machine = command.machine, .id = command.id, .accepted = true, .reason = {}});
+  ASSERT_TRUE(written_->wait([&] { return written_->commands.size() == 2; }));
+  EXPECT_EQ(written_->commands[1].action, dds::CommandAction::Abort);
+  EXPECT_EQ(written_->commands[1].run, command.run);
+}
+
+TEST_F(MachineRuns, ThatWereRefusedAreAbortedShouldTheMachineShowThemAllTheSame) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  ASSERT_FALSE(start("O0100"));  // taken by the gateway, but its answer was lost with the link
+  const std::string run = store_->runs.list({}, {})->front().id;
+  status(run);
+  ASSERT_TRUE(written_->wait([&] { return written_->commands.size() >= 2; }));
+  EXPECT_EQ(written_->commands[1].action, dds::CommandAction::Abort);
+  EXPECT_EQ(written_->commands[1].run, run);
+}
+
+/// The audit entry is one of them.
+TEST_F(MachineRuns, SendNothingWhenWhatComesBeforeThemFails) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  std::string noted;
+  const auto try_start = [&](const Result<void>& outcome) {
+    return service_->start({.machine = "lathe-1",
+                            .program = "O0100",
+                            .revision = {},
+                            .author = "cam",
+                            .before = [&, outcome](const Run& run) {
+                              noted = run.id;
+                              EXPECT_TRUE(written_->commands.empty());
+                              EXPECT_EQ(store_->runs.find(run.id)->state,
+                                        storage::RunState::Ordered);
+                              return outcome;
+                            }});
+  };
+  const auto refused = try_start(fail(Errc::Io, "disk full"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what, "disk full");
+  EXPECT_TRUE(written_->commands.empty());
+  EXPECT_EQ(store_->runs.find(noted)->state, storage::RunState::Refused);
+  EXPECT_TRUE(try_start({})) << "the machine is not occupied";
+}
+
+TEST_F(MachineRuns, NeedAConnectedMachineThatIsKnown) {
+  push("O0100", "M30\n");
+  start_service();
+  EXPECT_EQ(start("O0100").error().code, Errc::NotFound);
+  announce();
+  network_.on_lost("lathe-1");
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Timeout);
+  EXPECT_NE(run.error().what.find("last seen 2023-11-14T"), std::string::npos) << run.error().what;
+  EXPECT_TRUE(store_->runs.list({}, {})->empty());
+}
+
+TEST_F(MachineRuns, AreOnlyOfProgramsForTheMachinesControl) {
+  push("H1", "0 BEGIN PGM\n", "tnc155");
+  start_service();
+  announce();
+  const auto run = start("H1");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Unsupported);
+  EXPECT_NE(run.error().what.find("tnc155"), std::string::npos);
+}
+
+TEST_F(MachineRuns, AreOneAtATimeOnAMachine) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  ASSERT_TRUE(start("O0100"));
+  EXPECT_EQ(start("O0100").error().code, Errc::Busy);
+}
+
+TEST_F(MachineRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  machines::CommandDispatcher::Options options;
+  options.repeat = std::chrono::milliseconds(5);
+  options.gateway_of = [](const std::string&) {
+    return machines::CommandDispatcher::Options::Gateway{2, std::chrono::microseconds{0}};
+  };
+  machines::CommandDispatcher dispatcher(endpoint, clock_, options, [](const dds::Command&) {});
+  written_->on_command = [&](const dds::Command& heard) {
+    if (heard.session != 2) return;  // the first is gone
+    dispatcher.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
+  };
+  dds::Command command;
+  command.machine = "lathe-1";
+  command.action = dds::CommandAction::Start;
+  command.session = 1;
+  EXPECT_TRUE(dispatcher.carry_out(command));
+  EXPECT_EQ(written_->commands.at(0).id, written_->commands.back().id)
+      << "the same command, sent again";
+}
+
+// HD-052, HD-053: only where the setup says that the control keeps its programs.
+TEST_F(MachineRuns, AreRefusedWhereTheControlCannotKeepWhatTheProgramCalls) {
+  std::string called = "BEGIN PGM 8 MM\n";
+  for (int i = 1; i < 1000; ++i) called += "CC\n";
+  push("8.h", called, "tnc155");
+  push("7.h", "0 BEGIN PGM 7 MM\n1 CALL PGM 8\n2 END PGM 7 MM\n", "tnc155");
+  add_machine("mill-1", "tnc155");
+  start_service();
+  dds::Announce mill;
+  mill.machine = "mill-1";
+  mill.control = "tnc155";
+  mill.version = "1";
+  mill.epoch = kEpoch;
+  mill.session = kSession;
+  network_.on_announce(mill);
+  heartbeat("mill-1");
+  answer_commands(true);
+  const auto set = [&](const std::string& text) {
+    EXPECT_TRUE(setups_->save({"mill-1", "tnc155", text, ""}, "cam"));
+  };
+  const auto start_it = [&] {
+    return service_->start(
+        {.machine = "mill-1", .program = "7.h", .revision = {}, .author = "cam"});
+  };
+  set("[control]\nmemory_limits = true\n");
+  const auto refused = start_it();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::LimitExceeded);
+  EXPECT_EQ(refused.error().what,
+            "machine 'mill-1' cannot keep program '7.h': line 2: PROGRAM MEMORY EXCEEDED: program "
+            "8 has 1000 blocks, 999 is most (in program 8, which is called here)");
+  set("[control]\nmemory_limits = false\n");
+  EXPECT_TRUE(start_it());
+}
+
+}  // namespace
+}  // namespace dripline::server_test
