@@ -9,7 +9,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "server/api/access_control.hpp"
-#include "server/api/event_hub.hpp"
+#include "server/api/events/event_hub.hpp"
 #include "server/api/request_times.hpp"
 #include "server/api/router.hpp"
 #include "server/folders/folders.hpp"

@@ -10,7 +10,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
-#include "server/api/event_hub.hpp"
+#include "server/api/events/event_hub.hpp"
 
 namespace dripline::api {
 

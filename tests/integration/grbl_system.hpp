@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "tests/integration/motion_system.hpp"
-#include "tests/support/grbl_board_port.hpp"
+#include "tests/support/grbl/board_port.hpp"
 
 namespace dripline::integration {
 

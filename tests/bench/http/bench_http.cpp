@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/api/event_hub.hpp"
+#include "server/api/events/event_hub.hpp"
 #include "server/api/http_server.hpp"
 
 namespace {

@@ -12,7 +12,7 @@
 
 #include "gateway/machine/grbl/grbl_machine.hpp"
 #include "protocol/serial/channel.hpp"
-#include "tests/support/grbl_board_port.hpp"
+#include "tests/support/grbl/board_port.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "server/api/event_hub.hpp"
+#include "server/api/events/event_hub.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "server/api/event_hub.hpp"
+#include "server/api/events/event_hub.hpp"
 #include "server/api/http_server.hpp"
 #include "tests/unit/server/api/raw_peer.hpp"
 

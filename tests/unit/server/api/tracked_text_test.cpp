@@ -1,4 +1,4 @@
-#include "server/api/tracked_text.hpp"
+#include "server/api/events/tracked_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -82,26 +82,25 @@ TEST_P(TrackedTextOf, IsSentWhole) {
 
 INSTANTIATE_TEST_SUITE_P(
     OtherMembers, TrackedTextOf,
-    testing::Values(OtherMembers{"one_more", R"({"a":1})", R"({"a":1,"b":1})"},
-                    OtherMembers{"one_less", R"({"a":1,"b":1})", R"({"a":1})"},
-                    OtherMembers{"none_left", R"({"a":1})", R"({})"},
-                    OtherMembers{"another_name", R"({"a":1})", R"({"b":1})"},
-                    OtherMembers{"one_less_inside", R"({"a":{"X":1,"Y":1}})", R"({"a":{"X":1}})"},
-                    OtherMembers{"moved_inside", R"({"a":{"X":1},"b":1})",
-                                 R"({"a":{"X":1,"b":1}})"},
-                    OtherMembers{"an_object_goes", R"({"a":{"X":1}})", R"({"a":null})"},
-                    OtherMembers{"an_object_comes", R"({"a":null})", R"({"a":{"X":1}})"},
-                    OtherMembers{"an_empty_object_comes", R"({"a":null})", R"({"a":{}})"},
-                    OtherMembers{"one_more_after_a_change", R"({"a":1,"b":{"X":1}})",
-                                 R"({"a":2,"b":{"X":1,"Y":1}})"},
-                    OtherMembers{"one_more_between", R"({"a":1,"b":1})", R"({"a":2,"a2":1,"b":1})"},
-                    OtherMembers{"an_object_for_a_number", R"({"a":1,"b":1})",
-                                 R"({"a":{"X":1},"b":1})"},
-                    OtherMembers{"more_text_after_it", R"({"a":1})", R"({"a":1}})"},
-                    OtherMembers{"no_json", R"({"a":1})", R"({"a":1)"},
-                    OtherMembers{"no_object", R"([1])", R"([2])"},
-                    OtherMembers{"an_open_text", R"({"a":"1"})", R"({"a":"1\"})"},
-                    OtherMembers{"an_open_list", R"({"a":[1]})", R"({"a":[[1]})"}),
+    testing::Values(
+        OtherMembers{"one_more", R"({"a":1})", R"({"a":1,"b":1})"},
+        OtherMembers{"one_less", R"({"a":1,"b":1})", R"({"a":1})"},
+        OtherMembers{"none_left", R"({"a":1})", R"({})"},
+        OtherMembers{"another_name", R"({"a":1})", R"({"b":1})"},
+        OtherMembers{"one_less_inside", R"({"a":{"X":1,"Y":1}})", R"({"a":{"X":1}})"},
+        OtherMembers{"moved_inside", R"({"a":{"X":1},"b":1})", R"({"a":{"X":1,"b":1}})"},
+        OtherMembers{"an_object_goes", R"({"a":{"X":1}})", R"({"a":null})"},
+        OtherMembers{"an_object_comes", R"({"a":null})", R"({"a":{"X":1}})"},
+        OtherMembers{"an_empty_object_comes", R"({"a":null})", R"({"a":{}})"},
+        OtherMembers{"one_more_after_a_change", R"({"a":1,"b":{"X":1}})",
+                     R"({"a":2,"b":{"X":1,"Y":1}})"},
+        OtherMembers{"one_more_between", R"({"a":1,"b":1})", R"({"a":2,"a2":1,"b":1})"},
+        OtherMembers{"an_object_for_a_number", R"({"a":1,"b":1})", R"({"a":{"X":1},"b":1})"},
+        OtherMembers{"more_text_after_it", R"({"a":1})", R"({"a":1}})"},
+        OtherMembers{"no_json", R"({"a":1})", R"({"a":1)"},
+        OtherMembers{"no_object", R"([1])", R"([2])"},
+        OtherMembers{"an_open_text", R"({"a":"1"})", R"({"a":"1\"})"},
+        OtherMembers{"an_open_list", R"({"a":[1]})", R"({"a":[[1]})"}),
     [](const auto& i) { return std::string(i.param.name); });
 
 TEST(TrackedText, SendsWholeWhatIsNestedTooDeep) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "gateway/machine/grbl/grbl_machine.hpp"
-#include "tests/support/grbl_board.hpp"
+#include "tests/support/grbl/board.hpp"
 #include "tests/support/manual_clock.hpp"
 #include "tests/unit/gateway/machine/test_machine.hpp"
 

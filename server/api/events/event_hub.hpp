@@ -12,7 +12,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "server/api/tracked_text.hpp"
+#include "server/api/events/tracked_text.hpp"
 
 namespace dripline::api {
 

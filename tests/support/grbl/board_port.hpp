@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "tests/support/grbl_board.hpp"
+#include "tests/support/grbl/board.hpp"
 #include "tests/support/line/pty.hpp"
 
 namespace dripline::test_support {

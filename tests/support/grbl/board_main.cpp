@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "tests/support/grbl_board_port.hpp"
+#include "tests/support/grbl/board_port.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

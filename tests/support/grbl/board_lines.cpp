@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tests/support/grbl_board.hpp"
+#include "tests/support/grbl/board.hpp"
 
 /// The part of the board that takes lines: G-code and $ commands.
 namespace dripline::test_support {

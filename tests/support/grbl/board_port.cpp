@@ -1,4 +1,4 @@
-#include "tests/support/grbl_board_port.hpp"
+#include "tests/support/grbl/board_port.hpp"
 
 #include <poll.h>
 #include <chrono>

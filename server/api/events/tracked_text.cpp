@@ -1,4 +1,4 @@
-#include "server/api/tracked_text.hpp"
+#include "server/api/events/tracked_text.hpp"
 
 #include <algorithm>
 #include <cstring>

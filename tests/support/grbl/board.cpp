@@ -1,4 +1,4 @@
-#include "tests/support/grbl_board.hpp"
+#include "tests/support/grbl/board.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
