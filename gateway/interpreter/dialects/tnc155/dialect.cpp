@@ -97,6 +97,7 @@ Result<std::unique_ptr<Interpreter>> make_with(Result<ControlOptions> options, c
   if (options->start_block >= 0) {
     state.start.is_searching = true;
     state.start.block = options->start_block;
+    state.start.pass = options->start_pass;
     state.start.actual = setup.position.value_or(setup.start);
   }
   return std::unique_ptr<Interpreter>(std::make_unique<TncInterpreter>(

@@ -71,7 +71,7 @@ BlockOutcome TncInterpreter::run_block() {
   const BlockOutcome outcome = next_block();
   const bool has_ended = outcome == BlockOutcome::Finished && run_.state.phase == RunPhase::Ended;
   if (has_ended && run_.state.start.is_searching) [[unlikely]] {
-    run_.fail(ErrorCode::BlockNotAddressed, fmt::format("block {}", run_.state.start.block));
+    run_.fail(ErrorCode::BlockNotAddressed, unmet_start());
     return BlockOutcome::Paused;
   }
   return outcome;
@@ -186,9 +186,7 @@ BlockOutcome TncInterpreter::read() {
   run_.state.at = run_.reader.place();
   run_.is_in_block = true;
   part_ = 0;
-  if (is_start() && !begin_at_block(run_, run_.state.start.block, came_back_.value_or(-1))) {
-    return BlockOutcome::Paused;
-  }
+  if (is_start() && !arrive_at_start()) return BlockOutcome::Paused;
   return BlockOutcome::Finished;
 }
 
@@ -205,9 +203,24 @@ bool TncInterpreter::is_start() const {
          block_number() == start.block;
 }
 
+/// False: the state there cannot be rebuilt.
+bool TncInterpreter::arrive_at_start() {
+  StartState& start = run_.state.start;
+  ++start.arrivals;
+  if (start.pass != 0 && start.arrivals != start.pass) return true;
+  return begin_at_block(run_, start.block, came_back_.value_or(-1));
+}
+
+std::string TncInterpreter::unmet_start() const {
+  const StartState& start = run_.state.start;
+  if (start.arrivals == 0) return fmt::format("block {}", start.block);
+  return fmt::format("pass {} of block {}: the program comes there {} times", start.pass,
+                     start.block, start.arrivals);
+}
+
 /// Without a label before it the program comes to a block once.
 BlockOutcome TncInterpreter::find_way_back() {
-  if (came_back_ || run_.state.known_labels.empty()) return BlockOutcome::Finished;
+  if (came_back_ || run_.state.start.pass != 0 || run_.state.known_labels.empty()) return BlockOutcome::Finished;
   const TextPlace place = run_.reader.block_place();
   const auto outcome = way_back_.find_return(place);
   run_.reader.drop_window();

@@ -39,6 +39,8 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>, public Ret
   BlockOutcome find_definition();
   BlockOutcome meet_end();
   bool is_start() const;
+  bool arrive_at_start();
+  std::string unmet_start() const;
   BlockOutcome find_way_back();
   std::int32_t block_number() const;
   bool execute_parts();

@@ -92,6 +92,7 @@ constexpr auto kOptionRows = in_table(
                              "GOTO before the start: number of the first block; -1: none",
                              {-1, kMaxBlockNumber}),
         Row{{"start_at", kText, "the same, as a start names it: N400 or 400"}, read_start_at},
+        Row{kStartPass, read_start_pass},
         // Program text
         Row{{"decimal_sign", "comma|point", "in programs that are written"}, read_decimal_sign},
         Row{{"heading_letter", "%|H",
@@ -219,6 +220,14 @@ Result<void> read_start_block(const Options& options, int highest, ControlOption
   }
   control.start_block = number;
   return {};
+}
+
+Result<void> read_start_pass(const Options& options, const OptionKey& key,
+                             ControlOptions& control) {
+  if (auto read = read_value(options, key, control.start_pass); !read) return read;
+  if (control.start_pass == 0 || control.start_block >= 0) return {};
+  return fail(Errc::Syntax, "option start_pass: {} and no start_at or start_block",
+              control.start_pass);
 }
 
 std::vector<ListedOption> list_options() {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gateway/interpreter/core/dialect.hpp"
+#include "gateway/interpreter/core/option_rows.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
 
@@ -74,6 +75,7 @@ struct ControlOptions {
   ProgramStart program_start = ProgramStart::Absolute;
   int start_block =
       -1;  ///< GOTO before the start: number of the first block; -1: none (`start_at` too)
+  std::int64_t start_pass = 0;  ///< which time the program comes to it; 0: it must come once
 };
 
 /// Errors: Syntax, Unsupported; naming the option.
@@ -91,6 +93,14 @@ std::vector<ListedOption> list_options();
 /// `start_at`: a block as a start names it, "N400" or "400", up to `highest`; empty changes
 /// nothing. Errors: Syntax.
 Result<void> read_start_block(const Options& options, int highest, ControlOptions& control);
+
+/// `start_pass`, after the start. Errors: Syntax (a pass and no start).
+Result<void> read_start_pass(const Options& options, const OptionKey& key, ControlOptions& control);
+inline constexpr OptionKey kStartPass =
+    option("start_pass", kWhole,
+           "which time the program comes to that block, with the repeats and return addresses that "
+           "it has there; 0: it must come there once",
+           "0", {0, 1'000'000});
 
 /// The options of the later controls, which are fewer; later/later_options.cpp. Errors as above.
 Result<ControlOptions> read_later_options(const Setup& setup);

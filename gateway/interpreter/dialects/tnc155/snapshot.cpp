@@ -42,7 +42,7 @@ namespace {
 std::string_view dialect_of(const Run& run) {
   return run.options.is_later ? "itnc" : "tnc155";
 }
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 bool is_plausible(const MachiningCycle& cycle) {
   return std::ranges::all_of(

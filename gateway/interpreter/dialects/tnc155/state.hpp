@@ -144,6 +144,8 @@ struct BlankState {
 struct StartState {
   bool is_searching = false;  ///< nothing reaches the machine yet
   std::int32_t block = Block::kNone;
+  std::int64_t pass = 0;                      ///< which time; 0: the program comes there once
+  std::int64_t arrivals = 0;                  ///< so often it has come there
   Position actual;                            ///< where the machine is
   Position expected;                          ///< where the program has it at the block
   bool has_changed_tool = false;              ///< before the block

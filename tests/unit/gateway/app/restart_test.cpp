@@ -100,6 +100,26 @@ TEST(TncRestart, LooksAtWhereTheMachineIs) {
   EXPECT_NEAR(fixture.position()[0], 0, 1e-6);
 }
 
+// HD-193: interrupted in the second of three passes, it returns into it: one more follows.
+TEST(TncRestart, ReturnsIntoAnInterruptedRepeat) {
+  const std::string program =
+      "0 BEGIN PGM 18 MM\n1 L X+0 Y+0 R0 F9000\n2 LBL 1\n3 L IX+10 Y+0\n4 STOP\n5 L X+0 Y+5\n"
+      "6 CALL LBL 1 REP 2/2\n7 L X+90 Y+0\n8 END PGM 18 MM\n";
+  RestartShop fixture;
+  fixture.push("18", program);
+  ASSERT_TRUE(fixture.start_from("18", "N5").accepted);
+  EXPECT_THAT(fixture.ended().reason, HasSubstr("how often block 6 leads back over it"));
+  ASSERT_TRUE(fixture.start_from("18", "N5 pass=2").accepted);
+  ASSERT_TRUE(fixture.stops("operator stop"));
+  EXPECT_THAT(fixture.status->message, HasSubstr("start at block 5, pass 2: "));
+  EXPECT_THAT(fixture.status->message, HasSubstr("LBL 1 1 more times"));
+  ASSERT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  ASSERT_TRUE(fixture.stops("program stop")) << "of the third pass";
+  ASSERT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed) << "there is no fourth";
+  EXPECT_NEAR(fixture.position()[0], 90, 1e-6);
+}
+
 // A block that is not in the program, or that the program does not come to.
 TEST(TncRestart, RefusesABlockThatIsNotThere) {
   RestartShop fixture;

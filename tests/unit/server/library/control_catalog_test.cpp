@@ -16,7 +16,7 @@ TEST(StartSearch, IsWhatTheControlsDialectAccepts) {
   const auto& tnc = start_search_of("tnc155");
   EXPECT_THAT(tnc.at, ElementsAre("block"));
   EXPECT_FALSE(tnc.has_memory);
-  EXPECT_FALSE(tnc.has_pass);
+  EXPECT_TRUE(tnc.has_pass);
 }
 
 TEST(StartSearch, IsNoneOfControlsThatDoNotLookThroughTheirPrograms) {

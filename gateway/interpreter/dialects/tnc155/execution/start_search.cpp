@@ -26,6 +26,7 @@ std::vector<std::string> refusals(const Run& run, std::int32_t returning) {
   const State& state = run.state;
   std::vector<std::string> reasons;
   for (const LabelFrame& frame : state.labels) {
+    if (state.start.pass != 0) break;
     reasons.push_back(fmt::format("repeats and return address of LBL {}, which line {} calls",
                                   frame.label, frame.call.line));
   }
@@ -64,6 +65,17 @@ void add_axes(std::string& text, const AxisValues& values) {
   }
 }
 
+/// What is kept of repeats and subprograms, as by the arrow keys; a start without a pass has none.
+void add_labels(std::string& text, const State& state) {
+  for (const LabelFrame& frame : state.labels) {
+    if (frame.is_repeat) {
+      text += fmt::format(", LBL {} {} more times", frame.label, frame.left);
+    } else {
+      text += fmt::format(", LBL {} returns to line {}", frame.label, frame.back.line);
+    }
+  }
+}
+
 void add_transformation(std::string& text, const Transformation& now) {
   std::string shift;
   add_axes(shift, now.shift);
@@ -78,7 +90,9 @@ void add_transformation(std::string& text, const Transformation& now) {
 /// What is in force, for the operator to compare with the machine.
 std::string description(const Run& run, std::int32_t number, const Position& expected) {
   const State& state = run.state;
-  std::string text = fmt::format("start at block {}: ", number);
+  std::string text = fmt::format("start at block {}", number);
+  if (state.start.pass != 0) text += fmt::format(", pass {}", state.start.pass);
+  text += ": ";
   if (state.tool.number != 0) {
     text += fmt::format("tool {} L{:+.3f} R{:+.3f}", state.tool.number, state.tool.data.length,
                         state.tool.data.radius);
@@ -93,6 +107,7 @@ std::string description(const Run& run, std::int32_t number, const Position& exp
   if (state.cycle.machining.number != 0) {
     text += fmt::format(", cycle {}", state.cycle.machining.number);
   }
+  add_labels(text, state);
   for (std::size_t code = 0; code < state.start.codes.size(); ++code) {
     if (state.start.codes.test(code)) text += fmt::format(", M{:02} not given out", code);
   }

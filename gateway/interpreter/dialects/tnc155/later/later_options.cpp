@@ -22,6 +22,7 @@ constexpr auto kRows = in_table(
                              "start in the middle: number of the first block; -1: none",
                              {-1, kHighestBlock}),
         Row{{"start_at", kText, "the same, as a start names it: N400 or 400"}, read_start},
+        Row{kStartPass, read_start_pass},
         row<&C::cancels_transformations>("cancel_transformations", kFlag,
                                          "M2, M30 and END PGM cancel transformations"),
         row<&C::scales_three_axes>("scale_three_axes", kFlag,

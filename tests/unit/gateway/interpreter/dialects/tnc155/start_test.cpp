@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,12 +15,14 @@ using testing::Not;
 using testing::StartsWith;
 
 PathRun from_block(int block, const std::vector<std::string>& blocks,
-                   const std::string& setup = "") {
+                   const std::string& setup = "", int pass = 0) {
   std::string text = "0 BEGIN PGM 5 MM\n";
   std::size_t at = 1;
   for (const std::string& each : blocks) text += std::to_string(at++) + " " + each + "\n";
   text += std::to_string(at) + " END PGM 5 MM\n";
-  return run_text(text, {setup + "\n[control]\nstart_block = " + std::to_string(block), {}});
+  return run_text(text, {fmt::format("{}\n[control]\nstart_block = {}\nstart_pass = {}\n", setup,
+                                     block, pass),
+                         {}});
 }
 
 /// The reason for a refusal, of which nothing may have moved, turned or changed before.
@@ -139,6 +142,41 @@ TEST(TncStart, PassesFinishedRepeatsAndSubprograms) {
       "LBL 7",          "L X+5 Y+5 F MAX",    "LBL 0"};
   EXPECT_THAT(from_block(6, blocks, "start = { X = 5.0, Y = 5.0 }").events,
               ElementsAre("stop", "R X9 Y9", "R X5 Y5", StartsWith("end")));
+}
+
+PathRun from_pass(int block, int pass, const std::vector<std::string>& blocks) {
+  return from_block(block, blocks, "", pass);
+}
+
+const std::vector<std::string> kRepeat{"LBL 1", "L X+1 Y+1 R0 F MAX", "L IX+1 F MAX",
+                                       "CALL LBL 1 REP 2/2", "L X+9 Y+9 F MAX"};
+
+// HD-193: as by the arrow keys, repeats are kept: so many are left as in the pass that is named.
+TEST(TncStart, ContinuesInTheRepeatThatIsNamed) {
+  EXPECT_THAT(from_pass(2, 2, kRepeat).events,
+              ElementsAre("stop", "R X1 Y1", "R X2 Y1", "R X1 Y1", "R X2 Y1", "R X9 Y9",
+                          StartsWith("end")));
+  EXPECT_THAT(from_pass(2, 3, kRepeat).events,
+              ElementsAre("stop", "R X1 Y1", "R X2 Y1", "R X9 Y9", StartsWith("end")));
+}
+
+// HD-193: and so are return addresses, of the call that is named.
+TEST(TncStart, ReturnsFromTheSubprogramThatItStartsIn) {
+  const std::vector<std::string> blocks{"CALL LBL 5 REP", "L X+7 Y+7 R0 F MAX", "CALL LBL 5 REP",
+                                        "L X+9 Y+9 F MAX", "STOP M02", "LBL 5",
+                                        "L X+1 Y+1 R0 F MAX", "L X+2 Y+2 F MAX", "LBL 0"};
+  EXPECT_THAT(from_pass(8, 1, blocks).events,
+              ElementsAre("stop", "R X2 Y2", "R X7 Y7", "R X1 Y1", "R X2 Y2", "R X9 Y9",
+                          StartsWith("end")));
+  EXPECT_THAT(from_pass(8, 2, blocks).events,
+              ElementsAre("stop", "R X2 Y2", "R X9 Y9", StartsWith("end")));
+}
+
+TEST(TncStart, RefusesAPassThatDoesNotCome) {
+  EXPECT_THAT(from_pass(2, 4, kRepeat).events.back(),
+              HasSubstr("pass 4 of block 2: the program comes there 3 times"));
+  EXPECT_THAT(refusal(from_pass(9, 1, kContour)), HasSubstr("block 6 on: start there"))
+      << "a contour is lost all the same";
 }
 
 // HD-194: an axis that the first positioning leaves alone must be where the program has it.
