@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <string>
 
 #include "gateway/interpreter/core/option_rows.hpp"
@@ -13,9 +14,33 @@ namespace prototrak {
 
 namespace {
 
-constexpr std::array kRows{row<&ControlOptions::waits>(
-    "waits", kFlag,
-    "the operator moves Z: waits at positions and at both ends of a chain of cuts")};
+/// "N5" or "5".
+Result<void> read_start_at(const Options& options, const OptionKey& key, ControlOptions& control) {
+  const auto text = options.text(key.key, "");
+  if (!text) return fail(text.error());
+  if (text->empty()) return {};
+  const std::string_view digits = std::string_view(*text).substr(text->front() == 'N' ? 1 : 0);
+  std::uint16_t event = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), event);
+  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || event < 1 ||
+      event > kMaxEvents) {
+    return fail(Errc::Syntax, "[control] start_at: \"{}\" is no event of this control: N1 to N{}",
+                *text, kMaxEvents);
+  }
+  control.start_event = event;
+  control.names_start = true;
+  return {};
+}
+
+constexpr std::array kRows{
+    row<&ControlOptions::waits>(
+        "waits", kFlag,
+        "the operator moves Z: waits at positions and at both ends of a chain of cuts"),
+    OptionRow<ControlOptions>{{"start_at", kText,
+                               "event that a run begins with, by its number: N5; the operator is "
+                               "asked there",
+                               "the first"},
+                              read_start_at}};
 
 }  // namespace
 
@@ -40,11 +65,22 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   const auto options = read_options(setup);
   if (!options) return fail(options.error());
   return std::unique_ptr<Interpreter>(
-      std::make_unique<ProtoTrakInterpreter>(*options, setup.start, source, sink));
+      std::make_unique<ProtoTrakInterpreter>(
+          *options, options->names_start ? setup.position.value_or(setup.start) : setup.start,
+          source, sink));
+}
+
+/// Files of the MX controls: their text form is this one, their own is refused by name.
+bool is_mx_name(std::string_view name) {
+  constexpr std::size_t kLength = 4;
+  std::string end(name.substr(name.size() - std::min(name.size(), kLength)));
+  for (char& c : end) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return end == ".mx2" || end == ".mx3" || end == ".pt4";
 }
 
 /// Blocks end with ';' here; events have G codes of three digits.
-int likelihood(std::string_view head, std::string_view) {
+int likelihood(std::string_view head, std::string_view file_name) {
+  if (is_mx_name(file_name)) return 100;
   const auto ends = std::count(head.begin(), head.end(), ';');
   if (ends == 0) return 0;
   const auto lines = std::count(head.begin(), head.end(), '\n') + 1;

@@ -92,6 +92,11 @@ struct Fault {
   static constexpr DiagnosticRow UnknownWord{"PTK0109", "unknown word"};
   static constexpr DiagnosticRow NoEnd{"PTK0110", "end of data without %"};
   static constexpr DiagnosticRow TextFailed{"PTK0111", "program text cannot be read"};
+  static constexpr DiagnosticRow NotText{
+      "PTK0112",
+      "no program text, as a file in which an MX or later control stores events in its own form is "
+      "(.MX2, .MX3, .PT4): that form is not published; give the program in the maker's CAM text form"};
+  static constexpr DiagnosticRow NoStartEvent{"PTK0113", "the program has no such event"};
   static constexpr DiagnosticRow ArcRadii{"PTK0201", "radii at begin and end of the arc differ"};
   static constexpr DiagnosticRow RepeatRange{"PTK0202", "bad repeat range"};
   static constexpr DiagnosticRow Join{"PTK0203", "conrad or offset join is impossible"};

@@ -32,6 +32,7 @@ void Executor::begin() {
   if (program_.events.empty()) return;
   Frame whole;
   whole.last = static_cast<std::uint16_t>(program_.events.size());
+  whole.index = options_.start_event;
   state_.frames.push_back(whole);
 }
 

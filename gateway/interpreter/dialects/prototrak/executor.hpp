@@ -17,6 +17,8 @@ inline constexpr std::size_t kMaxNesting = 10;
 /// The `[control]` options: how the operator works the machine.
 struct ControlOptions {
   bool waits = true;  ///< for the operator at positions and at begin and end of a chain of cuts
+  std::uint16_t start_event = 1;  ///< the first that is executed
+  bool names_start = false;       ///< it was named, and the operator is asked there
 };
 /// Errors: Syntax, Unsupported, naming the option.
 Result<ControlOptions> read_options(const Setup& setup);

@@ -118,7 +118,10 @@ StepState ProtoTrakInterpreter::receive() {
     if (state == Receiver::State::Failed) return refuse_program();
     if (state == Receiver::State::Receiving) continue;
     deliver_header();
+    if (options_.start_event > program_.events.size() && options_.names_start)
+      return refuse_start();
     executor_.begin();
+    if (options_.names_start) announce_start();
     phase_ = Phase::Running;
     return executor_.is_done() ? end() : StepState::Ran;
   }
@@ -147,6 +150,24 @@ StepState ProtoTrakInterpreter::refuse_program() {
   sink_.on_alarm({received_at_, failure.diagnostic});
   phase_ = Phase::Alarmed;
   return StepState::Alarmed;
+}
+
+/// The first that the program has not.
+StepState ProtoTrakInterpreter::refuse_start() {
+  const std::string detail =
+      fmt::format("a start at event {}, it has {}", options_.start_event, program_.events.size());
+  sink_.on_alarm({received_at_, diagnostic(Fault::NoStartEvent, detail, 0, 0)});
+  phase_ = Phase::Alarmed;
+  return StepState::Alarmed;
+}
+
+/// Each event holds everything it needs; where the axes are is for the operator to see.
+void ProtoTrakInterpreter::announce_start() {
+  const ProgramEvent& event = program_.events[options_.start_event - 1U];
+  const Origin at{0, event.offset, event.line, event.sequence, kMainProgram};
+  sink_.on_message({at, fmt::format("start at event {}: the events before it are not executed",
+                                    options_.start_event)});
+  sink_.on_stop({at, StopKind::Operator});
 }
 
 StepState ProtoTrakInterpreter::run(std::uint64_t max_blocks) {

@@ -30,6 +30,8 @@ class ProtoTrakInterpreter final : public Interpreter {
   StepState run(std::uint64_t max_blocks);
   void deliver_header();
   StepState refuse_program();
+  StepState refuse_start();
+  void announce_start();
   StepState end();
 
   const ControlOptions options_;

@@ -76,6 +76,7 @@ bool Receiver::take_character(char c) {
     }
     if (part_ == Part::BeforeStart && program_.events.empty()) {
       part_ = Part::Title;
+      title_line_ = line_;
       return true;
     }
     state_ = State::Complete;
@@ -85,13 +86,19 @@ bool Receiver::take_character(char c) {
     return fail(Fault::NoBlockEnd,
                 fmt::format("more than {} characters without ';'; {}", kMaxBlock, kFanucHint));
   }
+  // What begins on another line is no title, unless it is marked as one: units may be in it.
+  if (part_ == Part::Title && block_.empty() && c != ' ' && c != ':' && line_ != title_line_)
+    part_ = Part::Blocks;
   if (part_ == Part::Title) {
-    block_ += c;
-    if (c == ';') {
-      part_ = Part::Blocks;
-      block_.clear();
+    if (c != ';') {
+      block_ += c;
+      return true;
     }
-    return true;
+    part_ = Part::Blocks;
+    const bool is_header = block_.starts_with("PN");
+    const bool done = !is_header || end_block();
+    block_.clear();
+    return done;
   }
   if (in_comment_) {
     in_comment_ = c != ')';
@@ -107,7 +114,11 @@ bool Receiver::take_character(char c) {
     block_.clear();
     return done;
   }
-  if (!is_known(c)) return fail(Fault::Character, fmt::format("code {}", int{c}));
+  if (!is_known(c)) {
+    const bool is_control = c >= 0 && c < ' ' && program_.events.empty();
+    return fail(is_control ? Fault::NotText : Fault::Character,
+                fmt::format("code {}", static_cast<unsigned char>(c)));
+  }
   if (c != ' ' || !block_.empty()) block_ += c;
   return true;
 }

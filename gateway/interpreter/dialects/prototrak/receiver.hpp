@@ -96,6 +96,7 @@ class Receiver {
   XY reference() const;
 
   enum class Part : std::uint8_t { BeforeStart, Title, Blocks };
+  std::uint64_t title_line_ = 0;  ///< of the % before a title
   State state_ = State::Receiving;
   Part part_ = Part::BeforeStart;
   StoredProgram program_;
