@@ -81,6 +81,7 @@ enum class Offer : std::uint8_t {
   None,   ///< nothing: the request waits for the next run, or is refused where the protocol can
   Named,  ///< the named program of the machine's control, as a run
   All,    ///< also, without a name, each numbered program of the machine's control in turn
+  Repeat,  ///< the program of the last run again, if that was completed: a tape left in the reader
 };
 
 struct ControlSettings {

@@ -176,7 +176,7 @@ constexpr Words<3> kCodes{"ascii|iso|eia", {"ascii", "iso", "eia"}};
 constexpr Words<5> kEndsOfBlock{"lf|cr|crlf|lfcr|lfcrcr", {"lf", "cr", "crlf", "lfcr", "lfcrcr"}};
 constexpr Words<4> kControls{"plain|fanuc|prototrak|centurion",
                              {"plain", "fanuc", "prototrak", "centurion"}};
-constexpr Words<3> kOffers{"none|named|all", {"none", "named", "all"}};
+constexpr Words<4> kOffers{"none|named|all|repeat", {"none", "named", "all", "repeat"}};
 constexpr Words<3> kTncStops{"dc3|rts|both", {"dc3", "rts", "both"}};
 constexpr Words<5> kReaderFaults{
     "none|parity|chad|missing_sprocket|sprocket_spacing",
@@ -236,7 +236,8 @@ constexpr std::array kRows{
     duration<"pause_limit_ms", &S::pause_limit, 100>(
         "longest pause of a received program before it is dropped"),
     choice<"offer", kOffers, &S::offer>(
-        "send to a control that asks while no run waits: nothing, the named program, or all"),
+        "send to a control that asks while no run waits: nothing, the named program, all, or the "
+        "program of the last run once more, as a tape that stays in the reader"),
     number<"retries", 0, kMaximumRetries, &S::retries>("repeats of one block, checked protocols"),
     flag<"xmodem_crc", &S::xmodem_crc>("XMODEM: ask for CRC before the checksum"),
     flag<"extract_programs", &S::extracts_programs>(

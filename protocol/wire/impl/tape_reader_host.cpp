@@ -13,7 +13,8 @@ namespace {
 constexpr LineTime kStartUp = std::chrono::milliseconds(10);
 
 /// The host as the reader: each text is a tape with leader, rewind stop and trailer that the
-/// control runs, stops and rewinds. Rewinding asks the owner for the same program again.
+/// control runs, stops and rewinds. Rewinding asks the owner for the same program again, and so does
+/// running it after its end (a looped tape).
 class TapeReaderHost final : public DisciplineBase {
  public:
   explicit TapeReaderHost(const LineSettings& settings)
@@ -72,9 +73,12 @@ class TapeReaderHost final : public DisciplineBase {
     encoder_ = CharacterEncoder(settings_.code, settings_.end_of_block);
     checker_ = CharacterEncoder(settings_.code, settings_.end_of_block);
     blanks_ = std::exchange(is_wound_back_, false) ? 0 : settings_.leader;
+    gap_ = settings_.leader;
     stage_ = Stage::Leader;
-    is_asked_ = false;
-    const bool runs_at_once = !settings_.wait_for_xon && input_.cts && !is_stopped_;
+    is_asked_ = is_over_ = has_begun_ = false;
+    // A control that has run the reader after its last tape has not stopped it since.
+    const bool is_run = std::exchange(runs_next_, false) || !settings_.wait_for_xon;
+    const bool runs_at_once = is_run && input_.cts && !is_stopped_;
     runs_at_once ? run(now) : wait(now);
     if (!runs_at_once) limit_ = after(settings_.start_limit, now);
     return {};
@@ -141,6 +145,14 @@ class TapeReaderHost final : public DisciplineBase {
     if (stage_ == Stage::Leader && (has_text() || is_last_offered())) return begin_text(now);
     if (stage_ == Stage::Text && has_text()) {
       const char c = queued_text().front();
+      if (c == '%' && has_begun_ && gap_ > 0) {  // the next program's leader
+        --gap_;
+        is_head_ = true;
+        rows_.push_back(std::byte{0});
+        return true;
+      }
+      gap_ = settings_.leader;
+      has_begun_ = true;
       take_text(1);
       (void)encoder_.encode({&c, 1}, rows_);  // check_text has checked it
       if (!rows_.empty()) return true;
@@ -157,7 +169,7 @@ class TapeReaderHost final : public DisciplineBase {
       stage_ = Stage::Trailer;
       blanks_ = settings_.trailer;
     }
-    if (stage_ == Stage::Trailer && blanks_ == 0) end_transfer(now);
+    if (stage_ == Stage::Trailer && blanks_ == 0) end_reading(now);
   }
 
   /// A control reads nothing before an end of block, and rewinds to the rewind stop.
@@ -203,8 +215,25 @@ class TapeReaderHost final : public DisciplineBase {
     if (is_last_row && is_block_end && settings_.reader.stops_at_end_of_block) wait(now);
   }
 
+  /// The tape stays in the reader.
+  void end_reading(LineTime now) {
+    end_transfer(now);
+    is_over_ = true;
+  }
+  bool is_read() const {
+    return stage_ != Stage::Leader && is_text_taken() && row_at_ == rows_.size();
+  }
+  void ask() {
+    if (std::exchange(is_asked_, true)) return;
+    emit(TransferRequest{TransferRequest::Kind::SendProgram, ""});
+  }
+
   void run(LineTime now) {
     is_stopped_ = false;
+    if (!is_sending() && std::exchange(is_over_, false)) {
+      runs_next_ = true;
+      return ask();
+    }
     if (!is_sending() || is_running_) return;
     is_running_ = true;
     limit_.reset();
@@ -214,6 +243,8 @@ class TapeReaderHost final : public DisciplineBase {
 
   void stop(LineTime now) {
     is_stopped_ = true;
+    runs_next_ = false;
+    if (is_sending() && is_read()) return end_reading(now);  // M02: nothing runs the trailer
     if (!is_sending() || !is_running_) return;
     wait(now);
     was_held_ = true;
@@ -232,14 +263,13 @@ class TapeReaderHost final : public DisciplineBase {
   void wind_back(LineTime now) {
     is_wound_back_ = true;
     if (is_sending()) {
-      const bool is_read = is_text_taken() && row_at_ == rows_.size();
-      if (is_read)
-        end_transfer(now);
+      if (is_read())
+        end_reading(now);
       else
         fail_transfer({Errc::Corrupt, "the control wound the tape back"}, now);
     }
-    if (std::exchange(is_asked_, true)) return;
-    emit(TransferRequest{TransferRequest::Kind::SendProgram, ""});
+    is_over_ = false;
+    ask();
   }
 
   CharacterEncoder encoder_;
@@ -249,11 +279,15 @@ class TapeReaderHost final : public DisciplineBase {
   std::optional<LineTime> limit_;
   Stage stage_ = Stage::Leader;
   unsigned blanks_ = 0;
+  unsigned gap_ = 0;  ///< blanks before the next rewind stop in the text
   std::vector<std::byte> rows_;
   std::size_t row_at_ = 0;
   std::uint64_t row_ = 0;  ///< of the transfer
   bool is_running_ = false, is_stopped_ = false, was_held_ = false;
   bool is_asked_ = false, is_wound_back_ = false, is_head_ = false;
+  bool has_begun_ = false;  ///< a character of the text was read
+  bool is_over_ = false;    ///< the tape was read to its end, and not wound back
+  bool runs_next_ = false;  ///< the control has run the reader since
 };
 
 }  // namespace

@@ -115,6 +115,10 @@ void RemoteRequestHandler::answer(const wire::TransferRequest& request) {
     offers_.reset();
     return parts_.line->accept_receive(request.name);
   }
+  if (parts_.offer == wire::Offer::Repeat) {
+    const bool asks_again = request.kind == Kind::SendProgram && request.name.empty();
+    return asks_again ? repeat() : leave(request);
+  }
   const bool names_one = request.kind == Kind::SendProgram && !request.name.empty();
   const auto needed = names_one ? wire::Offer::Named : wire::Offer::All;
   if (parts_.offer < needed) return leave(request);
@@ -191,6 +195,26 @@ void RemoteRequestHandler::restart(const std::string& block) {
                                                       : machines::StartHead::Ask,
                             .before = note_start("run.restart")},
                            on_started(false), "");
+}
+
+/// The tape of the last run is still in the reader. One that was broken off is not read on.
+void RemoteRequestHandler::repeat() {
+  const auto last =
+      parts_.store.runs.list({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});
+  if (!last) return refuse(last.error().what, true);
+  if (last->empty()) return refuse("there was no run to repeat", true);
+  const storage::Run& run = last->front();
+  if (run.state != storage::RunState::Completed) {
+    return refuse(fmt::format("run {} of program {} was not completed: it is not repeated", run.id,
+                              run.program),
+                  true);
+  }
+  parts_.line->start_later({.machine = parts_.machine,
+                            .program = run.program,
+                            .revision = run.revision,
+                            .author = kAuthor,
+                            .before = note_start("run.start")},
+                           on_started(true), "");
 }
 
 /// The operator is at the control: what is sent waits there for his cycle start.

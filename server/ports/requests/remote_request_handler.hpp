@@ -57,6 +57,7 @@ class RemoteRequestHandler {
   void leave(const wire::TransferRequest& request) const;
   void send(const std::string& name, bool is_request);
   void restart(const std::string& block);
+  void repeat();
   void start_next_job();
   void send_listing(bool is_request);
   void send_next();

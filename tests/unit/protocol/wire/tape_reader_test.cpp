@@ -43,6 +43,29 @@ TEST_P(TapeReaderLine, ReadsTheProgramAndWindsBack) {
   EXPECT_EQ(wire.control().received, kProgram);
 }
 
+// The control stops the reader at M02; cycle start runs it on, over the leader of the next program.
+TEST_P(TapeReaderLine, ReadsTheNextProgramOfTheTape) {
+  const std::string first = "%\nN1G1X-25Y40F8\nN2M02\n", second = "%\nN1Y7\nN2M02\n";
+  auto wire = line(settings_of(GetParam()));
+  ASSERT_TRUE(wire.host().send(first + second, wire.now()));
+  ASSERT_TRUE(wire.control().line->begin_receive("", wire.now()));
+  wire.run(wire.now() + seconds(20));
+  EXPECT_EQ(wire.control().received, first);
+  EXPECT_EQ(wire.host().sends, 0U) << "the second program is still to come";
+  EXPECT_EQ(wire.host().line->state().waiting_for, "run");
+  ASSERT_TRUE(wire.control().line->begin_receive("", wire.now()));
+  wire.run(wire.now() + seconds(20));
+  EXPECT_EQ(wire.control().received, second);
+  EXPECT_EQ(wire.host().sends, 1U) << "stopped after its last character";
+  EXPECT_TRUE(wire.host().requests.empty());
+  ASSERT_TRUE(wire.control().line->begin_receive("", wire.now()));
+  wire.run(wire.now() + milliseconds(200));
+  EXPECT_EQ(wire.host().requests.size(), 1U) << "a looped tape goes on";
+  ASSERT_TRUE(wire.host().send(first, wire.now()));
+  wire.run(wire.now() + seconds(20));
+  EXPECT_EQ(wire.control().received, first) << "the reader runs already";
+}
+
 TEST_P(TapeReaderLine, KeepsItsRate) {
   for (const double rate : {150.0, 300.0, 500.0}) {
     auto settings = settings_of(GetParam());
@@ -95,7 +118,7 @@ TEST_P(TapeReaderLine, ReportsABlockThatIsNotOnTheTape) {
   ASSERT_EQ(wire.control().failures.size(), 1U);
   EXPECT_EQ(wire.control().failures[0].code, Errc::NotFound);
   EXPECT_EQ(wire.control().failures[0].what, "block N31 is not on the tape");
-  EXPECT_TRUE(wire.host().line->state().is_stopped);
+  EXPECT_EQ(wire.host().sends, 1U) << "the tape was read to its end";
 }
 
 // Rows: TK-04.
