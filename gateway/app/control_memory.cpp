@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::size_t kMaxCells = dds::kMaxRecordText - 64;  ///< bytes of cells in one text
 
+/// The row of the tape among those of the memory: no cell has a blank in its name.
+constexpr std::string_view kTape = "tape ";
+
 std::string number_text(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : "null";
 }
@@ -19,7 +22,13 @@ std::string number_text(double value) {
 }  // namespace
 
 ControlMemory::ControlMemory(report::KeptMemory& memory) : memory_(memory) {
-  for (const auto& [name, kept] : memory.cells()) cells_[name] = {kept, interpreter::Keeps::Always};
+  for (const auto& [name, kept] : memory.cells()) {
+    if (name.starts_with(kTape)) {
+      tape_ = Tape{name.substr(kTape.size()), static_cast<std::uint32_t>(kept.value)};
+    } else {
+      cells_[name] = {kept, interpreter::Keeps::Always};
+    }
+  }
 }
 
 bool ControlMemory::is_in_force(const std::string& name, const report::KeptCell& kept) const {
@@ -90,21 +99,39 @@ void ControlMemory::stage_beginning(const std::string& revision) {
 
 std::vector<ControlMemory::Value> ControlMemory::values() const {
   std::vector<Value> values;
+  values.reserve(known_.size() + live_.size());
   if (known_.empty()) {
     for (const auto& [name, cell] : cells_) values.push_back({name, cell.kept.value});
-    return values;
   }
-  values.reserve(known_.size());
   for (std::size_t i = 0; i < known_.size(); ++i) {
     const auto changed = cells_.find(known_[i].name);
     values.push_back(
         {known_[i].name, changed != cells_.end() ? changed->second.kept.value : base_[i]});
   }
+  values.insert(values.end(), live_.begin(), live_.end());
   return values;
+}
+
+void ControlMemory::begin_live(std::vector<std::string> names, const std::vector<double>& values) {
+  live_.clear();
+  for (std::size_t i = 0; i < names.size(); ++i) live_.push_back({std::move(names[i]), values[i]});
+}
+
+void ControlMemory::set_tape(const std::string& revision, std::uint32_t part) {
+  const bool is_same = part == tape_part(revision) && (part > 1 || !tape_);
+  if (is_same) return;
+  tape_.reset();
+  if (part > 1) tape_ = Tape{revision, part};
+  has_unstaged_ = true;
+}
+
+std::string ControlMemory::tape_name() const {
+  return tape_ ? fmt::format("{}{}", kTape, tape_->revision) : std::string();
 }
 
 void ControlMemory::discard() {
   cells_.clear();
+  tape_.reset();
   memory_.stage_none();
   has_unstaged_ = false;
   has_changed_ = true;
@@ -125,8 +152,12 @@ void ControlMemory::stage() {
     if (found == stored.end() || found->second != cell.kept) memory_.stage_cell(name, cell.kept);
   }
   for (const auto& [name, kept] : stored) {
-    if (!cells_.contains(name)) memory_.stage_cell(name, std::nullopt);
+    if (!cells_.contains(name) && name != tape_name()) memory_.stage_cell(name, std::nullopt);
   }
+  if (!tape_) return;
+  const report::KeptCell kept{static_cast<double>(tape_->part), 0, false};
+  const auto found = stored.find(tape_name());
+  if (found == stored.end() || found->second != kept) memory_.stage_cell(tape_name(), kept);
 }
 
 std::vector<std::string> ControlMemory::report() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -30,8 +31,15 @@ class ControlMemory {
   Result<std::vector<interpreter::VariableRecord>> at_beginning(const std::string& revision) const;
   /// After `begin`: stages what a start in the middle of this revision may ask for later.
   void stage_beginning(const std::string& revision);
-  /// Stages an empty memory without a fault.
+  /// Stages an empty memory without a fault, and a tape that is wound back.
   void discard();
+  /// Which program of this text its next start reads, where a text holds several as a tape does:
+  /// the reader is where the last one has left it. 1 for any other text.
+  std::uint32_t tape_part(const std::string& revision) const {
+    return tape_ && tape_->revision == revision ? tape_->part : 1;
+  }
+  /// The reader is there from now on; 1: at the beginning of whatever tape comes.
+  void set_tape(const std::string& revision, std::uint32_t part);
   /// Why nothing can begin; empty: it can.
   const std::string& fault() const { return memory_.fault(); }
   /// The machine has executed a block that changed a cell (`cell`: its index among those of
@@ -53,6 +61,10 @@ class ControlMemory {
     double value = 0;  ///< not finite: vacant
   };
   std::vector<Value> values() const;
+  /// What the control shows of the present program, or of the last one, and does not keep: nothing
+  /// of this goes to disk.
+  void begin_live(std::vector<std::string> names, const std::vector<double>& values);
+  void note_live(std::size_t place, double value) { live_.at(place).value = value; }
   /// Whether anything has changed since this was asked last.
   bool take_change() { return std::exchange(has_changed_, false); }
 
@@ -61,6 +73,11 @@ class ControlMemory {
     report::KeptCell kept;
     interpreter::Keeps keeps = interpreter::Keeps::Always;
   };
+  struct Tape {
+    std::string revision;  ///< SHA-256
+    std::uint32_t part = 1;
+  };
+  std::string tape_name() const;
   /// Whether the setup, as it is now, leaves the cell as it was kept.
   bool is_in_force(const std::string& name, const report::KeptCell& kept) const;
 
@@ -70,6 +87,8 @@ class ControlMemory {
   std::unordered_map<std::string, std::size_t> places_;  ///< index by name
   std::vector<double> base_;
   std::map<std::string, bool> named_;  ///< variables of the program's setup
+  std::vector<Value> live_;
+  std::optional<Tape> tape_;           ///< none: wound back
   bool has_unstaged_ = false, has_changed_ = false;
 };
 

@@ -12,7 +12,7 @@ using nlohmann::json;
 
 /// Bytes of values in one answer: the rest of it fits beside them.
 constexpr std::size_t kMaxValues = dds::kMaxCommandSetup - 8 * 1024;
-constexpr std::size_t kMaxOutputs = 64;
+constexpr std::size_t kMaxOutputs = 64, kMaxInputs = 64;
 
 json outputs_json(const ExecutionRecorder::Outputs& switched) {
   json outputs = json::array();
@@ -25,10 +25,20 @@ json outputs_json(const ExecutionRecorder::Outputs& switched) {
   return outputs;
 }
 
+json inputs_json(const machine::MotionBackend& machine) {
+  json inputs = json::array();
+  for (const auto& [name, is_on] : machine.inputs()) {
+    if (inputs.size() == kMaxInputs) break;
+    inputs.push_back({{"name", name}, {"on", is_on}});
+  }
+  return inputs;
+}
+
 }  // namespace
 
 std::string control_values(const ValueQuery& query, const ControlMemory& memory,
-                           const ExecutionRecorder& recorder) {
+                           const ExecutionRecorder& recorder,
+                           const machine::MotionBackend& machine) {
   json values = json::array();
   json next = nullptr;
   std::size_t matching = 0, bytes = 0;
@@ -46,7 +56,8 @@ std::string control_values(const ValueQuery& query, const ControlMemory& memory,
   return json{{"values", std::move(values)},
               {"next", std::move(next)},
               {"outputs", outputs_json(recorder.switched())},
-              {"codes", recorder.codes()}}
+              {"codes", recorder.codes()},
+              {"inputs", inputs_json(machine)}}
       .dump();
 }
 

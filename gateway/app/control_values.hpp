@@ -4,6 +4,7 @@
 
 #include "gateway/app/control_memory.hpp"
 #include "gateway/app/execution_recorder.hpp"
+#include "gateway/machine/motion_backend.hpp"
 
 namespace dripline::gateway {
 
@@ -13,10 +14,12 @@ struct ValueQuery {
 };
 
 /// What a query is answered with, as JSON of at most kMaxCommandSetup bytes: {"values": [{"name",
-/// "value"}], "next", "outputs": [{"axis", "output", "on"}], "codes"}. `value` is null for a
+/// "value"}], "next", "outputs": [{"axis", "output", "on"}], "codes", "inputs": [{"name", "on"}]}. `value` is null for a
 /// vacant one, `next` is how many to pass over for the rest, or null; `outputs` are those that
 /// programs have switched, `codes` the M functions handed to the machine, the last one first.
+/// `inputs` are those that the machine reports at this moment.
 std::string control_values(const ValueQuery& query, const ControlMemory& memory,
-                           const ExecutionRecorder& recorder);
+                           const ExecutionRecorder& recorder,
+                           const machine::MotionBackend& machine);
 
 }  // namespace dripline::gateway

@@ -82,6 +82,7 @@ class Gateway final : public MachineGateway {
   void keep_answer(const dds::Command& command, const Reply& reply);
   Reply carry_out(const PanelCommand& command);
   Reply cycle_start();
+  Reply rewind_tape();
   Reply discard_memory();
   Reply reference_axes(bool is_homing);
 

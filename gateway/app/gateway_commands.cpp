@@ -72,7 +72,7 @@ void Gateway::answer_query(const dds::Command& command) {
       .machine = parts_.options.machine, .id = command.id, .accepted = true, .reason = {}};
   result.values = control_values(
       {.beginning = command.argument, .passed_over = static_cast<std::size_t>(first)}, memory_,
-      recorder_);
+      recorder_, *machine_);
   [[maybe_unused]] const auto written = parts_.endpoint.write(result);
 }
 
@@ -214,6 +214,8 @@ Reply Gateway::carry_out(const PanelCommand& command) {
     case Verb::Home:
     case Verb::Unlock:
       return reference_axes(command.verb == Verb::Home);
+    case Verb::Rewind:
+      return rewind_tape();
     case Verb::DiscardMemory:
       return discard_memory();
     default:
@@ -254,6 +256,15 @@ Reply Gateway::reference_axes(bool is_homing) {
   const auto done = is_homing ? machine_->home() : machine_->unlock();
   if (!done) return refuse(done.error().what);
   recorder_.note_at_panel(machine_->status().origin, is_homing ? "home" : "unlock");
+  return {};
+}
+
+/// On disk with the next program that begins, as the memory that is discarded.
+Reply Gateway::rewind_tape() {
+  if (run_.session) return refuse(fmt::format("run {} is active", run_.session->run().run));
+  memory_.set_tape("", 1);
+  memory_.stage();
+  run_.last_message.clear();
   return {};
 }
 

@@ -201,6 +201,7 @@ void RunLoop::end(dds::RunOutcome outcome, const std::string& reason) {
   parts_.run.last_execution =
       is_completed ? dds::Execution::ProgramCompleted : dds::Execution::Stopped;
   parts_.run.last_message = text.reason;
+  if (is_completed) keep_tape();
   report_memory();
   stage_ending(outcome);
   parts_.recorder.end(std::move(text));
@@ -220,8 +221,9 @@ void RunLoop::try_to_finish(SteadyTime now) {
     return;
   }
   const bool is_completed = parts_.run.last_execution == dds::Execution::ProgramCompleted;
-  process::log_info("run ended {}{} executed={} accepted={} sent={} {}",
-                    is_completed ? "completed" : "cut off: ", parts_.run.last_message,
+  const std::string& message = parts_.run.last_message;
+  process::log_info("run ended {}{}{} executed={} accepted={} sent={} {}",
+                    is_completed ? "completed" : "cut off", message.empty() ? "" : ": ", message,
                     recorder.executed().executed, recorder.executed().accepted,
                     recorder.executed().sent, parts_.run.label());
   recorder.finish();

@@ -55,7 +55,7 @@ class RunLoop {
   /// Errors: Busy (the emergency stop), those of the setup, of the machine and of the outbox; no
   /// run has begun then.
   Result<void> begin(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
-                     const StartOrigin& origin);
+                     const StartOrigin& given);
   /// Does what is due for the run, for at most about `kSlice`.
   void step(SteadyTime now);
   /// Begins a run that waits for cycle start at the machine.
@@ -88,6 +88,8 @@ class RunLoop {
                                       const std::optional<RestartPlan>& restart) const;
   Conditions conditions_of(const StartOrigin& origin) const;
   std::optional<interpreter::PanelTables::DryRun> dry_run() const;
+  StartOrigin read_on(const report::ActiveRun& run, StartOrigin origin) const;
+  void keep_tape();
   const interpreter::Snapshot* modes_for(const StartOrigin& origin);
   void take_modes();
   void note_beginning(const StartOrigin& origin, bool has_modes);

@@ -17,7 +17,7 @@ Conditions RunLoop::conditions_of(const StartOrigin& origin) const {
   conditions.gateway_setup = parts_.setup_digest;
   conditions.block_skip = parts_.machine.panel().block_skip;
   conditions.begun_at = parts_.machine.status().position;
-  if (!origin.from.place.empty()) conditions.start = origin.argument;
+  if (!origin.from.place.empty() || origin.from.part) conditions.start = origin.argument;
   return conditions;
 }
 

@@ -56,6 +56,7 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
                              : Result<StartArgument>(origin.from);
   if (!begun) return fail(begun.error());
   const StartArgument& from = *begun;
+  if (from.part) setup.control.set("part", {std::int64_t{*from.part}, 0});
   if (from.place.empty()) return setup;
   setup.control.set("start_at", {from.place, 0});
   if (from.pass) setup.control.set("start_pass", {std::int64_t{*from.pass}, 0});
@@ -67,15 +68,28 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
   return setup;
 }
 
+/// The tape is still in the reader: the start reads the program that comes next on it.
+StartOrigin RunLoop::read_on(const report::ActiveRun& run, StartOrigin origin) const {
+  const std::uint32_t part = parts_.memory.tape_part(run.revision);
+  const bool is_plain = origin.argument.empty() && origin.from == StartArgument{};
+  if (!is_plain || run.revision.empty() || part == 1) return origin;
+  origin.from.part = part;
+  origin.argument = fmt::format("part={}", part);
+  return origin;
+}
+
 Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
-                            const StartOrigin& origin) {
+                            const StartOrigin& given) {
+  const StartOrigin origin = read_on(run, given);
   if (parts_.machine.panel().emergency_stop) return fail(Errc::Busy, "{}", kEmergencyStop);
   auto restart = plan_of(run, origin);
   if (!restart) return fail(restart.error());
   const bool is_restart = restart->has_value();
   const auto setup = setup_of(origin, *restart);
   if (!setup) return fail(setup.error());
-  const interpreter::Position at = is_restart || origin.from.is_mdi
+  const interpreter::Snapshot* const modes = modes_for(origin);
+  const bool goes_on = origin.from.is_mdi || modes != nullptr;
+  const interpreter::Position at = is_restart || goes_on
                                        ? parts_.machine.status().position
                                        : setup->position.value_or(setup->start);
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
@@ -84,7 +98,6 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   // A line cannot be read again, and the run of a restart was looked through before.
   auto check = is_restart || !parts_.keeps_checkpoints ? nullptr : parts_.machine.make_check(at);
   const bool is_mdi = origin.from.is_mdi;
-  const interpreter::Snapshot* const modes = modes_for(origin);
   auto session = RunSession::make(
       {.run = run,
        .feed = std::move(feed),
@@ -116,7 +129,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   setup_given_ = sha256(origin.setup).hex();
   modes_.reset();
   why_no_modes_ = "the last run was cut off";
-  is_mdi ? parts_.machine.begin_next(at) : parts_.machine.begin(at);
+  goes_on ? parts_.machine.begin_next(at) : parts_.machine.begin(at);
   parts_.run.session = std::move(*session);
   parts_.run.session->size_feed(parts_.options.speed.factor);
   parts_.run.last_message.clear();
@@ -147,9 +160,11 @@ std::optional<interpreter::PanelTables::DryRun> RunLoop::dry_run() const {
 Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigin& origin,
                                   Conditions conditions, RunSession& session) {
   parts_.outbox.discard();
-  parts_.memory.stage();
-  if (origin.from.place.empty() && !origin.from.restart && !origin.from.is_mdi)
+  if (origin.from.place.empty() && !origin.from.restart && !origin.from.is_mdi) {
     parts_.memory.stage_beginning(run.revision);
+    parts_.memory.set_tape(run.revision, origin.from.part.value_or(1));
+  }
+  parts_.memory.stage();
   parts_.recorder.begin(run, parts_.setup_digest, [&session](std::uint64_t block) {
     return ExecutionRecorder::FeedProgress{session.feed().sent(), session.accepted(),
                                            session.path_at(block), session.length_at(block)};
@@ -170,7 +185,7 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
 
 /// Modes that do not fit the machine any more would move it to a place that nobody meant.
 const interpreter::Snapshot* RunLoop::modes_for(const StartOrigin& origin) {
-  if (!origin.from.is_mdi || !modes_) return nullptr;
+  if ((!origin.from.is_mdi && !origin.from.part) || !modes_) return nullptr;
   const machine::MachineStatus now = parts_.machine.status();
   std::string changed;
   if (!is_there(modes_->at, now.position)) changed = "the axes were moved since";
@@ -180,6 +195,17 @@ const interpreter::Snapshot* RunLoop::modes_for(const StartOrigin& origin) {
   if (changed.empty()) return &modes_->snapshot;
   why_no_modes_ = std::move(changed);
   return nullptr;
+}
+
+/// A program that has ended leaves the reader where the next start reads on.
+void RunLoop::keep_tape() {
+  RunSession& session = *parts_.run.session;
+  if (session.is_mdi() || session.run().revision.empty()) return;
+  const std::uint32_t part = session.next_part();
+  parts_.memory.set_tape(session.run().revision, part);
+  if (part == 1) return;
+  parts_.run.last_message = fmt::format("the next start reads program {} of the tape", part);
+  parts_.recorder.note({}, parts_.run.last_message);
 }
 
 /// Before the session is gone.
@@ -199,6 +225,11 @@ void RunLoop::note_beginning(const StartOrigin& origin, bool has_modes) {
   const machine::OperatorPanel& panel = parts_.machine.panel();
   if (panel.machine_lock) parts_.recorder.note({}, "machine lock: the axes do not move");
   if (panel.dry_run && !panel.machine_lock) parts_.recorder.note({}, "dry run");
+  if (origin.from.part) {
+    parts_.recorder.note({}, fmt::format("the tape is before its program {}{}{}", *origin.from.part,
+                                         has_modes ? "" : ", read with the modes of power on: ",
+                                         has_modes ? "" : why_no_modes_));
+  }
   if (!origin.from.is_mdi || has_modes) return;
   parts_.recorder.note(
       {},

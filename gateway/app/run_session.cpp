@@ -33,6 +33,7 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
     if (auto restored = session->interpreter_->restore(*modes); !restored)
       return fail(restored.error());
   }
+  session->begin_live();
   session->note_modes();
   if (auto begun = session->begin_check(make, given); !begun) return fail(begun.error());
   if (!session->parts_.restart) return session;
@@ -168,7 +169,24 @@ bool is_unchanged(double before, double now) {
 
 }  // namespace
 
+void RunSession::begin_live() {
+  live_ = dynamic_cast<interpreter::LiveValues*>(interpreter_.get());
+  if (live_ != nullptr) (void)live_->read_live(live_known_);
+  parts_.memory.begin_live(live_ != nullptr ? live_->live_names() : std::vector<std::string>(),
+                           live_known_);
+}
+
+void RunSession::note_live() {
+  if (live_ == nullptr || !live_->read_live(live_now_)) return;
+  for (std::size_t i = 0; i < live_now_.size(); ++i) {
+    if (report::is_same_number(live_known_[i], live_now_[i])) continue;
+    live_known_[i] = live_now_[i];
+    live_changes_.push_back({interpreter_->origin().block, i, live_now_[i]});
+  }
+}
+
 void RunSession::note_memory() {
+  note_live();
   if (retained_ != nullptr && retained_->read_memory(cells_))
     note_changes(interpreter_->origin().block);
 }
@@ -185,10 +203,15 @@ void RunSession::note_changes(std::uint64_t block) {
 void RunSession::keep_memory(std::uint64_t executed) {
   for (; !changes_.empty() && changes_.front().block <= executed; changes_.pop_front())
     parts_.memory.note(changes_.front().cell, changes_.front().value);
+  for (; !live_changes_.empty() && live_changes_.front().block <= executed;
+       live_changes_.pop_front())
+    parts_.memory.note_live(live_changes_.front().cell, live_changes_.front().value);
 }
 
 void RunSession::drop_modes() {
-  const std::uint64_t executing = parts_.machine.status().origin.block;
+  const machine::MachineStatus status = parts_.machine.status();
+  keep_memory(status.executed);  // so that no more changes wait than blocks
+  const std::uint64_t executing = status.origin.block;
   while (modes_.size() > 1 && modes_[1].block <= executing) modes_.pop_front();
   while (frames_.size() > 1 && frames_[1].block <= executing) frames_.pop_front();
 }
@@ -242,6 +265,12 @@ bool RunSession::resolve(const interpreter::InputQuestion& question) {
 
 bool RunSession::resolve(const interpreter::TimeQuestion&) {
   return machine_rests() && give(interpreter::local_time_at(clock_ms()));
+}
+
+bool RunSession::resolve(const interpreter::SignalQuestion& question) {
+  if (!machine_rests()) return false;
+  const auto value = parts_.machine.signal(question.name);
+  return value && give(*value);
 }
 
 Result<interpreter::Snapshot> RunSession::take_modes() {

@@ -13,6 +13,7 @@
 #include "gateway/app/restart/checkpoint_keeper.hpp"
 #include "gateway/app/restart/rebuild.hpp"
 #include "gateway/feed/line_feed.hpp"
+#include "gateway/interpreter/core/live_values.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "gateway/interpreter/stages/dry_run.hpp"
 #include "gateway/machine/capability_filter.hpp"
@@ -66,6 +67,8 @@ class RunSession {
   /// After the run was completed: the control as its end leaves it, for an MDI. The session is of
   /// no other use then. Errors: those of Interpreter::begin_next_text.
   Result<interpreter::Snapshot> take_modes();
+  /// After the run was completed: Interpreter::next_part.
+  std::uint32_t next_part() { return interpreter_->next_part(); }
   feed::ProgramFeed& feed() { return *parts_.feed; }
   const feed::ProgramFeed& feed() const { return *parts_.feed; }
   std::uint64_t accepted() const { return interpreter_->blocks(); }
@@ -129,12 +132,15 @@ class RunSession {
   bool resolve(const interpreter::PromptQuestion& question);
   bool resolve(const interpreter::InputQuestion& question);
   bool resolve(const interpreter::TimeQuestion& question);
+  bool resolve(const interpreter::SignalQuestion& question);
   bool give(const interpreter::Answer& answer);
   bool machine_rests() const;
   /// What the program's clock shows: milliseconds since 1970.
   std::int64_t clock_ms() const;
   void note_modes();
   void note_memory();
+  void begin_live();
+  void note_live();
   void note_changes(std::uint64_t block);
   void drop_modes();
 
@@ -163,6 +169,9 @@ class RunSession {
   };
   std::deque<Change> changes_;         ///< of blocks that are not executed yet
   std::vector<double> cells_, known_;  ///< as read last, and as it was before
+  interpreter::LiveValues* live_ = nullptr;  ///< of the interpreter; null: its control shows none
+  std::vector<double> live_now_, live_known_;  ///< as read last, and as it was before
+  std::deque<Change> live_changes_;            ///< of blocks that are not executed yet
   Waits waits_ = Waits::ForNothing;
   struct Modes {
     std::uint64_t block = 0;  ///< the first that runs under them

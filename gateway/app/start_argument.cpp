@@ -7,6 +7,8 @@
 namespace dripline::gateway {
 namespace {
 
+constexpr std::string_view kPart = "part=";
+
 std::string_view take_word(std::string_view& text) {
   const std::size_t end = text.find(' ');
   const std::string_view word = text.substr(0, end);
@@ -14,8 +16,18 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
+/// A number from 1 on after `key`; nothing: the word is another one.
+std::optional<Result<std::uint32_t>> read_count(std::string_view word, std::string_view key) {
+  if (!word.starts_with(key)) return std::nullopt;
+  std::uint32_t count = 0;
+  const char* end = word.data() + word.size();
+  const auto read = std::from_chars(word.data() + key.size(), end, count);
+  if (read.ec != std::errc{} || read.ptr != end || count == 0)
+    return fail(Errc::Syntax, "a start with '{}': expected {}1, {}2 ...", word, key, key);
+  return Result<std::uint32_t>(count);
+}
+
 Result<void> read_choice(std::string_view word, StartArgument& start) {
-  constexpr std::string_view kPass = "pass=";
   if (word == "memory=begin") {
     start.memory = StartMemory::Begin;
   } else if (word == "memory=now") {
@@ -24,13 +36,12 @@ Result<void> read_choice(std::string_view word, StartArgument& start) {
     start.head = line::HeadChoice::Send;
   } else if (word == "head=set") {
     start.head = line::HeadChoice::Set;
-  } else if (word.starts_with(kPass)) {
-    std::uint32_t pass = 0;
-    const char* end = word.data() + word.size();
-    const auto read = std::from_chars(word.data() + kPass.size(), end, pass);
-    if (read.ec != std::errc{} || read.ptr != end || pass == 0)
-      return fail(Errc::Syntax, "a start with '{}': expected pass=1, pass=2 ...", word);
-    start.pass = pass;
+  } else if (const auto pass = read_count(word, "pass=")) {
+    if (!*pass) return fail(pass->error());
+    start.pass = **pass;
+  } else if (const auto part = read_count(word, kPart)) {
+    if (!*part) return fail(part->error());
+    start.part = **part;
   } else {
     return fail(Errc::Syntax, "a start with '{}', which this gateway does not know", word);
   }
@@ -68,7 +79,7 @@ Result<StartArgument> parse_start_argument(std::string_view text) {
     start.is_mdi = true;
     return start;
   }
-  start.place = take_word(text);
+  if (!text.starts_with(kPart)) start.place = take_word(text);
   while (!text.empty()) {
     if (auto read = read_choice(take_word(text), start); !read) return fail(read.error());
   }

@@ -29,6 +29,8 @@ struct StartArgument {
   /// Over a line: what becomes of the words before the place that the rest relies on.
   line::HeadChoice head = line::HeadChoice::Ask;
   std::optional<RestartArgument> restart = {};  ///< then there is nothing else
+  /// Which program of a tape, where the reader is not at its beginning.
+  std::optional<std::uint32_t> part = {};
   bool is_mdi = false;  ///< the text is keyed in at the control; then there is nothing else
   friend bool operator==(const StartArgument&, const StartArgument&) = default;
 };

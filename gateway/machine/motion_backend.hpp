@@ -7,7 +7,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "gateway/interpreter/core/interpreter.hpp"
 #include "gateway/machine/execution_sink.hpp"
 #include "gateway/machine/machine_status.hpp"
 #include "gateway/machine/operator_panel.hpp"
@@ -31,6 +34,11 @@ struct MotionCapabilities {
       false;                 ///< `poll` lets machine time pass: another speed than 1x is possible
   bool places_axes = false;  ///< `begin` puts the axes where it is asked to
 };
+
+/// What a back end without signals answers.
+inline interpreter::SignalValue no_signals() {
+  return {std::nullopt, "this machine has no HAL; one that LinuxCNC moves has (linuxcnc:INI)"};
+}
 
 /// Takes a program's events as a back end does, and executes nothing.
 class MotionCheck {
@@ -84,6 +92,13 @@ class MotionBackend {
   virtual void begin_probe(const interpreter::Probe& probe) = 0;
   /// The state of an input pin, to answer an InputQuestion.
   virtual bool input(int pin) const = 0;
+  /// The inputs that the device reports, as they are now; empty: it reports none.
+  virtual std::vector<std::pair<std::string, bool>> inputs() const { return {}; }
+  /// A signal of the machine's own, to answer a SignalQuestion; nothing: it is asked for, and comes
+  /// later.
+  virtual std::optional<interpreter::SignalValue> signal(const std::string& /*name*/) {
+    return no_signals();
+  }
   /// Nothing is queued or moving.
   virtual bool drained() const = 0;
   /// Queued motion and dwells at 100 % override: what the feed sizes itself by.

@@ -1,6 +1,8 @@
 #include "clients/tools/comparison/action_reader.hpp"
 
 #include <fmt/format.h>
+#include <iterator>
+#include <variant>
 
 #include "clients/tools/comparison/outside_inputs.hpp"
 
@@ -71,7 +73,9 @@ void ActionReader::drop(std::size_t count) {
 
 void ActionReader::add_conditions(bool is_second, std::vector<Condition>& conditions) const {
   using enum Condition::Kind;
-  static constexpr Condition::Kind kKinds[]{Probe, Prompt, Input, Clock};
+  // Of the alternatives of Question; a signal is an input of the machine as well.
+  static constexpr Condition::Kind kKinds[]{Probe, Prompt, Input, Clock, Input};
+  static_assert(std::size(kKinds) == std::variant_size_v<interpreter::Question>);
   const auto outcome = run_->outcome();
   for (const auto& asked : outcome.asked) {
     const auto& origin = asked.origin;

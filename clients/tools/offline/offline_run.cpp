@@ -77,6 +77,10 @@ class SetupAnswers {
   Result<Answer> operator()(const InputQuestion& question, const Origin&) {
     return Answer(std::find(pins_.begin(), pins_.end(), question.pin) != pins_.end());
   }
+  Result<Answer> operator()(const SignalQuestion&, const Origin&) {
+    return Answer(SignalValue{
+        std::nullopt, "offline no machine has it: name it in the setup's [control] hal = { ... }"});
+  }
   Result<Answer> operator()(const TimeQuestion&, const Origin& origin) {
     // A program that waits for its clock would wait for ever in a run that takes no time: dwells
     // count, and a block that asks again takes a second.
@@ -137,6 +141,7 @@ Result<bool> OfflineRun::Parts::step(std::uint64_t max_blocks) {
   const std::uint64_t left = limits.max_blocks - interpreter->blocks();
   const StepState state = interpreter->step(std::min({left, max_blocks, limits.stop ? 1 : left}));
   has_ended = state == StepState::Ended;
+  if (has_ended && limits.reads_on && !gate.has_stopped() && interpreter->read_on()) return false;
   if (gate.has_stopped() || has_ended || state == StepState::Alarmed) return true;
   if (diagnostics.repeated > limits.max_repeated_blocks) {
     offline_parts::report_endless(*interpreter, diagnostics.repeated, tee);

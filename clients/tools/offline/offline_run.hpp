@@ -49,6 +49,9 @@ struct OfflineLimits {
   /// ends here with the alarm OFF0001.
   std::uint64_t max_repeated_blocks = 10'000'000;
   std::optional<StopPoint> stop = {};  ///< the run ends after that block
+  /// A tape is read on after the end of a program, as by another cycle start: events of the next
+  /// one follow that end.
+  bool reads_on = false;
 };
 
 /// A kind of question that a run was asked, as the index of its alternative of `Question`.

@@ -50,6 +50,8 @@ constexpr std::array kRows{
     VerbRow{"home", Verb::Home, Takes::Nothing, "move the axes to their reference points"},
     VerbRow{"unlock", Verb::Unlock, Takes::Nothing,
             "accept the position of a locked machine without homing"},
+    VerbRow{"rewind", Verb::Rewind, Takes::Nothing,
+            "wind a tape of several programs back: the next start reads its first one"},
     VerbRow{"discard-memory", Verb::DiscardMemory, Takes::Nothing,
             "discard the retained memory (variables, offsets), e.g. when it is damaged"},
 };

@@ -27,6 +27,7 @@ struct PanelCommand {
     Handwheel,      ///< value: clicks
     Home,           ///< the axes, while no program runs
     Unlock,         ///< without homing
+    Rewind,         ///< the tape in the reader, while no program runs
     DiscardMemory,  ///< the next program begins with what the setup gives
   };
   Verb verb = Verb::Status;

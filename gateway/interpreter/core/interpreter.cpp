@@ -35,7 +35,9 @@ bool fits(const Question& question, const Answer& answer) {
     return std::holds_alternative<PromptAnswer>(answer);
   }
   if (std::holds_alternative<InputQuestion>(question)) return std::holds_alternative<bool>(answer);
-  return std::holds_alternative<LocalTime>(answer);
+  if (std::holds_alternative<TimeQuestion>(question))
+    return std::holds_alternative<LocalTime>(answer);
+  return std::holds_alternative<SignalValue>(answer);
 }
 
 Digest Snapshot::digest() const {

@@ -96,12 +96,20 @@ struct InputQuestion {
   int pin = 0;
 };                       ///< state of an input pin; answered by bool
 struct TimeQuestion {};  ///< the control's clock; answered by LocalTime
-using Question = std::variant<ProbeQuestion, PromptQuestion, InputQuestion, TimeQuestion>;
+struct SignalQuestion {
+  std::string name;
+};  ///< a signal of the machine's own, a HAL pin of LinuxCNC; answered by SignalValue
+using Question =
+    std::variant<ProbeQuestion, PromptQuestion, InputQuestion, TimeQuestion, SignalQuestion>;
 
 struct PromptAnswer {
   std::optional<std::string> text;
 };  ///< nullopt: the operator refused (ESC)
-using Answer = std::variant<ProbeResult, PromptAnswer, bool, LocalTime>;
+struct SignalValue {
+  std::optional<double> value;  ///< nullopt: there is none,
+  std::string reason;           ///< and why
+};
+using Answer = std::variant<ProbeResult, PromptAnswer, bool, LocalTime, SignalValue>;
 /// Whether `answer` is of the kind that `question` asks for.
 bool fits(const Question& question, const Answer& answer);
 
@@ -156,6 +164,14 @@ class Interpreter {
   virtual Result<void> begin_next_text() {
     return fail(Errc::Unsupported, "this control keeps no modes between texts");
   }
+
+  /// After the end of a program: which program of its text the control reads when it is started
+  /// again, counted from 1; a tape can hold several, and the reader is where it has stopped. May
+  /// read on in the source.
+  virtual std::uint32_t next_part() { return 1; }
+  /// After the end of a program: goes on with that one, if it comes after this one. Modes, position
+  /// and counters go on too. False: nothing follows.
+  virtual bool read_on() { return false; }
 
   /// Blocks finished so far: the *accepted* counter.
   virtual std::uint64_t blocks() const = 0;

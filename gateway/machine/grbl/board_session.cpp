@@ -351,6 +351,15 @@ bool BoardSession::is_moving() const {
   return phase_ == Phase::Ready && report_ && !report_->rests();
 }
 
+/// The letters of Pn: probe, limits of the axes, door, hold, reset, cycle start.
+std::vector<std::pair<std::string, bool>> BoardSession::inputs() const {
+  std::vector<std::pair<std::string, bool>> inputs;
+  if (phase_ != Phase::Ready || !report_) return inputs;
+  for (const char letter : std::string_view("PXYZDHRS"))
+    inputs.emplace_back(std::string(1, letter), report_->pins.find(letter) != std::string::npos);
+  return inputs;
+}
+
 double BoardSession::feed_per_minute() const {
   return report_ ? report_->feed.value_or(0) * info_.report_scale() : 0;
 }

@@ -100,7 +100,8 @@ class BoardSession final : public streamed::Device {
   bool is_moving() const override;
   double feed_per_minute() const override;
   double spindle_rpm() const override;
-  bool input(int) const override { return false; }  ///< boards of this class report none
+  bool input(int) const override { return false; }  ///< boards of this class have none for programs
+  std::vector<std::pair<std::string, bool>> inputs() const override;
 
  private:
   enum class Phase : std::uint8_t { Closed, Waking, Resetting, Identifying, Ready, Silent };

@@ -78,6 +78,20 @@ def stop_motion():
     return component  # a component that is collected ends the connection with HAL
 
 
+def signal(name):
+    """A HAL pin, parameter or signal as it is now."""
+    component = hal.component("dripline-read-%d" % os.getpid())
+    try:
+        value = hal.get_value(name)
+    except (RuntimeError, hal.error) as error:
+        return {"signal": name, "problem": str(error) or "it is not there"}
+    finally:
+        component.exit()
+    if not isinstance(value, (bool, int, float)):
+        return {"signal": name, "problem": "its value is no number"}
+    return {"signal": name, "value": float(value)}
+
+
 class Machine:
     def __init__(self, ini_path):
         if not os.path.isfile(ini_path):
@@ -214,6 +228,8 @@ class Machine:
             c.teleop_enable(0)
             c.wait_complete(COMMAND_WAIT)
             c.home(-1)
+        elif what == "hal":
+            say(signal(order["name"]))
         else:
             return "unknown command " + what
         return ""

@@ -149,6 +149,15 @@ HelperReply parse_helper_reply(std::string_view line) {
     from.whole("message", message.kind, 0, 1000);
     from.text("text", message.text);
     if (from.is_good()) return message;
+  } else if (object.contains("signal")) {
+    SignalReply signal;
+    from.text("signal", signal.name);
+    if (object.contains("problem")) {
+      from.text("problem", signal.problem);
+    } else {
+      from.number("value", signal.value.emplace());
+    }
+    if (from.is_good()) return signal;
   } else if (object.contains("fatal")) {
     FatalReply fatal;
     from.text("fatal", fatal.text);

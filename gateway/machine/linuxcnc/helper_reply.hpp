@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,6 +59,12 @@ struct MessageReply {
   std::string text;
   bool is_error() const { return kind == 1 || kind == 11; }
 };
+/// A HAL pin that was asked for. Without a value: why.
+struct SignalReply {
+  std::string name;
+  std::optional<double> value;
+  std::string problem;
+};
 /// The helper ends.
 struct FatalReply {
   std::string text;
@@ -66,7 +73,8 @@ struct GarbageReply {
   std::string text;
 };
 using HelperReply =
-    std::variant<HelloReply, StatusReply, DoneReply, MessageReply, FatalReply, GarbageReply>;
+    std::variant<HelloReply, StatusReply, DoneReply, MessageReply, SignalReply, FatalReply,
+                 GarbageReply>;
 
 /// One line without its end. Every number is finite and within its limits, or the line is garbage.
 HelperReply parse_helper_reply(std::string_view line);

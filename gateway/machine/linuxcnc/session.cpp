@@ -27,6 +27,7 @@ void Session::opened(SteadyTime now) {
   hello_.reset();
   rules_ = {};
   status_.reset();
+  signal_.reset();
   command_number_ = done_number_ = awaited_ = must_obey_ = shown_number_ = 0;
   sent_overrides_ = {};
   trouble_ = "LinuxCNC has not answered yet";
@@ -141,6 +142,31 @@ void Session::on(const DoneReply& done, SteadyTime now) {
 void Session::on(const MessageReply& message, SteadyTime) {
   if (message.is_error())
     last_error_ = fmt::format("error {} of LinuxCNC, {}", message.kind, one_line(message.text));
+}
+
+void Session::on(const SignalReply& signal, SteadyTime) {
+  if (!signal_ || signal_->name != signal.name) return;
+  signal_->value = {signal.value, one_line(signal.problem)};
+}
+
+/// Each asking gets a new value.
+std::optional<interpreter::SignalValue> Session::signal(const std::string& name, SteadyTime now) {
+  constexpr std::string_view kOfNames = "abcdefghijklmnopqrstuvwxyz0123456789.-_";
+  if (name.find_first_not_of(kOfNames) != std::string::npos)
+    return interpreter::SignalValue{std::nullopt, "no name of a HAL pin"};
+  if (phase_ != Phase::Ready)
+    return interpreter::SignalValue{std::nullopt, "LinuxCNC is not connected"};
+  if (!signal_ || signal_->name != name) {
+    signal_ = AskedSignal{name, std::nullopt, now};
+    command(fmt::format(R"("do":"hal","name":"{}")", name));
+    return std::nullopt;
+  }
+  if (!signal_->value && now - signal_->since > limits_.answer)
+    signal_->value = {std::nullopt, "LinuxCNC does not answer"};
+  if (!signal_->value) return std::nullopt;
+  auto value = *std::move(signal_->value);
+  signal_.reset();
+  return value;
 }
 
 std::string Session::with_message(std::string text) const {
@@ -283,6 +309,14 @@ double Session::feed_per_minute() const {
 
 double Session::spindle_rpm() const {
   return status_ ? std::fabs(status_->spindle_rpm) : 0;
+}
+
+std::vector<std::pair<std::string, bool>> Session::inputs() const {
+  constexpr int kReported = 32;
+  std::vector<std::pair<std::string, bool>> inputs;
+  if (phase_ != Phase::Ready || !status_) return inputs;
+  for (int pin = 0; pin < kReported; ++pin) inputs.emplace_back(std::to_string(pin), input(pin));
+  return inputs;
 }
 
 bool Session::input(int pin) const {

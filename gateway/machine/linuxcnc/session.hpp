@@ -88,6 +88,8 @@ class Session final : public streamed::Device {
   double feed_per_minute() const override;
   double spindle_rpm() const override;
   bool input(int pin) const override;
+  std::vector<std::pair<std::string, bool>> inputs() const override;
+  std::optional<interpreter::SignalValue> signal(const std::string& name, SteadyTime now) override;
 
  private:
   enum class Phase : std::uint8_t { Closed, Starting, Ready };
@@ -107,6 +109,7 @@ class Session final : public streamed::Device {
   void on(const StatusReply& status, SteadyTime now);
   void on(const DoneReply& done, SteadyTime now);
   void on(const MessageReply& message, SteadyTime now);
+  void on(const SignalReply& signal, SteadyTime now);
   void on(const FatalReply& fatal, SteadyTime now);
   void on(const GarbageReply& garbage, SteadyTime now);
 
@@ -152,6 +155,12 @@ class Session final : public streamed::Device {
   std::uint64_t preamble_ = 0;  ///< the line of its marker
   std::deque<std::uint64_t> in_flight_, markers_;
   std::string stop_mode_ = "G61";
+  struct AskedSignal {
+    std::string name;
+    std::optional<interpreter::SignalValue> value;  ///< nothing: it has not come yet
+    SteadyTime since{};
+  };
+  std::optional<AskedSignal> signal_;
 
   bool is_active_ = false, is_held_ = false, is_resuming_ = false, was_paused_ = false;
   bool is_stopping_ = false, aborts_first_ = false, is_emergency_ = false;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "gateway/machine/motion_backend.hpp"
 #include "gateway/machine/operator_panel.hpp"
 #include "gateway/machine/streamed/text_rules.hpp"
 #include "protocol/base/clock.hpp"
@@ -96,6 +97,12 @@ class Device {
   virtual double feed_per_minute() const = 0;
   virtual double spindle_rpm() const = 0;  ///< without a sign
   virtual bool input(int pin) const = 0;
+  /// As MotionBackend's.
+  virtual std::vector<std::pair<std::string, bool>> inputs() const { return {}; }
+  virtual std::optional<interpreter::SignalValue> signal(const std::string& /*name*/,
+                                                         SteadyTime /*now*/) {
+    return no_signals();
+  }
 };
 
 }  // namespace dripline::machine::streamed

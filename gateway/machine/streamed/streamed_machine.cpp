@@ -112,6 +112,20 @@ bool StreamedMachine::input(int pin) const {
   return device_.input(pin);
 }
 
+std::vector<std::pair<std::string, bool>> StreamedMachine::inputs() const {
+  const Lock lock(mutex_);
+  return device_.inputs();
+}
+
+std::optional<interpreter::SignalValue> StreamedMachine::signal(const std::string& name) {
+  auto value = [&] {
+    const Lock lock(mutex_);
+    return device_.signal(name, now());
+  }();
+  if (!value) wake();
+  return value;
+}
+
 bool StreamedMachine::drained() const {
   const Lock lock(mutex_);
   return queue_.empty() && builder_.size() == 0 && device_.is_empty();

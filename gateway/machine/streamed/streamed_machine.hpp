@@ -39,6 +39,8 @@ class StreamedMachine : public MotionBackend {
   bool has_room() const override;
   void begin_probe(const interpreter::Probe& probe) override { builder_.begin_probe(probe); }
   bool input(int pin) const override;
+  std::vector<std::pair<std::string, bool>> inputs() const override;
+  std::optional<interpreter::SignalValue> signal(const std::string& name) override;
   bool drained() const override;
   Seconds buffered() const override;
   Seconds poll(Seconds elapsed, std::size_t max_actions) override;

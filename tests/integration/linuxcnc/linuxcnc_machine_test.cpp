@@ -68,6 +68,33 @@ TEST_F(LinuxCncTest, ExecutesWhatIsNotMotionBetweenTheMoves) {
                                    "block 6", "stop", "block 7", "block 8", "block 9", "end"));
 }
 
+// What a program reads as #<_hal[...]>: a pin of the running HAL, after a move that changed it.
+TEST_F(LinuxCncTest, ReadsHalPins) {
+  begin();
+  program->line(5, 0, 6000);
+  ASSERT_TRUE(wait([&] { return machine->drained() && !machine->is_moving(); })) << alarm();
+  const auto read = [&](const std::string& name) {
+    std::optional<interpreter::SignalValue> value;
+    EXPECT_TRUE(wait([&] {
+      value = machine->signal(name);
+      return value.has_value();
+    }));
+    return value.value_or(interpreter::SignalValue{});
+  };
+  const auto at = read("axis.x.pos-cmd");
+  ASSERT_TRUE(at.value) << at.reason;
+  EXPECT_NEAR(*at.value, 5, 0.001);
+  EXPECT_EQ(read("motion.motion-enabled").value, 1.0) << "a bit";
+  const auto nothing = read("no.such-pin");
+  EXPECT_FALSE(nothing.value);
+  EXPECT_FALSE(nothing.reason.empty());
+  EXPECT_EQ(machine->inputs().size(), 32U);
+  program->line(7, 0, 6000);
+  program->end();
+  ASSERT_TRUE(wait_over());
+  EXPECT_EQ(machine->state(), MachineState::Completed) << alarm() << ": reading stops nothing";
+}
+
 TEST_F(LinuxCncTest, ProbesAndContinuesFromTheContact) {
   begin();
   program->line(5, 0, 6000);

@@ -51,6 +51,7 @@ struct ErrorCode {
   static constexpr DiagnosticRow NotDefined{"NGC0133", "Named parameter not defined"};
   static constexpr DiagnosticRow NotAParameter{"NGC0134", "EXISTS needs a parameter"};
   static constexpr DiagnosticRow TooManyNames{"NGC0135", "Too many named parameters"};
+  static constexpr DiagnosticRow NoSignal{"NGC0136", "HAL pin cannot be read"};
   static constexpr DiagnosticRow GRange{"NGC0150", "G code out of range"};
   static constexpr DiagnosticRow GNegative{"NGC0151", "Negative g code used"};
   static constexpr DiagnosticRow GUnknown{"NGC0152", "Unknown g code used"};

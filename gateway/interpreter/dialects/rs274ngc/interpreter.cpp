@@ -218,6 +218,7 @@ BlockOutcome Rs274NgcInterpreter::finish_line() {
   ++state.blocks;
   state.at = run_.next;
   run_.block.stage = Stage::Start;
+  run_.signals.clear();
   return BlockOutcome::Finished;
 }
 
@@ -252,6 +253,7 @@ void Rs274NgcInterpreter::after_restore() {
   run_.reader.drop_window();
   run_.block.clear();
   run_.answer.reset();
+  run_.signals.clear();
   flow_.reset();
 }
 

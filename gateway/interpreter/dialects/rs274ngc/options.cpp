@@ -22,6 +22,26 @@ Result<void> read_axes(const Options& options, const OptionKey& key, C& control)
   return {};
 }
 
+/// A table of names and numbers, as the machine's HAL has them.
+Result<void> read_hal(const Options& options, const OptionKey& key, C& control) {
+  const OptionValue* given = options.find(key.key);
+  if (given == nullptr) return {};
+  const auto* table = std::get_if<OptionTable>(&given->value);
+  if (table == nullptr) return fail(Errc::Syntax, "[control] hal: expected a table");
+  auto& values = control.hal.emplace();
+  for (const OptionEntry& entry : *table) {
+    const auto* whole = std::get_if<std::int64_t>(&entry.value.value);
+    const auto* real = std::get_if<double>(&entry.value.value);
+    const auto* flag = std::get_if<bool>(&entry.value.value);
+    if (whole == nullptr && real == nullptr && flag == nullptr)
+      return fail(Errc::Syntax, "[control] hal: {} needs a number, true or false", entry.key);
+    values[entry.key] = whole != nullptr  ? static_cast<double>(*whole)
+                        : real != nullptr ? *real
+                                          : static_cast<double>(*flag);
+  }
+  return {};
+}
+
 constexpr std::array kRows{
     row<&C::profile>("profile", "nist|linuxcnc", "which language programs are in"),
     Row{{"axes", kText, "letters of the axes that the machine has", "XYZABC"}, read_axes},
@@ -41,6 +61,9 @@ constexpr std::array kRows{
                               "distance of a spline's straight pieces from the curve",
                               {.low = 1e-6}),
     pins_row<&C::pins, &C::answers_pins>(),
+    Row{{"hal", "table", "HAL pins that programs read: { \"motion.in-position\" = 1 }",
+         "the machine is asked"},
+        read_hal},
 };
 
 }  // namespace

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -41,6 +44,8 @@ struct ControlOptions {
   double mm_per_machine_unit = 1;        ///< of stored parameters
   std::vector<std::int64_t> pins;
   bool answers_pins = false;  ///< `pins` was given: no operator need be asked
+  /// `hal` was given: no machine need be asked.
+  std::optional<std::map<std::string, double, std::less<>>> hal;
 
   bool is_linuxcnc() const { return profile == Profile::LinuxCnc; }
 };

@@ -75,6 +75,11 @@ struct Run : BlockRun {
   Block block;
   language::WordLedger ledger;  ///< axis and polar words of the line
   std::optional<Answer> answer;
+  struct Signal {
+    std::string name;
+    SignalValue value;
+  };
+  std::vector<Signal> signals;  ///< HAL pins that the line has asked for: it is read again with them
   std::string scratch;
 
  private:

@@ -310,6 +310,20 @@ std::optional<CoordinateFrame> TncInterpreter::frame() const {
   return frame_of(run_.state);
 }
 
+std::vector<std::string> TncInterpreter::live_names() const {
+  std::vector<std::string> names;
+  names.reserve(run_.state.q.size());
+  for (std::size_t i = 0; i < run_.state.q.size(); ++i) names.push_back(fmt::format("Q{}", i));
+  return names;
+}
+
+bool TncInterpreter::read_live(std::vector<double>& values) {
+  if (q_seen_ == run_.q_changes) return false;
+  q_seen_ = run_.q_changes;
+  values = run_.state.q;
+  return true;
+}
+
 Result<void> TncInterpreter::begin_next_text() {
   State& state = run_.state;
   if (state.is_compensating()) return fail(Errc::Unsupported, "radius compensation is on");
@@ -341,6 +355,7 @@ void TncInterpreter::after_restore() {
   has_kept_block_ = false;
   run_.definition_ahead.reset();
   run_.answer.reset();
+  ++run_.q_changes;
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gateway/interpreter/core/live_values.hpp"
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
@@ -8,7 +9,9 @@
 namespace dripline::interpreter::tnc155 {
 
 /// A TNC 151/155: text of either form to events, one block at a time.
-class TncInterpreter final : public BlockInterpreter<TncInterpreter>, public RetainedMemory {
+class TncInterpreter final : public BlockInterpreter<TncInterpreter>,
+                             public RetainedMemory,
+                             public LiveValues {
  public:
   TncInterpreter(ControlOptions options, State state, std::vector<ToolDefinition> tools,
                  ProgramSource& source, EventSink& sink);
@@ -18,6 +21,8 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>, public Ret
   std::optional<CoordinateFrame> frame() const override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
+  std::vector<std::string> live_names() const override;
+  bool read_live(std::vector<double>& values) override;
 
  private:
   friend BlockInterpreter;
@@ -60,6 +65,7 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>, public Ret
   bool has_kept_block_ = false;       ///< read, but its successor has not arrived
   bool is_definition_known_ = false;  ///< of the kept block: the search ahead is done
   ReadingState after_kept_block_;
+  std::optional<std::uint64_t> q_seen_;  ///< Run::q_changes at the last read_live
 };
 
 }  // namespace dripline::interpreter::tnc155

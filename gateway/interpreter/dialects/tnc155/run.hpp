@@ -59,6 +59,10 @@ struct Run : BlockRun {
   [[gnu::cold]] bool ask(Question asked);
   [[gnu::cold]] void warn(std::string_view id, std::string_view text);
 
+  void set_q(std::int32_t parameter, double value) {
+    state.q[static_cast<std::size_t>(parameter)] = value;
+    ++q_changes;
+  }
   /// The number of a word, or the value of its Q parameter; 0 for none.
   double number(const Value& value) const {
     if (!value.is_q()) [[likely]]
@@ -82,6 +86,8 @@ struct Run : BlockRun {
   State state;
   std::vector<ToolDefinition> tools;                ///< of the setup: the central tool file
   std::optional<DefinitionAhead> definition_ahead;  ///< for the TOOL CALL being executed
+
+  std::uint64_t q_changes = 0;  ///< how often a Q parameter was set
 
   BlockParts parts;  ///< of the block being executed
   language::LoopGuard loops;

@@ -48,6 +48,35 @@ TEST_F(ControlValues, AreThoseOfTheExecutedBlocksWhileAProgramRuns) {
   EXPECT_EQ(answer["outputs"], json::parse(R"([{"axis":"X","output":3,"on":true}])"));
 }
 
+// A TNC forgets its Q parameters, and shows them while a program runs.
+TEST(LiveControlValues, OfATncAreItsQParameters) {
+  GatewayFixture fixture(interpreter::kTnc155Dialect, {}, "1x");
+  const auto q = [&](const std::string& name) {
+    dds::Command query = fixture.command(dds::CommandAction::Query);
+    query.argument = name;
+    const json answer = json::parse(fixture.send(query).values);
+    EXPECT_TRUE(answer["inputs"].empty()) << "a simulated machine has none";
+    return answer["values"].empty() ? json(nullptr) : answer["values"][0]["value"];
+  };
+  fixture.push("19",
+               "0 BEGIN PGM 19 MM\n1 FN 0: Q17 = +7\n2 L X+0 Y+0 R0 F9000\n3 STOP\n"
+               "4 FN 1: Q17 = +Q17 + +1\n5 STOP\n6 L X+9 Y+9\n7 END PGM 19 MM\n");
+  const auto stops = [&] {
+    return fixture.run_until([&] {
+      return fixture.status && fixture.status->execution == dds::Execution::ProgramStopped;
+    });
+  };
+  EXPECT_TRUE(q("Q17").is_null()) << "nothing has run";
+  ASSERT_TRUE(fixture.start("19").accepted);
+  ASSERT_TRUE(stops()) << fixture.status->message;
+  EXPECT_EQ(q("Q17"), 7.0) << "the block after the stop is only read ahead";
+  ASSERT_TRUE(fixture.send(fixture.command(dds::CommandAction::Resume)).accepted);
+  ASSERT_TRUE(fixture.run_until([&] { return q("Q17") == 8.0; }));
+  ASSERT_TRUE(fixture.send(fixture.command(dds::CommandAction::Resume)).accepted);
+  EXPECT_EQ(fixture.ended().outcome, dds::RunOutcome::Completed);
+  EXPECT_EQ(q("Q17"), 8.0) << "of the last program, until the next one begins";
+}
+
 TEST_F(ControlValues, OfALongMemoryComeInPages) {
   fixture_.push("O1", "P10=7.5\nM30\n");
   ASSERT_TRUE(fixture_.start("O1").accepted);

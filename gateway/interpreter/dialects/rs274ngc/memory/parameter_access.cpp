@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <array>
+#include <utility>
 
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/tool_table.hpp"
@@ -161,6 +162,46 @@ const double* find_user(Run& run, std::string_view name) {
   return id == kNoName ? nullptr : run.names.value(id, run.state.calls.size());
 }
 
+/// #<_hal[NAME]> of LinuxCNC; empty: another name.
+std::string_view hal_name(std::string_view name) {
+  constexpr std::string_view kBegin = "_hal[";
+  if (!name.starts_with(kBegin) || !name.ends_with(']')) return {};
+  return name.substr(kBegin.size(), name.size() - kBegin.size() - 1);
+}
+
+SignalValue listed_value(const Run& run, std::string_view hal) {
+  const auto found = run.options.hal->find(hal);
+  if (found != run.options.hal->end()) return {found->second, ""};
+  return {std::nullopt, "the setup's `hal` does not have it"};
+}
+
+/// Of this reading of the line. nullptr: the machine has been asked, or has answered with too much.
+const SignalValue* find_signal(Run& run, std::string_view hal) {
+  for (const Run::Signal& known : run.signals)
+    if (known.name == hal) return &known.value;
+  if (!run.options.hal && !run.answer) {
+    run.ask(SignalQuestion{std::string(hal)});
+    return nullptr;
+  }
+  SignalValue value;
+  if (run.options.hal) {
+    value = listed_value(run, hal);
+  } else {
+    value = std::get<SignalValue>(*std::exchange(run.answer, std::nullopt));
+  }
+  return &run.signals.emplace_back(Run::Signal{std::string(hal), std::move(value)}).value;
+}
+
+bool read_signal(Run& run, std::string_view hal, std::uint32_t column, double& value) {
+  const SignalValue* signal = find_signal(run, hal);
+  if (signal == nullptr) return false;
+  if (signal->value) {
+    value = *signal->value;
+    return true;
+  }
+  return run.fail(ErrorCode::NoSignal, column, fmt::format("{}: {}", hal, signal->reason));
+}
+
 }  // namespace
 
 bool read_parameter(Run& run, double index, std::uint32_t column, double& value) {
@@ -189,18 +230,24 @@ bool read_named(Run& run, std::string_view name, std::uint32_t column, double& v
     value = system->value(run);
     return true;
   }
+  if (const auto hal = hal_name(name); !hal.empty()) return read_signal(run, hal, column, value);
   return run.fail(ErrorCode::NotDefined, column, fmt::format("#<{}>", name));
 }
 
-bool is_defined(Run& run, std::string_view name) {
-  return find_user(run, name) != nullptr || find_system(name) != nullptr;
+bool is_defined(Run& run, std::string_view name, bool& is_there) {
+  is_there = find_user(run, name) != nullptr || find_system(name) != nullptr;
+  const auto hal = hal_name(name);
+  if (is_there || hal.empty()) return true;
+  const SignalValue* signal = find_signal(run, hal);
+  is_there = signal != nullptr && signal->value;
+  return signal != nullptr;
 }
 
 bool name_to_set(Run& run, std::string_view name, std::uint32_t column, NameId& id) {
   id = run.names.find(name);
   if (id != kNoName) [[likely]]
     return true;
-  if (find_system(name) != nullptr) {
+  if (find_system(name) != nullptr || !hal_name(name).empty()) {
     return run.fail(ErrorCode::ParameterReadonly, column, fmt::format("#<{}>", name));
   }
   id = run.names.id_of(name);
@@ -218,6 +265,9 @@ std::optional<double> named_for_text(Run& run, std::string_view name) {
   if (name.empty()) return std::nullopt;
   if (const double* user = find_user(run, name)) return *user;
   if (const SystemName* system = find_system(name)) return system->value(run);
+  const auto hal = hal_name(name);  // a comment asks nothing: what its line has read
+  for (const Run::Signal& known : run.signals)
+    if (!hal.empty() && known.name == hal) return known.value.value;
   return std::nullopt;
 }
 

@@ -14,7 +14,8 @@ bool read_parameter(Run& run, double index, std::uint32_t column, double& value)
 bool check_settable(Run& run, double index, std::uint32_t column);
 
 bool read_named(Run& run, std::string_view name, std::uint32_t column, double& value);
-bool is_defined(Run& run, std::string_view name);
+/// False: a HAL pin is asked for first.
+bool is_defined(Run& run, std::string_view name, bool& is_there);
 /// The number under which a name can be set; alarms on those that only show the state.
 bool name_to_set(Run& run, std::string_view name, std::uint32_t column, NameId& id);
 

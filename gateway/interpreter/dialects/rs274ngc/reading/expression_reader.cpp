@@ -265,7 +265,7 @@ bool Terms::exists(double& value) {
   bool is_there = false;
   if (*at_ == '<') {
     if (!read_name(run_, at_, run_.scratch)) return false;
-    is_there = is_defined(run_, run_.scratch);
+    if (!is_defined(run_, run_.scratch, is_there)) return false;
   } else {
     int index = 0;
     if (!read_integer(run_, at_, index)) return false;

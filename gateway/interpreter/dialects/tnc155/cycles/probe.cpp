@@ -78,8 +78,7 @@ bool finish_probing(Run& run, const ProbeResult& result) {
   if (result.at.same_point(event.from)) {
     return run.fail(ErrorCode::TouchPointInaccessible, "the stylus is deflected at the start");
   }
-  state.q[static_cast<std::size_t>(state.cycle.probe.q)] =
-      measured(run, result.at) / state.mm_per_unit();
+  run.set_q(state.cycle.probe.q, measured(run, result.at) / state.mm_per_unit());
   Target back = here(state);
   back.set(state.cycle.probe.axis, before[static_cast<std::size_t>(state.cycle.probe.axis)]);
   line_to(run, back, kRapid);

@@ -65,7 +65,7 @@ bool compute(Run& run, const Block& block) {
     return run.fail(ErrorCode::ArithmeticalError,
                     fmt::format("Q{} would be {}, beyond {}", block.target, result, kLargest));
   }
-  run.state.q[static_cast<std::size_t>(block.target)] = result;
+  run.set_q(block.target, result);
   return true;
 }
 

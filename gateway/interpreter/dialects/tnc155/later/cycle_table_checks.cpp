@@ -136,12 +136,12 @@ bool define_table(Run& run, const Block& block) {
     if (preset != static_cast<int>(preset)) {
       return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q339 = {}", preset));
     }
-    state.q[339] = preset;
+    run.set_q(339, preset);
     return use_preset(run, static_cast<int>(preset));
   }
   // The words of a definition are what the parameters hold from then on.
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    state.q[static_cast<std::size_t>(rows[i].q)] = values[i];
+    run.set_q(rows[i].q, values[i]);
   }
   state.cycle_words = std::move(values);
   state.cycle.machining = MachiningCycle{};

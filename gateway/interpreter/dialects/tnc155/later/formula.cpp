@@ -144,7 +144,7 @@ bool evaluate(Run& run, const Formula& formula, double& result) {
 }
 
 bool set(Run& run, std::int32_t parameter, double value) {
-  run.state.q[static_cast<std::size_t>(parameter)] = value;
+  run.set_q(parameter, value);
   return true;
 }
 

@@ -27,6 +27,12 @@ TEST(HelperReply, ReadsAnswersAndMessages) {
   EXPECT_TRUE(std::get<MessageReply>(message).is_error());
   EXPECT_FALSE((MessageReply{13, ""}).is_error());
   EXPECT_TRUE(std::holds_alternative<FatalReply>(parse_helper_reply(R"({"fatal":"gone"})")));
+  const auto pin = parse_helper_reply(R"({"signal":"spindle.0.at-speed","value":1})");
+  ASSERT_TRUE(std::holds_alternative<SignalReply>(pin));
+  EXPECT_EQ(std::get<SignalReply>(pin).value, 1.0);
+  const auto none = parse_helper_reply(R"({"signal":"x","problem":"not found"})");
+  ASSERT_TRUE(std::holds_alternative<SignalReply>(none));
+  EXPECT_FALSE(std::get<SignalReply>(none).value);
 }
 
 struct GarbageCase {

@@ -312,6 +312,40 @@ TEST(LinuxCncSession, ReadsInputs) {
   EXPECT_FALSE(helper.session.input(1));
   EXPECT_TRUE(helper.session.input(2));
   EXPECT_FALSE(helper.session.input(64));
+  const auto inputs = helper.session.inputs();
+  ASSERT_EQ(inputs.size(), 32U);
+  EXPECT_EQ(inputs[2], (std::pair<std::string, bool>("2", true)));
+  EXPECT_EQ(inputs[3], (std::pair<std::string, bool>("3", false)));
+}
+
+TEST(LinuxCncSession, ReadsAHalPinWhenItIsAskedFor) {
+  FakeHelper helper;
+  EXPECT_FALSE(helper.session.signal("tool-height", helper.now));
+  EXPECT_FALSE(helper.session.signal("tool-height", helper.now)) << "it has not come yet";
+  helper.pass(1ms);
+  EXPECT_NE(helper.commands.find(R"("do":"hal","name":"tool-height"})"), std::string::npos);
+  EXPECT_EQ(helper.commands.find("hal"), helper.commands.rfind("hal")) << "it is asked for once";
+  helper.say(R"({"signal":"another","value":7})");
+  EXPECT_FALSE(helper.session.signal("tool-height", helper.now));
+  helper.say(R"({"signal":"tool-height","value":-12.5})");
+  EXPECT_EQ(helper.session.signal("tool-height", helper.now)->value, -12.5);
+  EXPECT_FALSE(helper.session.signal("tool-height", helper.now)) << "each asking gets a new value";
+}
+
+TEST(LinuxCncSession, StatesWhyAHalPinHasNoValue) {
+  FakeHelper helper;
+  const auto reason = [&](const std::string& name) {
+    return helper.session.signal(name, helper.now)->reason;
+  };
+  EXPECT_EQ(reason("a\",\"do\":\"on"), "no name of a HAL pin");
+  EXPECT_FALSE(helper.session.signal("nothing", helper.now));
+  helper.say(R"({"signal":"nothing","problem":"Can't get value: pin / param nothing not found"})");
+  EXPECT_EQ(reason("nothing"), "Can't get value: pin / param nothing not found");
+  EXPECT_FALSE(helper.session.signal("slow", helper.now));
+  helper.now += 7s;
+  EXPECT_EQ(reason("slow"), "LinuxCNC does not answer");
+  helper.session.lost("the cable is cut");
+  EXPECT_EQ(reason("slow"), "LinuxCNC is not connected");
 }
 
 }  // namespace

@@ -25,6 +25,37 @@ TEST(Rs274State, APinIsAskedForInTheMiddleOfALine) {
   EXPECT_THAT(run.log().lines(), Contains(HasSubstr(" X7 Y1")).Times(1));
 }
 
+// A line is read again with each answer, and everything of it happens once.
+TEST(Rs274State, HalPinsAreAskedForWhileALineIsRead) {
+  ControlRun run(
+      "#1 = 5\no1 while [#<_hal[part.count]> LT 2]\n#1 = [#1 + #<_hal[a]> + #<_hal[b]>] G0 X#1\n"
+      "o1 endwhile\no2 call [#<_hal[a]>]\nM2\no2 sub\nG0 Y#1\no2 endsub\n",
+      "[control]\nprofile = \"linuxcnc\"\n");
+  int counted = 0;
+  std::vector<std::string> asked;
+  StepState state = run.step();
+  for (; state == StepState::NeedsAnswer; state = run.step()) {
+    asked.push_back(std::get<SignalQuestion>(run.interpreter().question()).name);
+    double value = asked.back() == "a" ? 10 : 20;
+    if (asked.back() == "part.count") value = counted++;
+    EXPECT_FALSE(run.interpreter().answer(true)) << "another kind of answer";
+    ASSERT_TRUE(run.interpreter().answer(SignalValue{value, ""}));
+  }
+  EXPECT_EQ(state, StepState::Ended) << testing::PrintToString(run.log().lines());
+  EXPECT_THAT(asked, testing::ElementsAre("part.count", "a", "b", "part.count", "a", "b",
+                                          "part.count", "a"));
+  EXPECT_THAT(run.log().lines(), Contains(HasSubstr(" X35")));
+  EXPECT_THAT(run.log().lines(), Contains(HasSubstr(" Y10")));
+}
+
+TEST(Rs274State, AHalPinWithoutAValueIsAnAlarmWithItsReason) {
+  ControlRun run("G0 X#<_hal[a.b]>\nM2\n", "[control]\nprofile = \"linuxcnc\"\n");
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  ASSERT_TRUE(run.interpreter().answer(SignalValue{std::nullopt, "not connected"}));
+  EXPECT_EQ(run.step(), StepState::Alarmed);
+  EXPECT_THAT(run.log().lines(), Contains(HasSubstr("HAL pin cannot be read: a.b: not connected")));
+}
+
 TEST(Rs274State, AProbeAnswerMovesTheTool) {
   ControlRun run("G21 F50 G0 Z9\nG38.2 Z-9\nG0 X#5063\nM2\n");
   ASSERT_EQ(run.step(), StepState::NeedsAnswer);
