@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::uint8_t kNoAddress = 255;
 constexpr char kDelete = 0x7f;
-constexpr char kRewindStop = '%';
 
 constexpr std::array<std::uint8_t, 256> address_by_character() {
   std::array<std::uint8_t, 256> table{};

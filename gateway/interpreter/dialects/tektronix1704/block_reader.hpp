@@ -7,6 +7,8 @@
 
 namespace dripline::interpreter::tektronix1704 {
 
+inline constexpr char kRewindStop = '%';
+
 enum class ReadOutcome : std::uint8_t {
   Block,    ///< `state.block` holds a whole block
   GoesOn,   ///< the end of block stood in a comment: the next line belongs to it

@@ -1,6 +1,8 @@
 #include "gateway/interpreter/dialects/tektronix1704/interpreter.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <utility>
 
 #include "gateway/interpreter/dialects/tektronix1704/block_reader.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/execution.hpp"
@@ -19,6 +21,7 @@ TektronixInterpreter::TektronixInterpreter(ControlOptions options, ProgramSource
                                            EventSink& sink)
     : run_(std::move(options), sink), reader_(source, kLineRules) {
   if (run_.options.is_mdi) run_.state.reader = ReaderState::Data;
+  run_.state.wanted = run_.options.part;
 }
 
 BlockOutcome TektronixInterpreter::run_block() {
@@ -37,7 +40,7 @@ BlockOutcome TektronixInterpreter::run_line() {
     return meet(state);
   run_.state.place = reader_.place();
   if (run_.state.reader == ReaderState::Hunt) [[unlikely]]
-    return hunt(line.text);
+    return hunt(line);
   if (!run_.state.block.is_begun) begin_block(line.place);
   switch (read_line(run_, line.text)) {
     case ReadOutcome::Block:
@@ -45,10 +48,14 @@ BlockOutcome TektronixInterpreter::run_line() {
     case ReadOutcome::GoesOn:
       return BlockOutcome::NoBlock;
     case ReadOutcome::EndCode:
-      return end_of_tape();
+      return end_of_data(true);
     case ReadOutcome::Alarm:
       return BlockOutcome::Paused;
   }
+  if (run_.state.reader == ReaderState::Pass) [[unlikely]]
+    return pass();
+  if (!run_.state.has_block && !run_.state.block.words.empty()) [[unlikely]]
+    begin_part();
   if (run_.state.reader == ReaderState::Search) [[unlikely]]
     return search();
   return execute();
@@ -59,7 +66,7 @@ BlockOutcome TektronixInterpreter::meet(LineState state) {
     case LineState::NotYet:
       return BlockOutcome::NeedsText;
     case LineState::End:
-      return end_of_tape();
+      return end_of_text();
     case LineState::TooLong:
       run_.fail(Fault::BlockTooLong, 0,
                 fmt::format("more than {} characters", kLineRules.max_bytes));
@@ -71,13 +78,58 @@ BlockOutcome TektronixInterpreter::meet(LineState state) {
 }
 
 /// The text up to the first end of block: leader, titles, the rewind stop code.
-BlockOutcome TektronixInterpreter::hunt(std::string_view line) {
-  run_.state.reader = run_.options.search ? ReaderState::Search : ReaderState::Data;
-  if (line.find('%') == std::string_view::npos) {
-    run_.origin.line = 1;
-    run_.warn(Fault::Tape, run_.origin, 0, "no rewind stop code before the first end of block");
+BlockOutcome TektronixInterpreter::hunt(const SourceLine& line) {
+  State& state = run_.state;
+  const bool is_wanted = state.part >= state.wanted;
+  state.reader = !is_wanted                ? ReaderState::Pass
+                 : run_.options.search     ? ReaderState::Search
+                                           : ReaderState::Data;
+  if (line.text.find(kRewindStop) != std::string_view::npos) {
+    state.head = state.part;
+  } else if (is_wanted && state.part == 1) {
+    warn_of_head(line.place.line);
   }
   return BlockOutcome::NoBlock;
+}
+
+void TektronixInterpreter::warn_of_head(std::uint64_t line) {
+  Origin at = run_.origin;
+  at.line = line;
+  run_.warn(Fault::Tape, at, 0, "no rewind stop code before the first end of block");
+}
+
+/// The first block: what was hunted over was the head of a program, and not the end of the tape.
+void TektronixInterpreter::begin_part() {
+  State& state = run_.state;
+  state.has_block = true;
+  if (state.part > 1 && state.head != state.part) warn_of_head(run_.origin.line);
+}
+
+/// A block of a program before the wanted one changes nothing but where the reader is.
+BlockOutcome TektronixInterpreter::pass() {
+  State& state = run_.state;
+  const Words& words = state.block.words;
+  state.has_block |= !words.empty();
+  const bool ends = words.has(Address::M) && (words[Address::M] == 2 || words[Address::M] == 30);
+  state.block = {};
+  if (ends) end_part(false);
+  return BlockOutcome::NoBlock;
+}
+
+/// What is under the reader from here on is the next program.
+void TektronixInterpreter::end_part(bool is_end_code) {
+  State& state = run_.state;
+  ++state.part;
+  state.has_block = false;
+  state.reader = ReaderState::Hunt;
+  if (!is_end_code) return;
+  // The end of block after the code is the one that is hunted for.
+  state.head = state.part;
+  if (state.part < state.wanted) {
+    state.reader = ReaderState::Pass;
+  } else {
+    state.reader = run_.options.search ? ReaderState::Search : ReaderState::Data;
+  }
 }
 
 /// Skipped blocks change nothing at all.
@@ -88,6 +140,14 @@ BlockOutcome TektronixInterpreter::search() {
     return BlockOutcome::NoBlock;
   }
   run_.state.reader = ReaderState::Data;
+  if (run_.options.stops_at_search) {
+    run_.origin.sequence = *run_.options.search;
+    run_.events().on_message(
+        {run_.origin, fmt::format("tape search: N{:03} is the next block; what the blocks before it "
+                                  "had set is not in force",
+                                  *run_.options.search)});
+    run_.events().on_stop({run_.origin, StopKind::Operator});
+  }
   return execute();
 }
 
@@ -95,8 +155,13 @@ BlockOutcome TektronixInterpreter::execute() {
   State& state = run_.state;
   const Words& words = state.block.words;
   if (words.has(Address::N)) run_.origin.sequence = words[Address::N];
+  const bool winds_back = words.has(Address::M) && words[Address::M] == 30;
   if (!state.block.is_bad && !words.empty() && !execute_block(run_)) return BlockOutcome::Paused;
   close_block();
+  if (state.phase == RunPhase::Ended) {
+    state.is_rewound = winds_back;
+    end_part(false);
+  }
   return BlockOutcome::Finished;
 }
 
@@ -106,20 +171,96 @@ void TektronixInterpreter::close_block() {
   run_.sink.on_block_end(run_.origin);
 }
 
-BlockOutcome TektronixInterpreter::end_of_tape() {
-  run_.state.block = {};
+/// The rewind stop code, or the end of the text, where no M word has ended the program.
+BlockOutcome TektronixInterpreter::end_of_data(bool is_end_code) {
+  State& state = run_.state;
+  state.block = {};
   if (run_.options.is_mdi) {
-    run_.events().on_end({run_.origin, run_.state.blocks, false});
-    run_.state.phase = RunPhase::Ended;
+    run_.events().on_end({run_.origin, state.blocks, false});
+    state.phase = RunPhase::Ended;
     return BlockOutcome::NoBlock;
   }
-  if (run_.state.reader == ReaderState::Search) {
+  if (is_end_code && !state.has_block && (state.part > 1 || state.reader == ReaderState::Pass)) {
+    state.head = state.part;  // of this program, after an end of block in the leader
+    return BlockOutcome::NoBlock;
+  }
+  if (is_end_code && state.reader == ReaderState::Pass) {
+    end_part(true);
+    return BlockOutcome::NoBlock;
+  }
+  if (state.reader == ReaderState::Search) {
     run_.fail(Fault::NumberNotFound, 0, fmt::format("N{:03}", *run_.options.search));
     return BlockOutcome::Paused;
   }
   if (!check_stop(run_) || !run_.object(Fault::EndWithoutM)) return BlockOutcome::Paused;
-  end_run(run_, run_.state.blocks, false);
+  end_run(run_, state.blocks, false);
+  end_part(is_end_code);
   return BlockOutcome::NoBlock;
+}
+
+/// After the last program a looped tape begins again; a tape that was read on is over.
+BlockOutcome TektronixInterpreter::end_of_text() {
+  State& state = run_.state;
+  if (run_.options.is_mdi || (state.part == 1 && state.wanted == 1)) return end_of_data(false);
+  if (!state.has_block && state.reads_on) {
+    state.phase = RunPhase::Ended;
+    state.is_tape_over = true;
+    return BlockOutcome::NoBlock;
+  }
+  const std::uint32_t programs = state.has_block ? state.part : state.part - 1;
+  if (state.wanted == programs + 1) {
+    run_.warn(Fault::Tape, run_.origin, 0,
+              fmt::format("no program comes after program {}: the tape begins again", programs));
+    state.part = state.wanted = 1;
+    state.has_block = false;
+    state.reader = ReaderState::Hunt;
+    state.place = {};
+    read_from_place();
+    return BlockOutcome::NoBlock;
+  }
+  if (state.part < state.wanted) {
+    run_.fail(Fault::ProgramNotFound, 0,
+              fmt::format("program {}: it has {}", state.wanted, programs));
+    return BlockOutcome::Paused;
+  }
+  return end_of_data(false);
+}
+
+/// Whether a block comes in the text after the program that has ended; also when it is not known.
+bool TektronixInterpreter::has_more() {
+  constexpr int kMaxLines = 100;
+  reader_.drop_window();
+  bool is_hunting = run_.state.reader == ReaderState::Hunt;
+  for (int count = 0; count < kMaxLines; ++count) {
+    SourceLine line;
+    const LineState state = reader_.next(line);
+    if (state == LineState::End) return false;
+    if (state != LineState::Ready) return true;
+    if (std::exchange(is_hunting, false)) continue;
+    const std::size_t first = line.text.find_first_of(kLetters);
+    if (first != std::string_view::npos && first < line.text.find('(')) return true;
+  }
+  return true;
+}
+
+std::uint32_t TektronixInterpreter::next_part() {
+  const State& state = run_.state;
+  if (state.phase != RunPhase::Ended || run_.options.is_mdi) return 1;
+  if (state.is_rewound) return std::max(state.head, std::uint32_t{1});
+  const bool follows = has_more();
+  read_from_place();
+  return follows ? state.part : 1;
+}
+
+bool TektronixInterpreter::read_on() {
+  State& state = run_.state;
+  const bool is_possible =
+      state.phase == RunPhase::Ended && !state.is_rewound && !state.is_tape_over;
+  if (!is_possible || run_.options.is_mdi) return false;
+  state.phase = RunPhase::Running;
+  state.reads_on = true;
+  state.wanted = state.part;
+  return true;
 }
 
 /// Blocks that the operator entered before CYCLE START are executed like blocks of the tape.
@@ -143,9 +284,12 @@ Result<void> TektronixInterpreter::begin_next_text() {
   state.blocks = 0;
   state.mdi_done = 0;
   state.place = {};
+  state.part = state.wanted = 1;
+  state.head = 0;
+  state.has_block = state.is_rewound = state.is_tape_over = state.reads_on = false;
   state.block = {};
   run_.origin = {};
-  after_restore();
+  read_from_place();
   return {};
 }
 
@@ -157,7 +301,22 @@ ActiveModes TektronixInterpreter::modes() const {
   return modes;
 }
 
+/// After begin_next_text: under the modes that the program before has left, the tape is read, and
+/// nothing is keyed in again.
+void TektronixInterpreter::begin_tape() {
+  run_.state.reader = ReaderState::Hunt;
+  run_.state.wanted = run_.options.part;
+  run_.state.mdi_done = static_cast<std::uint32_t>(run_.options.mdi.size());
+}
+
 void TektronixInterpreter::after_restore() {
+  const State& state = run_.state;
+  const bool is_at_begin = state.blocks == 0 && state.place == TextPlace{};
+  if (is_at_begin && state.reader == ReaderState::Data && !run_.options.is_mdi) begin_tape();
+  read_from_place();
+}
+
+void TektronixInterpreter::read_from_place() {
   reader_.drop_window();
   reader_.seek(run_.state.place);
 }

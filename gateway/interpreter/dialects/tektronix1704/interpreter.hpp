@@ -13,6 +13,8 @@ class TektronixInterpreter final : public BlockInterpreter<TektronixInterpreter>
 
   Result<void> begin_next_text() override;
   ActiveModes modes() const override;
+  std::uint32_t next_part() override;
+  bool read_on() override;
 
  private:
   friend BlockInterpreter;
@@ -22,15 +24,23 @@ class TektronixInterpreter final : public BlockInterpreter<TektronixInterpreter>
   bool is_at_boundary() const { return true; }
   Result<void> take_answer(const Answer&) { return {}; }  // this control asks nothing
   void after_restore();
+  void begin_tape();
+  void read_from_place();
 
   BlockOutcome run_line();
   BlockOutcome run_mdi_block();
   BlockOutcome meet(LineState state);
-  BlockOutcome hunt(std::string_view line);
+  BlockOutcome hunt(const SourceLine& line);
   BlockOutcome search();
   BlockOutcome execute();
-  BlockOutcome end_of_tape();
+  BlockOutcome pass();
+  BlockOutcome end_of_data(bool is_end_code);
+  BlockOutcome end_of_text();
+  void end_part(bool is_end_code);
+  bool has_more();
   void begin_block(const TextPlace& place);
+  void begin_part();
+  void warn_of_head(std::uint64_t line);
   void close_block();
 
   Run run_;

@@ -78,6 +78,28 @@ Result<void> read_search(const Options& options, const OptionKey& key, C& contro
   return {};
 }
 
+/// A start at a gateway: the tape search of the panel, from the beginning of the tape.
+Result<void> read_start_at(const Options& options, const OptionKey& key, C& control) {
+  const auto text = options.text(key.key, "");
+  if (!text) return fail(text.error());
+  if (text->empty()) return {};
+  const char* const end = text->data() + text->size();
+  int number = -1;
+  if (text->front() == 'N') {
+    const auto read = std::from_chars(text->data() + 1, end, number);
+    if (read.ec != std::errc{} || read.ptr != end) number = -1;
+  }
+  if (number < 0 || number > 999) {
+    return fail(Errc::Syntax,
+                "[control] start_at: \"{}\" is no sequence number of this control: it goes to N0 to "
+                "N999",
+                *text);
+  }
+  control.search = number;
+  control.stops_at_search = true;
+  return {};
+}
+
 Result<void> read_arc_tolerance(const Options& options, const OptionKey& key, C& control) {
   const auto tolerance = options.integer(key.key, control.arc_tolerance);
   if (!tolerance) return fail(tolerance.error());
@@ -273,6 +295,12 @@ constexpr std::array kRows{
     Row{{"mdi", "list of texts", "blocks keyed in before the tape starts"}, read_mdi},
     Row{{"search", kWhole, "sequence number to run the tape forward to, up to 999; -1: none", "-1"},
         read_search},
+    Row{{"start_at", kText, "the same, as a start names it: N40; the operator is asked there"},
+        read_start_at},
+    row<&C::part>("part", kWhole,
+                  "program of the tape that the start reads; after the last one the tape begins "
+                  "again",
+                  {1, 9999}),
     Row{{"zero", kAxisTable, "machine coordinates of the program's zero", "0 on every axis"},
         read_zero},
 };
@@ -316,7 +344,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
   control.is_mdi = setup.is_mdi;
   if (setup.is_mdi) control.mdi.clear();
   for (std::size_t i = 0; i < kAxes; ++i) {
-    control.start[i] = counts(control, setup.start.linear(static_cast<Axis>(i)));
+    const Position& at = control.stops_at_search && setup.position ? *setup.position : setup.start;
+    control.start[i] = counts(control, at.linear(static_cast<Axis>(i)));
   }
   return control;
 }

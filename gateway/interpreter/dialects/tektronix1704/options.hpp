@@ -64,6 +64,8 @@ struct ControlOptions {
   std::array<std::string, 100> m_names;     ///< of the machine builder's M functions
   std::vector<std::string> mdi;             ///< blocks keyed in before the tape starts
   std::optional<int> search;                ///< sequence number to run the tape forward to
+  bool stops_at_search = false;             ///< and the operator is asked there
+  std::uint32_t part = 1;                   ///< program of the tape that the start reads
   bool optional_stop = false;
   bool is_mdi = false;  ///< Setup::is_mdi: no leader, and no end code
   std::array<bool, kAxes> mirror{};

@@ -29,6 +29,7 @@ struct Fault {
   static constexpr DiagnosticRow DwellNotAlone{"TEK0109", "G04 is not alone in its block"};
   static constexpr DiagnosticRow BlockTooLong{"TEK0110", "block too long"};
   static constexpr DiagnosticRow NumberNotFound{"TEK0111", "sequence number not found"};
+  static constexpr DiagnosticRow ProgramNotFound{"TEK0113", "the tape has no such program"};
   static constexpr DiagnosticRow TextFailed{"TEK0112", "tape cannot be read"};
   static constexpr DiagnosticRow EndWithoutM{"TEK0120", "end of tape without M02 or M30"};
   static constexpr DiagnosticRow Capacity{"TEK0201", "coordinate capacity exceeded"};
@@ -136,6 +137,7 @@ constexpr bool flows_on(Motion motion) {
 enum class ReaderState : std::uint8_t {
   Hunt,  ///< ignores everything up to the first end of block
   Data,
+  Pass,    ///< reads over programs before the one that is wanted, executing nothing
   Search,  ///< reads forward to a sequence number, executing nothing
 };
 
@@ -173,6 +175,14 @@ struct State {
   std::uint64_t blocks = 0;
   std::uint32_t mdi_done = 0;
   TextPlace place;
+
+  /// Programs of the tape, counted from 1: the one under the reader, the one to be executed, and
+  /// the one after whose rewind stop the reader is. 0: there has been none.
+  std::uint32_t part = 1, wanted = 1, head = 0;
+  bool has_block = false;      ///< the program under the reader has a block
+  bool is_rewound = false;     ///< its end has wound the tape back
+  bool is_tape_over = false;   ///< nothing comes after the program that has ended
+  bool reads_on = false;       ///< a program was executed before this one
 
   Motion motion = Motion::G00;
   std::uint8_t cycle = 0;  ///< 80 to 89

@@ -20,7 +20,11 @@ TEST(StartSearch, IsWhatTheControlsDialectAccepts) {
 }
 
 TEST(StartSearch, IsNoneOfControlsThatDoNotLookThroughTheirPrograms) {
-  for (const auto* control : {"fanuc", "rs274ngc", "tektronix-1704", "prototrak-plus", "", "other"})
+  for (const auto* control : {"tektronix-1704", "prototrak-plus"}) {
+    EXPECT_THAT(start_search_of(control).at, ElementsAre("block")) << control;
+    EXPECT_FALSE(start_search_of(control).has_pass) << control;
+  }
+  for (const auto* control : {"fanuc", "rs274ngc", "", "other"})
     EXPECT_THAT(start_search_of(control).at, IsEmpty()) << control;
 }
 

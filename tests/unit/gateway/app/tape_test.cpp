@@ -1,0 +1,94 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gateway/interpreter/core/dialects.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
+
+/// TK-59: a tape of several programs stays in the reader of a gateway's control, and each start
+/// reads the program that comes next.
+namespace dripline::gateway {
+namespace {
+
+using dds::RunOutcome;
+using testing::HasSubstr;
+
+const std::string kTape =
+    "%\nN1F9000X10000\nN2M02\n%\nN1Y20000\nN2M02\n(TRAILER)\n(END)\n";
+
+class TapeShop : public GatewayFixture {
+ public:
+  TapeShop() : GatewayFixture(interpreter::kTektronix1704Dialect, {}, "max") {}
+
+  dds::RunEndText run(const std::string& program = "TK") {
+    status.reset();
+    EXPECT_TRUE(start(program).accepted);
+    const auto end = ended();
+    EXPECT_TRUE(run_until(
+        [&] { return status && status->execution == dds::Execution::ProgramCompleted; }));
+    return end;
+  }
+  double at(std::size_t axis) const { return status->position[axis]; }
+};
+
+TEST(TapeInTheReader, IsReadOnAtTheNextStart) {
+  TapeShop shop;
+  shop.push("TK", kTape);
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  EXPECT_NEAR(shop.at(0), 25.4, 1e-6);
+  EXPECT_NEAR(shop.at(1), 0, 1e-6);
+  EXPECT_THAT(shop.status->message, HasSubstr("the next start reads program 2 of the tape"));
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed) << "F is still in force";
+  EXPECT_NEAR(shop.at(0), 25.4, 1e-6) << "the axes went on from where they were";
+  EXPECT_NEAR(shop.at(1), 50.8, 1e-6);
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed) << "after the last program the first one";
+  EXPECT_NEAR(shop.at(1), 0, 1e-6);
+}
+
+TEST(TapeInTheReader, IsAnotherTapeForAnotherProgram) {
+  TapeShop shop;
+  shop.push("TK", kTape);
+  shop.push("TK2", "%\nN1F9000X30000\nN2M02\n");
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop.run("TK2").outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  EXPECT_NEAR(shop.at(1), 0, 1e-6) << "it was put in again, and begins with its first program";
+}
+
+TEST(TapeInTheReader, IsRewoundAtThePanel) {
+  TapeShop shop;
+  shop.push("TK", kTape);
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop.panel("rewind"), "ok");
+  EXPECT_TRUE(shop.run_until([&] { return shop.status->message.empty(); }));
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  EXPECT_NEAR(shop.at(1), 0, 1e-6);
+}
+
+TEST(TapeInTheReader, StaysThereWhenTheGatewayIsRestarted) {
+  TapeShop shop;
+  shop.push("TK", "%\nN1F9000X10000\nN2M02\n%\nN1F9000Y20000\nN2M02\n");
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  shop.restart_gateway();
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  EXPECT_NEAR(shop.at(1), 50.8, 1e-6);
+}
+
+// A program that was broken off is begun again, and not passed over.
+TEST(TapeInTheReader, StaysBeforeAProgramThatWasAborted) {
+  TapeShop shop;
+  shop.push("TK", "%\nN1F9000X10000\nN2M02\n%\nN1Y20000\nN2M00\nN3X0\nN4M02\n");
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  ASSERT_TRUE(shop.start("TK").accepted);
+  ASSERT_TRUE(shop.run_until([&] {
+    return shop.status && shop.status->execution == dds::Execution::ProgramStopped;
+  }));
+  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
+  ASSERT_TRUE(shop.start("TK").accepted);
+  const auto end = shop.ended();
+  EXPECT_EQ(end.outcome, RunOutcome::Alarmed) << "F is that of power on: the run was cut off";
+  EXPECT_THAT(end.reason, HasSubstr("TEK0301"));
+}
+
+}  // namespace
+}  // namespace dripline::gateway
