@@ -27,6 +27,7 @@ machine::MachineLimits limits_of(const interpreter::Dialect& control,
     machine::AxisLimits& axis = *limits.axes[i];
     axis.min = stated.axes[i]->min.value_or(axis.min);
     axis.max = stated.axes[i]->max.value_or(axis.max);
+    axis.acceleration = stated.axes[i]->acceleration.value_or(axis.acceleration);
     if (!stated.axes[i]->max_rate) continue;
     axis.rapid_per_minute = axis.feed_per_minute = *stated.axes[i]->max_rate;
   }

@@ -80,8 +80,9 @@ Result<bool> check_memory(const OfflineProgram& program, interpreter::EventSink&
 Result<interpreter::OfflineOutcome> run(const OfflineProgram& program, const CheckCommand& command,
                                         interpreter::MemorySource& source,
                                         interpreter::EventSink& sink, const Clock& clock) {
-  const auto limits = limits_of(command.to);
+  auto limits = limits_of(command.to);
   if (!limits) return fail(limits.error());
+  limits->reads_on = true;
   const auto fits = check_memory(program, sink);
   if (!fits) return fail(fits.error());
   if (!*fits) return interpreter::OfflineOutcome{};
@@ -112,7 +113,8 @@ std::string block_text(interpreter::MemorySource& source, const interpreter::Ori
 
 /// Who listens to the run.
 struct CheckSinks {
-  explicit CheckSinks(const interpreter::Position& start) : summary(start), state(start) {}
+  CheckSinks(const interpreter::Position& start, const interpreter::MachineData& machine)
+      : summary(start, {}, machine), state(start) {}
 
   interpreter::CheckSummary summary;
   interpreter::MachineState state;
@@ -149,10 +151,11 @@ int check(Context& context, const CheckCommand& command) {
   if (!program) return complain(program.error());
   SystemClock clock;
   const SteadyTime begun = clock.steady_now();
-  CheckSinks sinks(program->setup().start);
+  CheckSinks sinks(program->setup().start, program->machine());
   auto source = program->source();
   const auto outcome = run(*program, command, source, sinks.of(command), clock);
   if (!outcome) return complain_offline(outcome.error());
+  sinks.summary.rest();
   CheckReport report = report_of(*program, source, sinks, command);
   report.elapsed_seconds = std::chrono::duration<double>(clock.steady_now() - begun).count();
   if (outcome->has_stopped) report.stopped = sinks.state;
@@ -181,7 +184,9 @@ void add_check_command(Command app, Context& context) {
                    "List the blocks at which the program waits for the operator");
   add_json_flag(command, context);
   command.footer(
-      "No server is needed. Called programs come from the setup's library, or from FILE's "
+      "No server is needed. Times have acceleration where the setup's [machine] states it. A tape "
+      "of several programs\n(tektronix-1704) is read on after each end that does not wind it back. "
+      "Called programs come from the setup's library, or from FILE's "
       "folder;\nwarnings, alarms and stops in one name its file. The check continues over stops, "
       "and ends a program that\nrepeats without end with an alarm.\nA program that does not fit a "
       "tnc155's memory (3100 blocks, 999 in one program, 32 programs) gives a\nwarning, or with "

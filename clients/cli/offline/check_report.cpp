@@ -230,12 +230,17 @@ std::string check_text(const CheckReport& report, bool has_color) {
   Details details;
   details.add("control", summary.control);
   details.add("program", summary.program.value_or(""));
+  if (summary.programs > 1)
+    details.add("programs", fmt::format("{} on the tape, each read after the one before",
+                                        summary.programs));
   details.add("blocks", std::to_string(summary.blocks));
   details.add("moves", fmt::format("{}, {:.3f} {} rapid, {:.3f} {} at feed", summary.moves,
                                    length(summary, summary.rapid_length), unit_name(summary),
                                    length(summary, summary.feed_length), unit_name(summary)));
   details.add("time", duration_text(std::round(summary.seconds)) +
-                          " estimated, without acceleration, stops and tool changes");
+                          (summary.has_acceleration
+                               ? " estimated, without stops and tool changes"
+                               : " estimated, without acceleration, stops and tool changes"));
   add_extents(details, summary);
   if (report.stopped) add_state(details, summary, *report.stopped);
   if (report.stops) details.add("stops", std::to_string(report.stops->count));
@@ -250,6 +255,7 @@ Json check_json(const CheckReport& report) {
   Json json{{"file", report.file}, {"control", summary.control}, {"program", nullptr}};
   if (summary.program) json["program"] = *summary.program;
   json["ended"] = summary.ended;
+  json["programs"] = summary.programs;
   json["blocks"] = summary.blocks;
   json["moves"] = summary.moves;
   json["units"] = std::string(unit_name(summary));
@@ -257,6 +263,7 @@ Json check_json(const CheckReport& report) {
   json["rapid_length"] = rounded(length(summary, summary.rapid_length));
   json["feed_length"] = rounded(length(summary, summary.feed_length));
   json["seconds"] = rounded(summary.seconds);
+  json["has_acceleration"] = summary.has_acceleration;
   json["extents"] = extents_json(summary);
   if (report.stopped) json["stopped"] = state_json(summary, *report.stopped);
   if (report.stops) {

@@ -127,7 +127,8 @@ int forecast(Context& context, const ForecastCommand& command) {
   auto program = OfflineProgram::open(command.program);
   if (!program) return complain(program.error());
   auto source = program->source();
-  interpreter::Forecast sink(*line, program->text().size(), program->setup().start);
+  interpreter::Forecast sink(*line, program->text().size(), program->setup().start, {},
+                             program->machine());
   const auto outcome = interpreter::run_offline(program->dialect(), program->setup(), source, sink);
   if (!outcome) return complain_offline(outcome.error());
   const ForecastResult& result = sink.finish();
@@ -164,7 +165,8 @@ void add_forecast_command(Command app, Context& context) {
   command.add_option("--limit", options->limit, "Blocks to list [20]");
   add_json_flag(command, context);
   command.footer(
-      "No server is needed. Times ignore acceleration.\n\nExit status: 0 no block starves, 1 some "
+      "No server is needed. Times have acceleration where the setup's [machine] states it "
+      "(deploy/docs/setup-format.md),\nnot that of axes that wait for a block.\n\nExit status: 0 no block starves, 1 some "
       "do or the program alarms, 2 usage.\n\nExample:\n  dnc forecast --control tektronix-1704 "
       "--line tektronix1704 part.nc\n  dnc forecast --line 4800e71 --buffer 4096 surface.nc");
   command.callback([&context, options] { context.status = forecast(context, *options); });

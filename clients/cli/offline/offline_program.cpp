@@ -88,17 +88,32 @@ std::string library_folder(const OfflineCommand& command, const interpreter::Set
 
 }  // namespace
 
-Result<interpreter::Setup> read_setup(const std::string& path, const Dialect& dialect) {
-  if (path.empty()) return interpreter::Setup{};
+namespace {
+
+/// What `parse` makes of the setup file; without a path all is at its default.
+template <class Data>
+Result<Data> read_setup_as(const std::string& path, const Dialect& dialect,
+                           Result<Data> (*parse)(std::string_view, interpreter::Units)) {
+  if (path.empty()) return Data{};
   auto file = MappedFile::open(path);
   if (!file) return fail(file.error());
   if (file->text().size() > kMaxSetup) {
     return fail(Errc::LimitExceeded, "setup file {} has {} bytes, expected at most {}", path,
                 file->text().size(), kMaxSetup);
   }
-  auto setup = interpreter::parse_setup(file->text(), dialect.units);
-  if (!setup) return fail(setup.error().code, "setup file {}: {}", path, setup.error().what);
-  return setup;
+  auto data = parse(file->text(), dialect.units);
+  if (!data) return fail(data.error().code, "setup file {}: {}", path, data.error().what);
+  return data;
+}
+
+}  // namespace
+
+Result<interpreter::Setup> read_setup(const std::string& path, const Dialect& dialect) {
+  return read_setup_as<interpreter::Setup>(path, dialect, interpreter::parse_setup);
+}
+
+Result<interpreter::MachineData> read_machine(const std::string& path, const Dialect& dialect) {
+  return read_setup_as<interpreter::MachineData>(path, dialect, interpreter::parse_machine_data);
 }
 
 Result<OfflineProgram> OfflineProgram::open(const OfflineCommand& command) {
@@ -111,7 +126,10 @@ Result<OfflineProgram> OfflineProgram::open(const OfflineCommand& command) {
   if (!dialect) return fail(dialect.error());
   auto setup = read_setup(command.setup, **dialect);
   if (!setup) return fail(setup.error());
+  auto machine = read_machine(command.setup, **dialect);
+  if (!machine) return fail(machine.error());
   OfflineProgram program(std::move(*file), **dialect);
+  program.machine_ = *std::move(machine);
   program.path_ = command.file;
   program.tape_text_ = std::move(*tape);
   program.setup_ = std::move(*setup);

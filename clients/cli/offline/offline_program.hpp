@@ -9,6 +9,7 @@
 #include "clients/cli/exit_status.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
 #include "clients/tools/offline/offline_run.hpp"
+#include "gateway/interpreter/core/machine_data.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/registry.hpp"
@@ -33,6 +34,8 @@ class OfflineProgram {
 
   const interpreter::Dialect& dialect() const { return *dialect_; }
   const interpreter::Setup& setup() const { return setup_; }
+  /// `[machine]` of the setup.
+  const interpreter::MachineData& machine() const { return machine_; }
   std::string_view text() const { return tape_text_ ? *tape_text_ : file_.text(); }
   /// Called programs come from the setup's library, or from the program's own folder when the setup
   /// names none. Must not outlive this object.
@@ -56,6 +59,7 @@ class OfflineProgram {
       tape_text_;  ///< when the file is a tape image; stays where it is
   const interpreter::Dialect* dialect_;
   interpreter::Setup setup_;
+  interpreter::MachineData machine_;
   std::string library_;
 };
 
@@ -73,6 +77,9 @@ inline void add_offline_options(Command command, OfflineCommand& options) {
 /// The setup in a file, for a control; without a path all is at its default. Errors: Io, Syntax,
 /// LimitExceeded.
 Result<interpreter::Setup> read_setup(const std::string& path, const interpreter::Dialect& dialect);
+/// The same of its `[machine]`.
+Result<interpreter::MachineData> read_machine(const std::string& path,
+                                              const interpreter::Dialect& dialect);
 
 /// The status for an interpretation that could not be carried through: a program that never ends is
 /// the program's fault, anything else (setup, missing answers) the user's to correct.

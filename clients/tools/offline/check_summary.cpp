@@ -26,7 +26,26 @@ Length distance(const Position& from, const Position& to) {
 
 }  // namespace
 
-CheckSummary::CheckSummary(const Position& start, CheckRates rates) : rates_(rates), last_(start) {}
+CheckSummary::CheckSummary(const Position& start, CheckRates rates, const MachineData& machine)
+    : rates_(rates), last_(start) {
+  summary_.has_acceleration = MotionClock::is_stated(machine);
+  if (!summary_.has_acceleration) return;
+  clock_ = std::make_unique<MotionClock>(
+      machine, [this](std::uint64_t block, double seconds) { add_seconds(block, seconds); });
+}
+
+void CheckSummary::add_seconds(std::uint64_t block, double seconds) {
+  summary_.seconds += seconds;
+  if (on_timed_) on_timed_(block, seconds);
+}
+
+void CheckSummary::rest() {
+  if (clock_) clock_->stop();
+}
+
+std::uint64_t CheckSummary::first_open() const {
+  return clock_ ? std::min(clock_->first_open(), ended_blocks_) : ended_blocks_;
+}
 
 void CheckSummary::extend(Axis axis, double value) {
   auto& extent = summary_.extents[static_cast<std::size_t>(axis)];
@@ -58,10 +77,10 @@ double CheckSummary::spindle_speed() const {
   return speed > 0 ? speed : rates_.spindle_speed;
 }
 
-void CheckSummary::cut(Length length, const Feed& feed) {
-  summary_.feed_length += length;
+void CheckSummary::cut(const Stretch& stretch, const Feed& feed) {
+  summary_.feed_length += stretch.length;
   double per_minute = 0;  // moves, or millimeters
-  double amount = length.mm();
+  double amount = stretch.length.mm();
   switch (feed.per()) {
     case Feed::Per::Minute:
       per_minute = feed.length().mm();
@@ -74,7 +93,50 @@ void CheckSummary::cut(Length length, const Feed& feed) {
       amount = 1;
       break;
   }
-  if (per_minute > 0) summary_.seconds += kSecondsPerMinute * amount / per_minute;
+  if (per_minute > 0) pass(stretch, kSecondsPerMinute * amount / per_minute);
+}
+
+void CheckSummary::pass(const Stretch& stretch, double nominal_seconds) {
+  if (!clock_) return add_seconds(ended_blocks_, nominal_seconds);
+  TimedMove move = timed(stretch);
+  if (nominal_seconds > 0) move.speed = move.length / nominal_seconds;
+  move.is_rapid = stretch.is_rapid;
+  clock_->add(move);
+  if (stretch.rests) clock_->stop();
+}
+
+/// Changes of the axes for one unit of the length that the feed is for.
+TimedMove CheckSummary::timed(const Stretch& stretch) const {
+  TimedMove move;
+  move.tag = ended_blocks_;
+  move.length = stretch.length.mm();
+  if (!(move.length > 0)) return move;
+  for (const Axis axis : kAllAxes) {
+    const auto i = static_cast<std::size_t>(axis);
+    move.begins[i] = move.ends[i] = (stretch.to.raw(axis) - last_.raw(axis)) / move.length;
+    move.share[i] = std::fabs(move.begins[i]);
+  }
+  if (stretch.arc == nullptr) return move;
+  const Arc& arc = *stretch.arc;
+  const PlaneAxes axes = axes_of(arc.plane);
+  move.first = axes.first;
+  move.second = axes.second;
+  const auto first = static_cast<std::size_t>(axes.first);
+  const auto second = static_cast<std::size_t>(axes.second);
+  const double sense = arc.turn == Turn::Counterclockwise ? 1 : -1;
+  // A tangent is the radius, turned by a quarter and as long as the circle's part of the path.
+  const auto tangent = [&](const Position& at, TimedMove::Coordinates& direction) {
+    const double x = at.raw(axes.first) - arc.center_first.mm();
+    const double y = at.raw(axes.second) - arc.center_second.mm();
+    move.radius = std::hypot(x, y);
+    const double share = arc.sweep.radians() / move.length;
+    direction[first] = -sense * y * share;
+    direction[second] = sense * x * share;
+  };
+  tangent(stretch.to, move.ends);
+  tangent(last_, move.begins);
+  move.share[first] = move.share[second] = move.radius * arc.sweep.radians() / move.length;
+  return move;
 }
 
 void CheckSummary::on_program(const ProgramHeader& header) {
@@ -88,13 +150,14 @@ void CheckSummary::on_rapid(const Rapid& rapid) {
   const Length length = distance(last_, rapid.to);
   summary_.rapid_length += length;
   if (rates_.rapid_per_minute > Length{}) {
-    summary_.seconds += kSecondsPerMinute * (length / rates_.rapid_per_minute);
+    pass({.to = rapid.to, .length = length, .rests = rapid.rests, .is_rapid = true},
+         kSecondsPerMinute * (length / rates_.rapid_per_minute));
   }
   move_to(rapid.to);
 }
 
 void CheckSummary::on_line(const Line& line) {
-  cut(distance(last_, line.to), line.feed);
+  cut({.to = line.to, .length = distance(last_, line.to), .rests = line.rests}, line.feed);
   move_to(line.to);
 }
 
@@ -130,20 +193,29 @@ Length CheckSummary::length_of(const Arc& arc) const {
 
 void CheckSummary::on_arc(const Arc& arc) {
   extend_arc(arc);
-  cut(length_of(arc), arc.feed);
+  cut({.to = arc.to, .length = length_of(arc), .arc = &arc, .rests = arc.rests}, arc.feed);
   move_to(arc.to);
 }
 
 void CheckSummary::on_thread(const Thread& thread) {
-  if (thread.arc) extend_arc(arc_of(thread));
-  const Length path = thread.arc ? length_of(arc_of(thread)) : distance(last_, thread.to);
-  cut(path, Feed::per_revolution(mean_lead(thread, path)));
+  std::optional<Arc> arc;
+  if (thread.arc) arc = arc_of(thread);
+  if (arc) extend_arc(*arc);
+  const Length path = arc ? length_of(*arc) : distance(last_, thread.to);
+  cut({.to = thread.to, .length = path, .arc = arc ? &*arc : nullptr},
+      Feed::per_revolution(mean_lead(thread, path)));
   move_to(thread.to);
 }
 
 void CheckSummary::on_dwell(const Dwell& dwell) {
-  summary_.seconds +=
-      dwell.revolutions ? kSecondsPerMinute * *dwell.revolutions / spindle_speed() : dwell.seconds;
+  rest();
+  add_seconds(ended_blocks_, dwell.revolutions
+                                 ? kSecondsPerMinute * *dwell.revolutions / spindle_speed()
+                                 : dwell.seconds);
+}
+
+void CheckSummary::on_tool(const ToolChange& change) {
+  if (!change.is_preselection) rest();
 }
 
 void CheckSummary::on_spindle(const Spindle& spindle) {
@@ -152,7 +224,9 @@ void CheckSummary::on_spindle(const Spindle& spindle) {
 
 void CheckSummary::on_probe(const Probe& probe) {
   if (!probe.result) return;
-  cut(distance(last_, probe.result->at), probe.feed);
+  rest();
+  cut({.to = probe.result->at, .length = distance(last_, probe.result->at), .rests = true},
+      probe.feed);
   move_to(probe.result->at);
 }
 
@@ -164,16 +238,21 @@ void CheckSummary::on_warning(const Warning& warning) {
 }
 
 void CheckSummary::on_alarm(const Alarm& alarm) {
+  rest();
   summary_.alarm = alarm;
+  summary_.ended = false;  // whatever a program before it on the tape has done
 }
 
 void CheckSummary::on_end(const End& end) {
+  rest();
   summary_.ended = true;
+  ++summary_.programs;
   summary_.blocks = end.blocks;
 }
 
 void CheckSummary::on_block_end(const Origin& origin) {
   summary_.blocks = std::max(summary_.blocks, origin.block);
+  ++ended_blocks_;
 }
 
 void MachineState::on_line(const Line& event) {

@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "clients/tools/offline/motion_clock.hpp"
 #include "gateway/interpreter/core/event.hpp"
 
 namespace dripline::interpreter {
@@ -35,12 +37,14 @@ struct Summary {
   std::uint64_t moves = 0;
   Length rapid_length;
   Length feed_length;  ///< feeds, arcs, threads and probe moves
-  double seconds = 0;  ///< estimated, without acceleration, stops and tool changes
+  double seconds = 0;  ///< estimated, without stops and tool changes
+  bool has_acceleration = false;  ///< in `seconds`, as the setup's [machine] states it
   std::array<std::optional<AxisExtent>, kAxisCount> extents;  ///< by Axis; of axes that were moved
   std::vector<Warning> warnings;                              ///< the first kMaxWarnings
   std::uint64_t warning_count = 0;
   std::optional<Alarm> alarm;
   bool ended = false;
+  std::uint64_t programs = 0;  ///< ends that were reached: a tape can hold several
 
   static constexpr std::size_t kMaxWarnings = 1000;
 };
@@ -48,10 +52,23 @@ struct Summary {
 /// Adds up a program's events to a Summary. One thread; bounded memory.
 class CheckSummary final : public EventSink {
  public:
-  /// `start`: position of the machine before the first move (Setup::start).
-  explicit CheckSummary(const Position& start = {}, CheckRates rates = {});
+  /// `start`: position of the machine before the first move (Setup::start). With an acceleration in
+  /// `machine` the time is that of a MotionClock.
+  explicit CheckSummary(const Position& start = {}, CheckRates rates = {},
+                        const MachineData& machine = {});
+  CheckSummary(const CheckSummary&) = delete;
+  CheckSummary& operator=(const CheckSummary&) = delete;
 
+  /// After the last event. Before it, the time lacks the moves that the clock looks ahead over.
   const Summary& summary() const { return summary_; }
+  /// At a place in the middle: as if the axes came to rest there.
+  void rest();
+
+  /// For an owner that wants the time of each block: every time goes there, in order, with the
+  /// number of blocks that had ended when it came to be.
+  void time_blocks(MotionClock::OnTimed on_timed) { on_timed_ = std::move(on_timed); }
+  /// Blocks before this one have all of their times.
+  std::uint64_t first_open() const;
 
   void on_program(const ProgramHeader&) override;
   void on_rapid(const Rapid&) override;
@@ -60,6 +77,9 @@ class CheckSummary final : public EventSink {
   void on_thread(const Thread&) override;
   void on_dwell(const Dwell&) override;
   void on_spindle(const Spindle&) override;
+  void on_tool(const ToolChange&) override;
+  void on_miscellaneous(const Miscellaneous&) override { rest(); }
+  void on_stop(const Stop&) override { rest(); }
   void on_probe(const Probe&) override;
   void on_warning(const Warning&) override;
   void on_alarm(const Alarm&) override;
@@ -68,7 +88,17 @@ class CheckSummary final : public EventSink {
 
  private:
   void move_to(const Position& to);
-  void cut(Length length, const Feed& feed);
+  struct Stretch {
+    Position to;
+    Length length;
+    const Arc* arc = nullptr;
+    bool rests = false;
+    bool is_rapid = false;
+  };
+  void cut(const Stretch& stretch, const Feed& feed);
+  void pass(const Stretch& stretch, double nominal_seconds);
+  TimedMove timed(const Stretch& stretch) const;
+  void add_seconds(std::uint64_t block, double seconds);
   void extend(Axis axis, double value);
   void extend_arc(const Arc& arc);
   Length length_of(const Arc& arc) const;
@@ -78,6 +108,9 @@ class CheckSummary final : public EventSink {
   CheckRates rates_;
   Position last_;
   Spindle spindle_;
+  std::uint64_t ended_blocks_ = 0;
+  MotionClock::OnTimed on_timed_;
+  std::unique_ptr<MotionClock> clock_;  ///< null: times without acceleration
 };
 
 /// The state of the machine after the last event: what a program has set so far. One thread.

@@ -15,24 +15,45 @@ bool waits_longer(const StarvedBlock& a, const StarvedBlock& b) {
 }  // namespace
 
 Forecast::Forecast(const FeedLine& line, std::uint64_t text_size, const Position& start,
-                   CheckRates rates)
-    : line_(line), text_size_(text_size), times_(start, rates) {}
+                   CheckRates rates, const MachineData& machine)
+    : line_(line), text_size_(text_size), times_(start, rates, machine) {
+  times_.time_blocks(
+      [this](std::uint64_t block, double seconds) { block_at(block).seconds += seconds; });
+}
+
+Forecast::Block& Forecast::block_at(std::uint64_t number) {
+  while (open_.size() <= number - first_) open_.emplace_back();
+  return open_[number - first_];
+}
+
+/// The text of a block reaches to that of its successor.
+void Forecast::count_characters(Block& block, std::uint64_t next) {
+  const bool is_new = block.origin.program == kMainProgram && next > furthest_;
+  block.characters = is_new ? next - std::max(furthest_, block.origin.offset) : 0;
+  furthest_ = std::max(furthest_, next);
+}
 
 void Forecast::on_block_end(const Origin& origin) {
   times_.on_block_end(origin);
-  if (has_pending_) {
-    const bool is_further =
-        origin.program == kMainProgram && origin.offset > pending_.origin.offset;
-    const std::uint64_t next = is_further ? origin.offset : pending_.origin.offset;
-    const bool is_new = pending_.origin.program == kMainProgram && next > furthest_;
-    take(pending_, is_new ? next - std::max(furthest_, pending_.origin.offset) : 0);
-    furthest_ = std::max(furthest_, next);
+  Block& block = block_at(ended_);
+  block.origin = origin;
+  block.fed = times_.summary().feed_length - fed_before_;
+  fed_before_ = times_.summary().feed_length;
+  if (ended_ > first_) {
+    Block& before = block_at(ended_ - 1);
+    const bool is_further = origin.program == kMainProgram && origin.offset > before.origin.offset;
+    count_characters(before, is_further ? origin.offset : before.origin.offset);
   }
-  const Summary& so_far = times_.summary();
-  pending_ = {origin, so_far.seconds - seconds_before_, so_far.feed_length - fed_before_};
-  seconds_before_ = so_far.seconds;
-  fed_before_ = so_far.feed_length;
-  has_pending_ = true;
+  ++ended_;
+  if (open_.size() > kMaxOpen) times_.rest();
+  take_timed(std::min(times_.first_open(), ended_ - 1));
+}
+
+void Forecast::take_timed(std::uint64_t until) {
+  for (; first_ < until; ++first_) {
+    take(open_.front());
+    open_.pop_front();
+  }
 }
 
 void Forecast::on_end(const End& event) {
@@ -40,10 +61,12 @@ void Forecast::on_end(const End& event) {
 }
 
 const ForecastResult& Forecast::finish() {
-  if (has_pending_) {
-    const bool is_main = pending_.origin.program == kMainProgram && text_size_ > furthest_;
-    take(pending_, is_main ? text_size_ - std::max(furthest_, pending_.origin.offset) : 0);
-    has_pending_ = false;
+  times_.rest();
+  if (first_ < ended_) {
+    Block& last = block_at(ended_ - 1);
+    const bool is_main = last.origin.program == kMainProgram;
+    count_characters(last, is_main ? text_size_ : last.origin.offset);
+    take_timed(ended_);
   }
   std::sort(result_.worst.begin(), result_.worst.end(), waits_longer);
   return result_;
@@ -68,7 +91,8 @@ Forecast::Arrival Forecast::arrival(std::uint64_t characters) {
   return {begins + reading, reading};
 }
 
-void Forecast::take(const Block& block, std::uint64_t characters) {
+void Forecast::take(const Block& block) {
+  const std::uint64_t characters = block.characters;
   ++result_.blocks;
   result_.move_seconds += block.seconds;
   double begins = finish_;

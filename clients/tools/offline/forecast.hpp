@@ -41,13 +41,15 @@ struct ForecastResult {
 
 /// Compares how long each block moves with how long the line needs for what comes after it: which
 /// blocks starve, and the feed at which they would not (Tektronix 1704, "reader limitation"; the
-/// same sum for every line and buffer). Times are CheckSummary's: without acceleration. A block
-/// that is executed again has been read already. One thread; memory bounded by `FeedLine::buffer`.
+/// same sum for every line and buffer). Times are CheckSummary's: with acceleration where the setup
+/// states it, though the axes that wait for a block brake and speed up again in no time. A block
+/// that is executed again has been read already. One thread; memory bounded by `FeedLine::buffer`
+/// and kMaxOpen.
 class Forecast final : public EventSink {
  public:
   /// `text_size`: bytes of the program.
   Forecast(const FeedLine& line, std::uint64_t text_size, const Position& start = {},
-           CheckRates rates = {});
+           CheckRates rates = {}, const MachineData& machine = {});
 
   /// After the last event.
   const ForecastResult& finish();
@@ -60,6 +62,9 @@ class Forecast final : public EventSink {
   void on_thread(const Thread& event) override { times_.on_thread(event); }
   void on_dwell(const Dwell& event) override { times_.on_dwell(event); }
   void on_spindle(const Spindle& event) override { times_.on_spindle(event); }
+  void on_tool(const ToolChange& event) override { times_.on_tool(event); }
+  void on_miscellaneous(const Miscellaneous& event) override { times_.on_miscellaneous(event); }
+  void on_stop(const Stop& event) override { times_.on_stop(event); }
   void on_probe(const Probe& event) override { times_.on_probe(event); }
   void on_warning(const Warning& event) override { times_.on_warning(event); }
   void on_alarm(const Alarm& event) override { times_.on_alarm(event); }
@@ -71,8 +76,15 @@ class Forecast final : public EventSink {
     Origin origin;
     double seconds = 0;
     Length fed;
+    std::uint64_t characters = 0;
   };
-  void take(const Block& block, std::uint64_t characters);
+  /// Blocks whose times the clock may still look ahead for; more of them count as a rest.
+  static constexpr std::size_t kMaxOpen = 8192;
+
+  Block& block_at(std::uint64_t number);
+  void count_characters(Block& block, std::uint64_t next);
+  void take_timed(std::uint64_t until);
+  void take(const Block& block);
   struct Arrival {
     double there = 0;
     double reading = 0;  ///< for how long the line was busy with it
@@ -84,11 +96,12 @@ class Forecast final : public EventSink {
   std::uint64_t text_size_;
   CheckSummary times_;
   ForecastResult result_;
-  double seconds_before_ = 0;
   Length fed_before_;
-  bool has_pending_ = false, has_previous_ = false;
-  Block pending_;               ///< executed, but its length is known only from its successor
-  Block previous_;              ///< the block before it
+  std::deque<Block> open_;      ///< executed and not taken: time or length are not known yet
+  std::uint64_t first_ = 0;     ///< number of the first of them
+  std::uint64_t ended_ = 0;     ///< blocks so far
+  bool has_previous_ = false;
+  Block previous_;              ///< the block taken last
   double finish_ = 0;           ///< when `previous_` has been executed
   double received_ = 0;         ///< when the line has brought what was taken last
   std::uint64_t furthest_ = 0;  ///< offset up to which the text has been read

@@ -16,6 +16,8 @@ struct MachineData {
   struct AxisData {
     std::optional<double> min, max;  ///< travel, in machine coordinates: both or neither
     std::optional<double> max_rate;  ///< per minute
+    /// Per second squared: for times and the simulated machine; a real one keeps its own.
+    std::optional<double> acceleration = {};
   };
   std::array<std::optional<AxisData>, kAxisCount> axes;  ///< absent: not stated
   std::optional<double> max_rpm;

@@ -208,16 +208,19 @@ void read_machine_axis(Table& table, Axis axis, MachineData::AxisData& data) {
   read("min", data.min);
   read("max", data.max);
   read("rate", data.max_rate);
+  read("acceleration", data.acceleration);
   if (data.min.has_value() != data.max.has_value())
     return table.complain(data.min ? "min" : "max", "the travel has both ends, min and max");
   if (data.min && !(*data.min < *data.max)) return table.complain("min", "is not below max");
   if (data.max_rate && !(*data.max_rate > 0)) table.complain("rate", "expected a number above 0");
+  if (data.acceleration && !(*data.acceleration > 0))
+    table.complain("acceleration", "expected a number above 0");
 }
 
 void read_machine(Table& table, MachineData& machine) {
   for (const Axis axis : kEveryAxis) {
     const char name = letter(axis);
-    table.table(std::string_view(&name, 1), {"min", "max", "rate"}, [&](Table& its) {
+    table.table(std::string_view(&name, 1), {"min", "max", "rate", "acceleration"}, [&](Table& its) {
       read_machine_axis(its, axis, machine.axes[static_cast<std::size_t>(axis)].emplace());
     });
   }
