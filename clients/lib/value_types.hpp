@@ -20,6 +20,12 @@ struct ControlOutput {
   bool on = false;
 };
 
+/// An input that the machine reports.
+struct ControlInput {
+  std::string name;
+  bool on = false;
+};
+
 /// What a machine's control holds now, as executed blocks have left it.
 struct ControlValues {
   std::string machine;
@@ -27,6 +33,7 @@ struct ControlValues {
   std::optional<std::uint64_t> next = {};  ///< how many to pass over for the rest
   std::vector<ControlOutput> outputs;
   std::vector<std::int64_t> codes;  ///< M functions handed to the machine, the last one first
+  std::vector<ControlInput> inputs = {};  ///< none from an older gateway
 };
 
 }  // namespace dripline::client

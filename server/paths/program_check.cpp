@@ -121,7 +121,9 @@ Result<std::string> ProgramPaths::check(const CheckRequest& request) {
   interpreter::CheckSummary sums(setup->start);
   Findings findings;
   interpreter::EventTee both(sums, findings);
-  auto run = interpreter::OfflineRun::begin(**dialect, *setup, programs, both, kLimits);
+  interpreter::OfflineLimits limits = kLimits;
+  limits.reads_on = true;
+  auto run = interpreter::OfflineRun::begin(**dialect, *setup, programs, both, limits);
   if (!run) return fail(run.error());
   const Checked checked = run_to_end(*run, request.limit);
   const interpreter::Summary& summary = sums.summary();

@@ -55,10 +55,8 @@ constexpr const char* kNoName = "no parameter";
 int show_pins(Context& context, client::Client& client, const std::string& machine) {
   const auto values = client.control_values(machine, kNoName, 0);
   if (const auto status = finished(context, values)) return *status;
-  if (values->outputs.empty() && values->codes.empty()) {
+  if (values->outputs.empty() && values->codes.empty())
     context.print("No program has switched an output since the gateway began.\n");
-    return kExitOk;
-  }
   Table table({"AXIS", right("OUTPUT"), "STATE"});
   for (const auto& pin : values->outputs)
     table.add({pin.axis, std::to_string(pin.output), pin.on ? "on" : "off"});
@@ -67,6 +65,9 @@ int show_pins(Context& context, client::Client& client, const std::string& machi
   for (const auto code : values->codes) codes += fmt::format(" M{}", code);
   if (!codes.empty())
     context.print(fmt::format("M functions handed to the machine, the last one first:{}\n", codes));
+  Table inputs({"INPUT", "STATE"});
+  for (const auto& input : values->inputs) inputs.add({input.name, input.on ? "on" : "off"});
+  if (!inputs.empty()) context.print(inputs);
   return kExitOk;
 }
 
@@ -84,18 +85,21 @@ void add_value_verbs(Command group, Context& context) {
   command.footer(
       "They are asked of the gateway, as the executed blocks have left them: those that the "
       "control keeps from\nblock to block and from program to program, with its own names and in "
-      "its own units. What runs have left\nis kept on the server: dnc memory show.\n\n"
+      "its own units, and those that it shows\nwhile a program runs (Q parameters of a TNC). What runs "
+      "have left is kept on the server: dnc memory show.\n\n"
       "Example:\n  dnc machine parameters lathe-1 P1");
   run_at_server(command, context, options, show_parameters);
 
   auto machine = std::make_shared<std::string>();
   auto pins = group.add_subcommand(
-      "pins", "Show the outputs that programs have switched, and the last M functions");
+      "pins", "Show the outputs that programs have switched, the last M functions, and the inputs");
   pins.add_option("MACHINE", *machine, "The machine").required();
   add_json_flag(pins, context);
   pins.footer(
-      "They are those of the executed blocks since the gateway began. Inputs are the machine's, "
-      "and are not shown.\n\nExample:\n  dnc machine pins lathe-1");
+      "Outputs and M functions are those of the executed blocks since the gateway began. Inputs are "
+      "those that the\nmachine reports at this moment: of a LinuxCNC by number, of a board by letter "
+      "(P probe, D door, X Y Z limits);\na simulated machine has none.\n\nExample:\n  dnc machine "
+      "pins lathe-1");
   run_at_server(pins, context, machine, show_pins);
 }
 

@@ -280,8 +280,13 @@ void members(V& v, Is<ControlOutput> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<ControlInput> auto& x) {
+  DRIPLINE_MEMBERS(name, on);
+}
+
+template <class V>
 void members(V& v, Is<ControlValues> auto& x) {
-  DRIPLINE_MEMBERS(machine, values, next, outputs, codes);
+  DRIPLINE_MEMBERS(machine, values, next, outputs, codes, inputs);
 }
 
 template <class V>

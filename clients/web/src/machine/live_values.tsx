@@ -19,6 +19,12 @@ function Outputs({ values }: { values: Values }) {
   );
 }
 
+function Inputs({ values }: { values: Values }) {
+  const t = texts().machine;
+  if (values.inputs.length === 0) return null;
+  return <p>{t.inputs}: {values.inputs.map((input) => t.input(input.name, input.on)).join(', ')}</p>;
+}
+
 export function LiveValues({ machine }: { machine: string }) {
   const t = texts().machine;
   const [beginning, setBeginning] = useState('');
@@ -36,6 +42,7 @@ export function LiveValues({ machine }: { machine: string }) {
       {values.value && (
         <>
           <Outputs values={values.value} />
+          <Inputs values={values.value} />
           {used.length === 0 && <p class="muted">{t.noValues}</p>}
           {used.length > 0 && (
             <table class="data">

@@ -105,6 +105,8 @@ export const machine: typeof Shape = {
     noOutputs: 'kein Programm hat einen geschaltet',
     output: (axis, output, isOn) => `${axis} ${output} ${isOn ? 'ein' : 'aus'}`,
     lastCodes: 'Letzte M-Funktionen',
+    inputs: 'Eingänge',
+    input: (name, isOn) => `${name} ${isOn ? 'ein' : 'aus'}`,
     noValues: 'Alle sind 0 oder leer.',
     moreValues: 'Es gibt mehr: den Anfang ihrer Namen angeben.',
     cell: 'Zelle',

@@ -103,6 +103,8 @@ export const machine = {
     noOutputs: 'no program has switched one',
     output: (axis: string, output: number, isOn: boolean) => `${axis} ${output} ${isOn ? 'on' : 'off'}`,
     lastCodes: 'Last M functions',
+    inputs: 'Inputs',
+    input: (name: string, isOn: boolean) => `${name} ${isOn ? 'on' : 'off'}`,
     noValues: 'All of them are 0 or vacant.',
     moreValues: 'There are more: name their beginning.',
     cell: 'Cell',
