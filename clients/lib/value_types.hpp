@@ -32,7 +32,7 @@ struct ControlValues {
   std::vector<ControlValue> values;
   std::optional<std::uint64_t> next = {};  ///< how many to pass over for the rest
   std::vector<ControlOutput> outputs;
-  std::vector<std::int64_t> codes;  ///< M functions handed to the machine, the last one first
+  std::vector<std::int64_t> codes;        ///< M functions handed to the machine, the last one first
   std::vector<ControlInput> inputs = {};  ///< none from an older gateway
 };
 

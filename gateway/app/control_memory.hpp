@@ -88,7 +88,7 @@ class ControlMemory {
   std::vector<double> base_;
   std::map<std::string, bool> named_;  ///< variables of the program's setup
   std::vector<Value> live_;
-  std::optional<Tape> tape_;           ///< none: wound back
+  std::optional<Tape> tape_;  ///< none: wound back
   bool has_unstaged_ = false, has_changed_ = false;
 };
 

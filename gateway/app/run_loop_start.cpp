@@ -89,9 +89,8 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   if (!setup) return fail(setup.error());
   const interpreter::Snapshot* const modes = modes_for(origin);
   const bool goes_on = origin.from.is_mdi || modes != nullptr;
-  const interpreter::Position at = is_restart || goes_on
-                                       ? parts_.machine.status().position
-                                       : setup->position.value_or(setup->start);
+  const interpreter::Position at = is_restart || goes_on ? parts_.machine.status().position
+                                                         : setup->position.value_or(setup->start);
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
   if (is_restart) conditions.restart_of = origin.from.restart->run;
   if (auto done = parts_.machine.check_begin(at); !done) return done;

@@ -167,9 +167,9 @@ class RunSession {
     std::size_t cell = 0;
     double value = 0;
   };
-  std::deque<Change> changes_;         ///< of blocks that are not executed yet
-  std::vector<double> cells_, known_;  ///< as read last, and as it was before
-  interpreter::LiveValues* live_ = nullptr;  ///< of the interpreter; null: its control shows none
+  std::deque<Change> changes_;                 ///< of blocks that are not executed yet
+  std::vector<double> cells_, known_;          ///< as read last, and as it was before
+  interpreter::LiveValues* live_ = nullptr;    ///< of the interpreter; null: its control shows none
   std::vector<double> live_now_, live_known_;  ///< as read last, and as it was before
   std::deque<Change> live_changes_;            ///< of blocks that are not executed yet
   Waits waits_ = Waits::ForNothing;

@@ -78,9 +78,9 @@ enum class DncMode : std::uint8_t { Off, Fast, Run, Verify, Continue };
 
 /// What a host sends to a control whose request comes while no run waits.
 enum class Offer : std::uint8_t {
-  None,   ///< nothing: the request waits for the next run, or is refused where the protocol can
-  Named,  ///< the named program of the machine's control, as a run
-  All,    ///< also, without a name, each numbered program of the machine's control in turn
+  None,    ///< nothing: the request waits for the next run, or is refused where the protocol can
+  Named,   ///< the named program of the machine's control, as a run
+  All,     ///< also, without a name, each numbered program of the machine's control in turn
   Repeat,  ///< the program of the last run again, if that was completed: a tape left in the reader
 };
 

@@ -138,8 +138,9 @@ class Stepper {
     } else if (std::holds_alternative<InputQuestion>(question)) {
       answer = false;
     } else if (std::holds_alternative<SignalQuestion>(question)) {
-      answer = SignalValue{
-          std::nullopt, "offline no machine has it: name it in the setup's [control] hal = { ... }"};
+      answer =
+          SignalValue{std::nullopt,
+                      "offline no machine has it: name it in the setup's [control] hal = { ... }"};
     } else {
       answer = setup_.date_time.value_or(LocalTime{2000, 1, 1, 0, 0, 0});
     }

@@ -231,8 +231,8 @@ std::string check_text(const CheckReport& report, bool has_color) {
   details.add("control", summary.control);
   details.add("program", summary.program.value_or(""));
   if (summary.programs > 1)
-    details.add("programs", fmt::format("{} on the tape, each read after the one before",
-                                        summary.programs));
+    details.add("programs",
+                fmt::format("{} on the tape, each read after the one before", summary.programs));
   details.add("blocks", std::to_string(summary.blocks));
   details.add("moves", fmt::format("{}, {:.3f} {} rapid, {:.3f} {} at feed", summary.moves,
                                    length(summary, summary.rapid_length), unit_name(summary),

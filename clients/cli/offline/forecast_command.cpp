@@ -166,7 +166,8 @@ void add_forecast_command(Command app, Context& context) {
   add_json_flag(command, context);
   command.footer(
       "No server is needed. Times have acceleration where the setup's [machine] states it "
-      "(deploy/docs/setup-format.md),\nnot that of axes that wait for a block.\n\nExit status: 0 no block starves, 1 some "
+      "(deploy/docs/setup-format.md),\nnot that of axes that wait for a block.\n\nExit status: 0 "
+      "no block starves, 1 some "
       "do or the program alarms, 2 usage.\n\nExample:\n  dnc forecast --control tektronix-1704 "
       "--line tektronix1704 part.nc\n  dnc forecast --line 4800e71 --buffer 4096 surface.nc");
   command.callback([&context, options] { context.status = forecast(context, *options); });

@@ -85,7 +85,8 @@ void add_value_verbs(Command group, Context& context) {
   command.footer(
       "They are asked of the gateway, as the executed blocks have left them: those that the "
       "control keeps from\nblock to block and from program to program, with its own names and in "
-      "its own units, and those that it shows\nwhile a program runs (Q parameters of a TNC). What runs "
+      "its own units, and those that it shows\nwhile a program runs (Q parameters of a TNC). What "
+      "runs "
       "have left is kept on the server: dnc memory show.\n\n"
       "Example:\n  dnc machine parameters lathe-1 P1");
   run_at_server(command, context, options, show_parameters);
@@ -96,8 +97,10 @@ void add_value_verbs(Command group, Context& context) {
   pins.add_option("MACHINE", *machine, "The machine").required();
   add_json_flag(pins, context);
   pins.footer(
-      "Outputs and M functions are those of the executed blocks since the gateway began. Inputs are "
-      "those that the\nmachine reports at this moment: of a LinuxCNC by number, of a board by letter "
+      "Outputs and M functions are those of the executed blocks since the gateway began. Inputs "
+      "are "
+      "those that the\nmachine reports at this moment: of a LinuxCNC by number, of a board by "
+      "letter "
       "(P probe, D door, X Y Z limits);\na simulated machine has none.\n\nExample:\n  dnc machine "
       "pins lathe-1");
   run_at_server(pins, context, machine, show_pins);

@@ -36,8 +36,8 @@ struct Summary {
   std::uint64_t blocks = 0;
   std::uint64_t moves = 0;
   Length rapid_length;
-  Length feed_length;  ///< feeds, arcs, threads and probe moves
-  double seconds = 0;  ///< estimated, without stops and tool changes
+  Length feed_length;             ///< feeds, arcs, threads and probe moves
+  double seconds = 0;             ///< estimated, without stops and tool changes
   bool has_acceleration = false;  ///< in `seconds`, as the setup's [machine] states it
   std::array<std::optional<AxisExtent>, kAxisCount> extents;  ///< by Axis; of axes that were moved
   std::vector<Warning> warnings;                              ///< the first kMaxWarnings

@@ -97,9 +97,9 @@ class Forecast final : public EventSink {
   CheckSummary times_;
   ForecastResult result_;
   Length fed_before_;
-  std::deque<Block> open_;      ///< executed and not taken: time or length are not known yet
-  std::uint64_t first_ = 0;     ///< number of the first of them
-  std::uint64_t ended_ = 0;     ///< blocks so far
+  std::deque<Block> open_;   ///< executed and not taken: time or length are not known yet
+  std::uint64_t first_ = 0;  ///< number of the first of them
+  std::uint64_t ended_ = 0;  ///< blocks so far
   bool has_previous_ = false;
   Block previous_;              ///< the block taken last
   double finish_ = 0;           ///< when `previous_` has been executed

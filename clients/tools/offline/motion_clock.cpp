@@ -41,7 +41,8 @@ void MotionClock::add(const TimedMove& move) {
   if (!(move.length > 0) || !(move.speed > 0)) return;
   Item item{.tag = move.tag, .length = move.length, .speed = move.speed, .acceleration = kInstant};
   bool has_rates = move.is_rapid;
-  for (std::size_t i = 0; i < kAxisCount; ++i) has_rates &= !(move.share[i] > 0 && rate_[i] == kUnlimited);
+  for (std::size_t i = 0; i < kAxisCount; ++i)
+    has_rates &= !(move.share[i] > 0 && rate_[i] == kUnlimited);
   if (has_rates) item.speed = kUnlimited;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     if (move.share[i] == 0) continue;
@@ -112,9 +113,8 @@ double MotionClock::seconds_of(const Item& item) {
   const double entry = std::min(entry_, item.speed);
   const double reach = 2 * a * item.length;
   const double exit = std::sqrt(std::min(item.exit_square, square(entry) + reach));
-  const double top =
-      std::max({entry, exit,
-                std::min(item.speed, std::sqrt((reach + square(entry) + square(exit)) / 2))});
+  const double top = std::max(
+      {entry, exit, std::min(item.speed, std::sqrt((reach + square(entry) + square(exit)) / 2))});
   const double ramps = (2 * square(top) - square(entry) - square(exit)) / (2 * a);
   const double cruise = std::max(0.0, item.length - ramps);
   entry_ = exit;

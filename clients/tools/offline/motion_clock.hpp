@@ -24,10 +24,10 @@ struct TimedMove {
   Axis first = Axis::X, second = Axis::Y;  ///< of an arc's plane
 };
 
-/// The time that moves take with the accelerations and rates that a setup states for the axes: ramps
-/// at rest and where the speed changes, corners passed at the speed of the circle that leaves them
-/// by kCornerDeviation, as the simulated machine has it. Looks ahead by kWindow moves. One thread;
-/// bounded memory.
+/// The time that moves take with the accelerations and rates that a setup states for the axes:
+/// ramps at rest and where the speed changes, corners passed at the speed of the circle that leaves
+/// them by kCornerDeviation, as the simulated machine has it. Looks ahead by kWindow moves. One
+/// thread; bounded memory.
 class MotionClock {
  public:
   static constexpr std::size_t kWindow = 1024;
@@ -63,7 +63,7 @@ class MotionClock {
   std::array<double, kAxisCount> acceleration_{}, rate_{};  ///< per second; infinite: not stated
   OnTimed on_timed_;
   std::deque<Item> queue_;
-  double entry_ = 0;  ///< speed at the start of the queue
+  double entry_ = 0;            ///< speed at the start of the queue
   bool has_direction_ = false;  ///< of the move before:
   TimedMove::Coordinates direction_{};
   double last_acceleration_ = 0, last_length_ = 0;

@@ -72,9 +72,8 @@ struct FatalReply {
 struct GarbageReply {
   std::string text;
 };
-using HelperReply =
-    std::variant<HelloReply, StatusReply, DoneReply, MessageReply, SignalReply, FatalReply,
-                 GarbageReply>;
+using HelperReply = std::variant<HelloReply, StatusReply, DoneReply, MessageReply, SignalReply,
+                                 FatalReply, GarbageReply>;
 
 /// One line without its end. Every number is finite and within its limits, or the line is garbage.
 HelperReply parse_helper_reply(std::string_view line);

@@ -13,8 +13,8 @@ namespace {
 constexpr LineTime kStartUp = std::chrono::milliseconds(10);
 
 /// The host as the reader: each text is a tape with leader, rewind stop and trailer that the
-/// control runs, stops and rewinds. Rewinding asks the owner for the same program again, and so does
-/// running it after its end (a looped tape).
+/// control runs, stops and rewinds. Rewinding asks the owner for the same program again, and so
+/// does running it after its end (a looped tape).
 class TapeReaderHost final : public DisciplineBase {
  public:
   explicit TapeReaderHost(const LineSettings& settings)

@@ -64,10 +64,9 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
                                           EventSink& sink) {
   const auto options = read_options(setup);
   if (!options) return fail(options.error());
-  return std::unique_ptr<Interpreter>(
-      std::make_unique<ProtoTrakInterpreter>(
-          *options, options->names_start ? setup.position.value_or(setup.start) : setup.start,
-          source, sink));
+  return std::unique_ptr<Interpreter>(std::make_unique<ProtoTrakInterpreter>(
+      *options, options->names_start ? setup.position.value_or(setup.start) : setup.start, source,
+      sink));
 }
 
 /// Files of the MX controls: their text form is this one, their own is refused by name.

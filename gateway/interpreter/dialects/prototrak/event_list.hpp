@@ -95,7 +95,8 @@ struct Fault {
   static constexpr DiagnosticRow NotText{
       "PTK0112",
       "no program text, as a file in which an MX or later control stores events in its own form is "
-      "(.MX2, .MX3, .PT4): that form is not published; give the program in the maker's CAM text form"};
+      "(.MX2, .MX3, .PT4): that form is not published; give the program in the maker's CAM text "
+      "form"};
   static constexpr DiagnosticRow NoStartEvent{"PTK0113", "the program has no such event"};
   static constexpr DiagnosticRow ArcRadii{"PTK0201", "radii at begin and end of the arc differ"};
   static constexpr DiagnosticRow RepeatRange{"PTK0202", "bad repeat range"};

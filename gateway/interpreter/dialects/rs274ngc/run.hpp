@@ -79,7 +79,8 @@ struct Run : BlockRun {
     std::string name;
     SignalValue value;
   };
-  std::vector<Signal> signals;  ///< HAL pins that the line has asked for: it is read again with them
+  std::vector<Signal>
+      signals;  ///< HAL pins that the line has asked for: it is read again with them
   std::string scratch;
 
  private:

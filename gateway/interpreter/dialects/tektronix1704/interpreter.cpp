@@ -81,9 +81,9 @@ BlockOutcome TektronixInterpreter::meet(LineState state) {
 BlockOutcome TektronixInterpreter::hunt(const SourceLine& line) {
   State& state = run_.state;
   const bool is_wanted = state.part >= state.wanted;
-  state.reader = !is_wanted                ? ReaderState::Pass
-                 : run_.options.search     ? ReaderState::Search
-                                           : ReaderState::Data;
+  state.reader = !is_wanted            ? ReaderState::Pass
+                 : run_.options.search ? ReaderState::Search
+                                       : ReaderState::Data;
   if (line.text.find(kRewindStop) != std::string_view::npos) {
     state.head = state.part;
   } else if (is_wanted && state.part == 1) {
@@ -143,9 +143,10 @@ BlockOutcome TektronixInterpreter::search() {
   if (run_.options.stops_at_search) {
     run_.origin.sequence = *run_.options.search;
     run_.events().on_message(
-        {run_.origin, fmt::format("tape search: N{:03} is the next block; what the blocks before it "
-                                  "had set is not in force",
-                                  *run_.options.search)});
+        {run_.origin,
+         fmt::format("tape search: N{:03} is the next block; what the blocks before it "
+                     "had set is not in force",
+                     *run_.options.search)});
     run_.events().on_stop({run_.origin, StopKind::Operator});
   }
   return execute();

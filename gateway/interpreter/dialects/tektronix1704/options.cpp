@@ -90,10 +90,11 @@ Result<void> read_start_at(const Options& options, const OptionKey& key, C& cont
     if (read.ec != std::errc{} || read.ptr != end) number = -1;
   }
   if (number < 0 || number > 999) {
-    return fail(Errc::Syntax,
-                "[control] start_at: \"{}\" is no sequence number of this control: it goes to N0 to "
-                "N999",
-                *text);
+    return fail(
+        Errc::Syntax,
+        "[control] start_at: \"{}\" is no sequence number of this control: it goes to N0 to "
+        "N999",
+        *text);
   }
   control.search = number;
   control.stops_at_search = true;

@@ -179,10 +179,10 @@ struct State {
   /// Programs of the tape, counted from 1: the one under the reader, the one to be executed, and
   /// the one after whose rewind stop the reader is. 0: there has been none.
   std::uint32_t part = 1, wanted = 1, head = 0;
-  bool has_block = false;      ///< the program under the reader has a block
-  bool is_rewound = false;     ///< its end has wound the tape back
-  bool is_tape_over = false;   ///< nothing comes after the program that has ended
-  bool reads_on = false;       ///< a program was executed before this one
+  bool has_block = false;     ///< the program under the reader has a block
+  bool is_rewound = false;    ///< its end has wound the tape back
+  bool is_tape_over = false;  ///< nothing comes after the program that has ended
+  bool reads_on = false;      ///< a program was executed before this one
 
   Motion motion = Motion::G00;
   std::uint8_t cycle = 0;  ///< 80 to 89

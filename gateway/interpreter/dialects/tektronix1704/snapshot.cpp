@@ -14,11 +14,11 @@ template <class Archive>
 void visit(Archive& archive, State& state) {
   archive(state.phase, state.reader, state.has_header, state.blocks, state.mdi_done, state.place,
           state.part, state.wanted, state.head, state.has_block, state.is_rewound,
-          state.is_tape_over, state.reads_on,
-          state.motion, state.cycle, state.is_incremental, state.drills, state.program,
-          state.origin, state.center, state.has_moved, state.plane, state.feed, state.spindle_code,
-          state.tool_code, state.has_clearance, state.has_depth, state.clearance, state.depth,
-          state.spindle, state.flood, state.mist, state.last, state.block);
+          state.is_tape_over, state.reads_on, state.motion, state.cycle, state.is_incremental,
+          state.drills, state.program, state.origin, state.center, state.has_moved, state.plane,
+          state.feed, state.spindle_code, state.tool_code, state.has_clearance, state.has_depth,
+          state.clearance, state.depth, state.spindle, state.flood, state.mist, state.last,
+          state.block);
 }
 
 namespace {
@@ -33,7 +33,8 @@ bool is_plausible(const State& state) {
          (state.cycle == 0 || (state.cycle >= 80 && state.cycle <= 89)) &&
          (state.motion != Motion::Cycle || state.cycle != 0) && is_code(state.spindle_code) &&
          is_code(state.tool_code) &&
-         static_cast<std::size_t>(state.block.address) < kAddressCount && state.place.line >= 1 && state.part >= 1 && state.wanted >= 1;
+         static_cast<std::size_t>(state.block.address) < kAddressCount && state.place.line >= 1 &&
+         state.part >= 1 && state.wanted >= 1;
 }
 
 }  // namespace

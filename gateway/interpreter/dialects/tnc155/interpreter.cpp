@@ -220,7 +220,8 @@ std::string TncInterpreter::unmet_start() const {
 
 /// Without a label before it the program comes to a block once.
 BlockOutcome TncInterpreter::find_way_back() {
-  if (came_back_ || run_.state.start.pass != 0 || run_.state.known_labels.empty()) return BlockOutcome::Finished;
+  if (came_back_ || run_.state.start.pass != 0 || run_.state.known_labels.empty())
+    return BlockOutcome::Finished;
   const TextPlace place = run_.reader.block_place();
   const auto outcome = way_back_.find_return(place);
   run_.reader.drop_window();

@@ -12,8 +12,7 @@ namespace {
 using dds::RunOutcome;
 using testing::HasSubstr;
 
-const std::string kTape =
-    "%\nN1F9000X10000\nN2M02\n%\nN1Y20000\nN2M02\n(TRAILER)\n(END)\n";
+const std::string kTape = "%\nN1F9000X10000\nN2M02\n%\nN1Y20000\nN2M02\n(TRAILER)\n(END)\n";
 
 class TapeShop : public GatewayFixture {
  public:
@@ -23,8 +22,8 @@ class TapeShop : public GatewayFixture {
     status.reset();
     EXPECT_TRUE(start(program).accepted);
     const auto end = ended();
-    EXPECT_TRUE(run_until(
-        [&] { return status && status->execution == dds::Execution::ProgramCompleted; }));
+    EXPECT_TRUE(
+        run_until([&] { return status && status->execution == dds::Execution::ProgramCompleted; }));
     return end;
   }
   double at(std::size_t axis) const { return status->position[axis]; }
@@ -79,9 +78,8 @@ TEST(TapeInTheReader, StaysBeforeAProgramThatWasAborted) {
   shop.push("TK", "%\nN1F9000X10000\nN2M02\n%\nN1Y20000\nN2M00\nN3X0\nN4M02\n");
   EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
   ASSERT_TRUE(shop.start("TK").accepted);
-  ASSERT_TRUE(shop.run_until([&] {
-    return shop.status && shop.status->execution == dds::Execution::ProgramStopped;
-  }));
+  ASSERT_TRUE(shop.run_until(
+      [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
   ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
   ASSERT_TRUE(shop.start("TK").accepted);

@@ -49,13 +49,15 @@ double simulated(std::string_view control, const std::string& text) {
   double seconds = 0;
   for (StepState state = StepState::Ran; state == StepState::Ran;) {
     while (machine.has_room() && state == StepState::Ran) state = interpreter->step(1);
-    seconds += machine.poll(machine::Seconds{std::numeric_limits<double>::infinity()},
-                            machine::MotionBackend::kNoLimit)
+    seconds += machine
+                   .poll(machine::Seconds{std::numeric_limits<double>::infinity()},
+                         machine::MotionBackend::kNoLimit)
                    .count();
   }
   while (machine.resume()) {  // from the stops of its operator
-    seconds += machine.poll(machine::Seconds{std::numeric_limits<double>::infinity()},
-                            machine::MotionBackend::kNoLimit)
+    seconds += machine
+                   .poll(machine::Seconds{std::numeric_limits<double>::infinity()},
+                         machine::MotionBackend::kNoLimit)
                    .count();
   }
   EXPECT_TRUE(machine.drained());
@@ -95,11 +97,13 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         ClockCase{"tektronix_stops_and_flow", "tektronix-1704",
                   "%\nN1G00X10000F1000M03\nN2G01X20000Y2000\nX30000Y4000\nG00Y0\nG50X0\nN3M02\n"},
-        ClockCase{"tektronix_arcs", "tektronix-1704",
-                  "%\nG01X10000F1000\nG02X20000Y-10000I10000J-10000\nG20X10000Y-20000I10000J-10000\n"
-                  "G00X0Y0\nM02\n"},
-        ClockCase{"prototrak_events", "prototrak-plus",
-                  "PN1 G21;\nG100 X10.A Y10.A;\nG101 XB10.A YB10.A XE60.A YE10.A TC0 D0 F300 CR-;\n%\n"},
+        ClockCase{
+            "tektronix_arcs", "tektronix-1704",
+            "%\nG01X10000F1000\nG02X20000Y-10000I10000J-10000\nG20X10000Y-20000I10000J-10000\n"
+            "G00X0Y0\nM02\n"},
+        ClockCase{
+            "prototrak_events", "prototrak-plus",
+            "PN1 G21;\nG100 X10.A Y10.A;\nG101 XB10.A YB10.A XE60.A YE10.A TC0 D0 F300 CR-;\n%\n"},
         ClockCase{"corners_and_arcs", "rs274ngc",
                   "G21 F2000\nG0 X10 Y10 Z-5\nG1 X60\nY40\nG3 X50 Y50 I-10\nG1 X10\nX10 Y10\n"
                   "G2 X10 Y10 I15 Z-8\nG0 Z20\nM2\n"},
@@ -129,8 +133,7 @@ TEST(MotionClock, NeedsAnAccelerationInTheSetup) {
 // The reader has the ramps' time to read: 0.5 inch at 200 inch/min are 0.15 s, and longer from rest
 // to rest.
 TEST(MotionClock, GivesTheReaderMoreTime) {
-  const std::string tape =
-      "%\nN1F2000G00X5000\nN2G00X10000" + std::string(40, ' ') + "\nN3M30\n";
+  const std::string tape = "%\nN1F2000G00X5000\nN2G00X10000" + std::string(40, ' ') + "\nN3M30\n";
   const auto forecast = [&](const MachineData& machine) {
     MemorySource source(tape);
     Forecast sink({100, 0.010, 0}, tape.size(), {}, {}, machine);

@@ -16,7 +16,8 @@ using testing::StartsWith;
 std::vector<std::string> events_of(const std::string& text, std::string_view setup = "") {
   MemorySource source(text);
   EventLog log;
-  auto made = (*find_dialect("prototrak-plus"))->make(*parse_setup(setup, Units::Inch), source, log);
+  auto made =
+      (*find_dialect("prototrak-plus"))->make(*parse_setup(setup, Units::Inch), source, log);
   EXPECT_TRUE(made) << made.error().what;
   while (made && (*made)->step(100) == StepState::Ran) {
   }

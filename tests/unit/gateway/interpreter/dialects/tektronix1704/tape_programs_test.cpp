@@ -36,8 +36,7 @@ class Reader {
   std::vector<std::string> path() const {
     std::vector<std::string> lines;
     for (const std::string& line : log_.lines())
-      if (line.starts_with("line ") || line.starts_with("end "))
-        lines.push_back(line);
+      if (line.starts_with("line ") || line.starts_with("end ")) lines.push_back(line);
     return lines;
   }
   std::string log() const { return testing::PrintToString(log_.lines()); }
@@ -52,8 +51,8 @@ class Reader {
 struct TapeCase {
   const char* name;
   std::string tape;
-  std::int64_t part;       ///< that is read
-  std::uint32_t next;      ///< which the next start reads
+  std::int64_t part;   ///< that is read
+  std::uint32_t next;  ///< which the next start reads
 };
 
 class TapeStop : public testing::TestWithParam<TapeCase> {};

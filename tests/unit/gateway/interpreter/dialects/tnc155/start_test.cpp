@@ -14,15 +14,15 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-PathRun from_block(int block, const std::vector<std::string>& blocks,
-                   const std::string& setup = "", int pass = 0) {
+PathRun from_block(int block, const std::vector<std::string>& blocks, const std::string& setup = "",
+                   int pass = 0) {
   std::string text = "0 BEGIN PGM 5 MM\n";
   std::size_t at = 1;
   for (const std::string& each : blocks) text += std::to_string(at++) + " " + each + "\n";
   text += std::to_string(at) + " END PGM 5 MM\n";
-  return run_text(text, {fmt::format("{}\n[control]\nstart_block = {}\nstart_pass = {}\n", setup,
-                                     block, pass),
-                         {}});
+  return run_text(
+      text,
+      {fmt::format("{}\n[control]\nstart_block = {}\nstart_pass = {}\n", setup, block, pass), {}});
 }
 
 /// The reason for a refusal, of which nothing may have moved, turned or changed before.
@@ -162,12 +162,12 @@ TEST(TncStart, ContinuesInTheRepeatThatIsNamed) {
 
 // HD-193: and so are return addresses, of the call that is named.
 TEST(TncStart, ReturnsFromTheSubprogramThatItStartsIn) {
-  const std::vector<std::string> blocks{"CALL LBL 5 REP", "L X+7 Y+7 R0 F MAX", "CALL LBL 5 REP",
-                                        "L X+9 Y+9 F MAX", "STOP M02", "LBL 5",
-                                        "L X+1 Y+1 R0 F MAX", "L X+2 Y+2 F MAX", "LBL 0"};
-  EXPECT_THAT(from_pass(8, 1, blocks).events,
-              ElementsAre("stop", "R X2 Y2", "R X7 Y7", "R X1 Y1", "R X2 Y2", "R X9 Y9",
-                          StartsWith("end")));
+  const std::vector<std::string> blocks{
+      "CALL LBL 5 REP",     "L X+7 Y+7 R0 F MAX", "CALL LBL 5 REP",
+      "L X+9 Y+9 F MAX",    "STOP M02",           "LBL 5",
+      "L X+1 Y+1 R0 F MAX", "L X+2 Y+2 F MAX",    "LBL 0"};
+  EXPECT_THAT(from_pass(8, 1, blocks).events, ElementsAre("stop", "R X2 Y2", "R X7 Y7", "R X1 Y1",
+                                                          "R X2 Y2", "R X9 Y9", StartsWith("end")));
   EXPECT_THAT(from_pass(8, 2, blocks).events,
               ElementsAre("stop", "R X2 Y2", "R X9 Y9", StartsWith("end")));
 }
