@@ -64,34 +64,6 @@ TEST_F(LineProtocolTest, ContinuesACheckedTransferWhenTheCableIsBack) {
   EXPECT_TRUE(control_->received == text) << control_->received.size();
 }
 
-// With offer=repeat the tape stays in the reader: M30 winds it back, and the next start reads it.
-TEST_F(LineProtocolTest, KeepsATapeInTheReader) {
-  add_control("tape_reader", "repeat");
-  push("TK1", "%\nN1X1\nN2M30\n", "tnc155");
-  ASSERT_TRUE(start("TK1"));
-  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
-  ASSERT_TRUE(control_->until([&] { return runs().size() == 2; }));
-  EXPECT_EQ(control_->programs.size(), 1U);
-  EXPECT_EQ(runs()[1].state, RunState::Completed);
-  EXPECT_EQ(runs()[0].program, "TK1");
-  EXPECT_EQ(runs()[0].author, "request from the control");
-  EXPECT_EQ(runs()[0].counters.sent, 0U) << "it waits for cycle start";
-  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
-  ASSERT_TRUE(control_->until([&] { return runs().size() == 3; }));
-  EXPECT_EQ(control_->programs.size(), 2U);
-}
-
-TEST_F(LineProtocolTest, DoesNotRepeatARunThatWasBrokenOff) {
-  add_control("tape_reader", "repeat");
-  push("TK1", "%\nN1X1\nN2M02\n%\nN1X2\nN2M30\n", "tnc155");
-  ASSERT_TRUE(start("TK1"));
-  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
-  ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
-  ASSERT_TRUE(control_->line().begin_receive("%", control_->now()));  // in the middle of the tape
-  ASSERT_TRUE(control_->until([&] { return runs().front().state == RunState::Interrupted; }));
-  EXPECT_FALSE(control_->until([&] { return runs().size() > 1; }));
-}
-
 TEST_F(LineProtocolTest, SendsTheProgramThatATncAsksFor) {
   add_control("heidenhain_bcc", "all");
   const std::string text = tnc_program(15, 50);

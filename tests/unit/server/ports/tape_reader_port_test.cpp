@@ -1,0 +1,74 @@
+#include "tests/support/line/played_control.hpp"
+#include "tests/unit/server/ports/port_fixture.hpp"
+
+/// A port as the tape reader of a control: what happens to the tape when it was read.
+namespace dripline::server_test {
+namespace {
+
+using storage::RunState;
+using test_support::PlayedControl;
+
+class TapeReaderPortTest : public PortServiceTest {
+ protected:
+  void add_reader(const std::string& offer) {
+    start_ports();
+    add_machine("mill", "tektronix-1704");
+    auto port = mill();
+    port.settings = {{"baud", "115200"},     {"flow", "tape_reader"}, {"offer", offer},
+                     {"reader_cps", "5000"}, {"code", "iso"},         {"parity", "none"},
+                     {"data_bits", "8"}};
+    add_port(port);
+    control_ = std::make_unique<PlayedControl>(ports_->port("com1")->settings, line());
+  }
+  /// The newest first.
+  std::vector<storage::Run> runs() {
+    return store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {}).value();
+  }
+  /// The control has asked for a program and got none.
+  bool is_asked() { return ports_->port("com1")->request.has_value(); }
+  std::unique_ptr<PlayedControl> control_;
+};
+
+// With offer=repeat the tape stays in the reader: M30 winds it back, and the next start reads it.
+TEST_F(TapeReaderPortTest, KeepsATapeInTheReader) {
+  add_reader("repeat");
+  push("TK1", "%\nN1X1\nN2M30\n", "tektronix-1704");
+  ASSERT_TRUE(start("TK1"));
+  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
+  ASSERT_TRUE(control_->until([&] { return runs().size() == 2; }));
+  EXPECT_EQ(control_->programs.size(), 1U);
+  EXPECT_EQ(runs()[1].state, RunState::Completed);
+  EXPECT_EQ(runs()[0].program, "TK1");
+  EXPECT_EQ(runs()[0].author, "request from the control");
+  EXPECT_EQ(runs()[0].counters.sent, 0U) << "it waits for cycle start";
+  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
+  ASSERT_TRUE(control_->until([&] { return runs().size() == 3; }));
+  EXPECT_EQ(control_->programs.size(), 2U);
+}
+
+TEST_F(TapeReaderPortTest, DoesNotRepeatARunThatWasBrokenOff) {
+  add_reader("repeat");
+  push("TK1", "%\nN1X1\nN2M02\n%\nN1X2\nN2M30\n", "tektronix-1704");
+  ASSERT_TRUE(start("TK1"));
+  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
+  ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
+  ASSERT_TRUE(control_->line().begin_receive("%", control_->now()));  // in the middle of the tape
+  ASSERT_TRUE(control_->until([&] { return runs().front().state == RunState::Interrupted; }));
+  ASSERT_TRUE(control_->until([&] { return is_asked(); }));
+  EXPECT_EQ(runs().size(), 1U);
+}
+
+// Nothing is sent that nobody ordered: without the setting the request waits for a run.
+TEST_F(TapeReaderPortTest, SendsNothingByItself) {
+  add_reader("none");
+  push("TK1", "%\nN1X1\nN2M30\n", "tektronix-1704");
+  ASSERT_TRUE(start("TK1"));
+  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
+  ASSERT_TRUE(control_->until([&] { return runs().front().state == RunState::Completed; }));
+  ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
+  ASSERT_TRUE(control_->until([&] { return is_asked(); })) << "it was wound back";
+  EXPECT_EQ(runs().size(), 1U);
+}
+
+}  // namespace
+}  // namespace dripline::server_test
