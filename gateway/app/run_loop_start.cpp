@@ -169,6 +169,7 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
                                            session.path_at(block), session.length_at(block)};
   });
   if (session.keeps_checkpoints()) {
+    session.keep_conditions(conditions);
     parts_.outbox.checkpoints().stage_run({run,
                                            encode(run.run, std::move(conditions)),
                                            {},

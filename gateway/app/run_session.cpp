@@ -284,6 +284,22 @@ std::optional<std::uint64_t> RunSession::set_block_skip(std::uint16_t levels) {
   return interpreter_->blocks();
 }
 
+/// A restart looks through the whole program with one setting.
+void RunSession::note_skip_change(const std::string& change, std::uint64_t last, bool block_skip) {
+  constexpr std::size_t kMaxChanges = 160;  // bytes, of a reason for people
+  if (!checkpoints_) return;
+  std::string& changes = conditions_.skip_changes;
+  if (last == 0) {
+    conditions_.block_skip = block_skip;
+  } else if (changes.size() + change.size() <= kMaxChanges) {
+    changes += fmt::format("{}{} after block {}", changes.empty() ? "" : ", ", change, last);
+  } else if (!changes.ends_with(" ...")) {
+    changes += " ...";
+  }
+  parts_.checkpoints->checkpoints().stage_conditions(parts_.run.run,
+                                                     encode(parts_.run.run, conditions_));
+}
+
 std::int64_t RunSession::clock_ms() const {
   std::int64_t shown = milliseconds(parts_.clock.now());
   if (setup_.date_time) shown = interpreter::milliseconds_of(*setup_.date_time) + shown - begun_ms_;

@@ -102,9 +102,14 @@ class RunSession {
   /// The restart; null: the run is none.
   const Rebuild* restart() const { return rebuild_.get(); }
 
-  /// For the blocks that are not interpreted yet; a restart in the middle is refused where the
-  /// path differs. Returns the block that was interpreted last; nothing: there is none after it.
+  /// For the blocks that are not interpreted yet. Returns the block that was interpreted last;
+  /// nothing: there is none after it.
   std::optional<std::uint64_t> set_block_skip(std::uint16_t levels);
+  /// Under which it runs, for a restart of it.
+  void keep_conditions(Conditions conditions) { conditions_ = std::move(conditions); }
+  /// A switch that skips blocks was changed: "block_skip on". `last`: as `set_block_skip` gave it;
+  /// `block_skip`: how it is now.
+  void note_skip_change(const std::string& change, std::uint64_t last, bool block_skip);
 
   /// The machine has used up so much of its time, which passes `factor` times as fast as the
   /// computer's (nullopt: as fast as possible). The clock that the program sees follows it.
@@ -155,6 +160,7 @@ class RunSession {
   std::optional<interpreter::DryRun> dry_run_;
   EventTracker tracker_;  ///< from the interpreter
   std::optional<CheckpointKeeper> checkpoints_;
+  Conditions conditions_;
   bool wants_checkpoint_ = false, is_at_boundary_ = true;
   /// A short program is read to its end at once: its first checkpoints come at doubled distances.
   std::uint64_t next_early_checkpoint_ = kFirstCheckpoint;

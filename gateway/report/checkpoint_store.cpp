@@ -90,6 +90,7 @@ void CheckpointStore::discard() {
   staged_run_.reset();
   staged_.clear();
   staged_answers_.clear();
+  staged_conditions_.reset();
   staged_ending_.reset();
   is_awaited_ = false;
 }
@@ -103,6 +104,13 @@ Result<void> CheckpointStore::write(sqlite::Database& database) const {
   if (auto done = write_run(database); !done) return done;
   if (auto done = write_checkpoints(database); !done) return done;
   if (auto done = write_answers(database); !done) return done;
+  if (staged_conditions_) {
+    auto update = database.prepare("UPDATE checkpoint_run SET conditions = ?2 WHERE run = ?1");
+    if (!update) return fail(update.error());
+    const auto done =
+        update->bind(staged_conditions_->run, bytes_of(staged_conditions_->bytes)).run();
+    if (!done) return done;
+  }
   if (!staged_ending_) return {};
   auto update = database.prepare("UPDATE checkpoint_run SET ending = ?2 WHERE run = ?1");
   if (!update) return fail(update.error());

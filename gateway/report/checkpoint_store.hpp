@@ -54,6 +54,10 @@ class CheckpointStore {
   static constexpr std::size_t kMaxAnswers = 4096;
 
   void stage_run(StoredRun run) { staged_run_ = std::move(run); }
+  /// What a run that is on disk is interpreted under has changed.
+  void stage_conditions(const std::string& run, Bytes conditions) {
+    staged_conditions_ = {run, std::move(conditions)};
+  }
   /// While a commit fails the newest few are kept, and the first. `is_awaited`: see
   /// `has_awaited`.
   void stage(const std::string& run, StoredCheckpoint checkpoint, bool is_awaited = false);
@@ -64,7 +68,8 @@ class CheckpointStore {
   }
 
   bool is_staged() const {
-    return staged_run_ || staged_ending_ || !staged_.empty() || !staged_answers_.empty();
+    return staged_run_ || staged_conditions_ || staged_ending_ || !staged_.empty() ||
+           !staged_answers_.empty();
   }
   /// Something of this must be on disk before the next block is executed: an answer, or a
   /// checkpoint that was staged so.
@@ -100,7 +105,7 @@ class CheckpointStore {
     std::string run;
     Answer answer;
   };
-  struct EndingOfRun {
+  struct BytesOfRun {
     std::string run;
     Bytes bytes;
   };
@@ -112,7 +117,7 @@ class CheckpointStore {
   std::vector<OfRun> staged_;
   bool is_awaited_ = false;
   std::vector<AnswerOfRun> staged_answers_;
-  std::optional<EndingOfRun> staged_ending_;
+  std::optional<BytesOfRun> staged_conditions_, staged_ending_;
 };
 
 }  // namespace dripline::report

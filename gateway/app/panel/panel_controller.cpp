@@ -195,6 +195,8 @@ Reply PanelController::set_block_skip(int level, bool is_on) {
   const auto last = session->set_block_skip(static_cast<std::uint16_t>(levels));
   if (!last)
     return note(name, is_on, "the program is read to its end: takes effect at the next start");
+  session->note_skip_change(fmt::format("switch {} {}", name, is_on ? "on" : "off"), *last,
+                            panel.block_skip);
   return note(name, is_on,
               *last == 0 ? std::string("from the first block on")
                          : fmt::format("takes effect after block {}, which was read last", *last));

@@ -18,6 +18,8 @@ namespace {
 constexpr std::uint32_t kFormat = 3;
 /// Of answers, whose times have milliseconds; kFormat: without.
 constexpr std::uint32_t kAnswerFormat = 4;
+/// Of conditions, which name changes of switches; kFormat: without.
+constexpr std::uint32_t kConditionsFormat = 5;
 
 /// What bytes are, and of what.
 struct Label {
@@ -91,6 +93,15 @@ interpreter::Answer answer_of(const FormerAnswer& former) {
   return std::get<bool>(former);
 }
 
+/// Of kFormat.
+struct FormerConditions {
+  std::string machine, server_setup, gateway_setup;
+  bool block_skip = false;
+  std::string start;
+  interpreter::Position begun_at;
+  std::string restart_of;
+};
+
 std::string numbered(std::string_view run, std::uint64_t number) {
   return fmt::format("{} {}", run, number);
 }
@@ -107,15 +118,29 @@ Result<Checkpoint> decode_checkpoint(std::string_view run, const Bytes& bytes) {
 Bytes sealed_checkpoint(std::string_view run, Bytes content) {
   return with_seal({kCheckpoint, run}, std::move(content));
 }
+Bytes sealed_conditions(std::string_view run, Bytes content) {
+  return with_seal({kConditions, run}, std::move(content));
+}
 Bytes sealed_answer(std::string_view run, std::uint64_t number, Bytes content) {
   return with_seal({kAnswer, numbered(run, number)}, std::move(content));
 }
 
 Bytes encode(std::string_view run, Conditions conditions) {
-  return sealed({kConditions, run}, conditions);
+  return sealed({kConditions, run}, conditions, kConditionsFormat);
 }
 Result<Conditions> decode_conditions(std::string_view run, const Bytes& bytes) {
-  return opened<Conditions>({kConditions, run}, bytes);
+  auto conditions = opened<Conditions>({kConditions, run}, bytes, kConditionsFormat);
+  if (conditions || conditions.error().code != Errc::Unsupported) return conditions;
+  auto former = opened<FormerConditions>({kConditions, run}, bytes);
+  if (!former) return conditions;
+  return Conditions{.machine = std::move(former->machine),
+                    .server_setup = std::move(former->server_setup),
+                    .gateway_setup = std::move(former->gateway_setup),
+                    .block_skip = former->block_skip,
+                    .start = std::move(former->start),
+                    .begun_at = former->begun_at,
+                    .restart_of = std::move(former->restart_of),
+                    .skip_changes = {}};
 }
 
 Bytes encode(std::string_view run, RunEnding ending) {

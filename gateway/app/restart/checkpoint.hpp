@@ -44,10 +44,16 @@ struct Conditions {
   std::string start;  ///< the place that its start named ("N120 pass=3"); empty: the first block
   interpreter::Position begun_at;  ///< where the machine was then
   std::string restart_of;          ///< the run that it continues; empty: it is no restart
+  /// Switches that skip blocks and were changed within it: "block_skip on after block 12". Empty:
+  /// none.
+  std::string skip_changes;
   friend bool operator==(const Conditions&, const Conditions&) = default;
 };
 report::Bytes encode(std::string_view run, Conditions conditions);
+/// Those that were kept without changes of switches are read, too.
 Result<Conditions> decode_conditions(std::string_view run, const report::Bytes& bytes);
+/// For tests: any bytes with the seal of conditions.
+report::Bytes sealed_conditions(std::string_view run, report::Bytes content);
 
 /// How far a run came.
 struct RunEnding {

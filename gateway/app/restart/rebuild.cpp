@@ -81,6 +81,13 @@ Rebuild::State Rebuild::find_programs() {
   return begin_search();
 }
 
+/// Why the look-through comes to something else.
+std::string Rebuild::why_other() const {
+  const std::string skipped = parts_.plan.skip_text();
+  return skipped.empty() ? "text, setup, a switch that skips blocks, or software have changed"
+                         : skipped;
+}
+
 /// A program that the run called, and that is another one now; empty: none. A server that does not
 /// state contents leaves them to the comparison of states and paths.
 std::string Rebuild::changed_program() const {
@@ -162,9 +169,10 @@ Rebuild::Step Rebuild::run_to(std::uint64_t block, bool may_lack_answers) {
   }
   if (may_lack_answers || parts_.interpreter.blocks() >= block) return Step::Ended;
   const auto& alarm = parts_.tracker.alarm();
-  fail_with(fmt::format("the program ends in block {} before block {}{}{}",
+  const std::string skipped = parts_.plan.skip_text();
+  fail_with(fmt::format("the program ends in block {} before block {}{}{}{}{}",
                         parts_.interpreter.blocks(), block, alarm ? ": " : "",
-                        alarm ? alarm->text : ""));
+                        alarm ? alarm->text : "", skipped.empty() ? "" : "; ", skipped));
   return Step::Failed;
 }
 
@@ -235,9 +243,8 @@ Rebuild::State Rebuild::prove() {
   if (step == Step::More) return State::Working;
   if (last_step_ != StepState::Ran || parts_.interpreter.snapshot().digest() != expected_) {
     return fail_with(
-        fmt::format("the state rebuilt at block {} is not the one that run {} had "
-                    "there: text, setup or software have changed",
-                    goal_, parts_.plan.original.run));
+        fmt::format("the state rebuilt at block {} is not the one that run {} had there: {}", goal_,
+                    parts_.plan.original.run, why_other()));
   }
   report_.state_equal_at = goal_;
   report_.state_digest = expected_;
@@ -333,10 +340,8 @@ Result<void> Rebuild::compare_ending() const {
                              report_.after.offset == then.offset;
   const bool is_same_path = then.path == 0 || then.path == report_.delivered.path;
   if (is_same_place && is_same_path) return {};
-  return fail(Errc::Conflict,
-              "what leads to block {} is not what run {} had executed: text, setup or software "
-              "have changed",
-              then.executed, parts_.plan.original.run);
+  return fail(Errc::Conflict, "what leads to block {} is not what run {} had executed: {}",
+              then.executed, parts_.plan.original.run, why_other());
 }
 
 /// A little further, for the length of the block that continues.

@@ -64,6 +64,7 @@ class Rebuild {
   State fail_with(std::string fault);
   State find_programs();
   std::string changed_program() const;
+  std::string why_other() const;
   State search();
   State prove();
   State advance();

@@ -14,6 +14,14 @@ std::string switch_text(bool is_on) {
   return is_on ? "on" : "off";
 }
 
+std::string skip_text_of(const Conditions& then) {
+  return fmt::format(
+      "within the run {}, and a restart looks through the program with one setting: set it as it "
+      "was at the start and restart at a place before the change, or start the program at a block "
+      "(--from)",
+      then.skip_changes);
+}
+
 /// What has changed since the run, in one text; empty: nothing.
 std::string changes(const report::ActiveRun& original, const Conditions& then,
                     const RunEnding& ending, const PresentState& now) {
@@ -33,8 +41,10 @@ std::string changes(const report::ActiveRun& original, const Conditions& then,
   if (then.server_setup != now.conditions.server_setup) add("the machine's setup on the server");
   if (then.gateway_setup != now.conditions.gateway_setup) add("the gateway's setup file");
   if (then.block_skip != now.conditions.block_skip) {
-    add(fmt::format("the switch block_skip was {}, it is {}", switch_text(then.block_skip),
+    add(fmt::format("the switch block_skip was {}{}, it is {}", switch_text(then.block_skip),
+                    then.skip_changes.empty() ? "" : " at its start",
                     switch_text(now.conditions.block_skip)));
+    if (!then.skip_changes.empty()) add(skip_text_of(then));
   }
   if (ending.memory != now.memory) add("the control's memory (variables, offsets)");
   return text;
@@ -102,6 +112,10 @@ std::optional<std::uint64_t> RestartPlan::known_target() const {
     if (one.time <= at.time) executed = std::max(executed, one.executed);
   }
   return executed;
+}
+
+std::string RestartPlan::skip_text() const {
+  return conditions.skip_changes.empty() ? std::string() : skip_text_of(conditions);
 }
 
 std::size_t RestartPlan::nearest(std::uint64_t block) const {

@@ -28,6 +28,8 @@ struct RestartPlan {
 
   /// The last block that is not executed again, where that is known before looking.
   std::optional<std::uint64_t> known_target() const;
+  /// That switches were changed within the run, and what to do; empty: none was.
+  std::string skip_text() const;
   /// Index of the newest checkpoint at or before the block.
   std::size_t nearest(std::uint64_t block) const;
 };

@@ -147,6 +147,40 @@ TEST(CheckpointStore, OutlivesItsProcessAndKeepsTheLastRuns) {
   EXPECT_EQ(report::CheckpointStore::answers(outbox.database(), "run-2", 0).value().size(), 1u);
 }
 
+/// As they were written before changes of switches were among them.
+struct FormerConditions {
+  std::string machine, server_setup, gateway_setup;
+  bool block_skip = false;
+  std::string start;
+  Position begun_at;
+  std::string restart_of;
+};
+
+TEST(Conditions, OfTheFormerFormatReadBack) {
+  FormerConditions former{.machine = "mill-1",
+                          .server_setup = "s",
+                          .gateway_setup = "g",
+                          .block_skip = true,
+                          .start = "N120",
+                          .begun_at = {},
+                          .restart_of = "run-0"};
+  former.begun_at.set(Axis::X, Length::mm(3));
+  std::uint32_t format = 3;
+  interpreter::language::StateWriter writer;
+  writer(format, former);
+  const auto read = decode_conditions("run-1", sealed_conditions("run-1", writer.take()));
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->machine, "mill-1");
+  EXPECT_TRUE(read->block_skip);
+  EXPECT_EQ(read->start, "N120");
+  EXPECT_EQ(read->begun_at.raw(Axis::X), 3);
+  EXPECT_EQ(read->restart_of, "run-0");
+  EXPECT_EQ(read->skip_changes, "");
+  Conditions now = *read;
+  now.skip_changes = "switch block_skip on after block 7";
+  EXPECT_EQ(decode_conditions("run-1", encode("run-1", now)).value(), now);
+}
+
 TEST(RestartPlace, IsReadInAllItsForms) {
   using Kind = RestartPlace::Kind;
   EXPECT_EQ(parse_restart_place("executed")->kind, Kind::Executed);

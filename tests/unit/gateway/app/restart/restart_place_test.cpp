@@ -173,6 +173,72 @@ TEST_F(Restart, IsRefusedWithTheNameOfWhatHasChanged) {
   EXPECT_THAT(shop.start_answer.reason, HasSubstr("the control's memory"));
 }
 
+/// A run of a program whose block N10 is skipped from the change on, and which is aborted after it.
+class RestartAfterASkip : public testing::Test {
+ protected:
+  RestartAfterASkip() : shop(interpreter::kFanucDialect, {}, "1000x") {
+    std::string text = "O0541\nG21 G90 F6000\nG01 X1.\nM00\n";
+    for (int i = 0; i < 40'000; ++i) text += "X" + std::to_string(i % 2) + ".\n";
+    text += "/N10 X90.\nN20 X5.\nM00\nX6.\nM30\n";
+    shop.set_checkpoint_interval(std::chrono::milliseconds(200));
+    shop.push("P", text);
+    shop.restart_gateway();
+  }
+  bool at_stop() {
+    return shop.run_until(
+        [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; });
+  }
+  void turn_skip(bool is_on) {
+    dds::Command skip = shop.command(dds::CommandAction::Switch);
+    skip.argument = "block_skip";
+    skip.value = is_on ? 1 : 0;
+    ASSERT_TRUE(shop.send(skip).accepted);
+  }
+  /// Why a restart does not begin; empty: it does.
+  std::string refusal(const std::string& at = "executed") {
+    if (!shop.begin_restart("P", run, at).is_null()) return {};
+    return shop.start_answer.accepted ? shop.last_end().reason : shop.start_answer.reason;
+  }
+
+  RestartFixture shop;
+  std::string run;
+};
+
+TEST_F(RestartAfterASkip, IsRefusedWithTheSwitchAndWhatToDo) {
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  run = shop.last_run();
+  ASSERT_TRUE(at_stop());
+  turn_skip(true);
+  ASSERT_TRUE(shop.cycle_start());
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->executed > 39'000; }));
+  ASSERT_TRUE(at_stop());
+  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+  ASSERT_TRUE(shop.run_on());
+  EXPECT_THAT(refusal(),
+              testing::AllOf(HasSubstr("the switch block_skip was off at its start"),
+                             HasSubstr("within the run switch block_skip on after block"),
+                             HasSubstr("(--from)")));
+  shop.restart_gateway();  // as after a kill: it is on record
+  turn_skip(false);
+  EXPECT_THAT(refusal(),
+              testing::AllOf(HasSubstr("within the run switch block_skip on after block"),
+                             HasSubstr("(--from)")));
+  EXPECT_EQ(refusal("block=3"), "") << "before the change";
+}
+
+TEST_F(RestartAfterASkip, NeedsTheSwitchAsItWasFromTheFirstBlockOn) {
+  shop.make_attended();
+  shop.restart_gateway();
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  run = shop.last_run();
+  EXPECT_EQ(shop.panel("switch block_skip on"), "ok from the first block on");
+  EXPECT_EQ(shop.panel("cycle-start"), "ok");
+  ASSERT_TRUE(at_stop());
+  EXPECT_EQ(shop.panel("abort"), "ok");
+  ASSERT_TRUE(shop.run_on());
+  EXPECT_EQ(refusal(), "");
+}
+
 TEST_F(Restart, NothingStartsFromADamagedCheckpoint) {
   abort_at_stop();
   shop.close_gateway();
