@@ -143,6 +143,21 @@ void ControlMemory::note(std::size_t place, double value) {
   if (cell.keeps == interpreter::Keeps::Always) has_unstaged_ = has_changed_ = true;
 }
 
+std::optional<std::size_t> ControlMemory::place_of(const std::string& name) const {
+  const auto found = places_.find(name);
+  return found == places_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::shared_ptr<const ControlMemory::Saved> ControlMemory::save() const {
+  return std::make_shared<const Saved>(Saved{cells_, has_unstaged_, has_changed_});
+}
+
+void ControlMemory::restore(const Saved& saved) {
+  cells_ = saved.cells;
+  has_unstaged_ = saved.has_unstaged;
+  has_changed_ = saved.has_changed;
+}
+
 void ControlMemory::stage() {
   has_unstaged_ = false;
   const auto& stored = memory_.cells();
@@ -160,7 +175,7 @@ void ControlMemory::stage() {
   if (found == stored.end() || found->second != kept) memory_.stage_cell(tape_name(), kept);
 }
 
-std::vector<std::string> ControlMemory::report() const {
+std::vector<std::string> ControlMemory::report(const std::string& change) const {
   std::vector<std::string> parts;
   for (const auto& [name, cell] : cells_) {
     if (cell.keeps != interpreter::Keeps::Always) continue;
@@ -170,9 +185,12 @@ std::vector<std::string> ControlMemory::report() const {
     parts.back() += (parts.back().empty() ? "" : ",") + entry;
   }
   if (parts.empty()) parts.emplace_back();  // an empty memory is reported too
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    parts[i] =
-        fmt::format("{{\"part\":{},\"parts\":{},\"cells\":{{{}}}}}", i + 1, parts.size(), parts[i]);
+  const std::size_t count = parts.size() + (change.empty() ? 0 : 1);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    parts[i] = fmt::format("{{\"part\":{},\"parts\":{},\"cells\":{{{}}}}}", i + 1, count, parts[i]);
+  if (!change.empty()) {
+    parts.push_back(fmt::format("{{\"part\":{},\"parts\":{},\"cells\":{{}},\"change\":{}}}", count,
+                                count, change));
   }
   return parts;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -46,12 +47,20 @@ class ControlMemory {
   /// `begin`).
   void note(std::size_t cell, double value);
 
+  /// A cell of `begin` by its name; nothing: there is none.
+  std::optional<std::size_t> place_of(const std::string& name) const;
+  /// For a change that cannot be kept: it is taken back.
+  struct Saved;
+  std::shared_ptr<const Saved> save() const;
+  void restore(const Saved& saved);
+
   /// Stages what the outbox does not have yet, to go to disk with its next commit.
   void stage();
   bool has_unstaged() const { return has_unstaged_; }
   /// Everything kept for good, as JSON of at most kMaxRecordText bytes each: {"part", "parts",
-  /// "cells": {name: [number, what the setup gave]}}, null for a vacant one.
-  std::vector<std::string> report() const;
+  /// "cells": {name: [number, what the setup gave]}}, null for a vacant one. `change`: JSON of what
+  /// an operator has set, a part of its own; empty: a program's end.
+  std::vector<std::string> report(const std::string& change = {}) const;
   /// SHA-256 of the same: two memories with one digest hold the same.
   std::string digest() const;
   /// What programs read and write, as executed blocks have left it: of the present program, or the
@@ -90,6 +99,11 @@ class ControlMemory {
   std::vector<Value> live_;
   std::optional<Tape> tape_;  ///< none: wound back
   bool has_unstaged_ = false, has_changed_ = false;
+};
+
+struct ControlMemory::Saved {
+  std::map<std::string, Cell> cells;
+  bool has_unstaged = false, has_changed = false;
 };
 
 }  // namespace dripline::gateway

@@ -207,6 +207,13 @@ void ExecutionRecorder::note_memory(const std::string& text) {
   append(reached_origin(), {RecordKind::Message, kMemoryDevice, text});
 }
 
+void ExecutionRecorder::note_memory_change(const std::string& change,
+                                           const std::vector<std::string>& texts) {
+  run_ = change;
+  for (const std::string& text : texts) append({}, {RecordKind::Message, kMemoryDevice, text});
+  run_.clear();
+}
+
 void ExecutionRecorder::note_restart(const std::string& text) {
   append(reached_origin(), {RecordKind::Message, kRestartDevice, text});
 }

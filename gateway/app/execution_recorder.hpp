@@ -109,6 +109,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   /// The memory of the control, JSON: a message with a device name of its own.
   void note_memory(const std::string& text);
   static constexpr const char* kMemoryDevice = "memory";
+  /// Likewise after a change by an operator, without a run: `change` names it.
+  void note_memory_change(const std::string& change, const std::vector<std::string>& texts);
   /// What a restart has rebuilt, JSON, likewise.
   void note_restart(const std::string& text);
   static constexpr const char* kRestartDevice = "restart";

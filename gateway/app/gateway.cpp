@@ -59,6 +59,11 @@ Gateway::Gateway(Parts parts)
                  [this] {
                    if (line_) line_->on_run_over();
                  }}),
+      positions_({.dialect = parts_.dialect,
+                  .setup = parts_.setup,
+                  .machine = *machine_,
+                  .memory = memory_,
+                  .run = run_}),
       status_({.gateway_session = parts_.session,
                .dialect = parts_.dialect,
                .setup = parts_.setup,

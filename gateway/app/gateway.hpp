@@ -10,6 +10,7 @@
 #include "gateway/app/line_operator.hpp"
 #include "gateway/app/machine_gateway.hpp"
 #include "gateway/app/panel/panel_controller.hpp"
+#include "gateway/app/position_setter.hpp"
 #include "gateway/app/run_loop.hpp"
 #include "gateway/app/server_link.hpp"
 #include "gateway/app/status_builder.hpp"
@@ -76,6 +77,7 @@ class Gateway final : public MachineGateway {
   std::optional<Reply> refusal_of_start(const dds::Command& command) const;
   Reply start(const dds::Command& command);
   Reply operate(const dds::Command& command);
+  Reply set_position(const dds::Command& command);
   Reply resume();
   std::optional<Reply> refusal_of_fault() const;
   void answer_query(const dds::Command& command);
@@ -100,6 +102,7 @@ class Gateway final : public MachineGateway {
   CommandLog commands_;
   PanelController panel_;
   RunLoop loop_;
+  PositionSetter positions_;
   std::unique_ptr<LineOperator> line_;  ///< null: programs come from the server
   StatusBuilder status_;
   bool stop_requested_ = false;

@@ -58,7 +58,8 @@ void Gateway::on(const dds::Command& command, SteadyTime) {
   process::log_info("command {} {} {}{}{} {}", command.id, dds::to_string(command.action),
                     reply.is_accepted ? "accepted" : "refused", reply.reason.empty() ? "" : ": ",
                     reply.reason, run_.label());
-  const bool is_kept = command.action == CommandAction::Start && reply.is_accepted;
+  const bool is_kept = reply.is_accepted && (command.action == CommandAction::Start ||
+                                             command.action == CommandAction::SetPosition);
   if (!is_kept) keep_answer(command, reply);
   commands_.answer(command.id, reply);
 }
@@ -100,6 +101,11 @@ Reply Gateway::carry_out(const dds::Command& command, bool is_stop) {
   }
   if (command.action == CommandAction::Start) return start(command);
   if (auto refusal = panel_.refusal_without_consent(command)) return *refusal;
+  if (command.action == CommandAction::SetPosition) return set_position(command);
+  if (command.action == CommandAction::Playback) {
+    auto block = positions_.playback(command.argument, command.setup);
+    return block ? Reply{true, *std::move(block)} : refuse(block.error().what);
+  }
   if (command.action == CommandAction::Switch) return panel_.set_switch(command);
   if (dds::is_override(command.action)) return panel_.set_override(command);
   if (!run_.is_active()) return refuse("no run is active");
@@ -164,6 +170,39 @@ Reply Gateway::operate(const dds::Command& command) {
 std::optional<Reply> Gateway::refusal_of_fault() const {
   if (recorder_.fault().empty()) return std::nullopt;
   return refuse(fmt::format("reports cannot be kept: {}", recorder_.fault()));
+}
+
+/// The memory, its record and the answer are on disk together, or nothing has changed.
+Reply Gateway::set_position(const dds::Command& command) {
+  if (line_) {
+    return refuse(fmt::format("this machine is the control at the end of line {}: set it there",
+                              line_->address()));
+  }
+  if (run_.session)
+    return refuse(fmt::format("run {} is active: nothing is set while a program runs",
+                              run_.session->run().run));
+  if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStop));
+  if (auto refusal = refusal_of_fault()) return *refusal;
+  const auto before = memory_.save();
+  const auto change = positions_.set(command.argument, command.program, command.setup);
+  if (!change) {
+    memory_.restore(*before);
+    return refuse(change.error().what);
+  }
+  Reply reply{true, valid_text(change->text, kMaxReason)};
+  outbox_.discard();
+  memory_.stage();
+  recorder_.note_memory_change(std::string(dds::kChangePrefix) + command.id,
+                               memory_.report(change->record));
+  commands_.stage(command.id, reply);
+  if (const auto done = outbox_.commit(); !done) {
+    outbox_.discard();
+    memory_.restore(*before);
+    return refuse(fmt::format("what was set cannot be kept: {}", done.error().what));
+  }
+  (void)memory_.take_change();  // it is reported
+  server_.want_status();
+  return reply;
 }
 
 Reply Gateway::resume() {

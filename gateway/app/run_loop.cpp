@@ -227,6 +227,7 @@ void RunLoop::try_to_finish(SteadyTime now) {
                     recorder.executed().executed, recorder.executed().accepted,
                     recorder.executed().sent, parts_.run.label());
   recorder.finish();
+  note_left();
   take_modes();
   if (locked_at_) parts_.machine.begin(*std::exchange(locked_at_, std::nullopt));
   parts_.run.is_ending = false;

@@ -92,6 +92,7 @@ class RunLoop {
   void keep_tape();
   const interpreter::Snapshot* modes_for(const StartOrigin& origin);
   void take_modes();
+  void note_left();
   void note_beginning(const StartOrigin& origin, bool has_modes);
   Result<std::optional<RestartPlan>> plan_of(const report::ActiveRun& run,
                                              const StartOrigin& origin) const;

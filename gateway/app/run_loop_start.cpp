@@ -208,6 +208,13 @@ void RunLoop::keep_tape() {
   parts_.recorder.note({}, parts_.run.last_message);
 }
 
+/// Before the session is gone: of the block that was executed last.
+void RunLoop::note_left() {
+  const std::uint64_t block = parts_.machine.status().origin.block;
+  const interpreter::ActiveModes& modes = parts_.run.session->modes_at(block);
+  parts_.run.left = {modes.tool_length_x, modes.tool_length_z, parts_.run.session->frame_at(block)};
+}
+
 /// Before the session is gone.
 void RunLoop::take_modes() {
   if (parts_.run.last_execution != dds::Execution::ProgramCompleted) return;

@@ -203,6 +203,12 @@ struct CurrentRun {
   bool was_emergency_stopped = false;   ///< it ends when the switch is released
   dds::Execution last_execution = dds::Execution::Ready;
   std::string last_message;
+  /// What the last program of this process has left in force at its end.
+  struct Left {
+    Length tool_length_x, tool_length_z;
+    std::optional<interpreter::CoordinateFrame> frame;
+  };
+  std::optional<Left> left = {};
 
   /// Commands and motion apply to it.
   bool is_active() const { return session && !is_ending; }

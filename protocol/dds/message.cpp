@@ -26,9 +26,10 @@ Words words_of(RecordKind) {
 }
 
 Words words_of(CommandAction) {
-  static constexpr std::array<std::string_view, 12> kWords{
+  static constexpr std::array<std::string_view, 14> kWords{
       "start",         "hold",           "resume",           "abort",     "answer", "switch",
-      "feed_override", "rapid_override", "spindle_override", "handwheel", "refuse", "query"};
+      "feed_override", "rapid_override", "spindle_override", "handwheel", "refuse", "query",
+      "set_position",  "playback"};
   return kWords;
 }
 

@@ -24,6 +24,8 @@ inline constexpr std::uint32_t kProtocolVersion = 2;
 /// The argument of a start whose text is keyed in (MDI). A gateway that does not know it refuses
 /// its second word.
 inline constexpr std::string_view kMdiStart = "mdi keyed-in";
+/// Records of a change that an operator has set name no run, but this and the command's id.
+inline constexpr std::string_view kChangePrefix = "set-";
 inline constexpr std::size_t kMaxBlockBytes = 32 * 1024;
 inline constexpr std::uint32_t kMaxRequestBytes = 1024 * 1024;
 inline constexpr std::size_t kMaxRecordText = 4096;
@@ -65,6 +67,8 @@ enum class CommandAction : std::uint8_t {
   Handwheel,
   Refuse,  ///< the server does not command this gateway; `argument` is the reason
   Query,   ///< asks for values of the control, and changes nothing; needs a gateway with a Screen
+  SetPosition,  ///< a datum or a tool's length from where the axes are; moves nothing
+  Playback,     ///< asks for the position as words of a block, and changes nothing
 };
 enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, Counterclockwise, Thread };
 enum class CompensationSide : std::uint8_t { Off, Left, Right };

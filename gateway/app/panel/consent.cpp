@@ -26,8 +26,9 @@ bool needs_consent(const dds::Command& command, const machine::OperatorPanel& pa
     case CommandAction::Start:
     case CommandAction::Hold:
     case CommandAction::Abort:
-    case CommandAction::Refuse:  // these two are no commands to the machine
+    case CommandAction::Refuse:  // these three are no commands to the machine
     case CommandAction::Query:
+    case CommandAction::Playback:
       return false;
     case CommandAction::Switch:
       return lets_run_on(command, panel);
@@ -35,6 +36,7 @@ bool needs_consent(const dds::Command& command, const machine::OperatorPanel& pa
     case CommandAction::RapidOverride:
     case CommandAction::SpindleOverride:
       return !(command.value <= dds::override_of(command.action, panel));
+    case CommandAction::SetPosition:  // the next program cuts elsewhere
     case CommandAction::Resume:
     case CommandAction::Answer:
     case CommandAction::Handwheel:

@@ -1,0 +1,277 @@
+#include "gateway/app/position_setter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "gateway/app/run_texts.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
+
+namespace dripline::gateway {
+
+using interpreter::Axis;
+using interpreter::CoordinateFrame;
+using interpreter::PositionRules;
+using interpreter::PositionSetting;
+
+namespace {
+
+constexpr double kSmallest = 1e-6;  ///< mm or degrees
+
+bool is_off(double value) {
+  return std::fabs(value) <= kSmallest;
+}
+
+/// What lies between the machine and the datum besides it; empty: nothing.
+std::string obstacle(const std::optional<CoordinateFrame>& frame) {
+  if (!frame) return {};
+  const auto& shift = frame->shift;
+  if (!std::all_of(shift.begin(), shift.end(), is_off)) return "a shift (G52, G92, cycle 7, G50)";
+  if (!is_off(frame->rotation)) return "a rotation";
+  if (!is_off(frame->basic_rotation)) return "a basic rotation";
+  const auto is_one = [](double scale) { return is_off(scale - 1); };
+  if (!std::all_of(frame->scale.begin(), frame->scale.end(), is_one)) return "a scaling";
+  const auto& mirrored = frame->mirrored;
+  if (std::any_of(mirrored.begin(), mirrored.end(), [](bool on) { return on; }))
+    return "a mirror image";
+  return {};
+}
+
+/// Of a setup: what a program begins with besides its datum, where the control reports no frame.
+std::string obstacle(const interpreter::Setup& setup) {
+  for (const auto& offset : setup.offsets) {
+    if (offset.name != "G50" && offset.name != "G52" && offset.name != "G92") continue;
+    for (const Axis axis : interpreter::kAllAxes)
+      if (!is_off(offset.value.raw(axis))) return "a shift (" + offset.name + ")";
+  }
+  return {};
+}
+
+bool is_equal(double a, double b) {
+  return std::fabs(a - b) <= 1e-9 * std::max({1.0, std::fabs(a), std::fabs(b)});
+}
+
+std::string shown_number(const std::optional<double>& number) {
+  return number && std::isfinite(*number) ? fmt::format("{:.10g}", *number) : "vacant";
+}
+
+}  // namespace
+
+/// A control with this setup, before its first block.
+struct PositionSetter::Control {
+  std::unique_ptr<interpreter::MemorySource> text = std::make_unique<interpreter::MemorySource>("");
+  std::unique_ptr<interpreter::EventSink> events = std::make_unique<interpreter::EventSink>();
+  std::unique_ptr<interpreter::Interpreter> interpreter;
+  interpreter::RetainedMemory* memory = nullptr;
+  std::vector<double> numbers;
+};
+
+Result<interpreter::Setup> PositionSetter::setup_of(const std::string& text) const {
+  interpreter::Setup setup = parts_.setup;
+  if (!text.empty()) {
+    auto data = interpreter::parse_control_data(text, parts_.dialect.units);
+    if (!data) return fail(data.error().code, "the server's setup: {}", data.error().what);
+    interpreter::use_control_data(*std::move(data), setup);
+  }
+  setup.start = parts_.machine.status().position;
+  setup.start.unmark_all();
+  return setup;
+}
+
+Result<PositionSetter::Control> PositionSetter::control_with(
+    const interpreter::Setup& setup) const {
+  Control control;
+  auto made = parts_.dialect.make(setup, *control.text, *control.events);
+  if (!made) return fail(made.error().code, "setup: {}", made.error().what);
+  control.interpreter = *std::move(made);
+  control.memory = dynamic_cast<interpreter::RetainedMemory*>(control.interpreter.get());
+  if (control.memory == nullptr)
+    return fail(Errc::Unsupported, "control {} keeps no datum and no tools", parts_.dialect.name);
+  (void)control.memory->read_memory(control.numbers);
+  return control;
+}
+
+Result<void> PositionSetter::check_rest() const {
+  const machine::MotionBackend& machine = parts_.machine;
+  if (machine.is_moving()) return fail(Errc::Busy, "the axes move");
+  if (auto ready = machine.check_begin(machine.status().position); !ready)
+    return fail(ready.error().code, "the position is not known for certain: {}",
+                ready.error().what);
+  return {};
+}
+
+Result<void> PositionSetter::check_axis(Axis axis) const {
+  if (parts_.machine.capabilities().axes[static_cast<std::size_t>(axis)]) return {};
+  return fail(Errc::Unsupported, "this machine has no axis {}", interpreter::letter(axis));
+}
+
+Result<void> PositionSetter::check_frames(const Control& control,
+                                          const interpreter::Setup& setup) const {
+  std::string what = obstacle(control.interpreter->frame());
+  if (what.empty()) what = obstacle(setup);
+  if (!what.empty())
+    return fail(Errc::Conflict, "{} is in force at power on: take it out of the setup first", what);
+  if (!parts_.run.left) return {};
+  what = obstacle(parts_.run.left->frame);
+  if (!what.empty()) {
+    return fail(Errc::Conflict,
+                "{} is in force since the last program: cancel it first (by MDI, or by a program)",
+                what);
+  }
+  return {};
+}
+
+interpreter::RestingPlace PositionSetter::place(const interpreter::Setup& setup) const {
+  interpreter::RestingPlace place;
+  const interpreter::Position at = parts_.machine.status().position;
+  for (const Axis axis : interpreter::kAllAxes)
+    place.at[static_cast<std::size_t>(axis)] = at.raw(axis);
+  if (const auto& left = parts_.run.left) {
+    place.length_x = left->tool_length_x.mm();
+    place.length_z = left->tool_length_z.mm();
+  }
+  place.memory = setup.units.value_or(parts_.dialect.units);
+  return place;
+}
+
+namespace {
+
+/// Whether the control's screen has this function.
+Result<void> check_function(const PositionRules& rules, const PositionSetting& setting,
+                            std::string_view control) {
+  const bool is_tool = setting.tool > 0;
+  const std::string_view axes = is_tool ? rules.tool_axes : rules.datum_axes;
+  const char letter = interpreter::letter(setting.axis);
+  if (axes.empty()) {
+    return fail(Errc::Unsupported, "control {} sets no {} from the position", control,
+                is_tool ? "length of a tool" : "datum");
+  }
+  if (axes.find(letter) == std::string_view::npos) {
+    return fail(Errc::Unsupported, "control {} sets {} from the position along {} alone, not {}",
+                control, is_tool ? "lengths of tools" : "datums", axes, letter);
+  }
+  if (!is_tool && rules.is_zero_only && setting.value != 0) {
+    return fail(Errc::Unsupported, "control {} sets the zero of an offset here: the value is 0",
+                control);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PositionSetter::Change> PositionSetter::set(const std::string& argument,
+                                                   const std::string& who,
+                                                   const std::string& server_setup) {
+  const auto setting = interpreter::parse_position_setting(argument);
+  if (!setting) return fail(setting.error());
+  const PositionRules& rules = interpreter::position_rules(parts_.dialect.name);
+  if (auto has = check_function(rules, *setting, parts_.dialect.name); !has)
+    return fail(has.error());
+  if (auto has = check_axis(setting->axis); !has) return fail(has.error());
+  if (auto rests = check_rest(); !rests) return fail(rests.error());
+  auto setup = setup_of(server_setup);
+  if (!setup) return fail(setup.error());
+  const bool is_diameter =
+      setting->axis == Axis::X && parts_.dialect.machine == interpreter::MachineKind::Lathe;
+  // The value is a diameter to all who ask; a control where it is not would take half of it.
+  if (is_diameter && !setup->control.flag("x_is_diameter", true).value_or(true)) {
+    return fail(Errc::Unsupported,
+                "X of this control is a radius ([control] x_is_diameter): set it by MDI (G10)");
+  }
+  const interpreter::RestingPlace place = this->place(*setup);
+  const bool has_length = !is_off(place.length_x) || !is_off(place.length_z);
+  if (setting->tool > 0 && has_length && !parts_.machine.capabilities().places_axes) {
+    return fail(Errc::Conflict,
+                "a tool offset is in force since the last program: cancel it by MDI first (G49, "
+                "T00)");
+  }
+
+  // As at the start of a program: what is kept wins, except over what was changed in the setup.
+  auto alone = control_with(*setup);
+  if (!alone) return fail(alone.error());
+  const auto cells = alone->memory->memory_cells();
+  auto kept = parts_.memory.begin(cells, alone->numbers, *setup);
+  if (!kept) return fail(kept.error());
+  setup->variables.insert(setup->variables.end(), kept->begin(), kept->end());
+  const auto present = control_with(*setup);
+  if (!present) return fail(present.error());
+  if (auto is_plain = check_frames(*present, *setup); !is_plain) return fail(is_plain.error());
+  const interpreter::ReadCell read = [&](const std::string& name) -> std::optional<double> {
+    const auto at = parts_.memory.place_of(name);
+    return at ? std::optional(present->numbers.at(*at)) : std::nullopt;
+  };
+  const auto changes = rules.changes(*setting, place, read);
+  if (!changes) return fail(changes.error());
+
+  // The control itself is asked whether it takes the numbers, and what the position is then.
+  for (const auto& change : *changes) setup->variables.push_back({change.name, change.value});
+  const auto then = control_with(*setup);
+  if (!then) return fail(then.error());
+  nlohmann::json numbers = nlohmann::json::object();
+  std::string text;
+  for (const auto& change : *changes) {
+    const auto at = parts_.memory.place_of(change.name);
+    if (!at || !is_equal(then->numbers.at(*at), change.value))
+      return fail(Errc::Unsupported, "the control does not take {} for {}", change.value,
+                  change.name);
+    const auto before = read(change.name);
+    numbers[change.name] = {before && std::isfinite(*before) ? nlohmann::json(*before) : nullptr,
+                            change.value};
+    text += fmt::format("{}{} is {}, it was {}", text.empty() ? "" : "; ", change.name,
+                        shown_number(change.value), shown_number(before));
+  }
+  const std::size_t axis = static_cast<std::size_t>(setting->axis);
+  const auto frame = then->interpreter->frame();
+  const bool is_in_force =
+      setting->offset.empty() || work_system_text(then->interpreter->modes()) == setting->offset;
+  if (setting->tool == 0 && frame && is_in_force) {
+    const double shown = frame->to_program(place.at)[axis] * (is_diameter ? 2 : 1);
+    if (!is_off(shown - setting->canonical())) {
+      return fail(Errc::Conflict,
+                  "{} would be {:.4f} then, not {:.4f}: something in the setup stands against it",
+                  interpreter::letter(setting->axis), shown, setting->canonical());
+    }
+  }
+  for (const auto& change : *changes)
+    parts_.memory.note(*parts_.memory.place_of(change.name), change.value);
+  nlohmann::json record{{"what", interpreter::to_text(*setting)},
+                        {"by", who},
+                        {"at", place.at[axis] * (is_diameter ? 2 : 1)},
+                        {"cells", std::move(numbers)}};
+  return Change{std::move(text), record.dump()};
+}
+
+Result<std::string> PositionSetter::playback(const std::string& axes,
+                                             const std::string& server_setup) const {
+  const PositionRules& rules = interpreter::position_rules(parts_.dialect.name);
+  if (rules.playback == nullptr) {
+    return fail(Errc::Unsupported, "control {} takes no position into a program",
+                parts_.dialect.name);
+  }
+  std::vector<Axis> wanted;
+  for (const char letter : axes) {
+    const auto axis = interpreter::axis_of(letter);
+    if (!axis || std::ranges::find(wanted, *axis) != wanted.end())
+      return fail(Errc::Syntax, "'{}': expected letters of axes, each once", axes);
+    if (auto has = check_axis(*axis); !has) return fail(has.error());
+    wanted.push_back(*axis);
+  }
+  if (wanted.empty()) return fail(Errc::Syntax, "expected letters of axes");
+  if (auto rests = check_rest(); !rests) return fail(rests.error());
+  auto setup = setup_of(server_setup);
+  if (!setup) return fail(setup.error());
+  const auto alone = control_with(*setup);
+  if (!alone) return fail(alone.error());
+  ControlMemory memory = parts_.memory;  // which a question does not change
+  auto kept = memory.begin(alone->memory->memory_cells(), alone->numbers, *setup);
+  if (!kept) return fail(kept.error());
+  setup->variables.insert(setup->variables.end(), kept->begin(), kept->end());
+  const auto control = control_with(*setup);
+  if (!control) return fail(control.error());
+  if (auto is_plain = check_frames(*control, *setup); !is_plain) return fail(is_plain.error());
+  const auto frame = control->interpreter->frame();
+  if (!frame) return fail(Errc::Unsupported, "the control reports no coordinates");
+  return rules.playback(frame->to_program(place(*setup).at), wanted);
+}
+
+}  // namespace dripline::gateway

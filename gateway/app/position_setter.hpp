@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gateway/app/control_memory.hpp"
+#include "gateway/app/run_session.hpp"
+#include "gateway/interpreter/position_rules.hpp"
+#include "gateway/machine/motion_backend.hpp"
+
+namespace dripline::gateway {
+
+/// Takes over where the axes of a machine at rest are, as the operator does at the control's
+/// screen: into the control's memory (datum, length of a tool), or into the words of a block.
+/// Nothing moves, and its owner asks for it only while no run is active. One thread.
+class PositionSetter {
+ public:
+  struct Parts {
+    const interpreter::Dialect& dialect;
+    const interpreter::Setup& setup;  ///< the gateway's own
+    const machine::MotionBackend& machine;
+    ControlMemory& memory;
+    const CurrentRun& run;
+  };
+  /// All references must outlive it.
+  explicit PositionSetter(Parts parts) : parts_(parts) {}
+
+  struct Change {
+    std::string text;    ///< for people: "G54.X is 87.5, it was 100"
+    std::string record;  ///< JSON, for the memory's report
+  };
+  /// Changes the memory; its owner stages it. `argument`: interpreter::PositionSetting; `who`: the
+  /// operator; `setup`: the server's, as with a start, TOML. Errors: Unsupported, NotFound,
+  /// LimitExceeded, Busy, Conflict, Syntax; the memory has to be restored then.
+  Result<Change> set(const std::string& argument, const std::string& who, const std::string& setup);
+  /// The words of a block with the position of these axes ("XY") in program coordinates. Errors:
+  /// likewise; the memory is as it was.
+  Result<std::string> playback(const std::string& axes, const std::string& setup) const;
+
+ private:
+  struct Control;
+  Result<interpreter::Setup> setup_of(const std::string& setup) const;
+  Result<Control> control_with(const interpreter::Setup& setup) const;
+  Result<void> check_rest() const;
+  Result<void> check_axis(interpreter::Axis axis) const;
+  Result<void> check_frames(const Control& control, const interpreter::Setup& setup) const;
+  interpreter::RestingPlace place(const interpreter::Setup& setup) const;
+
+  Parts parts_;
+};
+
+}  // namespace dripline::gateway

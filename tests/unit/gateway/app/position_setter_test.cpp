@@ -1,0 +1,358 @@
+// Datum set, touch-off and playback: from where the axes rest, by each control's rules.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "gateway/interpreter/core/dialects.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+using dds::CommandAction;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class Shop : public GatewayFixture {
+ public:
+  explicit Shop(const interpreter::Dialect& control, const std::string& toml = "",
+                const std::string& speed = "max")
+      : GatewayFixture(control, setup_from(toml), speed) {}
+
+  dds::CommandResult ask(CommandAction action, const std::string& argument) {
+    dds::Command command = this->command(action);
+    command.run.clear();
+    command.argument = argument;
+    command.program = "anna";
+    command.setup = server_setup;
+    last_id_ = command.id;
+    return send(command);
+  }
+  /// What was set, or "refused: " and why.
+  std::string set(const std::string& argument) {
+    const auto reply = ask(CommandAction::SetPosition, argument);
+    return (reply.accepted ? "" : "refused: ") + reply.reason;
+  }
+  std::string playback(const std::string& axes) {
+    const auto reply = ask(CommandAction::Playback, axes);
+    return (reply.accepted ? "" : "refused: ") + reply.reason;
+  }
+  std::string run(const std::string& text, bool is_mdi = false) {
+    const std::string name = "P" + std::to_string(++texts_);
+    push(name, text);
+    dds::Command command = start_command(name);
+    if (is_mdi) command.argument = dds::kMdiStart;
+    command.setup = server_setup;
+    const auto reply = send(command);
+    if (!reply.accepted) return "refused: " + reply.reason;
+    const std::size_t before = count(dds::RecordKind::RunEnded);
+    (void)run_until(
+        [&] { return count(dds::RecordKind::RunEnded) > before && gateway->status().run.empty(); });
+    const auto end = *dds::decode_run_end(records.back().text);
+    return end.outcome == dds::RunOutcome::Completed ? "completed" : end.reason;
+  }
+  std::string mdi(const std::string& text) { return run(text, true); }
+  double at(std::size_t axis) const { return gateway->status().position[axis]; }
+  /// The reports of the memory since the last call.
+  std::vector<dds::Record> memory_records() {
+    std::vector<dds::Record> found;
+    for (; seen_ < records.size(); ++seen_)
+      if (records[seen_].device == "memory") found.push_back(records[seen_]);
+    return found;
+  }
+  std::string last_id() const { return last_id_; }
+
+  std::string server_setup;
+
+ private:
+  int texts_ = 0;
+  std::size_t seen_ = 0;
+  std::string last_id_;
+};
+
+struct DatumCase {
+  std::string name;
+  const interpreter::Dialect& control;
+  std::string setup, move;  ///< moves the axes by MDI
+  std::string set, effect;  ///< what is set, and what it does
+  std::string program;      ///< runs then; axis `axis` is at `ends`
+  std::size_t axis;
+  double ends;
+};
+void PrintTo(const DatumCase& shown, std::ostream* out) {
+  *out << shown.name;
+}
+class Datum : public testing::TestWithParam<DatumCase> {};
+
+// CEN-222, HD-076. The next program moves by the datum that was set.
+TEST_P(Datum, OfThePositionIsInForceForTheNextProgram) {
+  const DatumCase& given = GetParam();
+  Shop shop(given.control, given.setup);
+  ASSERT_EQ(shop.mdi(given.move), "completed");
+  const auto before = shop.gateway->status().position;
+  (void)shop.memory_records();
+  EXPECT_EQ(shop.set(given.set), given.effect);
+  EXPECT_EQ(shop.gateway->status().position, before) << "nothing moves";
+  const auto reports = shop.memory_records();
+  ASSERT_EQ(reports.size(), 2U);
+  EXPECT_EQ(reports[0].run, "set-" + shop.last_id());
+  EXPECT_EQ(reports[1].run, "set-" + shop.last_id());
+  const auto change = nlohmann::json::parse(reports[1].text)["change"];
+  EXPECT_EQ(change["what"], given.set);
+  EXPECT_EQ(change["by"], "anna");
+  shop.restart_gateway();  // as after a kill: it is kept
+  EXPECT_EQ(shop.run(given.program), "completed");
+  EXPECT_NEAR(shop.at(given.axis), given.ends, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , Datum,
+    testing::Values(
+        DatumCase{"fanuc", interpreter::kFanucDialect,
+                  "[[offset]]\nname = \"G54\"\nX = 100.0\n[[offset]]\nname = \"EXT\"\nX = 3.0\n",
+                  "G21 G91 G1 X50. F5000\n", "datum G54 X 7.5 mm", "G54.X is 39.5, it was 100",
+                  "O1\nG21 G90 G54 G0 X7.5\nM30\n", 0, 50},
+        DatumCase{"fanuc_in_inches", interpreter::kFanucDialect, "", "G21 G91 G1 X50.8 F5000\n",
+                  "datum G55 X 1 in", "G55.X is 25.4, it was 0", "O1\nG20 G90 G55 G0 X1.\nM30\n", 0,
+                  50.8},
+        DatumCase{"fanuc_page", interpreter::kFanucDialect, "", "G21 G91 G1 Z-20. F5000\n",
+                  "datum G54.1P7 Z 5 mm", "G54.1P7.Z is -25, it was 0",
+                  "O1\nG21 G90 G54.1P7 G0 Z5.\nM30\n", 2, -20},
+        DatumCase{"fanuc_lathe_diameter", interpreter::kFanucLatheDialect, "",
+                  "G98 G1 U80. F5000\n", "datum G54 X 30 mm", "G54.X is 25, it was 0",
+                  "O1\nG54 G0 X30.\nM30\n", 0, 40},
+        DatumCase{"rs274ngc_in_inches", interpreter::kRs274NgcDialect, "units = \"in\"\n",
+                  "G20 G91 G1 X2 F500\n", "datum G54 X 0.5 in", "#5221 is 1.5, it was 0",
+                  "G20 G90 G54 G0 X0.5\nM2\n", 0, 50.8},
+        DatumCase{"rs274ngc_other_system", interpreter::kRs274NgcDialect, "",
+                  "G21 G91 G1 Y30 F5000\n", "datum G59.3 Y -1 mm", "#5382 is 31, it was 0",
+                  "G21 G90 G59.3 G0 Y-1\nM2\n", 1, 30},
+        DatumCase{"centurion_zero", interpreter::kCenturionDialect, "units = \"mm\"\n",
+                  "G21 G91 G98 G1 Z-10 F5000\n", "datum G54 Z 0 mm", "P500 is -10, it was 0",
+                  "O1\nG21 G98 G54 G0 Z2\nM30\n", 2, -8},
+        DatumCase{"centurion_in_inches", interpreter::kCenturionDialect, "",
+                  "G20 G91 G98 G1 Z-2 F50\n", "datum G55 Z 0 mm", "P502 is -2, it was 0",
+                  "O1\nG20 G98 G55 G0 Z0\nM30\n", 2, -50.8},
+        DatumCase{"tnc155", interpreter::kTnc155Dialect, "[[offset]]\nname = \"datum\"\nX = 9.0\n",
+                  "X+31 R0 F9000\n", "datum X 40 mm", "datum.X is 0, it was 9",
+                  "BEGIN PGM 1 MM\nL X+41 R0 F9000\nEND PGM 1 MM\n", 0, 41}),
+    [](const auto& i) { return i.param.name; });
+
+struct TouchCase {
+  std::string name;
+  const interpreter::Dialect& control;
+  std::string setup, move, set, effect;
+};
+void PrintTo(const TouchCase& shown, std::ostream* out) {
+  *out << shown.name;
+}
+class TouchOff : public testing::TestWithParam<TouchCase> {};
+
+// CEN-222.
+TEST_P(TouchOff, SetsTheLengthThatMakesThePositionTheCoordinate) {
+  const TouchCase& given = GetParam();
+  Shop shop(given.control, given.setup);
+  ASSERT_EQ(shop.mdi(given.move), "completed");
+  EXPECT_EQ(shop.set(given.set), given.effect);
+  EXPECT_THAT(shop.set(given.set), HasSubstr("is")) << "again: from the same position";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , TouchOff,
+    testing::Values(
+        TouchCase{"fanuc", interpreter::kFanucDialect,
+                  "[[offset]]\nname = \"G54\"\nZ = -300.0\n[[tool]]\nnumber = 3\nlength = 10.0\n",
+                  "G21 G91 G1 Z-180. F9000\n", "tool 3 Z 2 mm G54",
+                  "tool.3.length is 118, it was 10"},
+        TouchCase{"fanuc_with_a_length_in_force", interpreter::kFanucDialect,
+                  "[[tool]]\nnumber = 3\nlength = 10.0\n", "G21 G43 H3 G91 G1 Z-180. F9000\n",
+                  "tool 3 Z -179.5 mm G54", "tool.3.length is 9.5, it was 10"},
+        TouchCase{"fanuc_lathe_x", interpreter::kFanucLatheDialect,
+                  "[[tool]]\nnumber = 3\nX = 1.0\nwear = { X = 0.2 }\n", "G98 G1 U80. F5000\n",
+                  "tool 3 X 30 mm G54", "tool.3.x is 25, it was 1; tool.3.x_wear is 0, it was 0.2"},
+        TouchCase{"centurion_x", interpreter::kCenturionDialect, "units = \"mm\"\n",
+                  "G21 G91 G98 G1 X80 F5000\n", "tool 2 X 30 mm G54",
+                  "P611 is 25, it was 0; P615 is 0, it was 0"},
+        TouchCase{"rs274ngc", interpreter::kRs274NgcDialect,
+                  "units = \"in\"\n[[tool]]\nnumber = 4\nlength = 1.0\n", "G20 G91 G1 Z-2 F500\n",
+                  "tool 4 Z -3 in G54", "tool.4.Z is 25.4, it was 25.4"}),
+    [](const auto& i) { return i.param.name; });
+
+// The control's own arithmetic with the length that was set comes to the coordinate.
+TEST(TouchOffByFanuc, IsTheLengthOfG43) {
+  Shop shop(interpreter::kFanucDialect, "[[offset]]\nname = \"G54\"\nZ = -300.0\n");
+  ASSERT_EQ(shop.mdi("G21 G91 G1 Z-180. F9000\n"), "completed");
+  ASSERT_EQ(shop.set("tool 3 Z 2 mm G54"), "tool.3.length is 118, it was 0");
+  EXPECT_EQ(shop.run("O1\nDPRNT[L#2003[43]]\nM30\n"), "completed");
+  EXPECT_THAT(shop.lines(), testing::Contains(HasSubstr("118")));
+}
+
+struct RefusalCase {
+  std::string name;
+  const interpreter::Dialect& control;
+  std::string setup, set, why;
+};
+void PrintTo(const RefusalCase& shown, std::ostream* out) {
+  *out << shown.name;
+}
+class PositionRefusal : public testing::TestWithParam<RefusalCase> {};
+
+TEST_P(PositionRefusal, NamesTheReasonAndChangesNothing) {
+  const RefusalCase& given = GetParam();
+  Shop shop(given.control, given.setup);
+  EXPECT_THAT(shop.set(given.set), AllOf(StartsWith("refused: "), HasSubstr(given.why)));
+  EXPECT_TRUE(shop.memory_records().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , PositionRefusal,
+    testing::Values(
+        RefusalCase{"no_such_axis", interpreter::kFanucLatheDialect, "", "datum G54 Y 0 mm",
+                    "this machine has no axis Y"},
+        RefusalCase{"x_as_radius", interpreter::kFanucLatheDialect,
+                    "[control]\nx_is_diameter = false\n", "datum G54 X 0 mm", "x_is_diameter"},
+        RefusalCase{"no_such_offset", interpreter::kFanucDialect, "", "datum G60 X 0 mm",
+                    "no work offset 'G60'"},
+        RefusalCase{"ext_is_no_datum", interpreter::kFanucDialect, "", "datum EXT X 0 mm",
+                    "no work offset 'EXT'"},
+        RefusalCase{"no_such_page", interpreter::kFanucDialect, "", "datum G54.1P49 X 0 mm",
+                    "no work offset 'G54.1P49'"},
+        RefusalCase{"no_such_tool", interpreter::kFanucDialect, "", "tool 500 Z 0 mm G54",
+                    "no tool offset 500"},
+        RefusalCase{"length_along_x_of_a_mill", interpreter::kFanucDialect, "", "tool 3 X 0 mm G54",
+                    "along Z alone, not X"},
+        RefusalCase{"beyond_the_limit", interpreter::kFanucDialect, "", "tool 3 Z -1000 mm G54",
+                    "tool.3.length would be 1000.0000: the control takes -999.999 to 999.999"},
+        RefusalCase{"datum_beyond_the_limit", interpreter::kFanucDialect, "",
+                    "datum G54 X 100000 mm", "the control takes -99999.999 to 99999.999"},
+        RefusalCase{"centurion_datum_x", interpreter::kCenturionDialect, "", "datum G54 X 0 mm",
+                    "along Z alone, not X"},
+        RefusalCase{"centurion_datum_not_zero", interpreter::kCenturionDialect, "",
+                    "datum G54 Z 1 mm", "the value is 0"},
+        RefusalCase{"centurion_tool", interpreter::kCenturionDialect, "", "tool 25 Z 0 mm G54",
+                    "no tool offset 25: 1 to 24"},
+        RefusalCase{"centurion_floating_zero", interpreter::kCenturionDialect,
+                    "[[offset]]\nname = \"G50\"\nZ = 1.0\n", "datum G54 Z 0 mm", "shift"},
+        RefusalCase{"tnc_has_one_datum", interpreter::kTnc155Dialect, "", "datum G54 X 0 mm",
+                    "one datum, and no 'G54'"},
+        RefusalCase{"tnc_length_is_text", interpreter::kTnc155Dialect, "", "tool 3 Z 0 mm",
+                    "control tnc155 sets no length of a tool"},
+        RefusalCase{"tnc_basic_rotation", interpreter::kTnc155Dialect,
+                    "[control]\nbasic_rotation = 5.0\n", "datum X 0 mm", "a basic rotation"},
+        RefusalCase{"ngc_rotated", interpreter::kRs274NgcDialect,
+                    "[control]\nprofile = \"linuxcnc\"\n[[variable]]\nname = \"#5230\"\nvalue = "
+                    "30.0\n",
+                    "datum G54 X 0 mm", "rotat"},
+        RefusalCase{"ngc_unknown_tool", interpreter::kRs274NgcDialect, "", "tool 9 Z 0 mm G54",
+                    "no tool 9 in its tool table"},
+        RefusalCase{"tektronix", interpreter::kTektronix1704Dialect, "", "datum X 0 mm",
+                    "control tektronix-1704 sets no datum"},
+        RefusalCase{"prototrak", interpreter::kProtoTrakDialect, "", "datum X 0 mm",
+                    "control prototrak-plus sets no datum"},
+        RefusalCase{"not_understood", interpreter::kFanucDialect, "", "datum G54 X nan mm",
+                    "expected 'datum G54 X 12.5 mm'"}),
+    [](const auto& i) { return i.param.name; });
+
+TEST(PositionSetter, ChangesNothingWhileAProgramRunsOrWaits) {
+  Shop shop(interpreter::kFanucDialect, "", "1x");
+  shop.push("1", "O1\nG21 G90 G1 X10. F1000\nM00\nM30\n");
+  ASSERT_TRUE(shop.start("1").accepted);
+  EXPECT_THAT(shop.set("datum G54 X 0 mm"), HasSubstr("run run-1 is active"));
+  ASSERT_TRUE(shop.run_until(
+      [&] { return shop.gateway->status().execution == dds::Execution::ProgramStopped; }));
+  EXPECT_THAT(shop.set("datum G54 X 0 mm"), HasSubstr("run run-1 is active"));
+  EXPECT_TRUE(shop.memory_records().empty());
+}
+
+TEST(PositionSetter, IsRefusedWithTheEmergencyStopAndWithoutConsent) {
+  Shop shop(interpreter::kFanucDialect);
+  EXPECT_EQ(shop.panel("emergency-stop on"), "ok");
+  EXPECT_THAT(shop.set("datum G54 X 0 mm"), HasSubstr("emergency stop"));
+  EXPECT_EQ(shop.panel("emergency-stop off"), "ok");
+  shop.make_attended();
+  shop.restart_gateway();
+  EXPECT_THAT(shop.set("datum G54 X 0 mm"), HasSubstr("remote enable"));
+  EXPECT_EQ(shop.panel("remote-enable on"), "ok");
+  EXPECT_EQ(shop.set("datum G54 X 0 mm"), "G54.X is 0, it was 0");
+}
+
+TEST(PositionSetter, RefusesWhereTheLastTextHasLeftAShift) {
+  Shop shop(interpreter::kFanucDialect);
+  ASSERT_EQ(shop.mdi("G21 G90 G92 X50.\n"), "completed");
+  EXPECT_THAT(shop.set("datum G54 X 0 mm"),
+              AllOf(HasSubstr("a shift"), HasSubstr("since the last program")));
+  EXPECT_TRUE(shop.memory_records().empty());
+}
+
+// A repeated command, as after a lost answer, sets nothing twice.
+TEST(PositionSetter, CarriesACommandOutOnce) {
+  Shop shop(interpreter::kFanucDialect);
+  dds::Command command = shop.command(CommandAction::SetPosition);
+  command.run.clear();
+  command.argument = "datum G54 X 1 mm";
+  EXPECT_EQ(shop.send(command).reason, "G54.X is -1, it was 0");
+  EXPECT_EQ(shop.send(command).reason, "G54.X is -1, it was 0");
+  EXPECT_EQ(shop.memory_records().size(), 2U) << "one report, of two parts";
+}
+
+// The setup of the server is the base: a later change of it there wins, as after a program.
+TEST(PositionSetter, YieldsToALaterChangeOfTheSetup) {
+  Shop shop(interpreter::kFanucDialect);
+  shop.server_setup = "[[offset]]\nname = \"G54\"\nX = 10.0\n";
+  EXPECT_EQ(shop.set("datum G54 X 1 mm"), "G54.X is -1, it was 10");
+  EXPECT_EQ(shop.run("O1\nG21 G90 G54 G0 X0\nM30\n"), "completed");
+  EXPECT_EQ(shop.at(0), -1);
+  shop.server_setup = "[[offset]]\nname = \"G54\"\nX = 20.0\n";
+  EXPECT_EQ(shop.run("O1\nG21 G90 G54 G0 X0\nM30\n"), "completed");
+  EXPECT_EQ(shop.at(0), 20);
+}
+
+TEST(PositionSetter, IsRefusedByAFullDiskAndTheLastOneKeptIsInForce) {
+  Shop shop(interpreter::kFanucDialect);
+  shop.outbox_bytes = 160 * 1024;
+  shop.acknowledges = false;
+  shop.restart_gateway();
+  int kept = 0;
+  std::string answer;
+  while (kept < 5000) {
+    answer = shop.set(fmt::format("datum G54 X {} mm", kept + 1));
+    if (answer.starts_with("refused: ")) break;
+    ++kept;
+  }
+  ASSERT_GT(kept, 0);
+  EXPECT_THAT(answer, HasSubstr("cannot be kept"));
+  EXPECT_THAT(shop.set("datum G54 X 9999 mm"), HasSubstr("cannot be kept")) << "nor now";
+  shop.outbox_bytes = 4ULL << 30;
+  shop.acknowledges = true;
+  shop.restart_gateway();
+  EXPECT_EQ(shop.run("O1\nG21 G90 G54 G0 X0\nM30\n"), "completed");
+  EXPECT_EQ(shop.at(0), -kept);
+}
+
+TEST(Playback, IsTheWordsOfABlockInCoordinatesOfTheDatum) {
+  Shop shop(interpreter::kTnc155Dialect, "[[offset]]\nname = \"datum\"\nX = 10.0\n");
+  ASSERT_EQ(shop.mdi("X+31 R0 F9000\n"), "completed");
+  ASSERT_EQ(shop.mdi("Y-2.5 R0 F9000\n"), "completed");
+  EXPECT_EQ(shop.playback("X"), "X+31.000 R0");
+  EXPECT_EQ(shop.playback("XY"), "L X+31.000 Y-2.500 R0");
+  EXPECT_EQ(shop.set("datum X 0 mm"), "datum.X is 41, it was 10");
+  EXPECT_EQ(shop.playback("XYZ"), "L X+0.000 Y-2.500 Z+0.000 R0");
+  EXPECT_THAT(shop.playback("XX"), HasSubstr("each once"));
+  EXPECT_THAT(shop.playback("U"), HasSubstr("this machine has no axis U"));
+  Shop fanuc(interpreter::kFanucDialect);
+  EXPECT_THAT(fanuc.playback("X"), HasSubstr("takes no position into a program"));
+}
+
+// The block that it gives brings the axes back to where they were.
+TEST(Playback, ReadsBackAsABlock) {
+  Shop shop(interpreter::kTnc155Dialect, "[[offset]]\nname = \"datum\"\nX = 10.0\n");
+  ASSERT_EQ(shop.mdi("X+31.25 R0 F9000\n"), "completed");
+  const std::string block = shop.playback("XY");
+  EXPECT_EQ(shop.run("BEGIN PGM 1 MM\nL X+0 R0 F9000\n" + block + " F9000\nEND PGM 1 MM\n"),
+            "completed");
+  EXPECT_NEAR(shop.at(0), 41.25, 1e-9);
+}
+
+}  // namespace
+}  // namespace dripline::gateway
