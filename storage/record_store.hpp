@@ -112,6 +112,11 @@ class RecordStore {
   virtual Result<std::vector<MemoryReport>> memory_reports(const std::string& machine,
                                                            const std::optional<std::string>& run,
                                                            Page page) = 0;
+  /// Of these, those of changes that an operator has set at the machine: `run` begins with
+  /// `prefix`.
+  virtual Result<std::vector<MemoryReport>> memory_changes(const std::string& machine,
+                                                           const std::string& prefix,
+                                                           Page page) = 0;
 };
 
 }  // namespace dripline::storage

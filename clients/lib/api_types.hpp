@@ -207,9 +207,15 @@ struct MemoryCell {
   std::optional<double> value;  ///< nullopt: vacant
   std::optional<double> setup;  ///< its value in the setup
 };
+/// Set by an operator from the machine's position.
+struct MemoryChange {
+  std::string what, who;
+};
+
 struct Memory {
   std::string machine, run;
-  std::string program;  ///< empty: the run was started at the machine
+  std::optional<MemoryChange> change;  ///< none: `run` has left it
+  std::string program;                 ///< empty: the run was started at the machine
   std::string time;
   std::vector<MemoryCell> cells;
 };

@@ -320,6 +320,20 @@ Reply<Run> Client::start_run(const RunRequest& request) {
   return fetch<Run>(with_method("POST", path_of("runs")), dumped(json));
 }
 
+Reply<PositionSet> Client::set_position(std::string_view machine, const PositionToSet& setting) {
+  Json body{{"axis", setting.axis}, {"value", setting.value}};
+  if (!setting.unit.empty()) body["unit"] = setting.unit;
+  if (!setting.offset.empty()) body["offset"] = setting.offset;
+  if (setting.tool) body["tool"] = *setting.tool;
+  const char* const what = setting.tool ? "/touch-off" : "/datum";
+  return fetch<PositionSet>(with_method("POST", path_of("machines", machine) + what), dumped(body));
+}
+
+Reply<PlaybackBlock> Client::play_back(std::string_view machine, std::string_view axes) {
+  return fetch<PlaybackBlock>(
+      get(with_query(path_of("machines", machine) + "/playback", "axes", axes)));
+}
+
 Reply<Run> Client::key_in(std::string_view machine, std::string_view text) {
   return fetch<Run>(with_method("POST", path_of("machines", machine) + "/mdi"),
                     dumped(Json{{"text", text}}));

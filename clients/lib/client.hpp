@@ -164,6 +164,10 @@ class Client {
   Reply<Run> restart_run(std::string_view run, std::string_view at);
   /// Blocks keyed in at an idle machine. Failures: Refused also while a run is active.
   Reply<Run> key_in(std::string_view machine, std::string_view text);
+  /// A datum, or with a tool its length, from where the axes of a machine without a run are.
+  Reply<PositionSet> set_position(std::string_view machine, const PositionToSet& setting);
+  /// The position of the axes of these letters as the words of a block.
+  Reply<PlaybackBlock> play_back(std::string_view machine, std::string_view axes);
   Reply<std::vector<Run>> runs(const RunQuery& query);
   Reply<Run> run(std::string_view id);
   /// With what was measured of it, and who holds it.

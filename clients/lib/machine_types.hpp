@@ -98,6 +98,20 @@ struct Starts {
   std::uint64_t mdi = 0;  ///< how many blocks are keyed in at once; 0: none, or an older server
 };
 
+/// What the control's screen takes over from where the axes are.
+struct Positions {
+  std::vector<std::string> offsets;   ///< work offsets; empty: one datum without a name, or none
+  std::string datum_axes, tool_axes;  ///< letters; empty: no datum, no lengths
+  bool x_diameter = false, zero_only = false, playback = false;
+};
+
+struct PositionSet {
+  std::string machine, change, text;
+};
+struct PlaybackBlock {
+  std::string machine, block;
+};
+
 /// Who holds a machine or its job queue, and why.
 struct Hold {
   std::string who, reason;  ///< reason empty: none was given
@@ -113,10 +127,11 @@ struct Machine {
   /// What is wrong between server and gateway.
   std::vector<std::string> notices;
   std::string first_seen, last_seen;
-  std::optional<Hold> held = {};        ///< absent: nothing is known to hold it
-  std::optional<Hold> queue_hold = {};  ///< absent: its queue is not held
-  std::optional<Display> display = {};  ///< absent: the control is not known
-  std::optional<Starts> starts = {};    ///< absent: an older server
+  std::optional<Hold> held = {};            ///< absent: nothing is known to hold it
+  std::optional<Hold> queue_hold = {};      ///< absent: its queue is not held
+  std::optional<Display> display = {};      ///< absent: the control is not known
+  std::optional<Starts> starts = {};        ///< absent: an older server
+  std::optional<Positions> positions = {};  ///< likewise
   std::optional<MachineStatus> status;
 };
 

@@ -166,6 +166,14 @@ struct SetupRequest {
   std::optional<std::uint64_t> base = {};
 };
 
+/// What is set from where the axes of a machine are.
+struct PositionToSet {
+  std::string axis;
+  double value = 0;
+  std::string unit, offset;                ///< each may be empty
+  std::optional<std::uint64_t> tool = {};  ///< none: a datum
+};
+
 /// The configuration of a port; saving replaces all of it.
 struct PortRequest {
   std::string name, machine, address;

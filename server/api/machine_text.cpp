@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "gateway/interpreter/position_rules.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "protocol/base/utf8.hpp"
 #include "protocol/dds/members.hpp"
@@ -261,6 +262,31 @@ void write_starts(Writer& out, const machines::MachineView& view) {
   out.end('}');
 }
 
+/// What its control's screen sets from the position. An older gateway does nothing of it.
+void write_positions(Writer& out, const machines::MachineView& view) {
+  static constexpr interpreter::PositionRules kNone{};
+  const bool is_able = !view.has_serial_line() &&
+                       view.commands > static_cast<std::uint32_t>(dds::CommandAction::Playback);
+  const auto& rules = is_able ? interpreter::position_rules(view.machine.control) : kNone;
+  out.begin('{');
+  out.name("offsets");
+  out.begin('[');
+  for (const auto name : rules.offsets) {
+    out.separate();
+    out.value(name);
+  }
+  out.end(']');
+  out.name("datum_axes");
+  out.json(fmt::format("\"{}\"", rules.datum_axes));
+  out.name("tool_axes");
+  out.json(fmt::format("\"{}\"", rules.tool_axes));
+  const auto dialect = interpreter::find_dialect(view.machine.control);
+  out.member("x_diameter", dialect && (*dialect)->machine == interpreter::MachineKind::Lathe);
+  out.member("zero_only", rules.is_zero_only);
+  out.member("playback", rules.playback != nullptr);
+  out.end('}');
+}
+
 void write_notices(Writer& out, const machines::MachineView& view) {
   out.begin('[');
   for (const auto& notice : machines::notices_of(view)) {
@@ -296,6 +322,8 @@ std::string machine_text(const machines::MachineView& view) {
   view.queue_hold ? out.json(to_text(hold_json(view.queue_hold))) : out.null();
   out.name("starts");
   write_starts(out, view);
+  out.name("positions");
+  write_positions(out, view);
   out.name("display");
   write_display(out, view);
   out.name("status");

@@ -45,6 +45,10 @@ class CommandDispatcher {
   Result<void> carry_out(dds::Command command);
   /// Asks for values (CommandAction::Query): as carry_out; returns what the gateway answers.
   Result<std::string> ask(dds::Command query);
+  /// As carry_out; returns how it was answered.
+  Result<dds::CommandResult> result_of(dds::Command command) {
+    return send_and_await(std::move(command));
+  }
   /// Without waiting for the result; for commands of the server itself.
   Result<void> send(dds::Command command);
 

@@ -75,6 +75,9 @@ class HeldMachines final : public MachineControl {
   Result<storage::Run> start(const StartRequest& request) override { return inner_.start(request); }
   Result<void> command(const CommandRequest& request) override;
   Result<std::string> values(const ValueQuery& query) override { return inner_.values(query); }
+  Result<PositionAnswer> position(const PositionRequest& request) override {
+    return inner_.position(request);
+  }
 
  private:
   Result<void> hold(const CommandRequest& request, const std::string& machine);

@@ -24,6 +24,7 @@ struct MachineView {
   /// two dozen texts, and a thousand machines are looked at five times a second.
   Shared<dds::Status> status;
   std::optional<std::uint32_t> protocol;  ///< of its gateway; absent: not announced, or on a line
+  std::uint32_t commands = 0;             ///< dds::Announce::commands
   /// How far the gateway's time of day is ahead of the server's; absent: not known yet.
   std::optional<std::chrono::microseconds> clock_ahead = {};
   std::optional<UtcTime> certificate_expires = {};  ///< of its gateway; absent: it has none
@@ -113,6 +114,18 @@ struct ValueQuery {
   std::uint64_t passed_over = 0;  ///< of the values with such a name
 };
 
+/// What is taken over from where the axes of a machine at rest are.
+struct PositionRequest {
+  std::string machine;
+  std::string argument;  ///< interpreter::to_text(PositionSetting); playback: letters of axes
+  std::string who;
+  bool is_playback = false;  ///< asks for the words of a block, and changes nothing
+};
+struct PositionAnswer {
+  std::string change;  ///< which its record names instead of a run; empty: nothing was changed
+  std::string text;    ///< what is set, or the block
+};
+
 /// Receives what happens at the machines. Called on worker threads, never two calls for one machine
 /// at once; must return soon.
 struct MachineListener {
@@ -142,6 +155,9 @@ class MachineControl {
   /// (gateway/app/control_values.hpp); changes nothing. Errors: NotFound, Unsupported (a control at
   /// the end of a line, an older gateway), Timeout (not connected, no answer in time).
   virtual Result<std::string> values(const ValueQuery& query) = 0;
+  /// Sets a datum or a tool's length in the control's memory, or asks for a position; nothing
+  /// moves. Errors: as for values, Busy (refused, with the gateway's reason).
+  virtual Result<PositionAnswer> position(const PositionRequest& request) = 0;
 };
 
 }  // namespace dripline::machines

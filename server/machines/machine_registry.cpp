@@ -62,6 +62,7 @@ void MachineRegistry::on_announce(const dds::Announce& announce) {
   machine.last_seen = now;
   entry.view.is_connected = true;
   entry.view.protocol = announce.protocol;
+  entry.view.commands = announce.commands;
   entry.view.certificate_expires = announce.certificate_expires;
   hear(entry, announce.session);
   entry.machine_is_dirty = true;

@@ -263,6 +263,41 @@ Result<std::string> MachineService::values(const ValueQuery& query) {
   return parts->commands.ask(std::move(command));
 }
 
+/// With the setup that a start would get: what it gives is the base of what the memory keeps.
+Result<PositionAnswer> MachineService::position(const PositionRequest& request) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  const auto view = connected_machine(request.machine);
+  if (!view) return fail(view.error());
+  if (view->is_contested) {
+    return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them",
+                request.machine);
+  }
+  if (view->has_serial_line()) {
+    return fail(Errc::Unsupported,
+                "machine {}: its control is at the end of a line: set it there, where the "
+                "position is",
+                request.machine);
+  }
+  using dds::CommandAction;
+  dds::Command command;
+  command.action = request.is_playback ? CommandAction::Playback : CommandAction::SetPosition;
+  if (view->commands <= static_cast<std::uint32_t>(command.action)) {
+    return fail(Errc::Unsupported, "machine {}: its gateway {} is older and does not know {}",
+                request.machine, view->machine.gateway_version, dds::to_string(command.action));
+  }
+  const auto setup = setup_of(*view);
+  if (!setup) return fail(setup.error());
+  if (*setup) command.setup = (*setup)->text;
+  command.machine = request.machine;
+  command.argument = request.argument;
+  if (!request.is_playback) command.program = request.who;
+  auto result = parts->commands.result_of(std::move(command));
+  if (!result) return fail(result.error());
+  const std::string change = std::string(dds::kChangePrefix) + result->id;
+  return PositionAnswer{request.is_playback ? "" : change, std::move(result->reason)};
+}
+
 /// The sender has got an error for this start, so it must not run.
 void MachineService::on_late_start(const dds::Command& late) {
   storage::Run run;

@@ -57,6 +57,7 @@ class MachineService final : public MachineControl {
   Result<storage::Run> start(const StartRequest& request) override;
   Result<void> command(const CommandRequest& request) override;
   Result<std::string> values(const ValueQuery& query) override;
+  Result<PositionAnswer> position(const PositionRequest& request) override;
   dds::Rejected rejected() const;
   /// Promises: LineQueries::ask.
   Result<dds::LineData> ask_line(dds::LineRequest request,

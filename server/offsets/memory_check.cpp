@@ -21,6 +21,13 @@ struct CellNumber {
 };
 using Cells = std::map<std::string, CellNumber>;
 
+/// What has left the numbers of a report.
+std::string origin_of(const storage::MemoryReport& report) {
+  const auto change = library::read_memory_change(report.texts);
+  return change ? fmt::format("set by {}: {}", change->by, change->what)
+                : fmt::format("as run {} left it", report.run);
+}
+
 bool is_same(double a, double b) {
   constexpr double kLastDigits = 1e-9;
   return (std::isnan(a) && std::isnan(b)) ||
@@ -155,11 +162,11 @@ class MemoryCheck {
       if (*then && is_same(**then, base)) return std::string();
     }
     return fmt::format(
-        "{} is {} in the memory of {} ({}, as run {} left it), {} in the setup: a step from the "
+        "{} is {} in the memory of {} ({}, {}), {} in the setup: a step from the "
         "setup's value would be another one at the machine. Write what the memory has into the "
         "setup's {}, or give the memory the setup's value (`dnc memory clear {} --filter {}`, or "
         "`dnc memory restore`), and measure again",
-        correction_.target, number_text(kept.value), correction_.machine, name, report.run,
+        correction_.target, number_text(kept.value), correction_.machine, name, origin_of(report),
         number_text(in_setup), correction_.target, correction_.machine, name);
   }
 

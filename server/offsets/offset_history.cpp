@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "gateway/interpreter/core/position_setting.hpp"
 #include "server/offsets/value_in_force.hpp"
 
 namespace dripline::offsets {
@@ -120,6 +121,29 @@ Result<std::vector<HistoryEntry>> OffsetHistory::list(const std::string& machine
   }
   std::ranges::reverse(entries);
   return entries;
+}
+
+Result<std::vector<MachineChange>> OffsetHistory::at_machine(const ChangeQuery& query,
+                                                             storage::Page page) {
+  const auto reports = store_.records.memory_changes(query.machine, query.prefix, page);
+  if (!reports) return fail(reports.error());
+  std::vector<MachineChange> changes;
+  for (const storage::MemoryReport& report : *reports) {
+    auto what = library::read_memory_change(report.texts);
+    if (!what) continue;
+    const auto setting = interpreter::parse_position_setting(what->what);
+    if (!setting) continue;
+    const bool is_tool = setting->tool > 0;
+    const std::string thing = is_tool                   ? fmt::format("T{}", setting->tool)
+                              : setting->offset.empty() ? "datum"
+                                                        : setting->offset;
+    MachineChange change{report.run,
+                         fmt::format("{}.{}", thing, interpreter::letter(setting->axis)),
+                         report.time, *std::move(what)};
+    if (query.target.empty() || begins_with(change.target, query.target))
+      changes.push_back(std::move(change));
+  }
+  return changes;
 }
 
 Result<InForce> OffsetHistory::in_force(const std::string& id) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "server/library/history/kept_memory.hpp"
 #include "server/offsets/setup_value.hpp"
 #include "storage/store.hpp"
 
@@ -33,6 +34,15 @@ struct InForce {
   std::vector<NamedValue> values;
 };
 
+/// A datum or a tool's length that an operator has set from the machine's position. It is in the
+/// control's memory, not in a setup.
+struct MachineChange {
+  std::string change;  ///< the report's name
+  std::string target;  ///< "G54.X", "T3.Z", "datum.X"
+  UtcTime time;
+  library::MemoryChange what;
+};
+
 /// What values of a machine's setups were, from its setups, runs and proposals. Reads only; any
 /// thread.
 class OffsetHistory {
@@ -43,6 +53,13 @@ class OffsetHistory {
   /// first; at most as many setups back as the page says. Errors: those of the store.
   Result<std::vector<HistoryEntry>> list(const std::string& machine, const std::string& target,
                                          storage::Page page);
+  struct ChangeQuery {
+    std::string machine;
+    std::string prefix;  ///< of the names that gateways give changes
+    std::string target;  ///< as of `list`
+  };
+  /// Those set at the machine, newest first. Errors: those of the store.
+  Result<std::vector<MachineChange>> at_machine(const ChangeQuery& query, storage::Page page);
   /// Errors: NotFound.
   Result<InForce> in_force(const std::string& run);
 

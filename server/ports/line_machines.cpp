@@ -252,6 +252,17 @@ Result<std::string> LineMachines::values(const machines::ValueQuery& query) {
               query.machine);
 }
 
+Result<machines::PositionAnswer> LineMachines::position(const machines::PositionRequest& request) {
+  return fail(
+      Errc::Unsupported,
+      "machine {}: its control is at the end of a line: set it there, where the position is",
+      request.machine);
+}
+
+Result<machines::PositionAnswer> MachineRouter::position(const machines::PositionRequest& request) {
+  return lines_.machine(request.machine) ? lines_.position(request) : gateways_.position(request);
+}
+
 Result<std::string> MachineRouter::values(const machines::ValueQuery& query) {
   return lines_.machine(query.machine) ? lines_.values(query) : gateways_.values(query);
 }

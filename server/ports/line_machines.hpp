@@ -30,6 +30,7 @@ class LineMachines final : public machines::MachineControl {
   /// Hold, Resume and Abort; others are Unsupported.
   Result<void> command(const machines::CommandRequest& request) override;
   Result<std::string> values(const machines::ValueQuery& query) override;
+  Result<machines::PositionAnswer> position(const machines::PositionRequest& request) override;
 
   /// The same as `start` for callers that must not wait: `started` is called on the machine's
   /// strand. `wire_name` is what the control calls the program; empty: as the library does.
@@ -70,6 +71,7 @@ class MachineRouter final : public machines::MachineControl {
   Result<storage::Run> start(const machines::StartRequest& request) override;
   Result<void> command(const machines::CommandRequest& request) override;
   Result<std::string> values(const machines::ValueQuery& query) override;
+  Result<machines::PositionAnswer> position(const machines::PositionRequest& request) override;
 
  private:
   storage::RunStore& runs_;

@@ -249,11 +249,13 @@ struct MemoryPlace {
 /// its journal have no order, so the time of the server decides.
 Result<std::vector<MemoryPlace>> memory_places(sqlite::Database& database,
                                                const std::string& machine,
-                                               const std::optional<std::string>& run, Page page) {
+                                               const std::optional<std::string>& run,
+                                               const std::string& prefix, Page page) {
   static const std::string kSelect =
       "SELECT run, epoch, max(time_us) FROM record INDEXED BY record_of_memory "
       "WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
       "AND kind = 'message' AND device = 'memory' AND run IS NOT NULL AND run = coalesce(?2, run) "
+      "AND substr(run, 1, length(?5)) = ?5 "
       "GROUP BY run, epoch "
       "ORDER BY max(coalesce(received_us, time_us)) DESC, epoch DESC, max(number) DESC "
       "LIMIT ?3 OFFSET ?4";
@@ -262,19 +264,31 @@ Result<std::vector<MemoryPlace>> memory_places(sqlite::Database& database,
       [](const sqlite::Statement& row) {
         return MemoryPlace{row.text(0), row.number(1), row.time(2)};
       },
-      machine, run, page.limit, page.offset);
+      machine, run, page.limit, page.offset, prefix);
 }
 
 }  // namespace
 
 Result<std::vector<MemoryReport>> RecordRepository::memory_reports(
     const std::string& machine, const std::optional<std::string>& run, Page page) {
+  return memory_reports_of(machine, run, "", page);
+}
+
+Result<std::vector<MemoryReport>> RecordRepository::memory_changes(const std::string& machine,
+                                                                   const std::string& prefix,
+                                                                   Page page) {
+  return memory_reports_of(machine, std::nullopt, prefix, page);
+}
+
+Result<std::vector<MemoryReport>> RecordRepository::memory_reports_of(
+    const std::string& machine, const std::optional<std::string>& run, const std::string& prefix,
+    Page page) {
   static const std::string kTexts =
       "SELECT text FROM record INDEXED BY record_of_memory "
       "WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
       "AND kind = 'message' AND device = 'memory' AND epoch = ?2 AND run = ?3 ORDER BY number";
   return connections_.read([&](sqlite::Database& database) -> Result<std::vector<MemoryReport>> {
-    const auto places = memory_places(database, machine, run, page);
+    const auto places = memory_places(database, machine, run, prefix, page);
     if (!places) return fail(places.error());
     std::vector<MemoryReport> reports;
     for (const MemoryPlace& place : *places) {

@@ -67,8 +67,14 @@ class RecordRepository final : public RecordStore {
   Result<std::vector<MemoryReport>> memory_reports(const std::string& machine,
                                                    const std::optional<std::string>& run,
                                                    Page page) override;
+  Result<std::vector<MemoryReport>> memory_changes(const std::string& machine,
+                                                   const std::string& prefix, Page page) override;
 
  private:
+  Result<std::vector<MemoryReport>> memory_reports_of(const std::string& machine,
+                                                      const std::optional<std::string>& run,
+                                                      const std::string& prefix, Page page);
+
   Connections& connections_;
   const Clock& clock_;
 };

@@ -135,6 +135,11 @@ class RecordStoreDecorator : public storage::RecordStore {
                                                             storage::Page page) override {
     return inner_.memory_reports(machine, run, page);
   }
+  Result<std::vector<storage::MemoryReport>> memory_changes(const std::string& machine,
+                                                            const std::string& prefix,
+                                                            storage::Page page) override {
+    return inner_.memory_changes(machine, prefix, page);
+  }
 
  private:
   storage::RecordStore& inner_;

@@ -204,6 +204,24 @@ void print_archives(const Context& context, const ordered_json& history) {
   }
 }
 
+/// In the control's memory, and in no setup.
+void print_at_machine(const Context& context, const ordered_json& shown) {
+  const auto changes = shown.find("at_machine");  // an older server has none
+  if (changes == shown.end() || changes->empty()) return;
+  Table table({"VALUE", "SINCE", "WHO", "SET", "CELLS"});
+  for (const auto& change : *changes) {
+    std::string cells;
+    for (const auto& cell : change.at("cells")) {
+      cells += fmt::format("{}{} {} -> {}", cells.empty() ? "" : ", ", offset_word(cell, "name"),
+                           offset_number(cell, "before"), offset_number(cell, "value"));
+    }
+    table.add({offset_word(change, "target"), time_text(offset_word(change, "time")),
+               offset_word(change, "who"), offset_word(change, "what"), cells});
+  }
+  context.print("\nSet at the machine, in the memory of its control:\n");
+  context.print(table);
+}
+
 int history(Context& context, client::Client& client, const OffsetChoice& command) {
   const auto answer = client.offset_history(command.machine, command.target, command.limit);
   const int status = print_listing(context, client, answer,
@@ -211,6 +229,7 @@ int history(Context& context, client::Client& client, const OffsetChoice& comman
   if (status != kExitOk || context.wants_json) return status;
   return shown_json(client, *answer, [&](const ordered_json& shown) {
     print_archives(context, shown.at("history"));
+    print_at_machine(context, shown);
     return kExitOk;
   });
 }

@@ -133,8 +133,11 @@ int show(Context& context, client::Client& client, const MemoryCommand& command)
   context.print(table);
   const std::string program =
       found->reported.program.empty() ? "begun at the machine" : "of " + found->reported.program;
-  context.print(fmt::format("As run {} {} left it, {}\n", short_id(found->reported.run), program,
-                            time_text(found->reported.time)));
+  const auto& change = found->reported.change;
+  const std::string origin =
+      change ? fmt::format("Since {} has set {}", printable(change->who), printable(change->what))
+             : fmt::format("As run {} {} left it", short_id(found->reported.run), program);
+  context.print(fmt::format("{}, {}\n", origin, time_text(found->reported.time)));
   if (command.run.empty()) context.print(what_may_follow(client, command.machine));
   return kExitOk;
 }
@@ -150,8 +153,9 @@ int list(Context& context, client::Client& client, const MemoryCommand& command)
   }
   Table table({"RUN", "PROGRAM", "ENDED", right("CELLS")});
   for (const Found& found : *all) {
-    table.add({short_id(found.reported.run), found.reported.program, time_text(found.reported.time),
-               std::to_string(found.memory.size())});
+    const auto& change = found.reported.change;
+    table.add({short_id(found.reported.run), change ? change->what : found.reported.program,
+               time_text(found.reported.time), std::to_string(found.memory.size())});
   }
   context.print(table);
   return kExitOk;

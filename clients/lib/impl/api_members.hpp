@@ -110,6 +110,21 @@ void members(V& v, Is<Starts> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Positions> auto& x) {
+  DRIPLINE_MEMBERS(offsets, datum_axes, tool_axes, x_diameter, zero_only, playback);
+}
+
+template <class V>
+void members(V& v, Is<PositionSet> auto& x) {
+  DRIPLINE_MEMBERS(machine, change, text);
+}
+
+template <class V>
+void members(V& v, Is<PlaybackBlock> auto& x) {
+  DRIPLINE_MEMBERS(machine, block);
+}
+
+template <class V>
 void members(V& v, Is<Hold> auto& x) {
   DRIPLINE_MEMBERS(who, reason);
   v.later("run", x.run);
@@ -125,6 +140,7 @@ void members(V& v, Is<Machine> auto& x) {
   v.later("queue_hold", x.queue_hold);
   v.later("display", x.display);
   v.later("starts", x.starts);
+  v.later("positions", x.positions);
   DRIPLINE_MEMBERS(status);
 }
 
@@ -290,8 +306,14 @@ void members(V& v, Is<ControlValues> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<MemoryChange> auto& x) {
+  DRIPLINE_MEMBERS(what, who);
+}
+
+template <class V>
 void members(V& v, Is<Memory> auto& x) {
   DRIPLINE_MEMBERS(machine, run, program, time, cells);
+  v.later("change", x.change);
 }
 
 template <class V>

@@ -203,6 +203,38 @@ Result<std::string> decode_mdi(std::string_view body) {
   return text + "\n";
 }
 
+Result<interpreter::PositionSetting> decode_position_setting(std::string_view body, bool is_tool) {
+  constexpr std::uint64_t kMaxTool = 99'999'999;
+  constexpr double kMaxValue = 1e6;
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const std::uint64_t tool = is_tool ? object->optional_unsigned("tool").value_or(0) : 0;
+  const std::string letter = object->required_text("axis", 1);
+  const auto value = object->optional_number("value");
+  const auto unit = object->optional_text("unit", 2);
+  const std::string offset = object->optional_text("offset", 16).value_or("");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  const auto axis = letter.size() == 1 ? interpreter::axis_of(letter[0]) : std::nullopt;
+  if (!axis) return fail(Errc::Syntax, "axis '{}' is none of X Y Z A B C U V W", letter);
+  if (!value) return fail(Errc::Syntax, "value is missing");
+  if (!(std::abs(*value) <= kMaxValue))
+    return fail(Errc::LimitExceeded, "value {} is not {} to {}", *value, -kMaxValue, kMaxValue);
+  if (unit && *unit != "mm" && *unit != "in")
+    return fail(Errc::Syntax, "unit '{}' is neither mm nor in", *unit);
+  if (!unit && *value != 0 && !interpreter::is_rotary(*axis))
+    return fail(Errc::Syntax, "value {} needs a unit: mm or in", *value);
+  if (is_tool && (tool == 0 || tool > kMaxTool))
+    return fail(Errc::Syntax, "tool is missing, or not 1 to {}", kMaxTool);
+  const interpreter::PositionSetting setting{
+      .tool = static_cast<int>(tool),
+      .offset = offset,
+      .axis = *axis,
+      .value = *value,
+      .units = unit == "in" ? interpreter::Units::Inch : interpreter::Units::Millimeter};
+  // As its gateway reads it.
+  return interpreter::parse_position_setting(interpreter::to_text(setting));
+}
+
 Result<machines::CommandRequest> decode_machine_command(std::string_view body) {
   auto command = decode_command(body);
   if (!command) return command;

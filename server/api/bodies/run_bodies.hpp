@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/interpreter/core/position_setting.hpp"
 #include "server/machines/machine_control.hpp"
 #include "storage/job_store.hpp"
 
@@ -37,6 +38,9 @@ Result<machines::CommandRequest> decode_command(std::string_view body);
 /// character), LimitExceeded (its length).
 Result<std::string> decode_mdi(std::string_view body);
 Result<machines::CommandRequest> decode_machine_command(std::string_view body);
+/// {"axis", "value", "unit"?, "offset"?} of a datum; of a touch-off also "tool". A value of a
+/// linear axis other than 0 needs its unit.
+Result<interpreter::PositionSetting> decode_position_setting(std::string_view body, bool is_tool);
 inline constexpr double kMaxOverride = 10;
 inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one command
 

@@ -25,7 +25,9 @@ json memory_json(const library::KeptMemory& memory) {
     cells.push_back(
         {{"name", name}, {"value", number_json(cell.value)}, {"setup", number_json(cell.base)}});
   }
+  const auto& change = memory.change;
   return {{"machine", memory.machine},
+          {"change", change ? json({{"what", change->what}, {"who", change->by}}) : json(nullptr)},
           {"run", memory.run},
           {"program", memory.program ? json(*memory.program) : json(nullptr)},
           {"time", to_iso8601(memory.time)},
@@ -275,6 +277,60 @@ Response key_in(Services& services, const Request& request) {
   return json_response(201, run_json(*run));
 }
 
+/// The audit trail has it before it goes out.
+Response set_position(Services& services, const Request& request, bool is_tool) {
+  const auto setting = decode_position_setting(request.body, is_tool);
+  if (!setting) return error_response(setting.error());
+  const std::string name = request.parameter("name");
+  if (const auto view = services.machines.machine(name); !view) return error_response(view.error());
+  if (auto idle = check_idle(services, name); !idle) return error_response(idle.error());
+  machines::PositionRequest asked{.machine = name,
+                                  .argument = interpreter::to_text(*setting),
+                                  .who = request.who.name,
+                                  .is_playback = false};
+  library::AuditTrail::Change change{.who = request.who,
+                                     .action = is_tool ? "machine.touch_off" : "machine.datum",
+                                     .subject = name,
+                                     .detail = asked.argument};
+  if (auto written = services.audit.write_before(change); !written)
+    return error_response(written.error());
+  const auto answer = services.machines.position(asked);
+  if (answer) {
+    change.detail += ": " + answer->text;
+  } else {
+    const bool is_unknown = answer.error().code == Errc::Timeout;
+    change.detail += is_unknown ? ": not answered" : ": refused, " + answer.error().what;
+  }
+  services.audit.write(std::move(change));
+  if (!answer) return error_response(answer.error());
+  return json_response(200,
+                       {{"machine", name}, {"change", answer->change}, {"text", answer->text}});
+}
+
+Response set_datum(Services& services, const Request& request) {
+  return set_position(services, request, false);
+}
+Response touch_off(Services& services, const Request& request) {
+  return set_position(services, request, true);
+}
+
+Response play_back(Services& services, const Request& request) {
+  QueryReader query(request);
+  machines::PositionRequest asked{.machine = request.parameter("name"),
+                                  .argument = query.text("axes").value_or(""),
+                                  .who = {},
+                                  .is_playback = true};
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  if (asked.argument.empty() || asked.argument.size() > interpreter::kAxisCount ||
+      asked.argument.find_first_not_of("XYZABCUVW") != std::string::npos) {
+    return error_response(
+        {Errc::Syntax, fmt::format("axes '{}': expected letters, as XYZ", asked.argument)});
+  }
+  const auto answer = services.machines.position(asked);
+  if (!answer) return error_response(answer.error());
+  return json_response(200, {{"machine", asked.machine}, {"block", answer->text}});
+}
+
 Response command_machine(Services& services, const Request& request) {
   auto command = decode_machine_command(request.body);
   if (!command) return error_response(command.error());
@@ -292,6 +348,11 @@ void add_machine_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/machines/{name}/commands", with(services, command_machine),
              Waits::ForMachine);
   router.add("POST", "/api/v1/machines/{name}/mdi", with(services, key_in), Waits::ForMachine);
+  router.add("POST", "/api/v1/machines/{name}/datum", with(services, set_datum), Waits::ForMachine);
+  router.add("POST", "/api/v1/machines/{name}/touch-off", with(services, touch_off),
+             Waits::ForMachine);
+  router.add("GET", "/api/v1/machines/{name}/playback", with(services, play_back),
+             Waits::ForMachine);
 }
 
 }  // namespace dripline::api

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "protocol/dds/message.hpp"
 #include "server/api/api.hpp"
 #include "server/api/bodies/json_object.hpp"
 #include "server/api/nullable_json.hpp"
@@ -78,6 +79,18 @@ json history_json(const offsets::HistoryEntry& entry) {
             {"uncounted", entry.uncounted}};
   for (const storage::Run& run : entry.runs) view["runs"].push_back(run.id);
   return view;
+}
+
+json at_machine_json(const offsets::MachineChange& change) {
+  json cells = json::array();
+  for (const auto& [name, numbers] : change.what.cells) {
+    const auto& [before, after] = numbers;
+    cells.push_back(
+        {{"name", name}, {"before", before ? json(*before) : json(nullptr)}, {"value", after}});
+  }
+  return {{"change", change.change},         {"target", change.target},
+          {"time", to_iso8601(change.time)}, {"who", text_or_null(change.what.by)},
+          {"what", change.what.what},        {"cells", std::move(cells)}};
 }
 
 /// `{comment}`, or nothing.
@@ -175,9 +188,16 @@ Response show_history(Services& services, const Request& request) {
   const storage::Page page = read_page(query);
   const std::string target = query.text("target").value_or("");
   if (auto good = query.finish(); !good) return error_response(good.error());
-  return list_response("history",
-                       services.offsets->history().list(request.parameter("name"), target, page),
-                       history_json);
+  const std::string machine = request.parameter("name");
+  const auto entries = services.offsets->history().list(machine, target, page);
+  if (!entries) return error_response(entries.error());
+  const auto changes = services.offsets->history().at_machine(
+      {machine, std::string(dds::kChangePrefix), target}, page);
+  if (!changes) return error_response(changes.error());
+  json view{{"history", json::array()}, {"at_machine", json::array()}};
+  for (const auto& entry : *entries) view["history"].push_back(history_json(entry));
+  for (const auto& change : *changes) view["at_machine"].push_back(at_machine_json(change));
+  return json_response(200, view);
 }
 
 Response show_in_force(Services& services, const Request& request) {

@@ -75,6 +75,28 @@ Result<std::map<std::string, KeptCell>> read_memory_texts(const std::vector<std:
   return cells;
 }
 
+std::optional<MemoryChange> read_memory_change(const std::vector<std::string>& texts) {
+  if (texts.empty()) return std::nullopt;
+  const auto json = parse(texts.back());
+  if (!json || !json->contains("change")) return std::nullopt;
+  const Json& given = (*json)["change"];
+  const auto has_text = [&](const char* key) {
+    return given.contains(key) && given[key].is_string();
+  };
+  if (!given.is_object() || !has_text("what") || !has_text("by") || !given.contains("cells") ||
+      !given["cells"].is_object())
+    return std::nullopt;
+  MemoryChange change{given["what"].get<std::string>(), given["by"].get<std::string>(), {}};
+  for (const auto& [name, pair] : given["cells"].items()) {
+    std::optional<double> before, after;
+    const bool is_good = is_cell_name(name) && pair.is_array() && pair.size() == 2 &&
+                         read_number(pair[0], before) && read_number(pair[1], after) && after;
+    if (!is_good) return std::nullopt;
+    change.cells[name] = {before, *after};
+  }
+  return change;
+}
+
 Result<std::vector<KeptMemory>> kept_memories(const storage::Store& store,
                                               const std::string& machine,
                                               const std::optional<std::string>& run,
@@ -90,6 +112,7 @@ Result<std::vector<KeptMemory>> kept_memories(const storage::Store& store,
       continue;
     }
     KeptMemory memory{machine, report.run, std::nullopt, report.time, *std::move(cells)};
+    memory.change = read_memory_change(report.texts);
     if (const auto known = store.runs.find(report.run); known && known->machine == machine)
       memory.program = known->program;
     memories.push_back(std::move(memory));

@@ -136,6 +136,10 @@ TEST_F(RecordTest, OfTheControlsMemoryAreFoundByMachineNewestFirst) {
       store_->records.memory_reports("m1", std::nullopt, {.limit = 1, .offset = 1})->at(0).run,
       "line-1");
   EXPECT_TRUE(store_->records.memory_reports("m1", "r2", {})->empty());
+  const auto changes = store_->records.memory_changes("m1", "line-", {});
+  ASSERT_EQ(changes->size(), 1u) << "of what begins so alone";
+  EXPECT_EQ(changes->at(0).run, "line-1");
+  EXPECT_TRUE(store_->records.memory_changes("m1", "set-", {})->empty());
   EXPECT_TRUE(store_->records.memory_reports("unknown", std::nullopt, {})->empty());
 }
 

@@ -139,6 +139,9 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
       {"POST", "/api/v1/machines/lathe-1/commands",
        R"({"action":"switch","name":"emergency_stop","value":0})"},
       {"POST", "/api/v1/machines/lathe-1/mdi", R"({"text":"G0 X1"})"},
+      {"POST", "/api/v1/machines/lathe-1/datum", R"({"axis":"Z","value":0,"offset":"G54"})"},
+      {"POST", "/api/v1/machines/lathe-1/touch-off",
+       R"({"tool":3,"axis":"Z","value":0,"offset":"G54"})"},
       {"PUT", "/api/v1/machines/lathe-1/setup", "[[tool]]\nnumber = 1\n"},
       {"POST", "/api/v1/runs", start},
       {"POST", "/api/v1/runs/" + run + "/restart", "{}"},
@@ -167,6 +170,7 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
   for (const auto& [method, path, body] : tries)
     expect_error(as(secret, method, path, body), 403, "denied", "lathe-1");
   EXPECT_TRUE(machines_.commands.empty() && machines_.started.empty()) << "nothing went out";
+  EXPECT_TRUE(machines_.positions.empty()) << "nor this";
   // With the machine in his group the same requests go through to the handlers.
   EXPECT_EQ(call("PUT", "/api/v1/machine-groups/mills/machines/lathe-1").status, 200);
   for (const auto& [method, path, body] : tries)

@@ -106,6 +106,62 @@ TEST_F(ApiHandlers, KeepWhatIsKeyedInAndStartIt) {
   EXPECT_EQ(machines_.started.size(), 1U);
 }
 
+TEST_F(ApiHandlers, SetADatumAndALengthFromThePosition) {
+  const std::string datum = "/api/v1/machines/lathe-1/datum";
+  const std::string touch = "/api/v1/machines/lathe-1/touch-off";
+  const std::string before = stored_run(0);
+  ASSERT_TRUE(store_->runs.set_state(before, storage::RunState::Completed, ""));
+  const auto good = post(datum, {{"offset", "G54"}, {"axis", "X"}, {"value", 0.5}, {"unit", "in"}});
+  ASSERT_EQ(good.status, 200) << good.body;
+  EXPECT_EQ(json(good)["text"], "G54.X is 87.5, it was 100");
+  EXPECT_EQ(machines_.positions.back().argument, "datum G54 X 0.5 in");
+  EXPECT_EQ(machines_.positions.back().who, "admin");
+  const auto entries = json(get("/api/v1/audit"))["entries"];
+  EXPECT_EQ(entries[0]["action"], "machine.datum");
+  EXPECT_EQ(entries[0]["detail"], "datum G54 X 0.5 in: G54.X is 87.5, it was 100");
+  EXPECT_EQ(entries[1]["detail"], "datum G54 X 0.5 in") << "before it went out";
+  EXPECT_EQ(post(touch, {{"tool", 3}, {"offset", "G54"}, {"axis", "Z"}, {"value", 0}}).status, 200);
+  EXPECT_EQ(machines_.positions.back().argument, "tool 3 Z 0 mm G54");
+  EXPECT_EQ(post(datum, {{"axis", "C"}, {"value", 90}}).status, 200);
+  EXPECT_EQ(machines_.positions.back().argument, "datum C 90 deg");
+  const std::size_t sent = machines_.positions.size();
+  expect_error(post(datum, {{"axis", "X"}, {"value", 5}}), 400, "syntax", "needs a unit");
+  expect_error(post(datum, {{"axis", "Q"}, {"value", 0}}), 400, "syntax", "axis 'Q'");
+  expect_error(post(datum, {{"axis", "X"}}), 400, "syntax", "value is missing");
+  expect_error(post(datum, {{"axis", "X"}, {"value", 1e9}, {"unit", "mm"}}), 413, "limit_exceeded",
+               "1000000000");
+  expect_error(post(datum, {{"axis", "X"}, {"value", 1}, {"unit", "m"}}), 400, "syntax", "'m'");
+  expect_error(post(datum, {{"axis", "X"}, {"value", 0}, {"offset", "G54 X"}}), 400, "syntax",
+               "expected");
+  expect_error(post(datum, {{"axis", "X"}, {"value", 0}, {"tool", 3}}), 400, "syntax", "tool");
+  expect_error(post(touch, {{"axis", "X"}, {"value", 0}}), 400, "syntax", "tool is missing");
+  EXPECT_EQ(post("/api/v1/machines/nowhere/datum", {{"axis", "X"}, {"value", 0}}).status, 404);
+  const auto revision = store_->programs.revision("O0100", 1).value();
+  ASSERT_TRUE(store_->runs.create(run_of(revision, "run-9")));
+  expect_error(post(datum, {{"axis", "X"}, {"value", 0}}), 409, "busy", "is busy with run");
+  EXPECT_EQ(machines_.positions.size(), sent) << "nothing went out";
+}
+
+TEST_F(ApiHandlers, NoteARefusedDatumInTheAuditTrail) {
+  const std::string before = stored_run(0);
+  ASSERT_TRUE(store_->runs.set_state(before, storage::RunState::Completed, ""));
+  machines_.refusal = Error{Errc::Busy, "machine lathe-1 refused set_position: the axes move"};
+  expect_error(post("/api/v1/machines/lathe-1/datum", {{"axis", "X"}, {"value", 0}}), 409, "busy",
+               "the axes move");
+  const auto entry = json(get("/api/v1/audit"))["entries"][0];
+  EXPECT_EQ(entry["detail"],
+            "datum X 0 mm: refused, machine lathe-1 refused set_position: the axes move");
+}
+
+TEST_F(ApiHandlers, GiveThePositionAsABlock) {
+  (void)stored_run(0);
+  const std::string path = "/api/v1/machines/lathe-1/playback";
+  EXPECT_EQ(json(get(path + "?axes=XY"))["block"], "L X+1.000 Y-2.500 R0");
+  EXPECT_TRUE(machines_.positions.back().is_playback);
+  expect_error(get(path), 400, "syntax", "letters");
+  expect_error(get(path + "?axes=xy"), 400, "syntax", "'xy'");
+}
+
 TEST_F(ApiHandlers, ShowRunsAndTheirRecords) {
   const std::string run = stored_run(3);
   EXPECT_EQ(json(get("/api/v1/runs/" + run))["outputs"], 3);

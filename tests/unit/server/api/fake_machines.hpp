@@ -40,7 +40,16 @@ class FakeMachines final : public machines::MachineControl {
     return answer;
   }
 
+  Result<machines::PositionAnswer> position(const machines::PositionRequest& request) override {
+    positions.push_back(request);
+    if (refusal) return fail(*refusal);
+    if (auto view = machine(request.machine); !view) return fail(view.error());
+    if (request.is_playback) return machines::PositionAnswer{"", "L X+1.000 Y-2.500 R0"};
+    return machines::PositionAnswer{"set-1", "G54.X is 87.5, it was 100"};
+  }
+
   std::vector<machines::MachineView> views;
+  std::vector<machines::PositionRequest> positions;
   std::vector<machines::ValueQuery> asked;
   std::string answer =
       R"({"values":[{"name":"P10","value":7.5},{"name":"P11","value":null}],"next":null,)"

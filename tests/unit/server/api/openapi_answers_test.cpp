@@ -305,6 +305,15 @@ TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
                    post("/api/v1/machines/lathe-1/commands",
                         {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}}));
   machines_.views.front().machine.gateway_version = "1";
+  expect_described(
+      "POST", "/api/v1/machines/{name}/datum",
+      post("/api/v1/machines/lathe-1/datum", {{"axis", "Z"}, {"value", 0}, {"offset", "G54"}}));
+  expect_described(
+      "POST", "/api/v1/machines/{name}/touch-off",
+      post("/api/v1/machines/lathe-1/touch-off",
+           {{"tool", 3}, {"axis", "X"}, {"value", 40.02}, {"unit", "mm"}, {"offset", "G54"}}));
+  expect_described("GET", "/api/v1/machines/{name}/playback",
+                   get("/api/v1/machines/lathe-1/playback?axes=XZ"));
   expect_described("POST", "/api/v1/machines/{name}/mdi",
                    post("/api/v1/machines/lathe-1/mdi", {{"text", "G0 X1"}}));
   expect_described("POST", "/api/v1/runs",

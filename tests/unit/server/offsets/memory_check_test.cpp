@@ -59,6 +59,29 @@ TEST_F(KeptOffsets, NothingIsProposedFromAValueThatTheMemoryHasNot) {
   EXPECT_TRUE(all().empty());
 }
 
+/// Set at the machine, without a run: the same doubt, and it is in the history.
+TEST_F(KeptOffsets, WhatAnOperatorHasSetAtTheMachineIsKnown) {
+  use_rules("automatic = 0.05\n");
+  measure_three();
+  report_text("set-order-1",
+              R"({"part":1,"parts":2,"cells":{"tool.3.x":[25,1],"tool.3.x_wear":[0,0.1]}})");
+  report_text("set-order-1",
+              R"({"part":2,"parts":2,"cells":{},"change":{"what":"tool 3 X 30 mm G54","by":"bert",)"
+              R"("at":80,"cells":{"tool.3.x":[1,25],"tool.3.x_wear":[0.1,0]}}})");
+  expect(reasons_of_no_proposal(),
+         {"T3.wear.X is 0 in the memory of lathe-1", "set by bert: tool 3 X 30 mm G54"});
+  const auto changes = offsets_->history().at_machine({"lathe-1", "set-", "T3"}, {});
+  ASSERT_TRUE(changes) << changes.error().what;
+  ASSERT_EQ(changes->size(), 1U);
+  const MachineChange& change = changes->front();
+  EXPECT_EQ(change.target, "T3.X");
+  EXPECT_EQ(change.change, "set-order-1");
+  EXPECT_EQ(change.what.by, "bert");
+  EXPECT_EQ(change.what.cells.at("tool.3.x"), std::pair(std::optional(1.0), 25.0));
+  EXPECT_TRUE(offsets_->history().at_machine({"lathe-1", "set-", "G54"}, {})->empty());
+  EXPECT_TRUE(offsets_->history().at_machine({"lathe-1", "set-", "T3.Z"}, {})->empty());
+}
+
 TEST_F(KeptOffsets, APendingOneIsNotApprovedWhenTheMemoryHasAnotherValueByNow) {
   use_rules();
   const std::string run = measure_three();

@@ -1,0 +1,105 @@
+#include "clients/cli/server/position_commands.hpp"
+
+#include <memory>
+#include <string>
+
+#include "clients/cli/text/standard_output.hpp"
+
+namespace dripline::cli {
+namespace {
+
+struct PositionCommand {
+  std::string machine;
+  client::PositionToSet setting;
+  std::uint64_t tool = 0;
+  std::string axes;
+};
+
+int set_position(Context& context, client::Client& client, const PositionCommand& command) {
+  auto answer = client.set_position(command.machine, command.setting);
+  if (!answer) return complain(answer.error());
+  if (context.wants_json) {
+    context.print(json_text(*answer));
+  } else {
+    context.print(fmt::format("{}: {}\n", command.machine, answer->text));
+  }
+  return kExitOk;
+}
+
+int touch_off(Context& context, client::Client& client, const PositionCommand& command) {
+  PositionCommand of_tool = command;
+  of_tool.setting.tool = command.tool;
+  return set_position(context, client, of_tool);
+}
+
+int play_back(Context& context, client::Client& client, const PositionCommand& command) {
+  auto answer = client.play_back(command.machine, command.axes);
+  if (!answer) return complain(answer.error());
+  context.print(context.wants_json ? json_text(*answer) : answer->block + "\n");
+  return kExitOk;
+}
+
+void add_setting_options(Command command, Context& context, PositionCommand& options) {
+  command.add_option("AXIS", options.setting.axis, "Letter of the axis").required();
+  command
+      .add_option("VALUE", options.setting.value,
+                  "The coordinate that the present position gets; X of a lathe is a diameter")
+      .required();
+  command.add_option("--unit", options.setting.unit, "Unit of VALUE; needed unless it is 0")
+      .check(one_of({"mm", "in"}));
+  command.add_option("--offset", options.setting.offset,
+                     "Work offset, e.g. G54; a TNC has one datum and takes none");
+  add_json_flag(command, context);
+}
+
+}  // namespace
+
+void add_position_verbs(Command group, Context& context) {
+  constexpr const char* kCommon =
+      "Nothing moves. It is refused while a run is active, while the axes move or their position "
+      "is "
+      "not known, and while\na shift, rotation, scaling or mirror image is in force. What is set "
+      "is "
+      "in the control's memory from then on\n(dnc memory show, dnc offset history); a restart of a "
+      "run that was cut off before is refused after it.\n\n";
+  auto datum = group.add_subcommand("datum", "Set a datum from the machine's position");
+  auto options = std::make_shared<PositionCommand>();
+  datum.add_option("MACHINE", options->machine, "The machine").required();
+  add_setting_options(datum, context, *options);
+  datum.footer(std::string(kCommon) +
+               "Fanuc, RS274/NGC: every axis of a work offset. Centurion: its Z, to 0. TNC: every "
+               "axis of its datum.\n\nExample:\n  dnc machine datum mill-1 X 12.5 --unit mm "
+               "--offset G54");
+  run_at_server(datum, context, options, set_position);
+
+  auto touch = group.add_subcommand("touch-off", "Set a tool's length from the machine's position");
+  auto tool = std::make_shared<PositionCommand>();
+  touch.add_option("MACHINE", tool->machine, "The machine").required();
+  touch.add_option("TOOL", tool->tool, "Number of the tool, or of its offset")
+      .required()
+      .check(in_range(1, 99'999'999));
+  add_setting_options(touch, context, *tool);
+  touch.footer(
+      std::string(kCommon) +
+      "VALUE is a coordinate of --offset. Mills: Z. Lathes: X and Z; the wear of that axis "
+      "becomes 0. A TNC has the length in\nTOOL DEF of a program: see dnc machine "
+      "playback.\n\nExample:\n  dnc machine touch-off lathe-1 3 X 40.02 --unit mm --offset "
+      "G54");
+  run_at_server(touch, context, tool, touch_off);
+
+  auto playback = group.add_subcommand(
+      "playback", "Print the machine's position as the words of a block (TNC)");
+  auto axes = std::make_shared<PositionCommand>();
+  playback.add_option("MACHINE", axes->machine, "The machine").required();
+  playback.add_option("AXES", axes->axes, "Letters of the axes, in the order of the block")
+      .required();
+  add_json_flag(playback, context);
+  playback.footer(
+      "The actual position key of a TNC: coordinates of the datum, without feed and M function. "
+      "They "
+      "contain the radius of the\ntool that was used, so its TOOL DEF has R 0.\n\nExample:\n  dnc "
+      "machine playback mill-3 XY");
+  run_at_server(playback, context, axes, play_back);
+}
+
+}  // namespace dripline::cli
