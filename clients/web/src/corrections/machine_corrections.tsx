@@ -80,6 +80,32 @@ function HistoryTable({ history }: { history: PastValue[] }) {
   );
 }
 
+/// In the control's memory, and in no setup.
+function AtMachine({ changes }: { changes: OffsetHistory['at_machine'] }) {
+  const t = texts().corrections;
+  return (
+    <section aria-labelledby="at-machine">
+      <h2 id="at-machine">{t.atMachine}</h2>
+      <div class="scroll" tabIndex={0} role="group" aria-labelledby="at-machine">
+        <table class="data">
+          <thead><tr>{[t.target, t.change, t.since, t.who, t.setAs].map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
+          <tbody>
+            {changes.map((one) => (
+              <tr key={one.change}>
+                <th scope="row" class="nowrap">{one.target}</th>
+                <td>{one.cells.map((cell) => `${cell.name}: ${cell.before === null ? '–' : numberText(cell.before, 4)} → ${numberText(cell.value, 4)}`).join(', ')}</td>
+                <td>{dateTimeText(one.time)}</td>
+                <td>{one.who ?? '–'}</td>
+                <td>{one.what}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+    </section>
+  );
+}
+
 export function MachineCorrections({ machine, target }: { machine: string; target: string }) {
   const t = texts().corrections;
   const { offsets: pending } = useFeed('offsets');
@@ -105,6 +131,7 @@ export function MachineCorrections({ machine, target }: { machine: string; targe
       {history.value && list.length === 0 && <p class="notice">{t.noHistory}</p>}
       {targetsOf(list).length === 1 && <Steps values={list} />}
       {list.length > 0 && <HistoryTable key={target} history={list} />}
+      {history.value && history.value.at_machine.length > 0 && <AtMachine changes={history.value.at_machine} />}
       <Rules machine={machine} />
     </>
   );

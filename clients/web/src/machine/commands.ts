@@ -1,5 +1,5 @@
 // The commands that the API has for a machine and for its run.
-import type { CommandRequest, Run, RunRequest } from '../../generated/api';
+import type { CommandRequest, DatumRequest, PositionSet, Run, RunRequest } from '../../generated/api';
 import { pathOf, send } from '../api/request';
 
 /// Needs a run: hold, resume, abort, answer.
@@ -49,6 +49,14 @@ export function startRun(request: StartRequest): Promise<Run> {
 /// Blocks keyed in at an idle machine (MDI), one a line.
 export function keyIn(machine: string, text: string): Promise<Run> {
   return send<Run>('POST', pathOf('machines', machine, 'mdi'), { json: { text } });
+}
+
+/// `tool`: its length is set, else the datum.
+export type PositionToSet = DatumRequest & { tool?: number };
+
+/// From where the axes of a machine without a run are.
+export function setPosition(machine: string, setting: PositionToSet): Promise<PositionSet> {
+  return send<PositionSet>('POST', pathOf('machines', machine, setting.tool === undefined ? 'datum' : 'touch-off'), { json: setting });
 }
 
 /// `at` empty: after the block executed last.

@@ -18,6 +18,7 @@ import { Position } from './position';
 import { RunControls } from './run_controls';
 import { RunRecords } from './run_records';
 import { MachineRuns } from './runs';
+import { SetPosition } from './set_position';
 import { MachineSetup } from './setup/setup';
 import { StartForm } from './start_form';
 
@@ -42,6 +43,7 @@ function Now({ name }: { name: string }) {
           {!hasRun && <NextJob key={`next ${name}`} name={name} />}
           {!hasRun && <StartForm key={name} machine={machine} />}
           {!hasRun && <Mdi key={`mdi ${name}`} machine={machine} />}
+          {!hasRun && status && <SetPosition key={`set ${name}`} machine={machine} status={status} />}
           {hasPath && executing && <ExecutedPath key={executing.id} run={executing} status={status} />}
           {run && <RunRecords run={run.id} />}
         </div>

@@ -16,7 +16,7 @@ export function MachineMemory({ machine }: { machine: string }) {
       {memory.value && !newest && <p class="muted">{t.noMemory}</p>}
       {newest && (
         <>
-          <p class="muted">{t.memoryOf(newest.program ?? t.atTheMachine, dateTimeText(newest.time))}</p>
+          <p class="muted">{t.memoryOf(newest.change?.what ?? newest.program ?? t.atTheMachine, dateTimeText(newest.time))}</p>
           <table class="data">
             <thead><tr><th scope="col">{t.cell}</th><th scope="col">{t.value}</th><th scope="col">{t.inSetup}</th></tr></thead>
             <tbody>

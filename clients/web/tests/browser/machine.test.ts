@@ -65,6 +65,44 @@ test('a question of the control is answered, and what it prints is shown as text
   assertNoComplaints(complaints);
 });
 
+test('a block is keyed in, named before it runs, and refused while a program runs', async () => {
+  await shop.startMachine('mill-3', { control: 'tnc155', speed: 'max' });
+  const { page, complaints } = await visit('#/machine/mill-3');
+  const part = page.getByRole('region', { name: 'MDI' });
+  await part.getByLabel('One block').fill('X+31.25 R0 F9000');
+  await part.getByRole('button', { name: 'Run' }).click();
+  assert.equal((await shop.api<{ runs: unknown[] }>('GET', 'runs?machine=mill-3'))?.runs.length, 0, 'one press runs nothing');
+  await part.getByRole('button', { name: 'Press again: X+31.25 R0 F9000 on mill-3' }).click();
+  await page.locator('.position').getByText('31.250').first().waitFor();
+  await part.getByLabel('One block').fill('X+1 R0 F9000\nX+2 R0 F9000');
+  await assert.rejects(part.getByRole('button', { name: 'Run' }).click({ timeout: 500 }), 'the control takes one');
+  assert.deepEqual(await findBarriers(page), []);
+  await part.getByLabel('One block').fill('FOO');
+  await pressTwice(part.getByRole('button', { name: 'Run' }), part.getByRole('button', { name: 'Press again: FOO on mill-3' }));
+  await page.locator('.machine-head .message').waitFor();
+  assertNoComplaints(complaints);
+});
+
+test('a datum is set from the position, and the position is taken as a block', async () => {
+  const { page, complaints } = await visit('#/machine/mill-3');
+  const part = page.getByRole('region', { name: 'Set from the position' });
+  await part.getByRole('button', { name: 'Position as a block' }).click();
+  await page.waitForFunction(() => /^L X\+31\.250 Y\+0\.000 Z\+0\.000.* R0$/.test(document.querySelector<HTMLInputElement>('input[readonly]')?.value ?? ''));
+  await part.getByLabel('Axis').selectOption('X');
+  await part.getByLabel('The position becomes (mm)').fill('1,25');
+  await pressTwice(part.getByRole('button', { name: 'Set', exact: true }), part.getByRole('button', { name: 'Press again: X = 1.25 mm on mill-3' }));
+  await part.getByText('datum.X is 30, it was 0').waitFor();
+  await part.getByLabel('The position becomes (mm)').fill('about 3');
+  assert.equal(await part.getByRole('button', { name: 'Set', exact: true }).isDisabled(), true);
+  assert.deepEqual(await findBarriers(page), []);
+  await page.getByRole('link', { name: 'Memory' }).click();
+  await page.getByText(/datum X 1\.25 mm/).waitFor();
+  await page.goto(`${shop.url}/#/corrections/mill-3`);
+  await page.getByRole('region', { name: 'Set at the machine' }).getByText(/^datum\.X: 0\.0000 → 30\.0000$/).waitFor();
+  await shop.stopMachine('mill-3');
+  assertNoComplaints(complaints);
+});
+
 test('an aborted run is continued where it was', async () => {
   const { page } = await visit('#/machine/mill-1/runs');
   await page.getByText('Restart').first().click();

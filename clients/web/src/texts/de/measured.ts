@@ -163,6 +163,8 @@ export const measured: typeof Shape = {
     automatic: 'die Regel selbst',
     history: 'Verlauf',
     historyOf: (machine) => `Werkzeuge und Nullpunkte von ${machine}`,
+    atMachine: 'An der Maschine gesetzt',
+    setAs: 'Als',
     noHistory: 'Keine Einrichtung dieser Maschine hat einen solchen Wert.',
     value: 'Wert',
     change: 'Änderung',

@@ -161,6 +161,8 @@ export const measured = {
     automatic: 'the rule itself',
     history: 'History',
     historyOf: (machine: string) => `Tools and offsets of ${machine}`,
+    atMachine: 'Set at the machine',
+    setAs: 'As',
     noHistory: 'No setup of this machine has such a value.',
     value: 'Value',
     change: 'Change',
