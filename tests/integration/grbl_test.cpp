@@ -112,6 +112,45 @@ TEST_F(GrblSystem, HoldsResumesAndAborts) {
   EXPECT_TRUE(eventually([&] { return system->run(second).value("executed", 0u) > 2; }));
 }
 
+TEST_F(GrblSystem, BlocksKeyedInMoveTheBoardAndAreHeldAndAborted) {
+  start();
+  const auto key_in = [&](const std::string& text) {
+    std::string id, answer;
+    EXPECT_TRUE(eventually([&] {
+      const auto reply = system->rest().post("/api/v1/machines/lathe-1/mdi", {{"text", text}});
+      answer = reply.body;
+      id = reply.status == 201 ? reply.json().value("id", "") : "";
+      return !id.empty();
+    })) << answer;
+    return id;
+  };
+  const auto board_x = [&] {
+    return board->with([](GrblBoard& peer) { return peer.position()[0]; });
+  };
+  EXPECT_EQ(system->wait_ended(key_in("G21 G91 G94 F3000 G1 X20\n")).value("state", ""),
+            "completed");
+  EXPECT_NEAR(board_x(), 20, 1e-3);
+  EXPECT_EQ(system->wait_ended(key_in("X5\n")).value("state", ""), "completed");
+  EXPECT_NEAR(board_x(), 25, 1e-3) << "G91, G1 and the feed are in force";
+  const auto datum = [&] {
+    return system->rest().post("/api/v1/machines/lathe-1/datum",
+                               {{"offset", "G55"}, {"axis", "X"}, {"value", 5}, {"unit", "mm"}});
+  };
+  EXPECT_NE(datum().body.find("#5241 is 20, it was 0"), std::string::npos) << datum().body;
+  EXPECT_EQ(system->wait_ended(key_in("G90 G55 X6\n")).value("state", ""), "completed");
+  EXPECT_NEAR(board_x(), 26, 1e-3) << "by the datum that was set";
+  const std::string id = key_in("G90 X900\n");
+  ASSERT_TRUE(eventually([&] { return board_x() > 30; }));
+  const auto busy = system->rest().post("/api/v1/machines/lathe-1/mdi", {{"text", "G0 X0\n"}});
+  EXPECT_EQ(busy.status, 409) << busy.body;
+  command(id, "hold");
+  EXPECT_TRUE(eventually([&] { return rests(); }));
+  command(id, "abort");
+  EXPECT_EQ(system->wait_ended(id).value("state", ""), "aborted");
+  EXPECT_TRUE(rests());
+  EXPECT_LT(board_x(), 900);
+}
+
 TEST_F(GrblSystem, APulledCableIsAnAlarmAndTheOperatorsResetEndsIt) {
   start();
   system->push("path", straight_program(2000, kFeed));
@@ -124,6 +163,11 @@ TEST_F(GrblSystem, APulledCableIsAnAlarmAndTheOperatorsResetEndsIt) {
   EXPECT_NE(run.value("reason", "").find("the position is unknown"), std::string::npos);
   board->plug_in();
   EXPECT_NE(post_run("path").status, 201) << "nothing starts before the operator resets";
+  const auto datum = system->rest().post("/api/v1/machines/lathe-1/datum",
+                                         {{"offset", "G54"}, {"axis", "X"}, {"value", 0}});
+  EXPECT_EQ(datum.status, 409) << datum.body;
+  EXPECT_NE(datum.body.find("the position is not known for certain"), std::string::npos)
+      << datum.body;
   EXPECT_TRUE(eventually([&] { return rests(); })) << "the board has emptied its buffers";
   press_emergency_stop(true);
   press_emergency_stop(false);

@@ -56,6 +56,36 @@ TEST_F(LinuxCncSystem, AProgramOfATnc155RunsOnALinuxCncMill) {
   EXPECT_NEAR(widest, 95, 0.001);
 }
 
+TEST_F(LinuxCncSystem, BlocksKeyedInMoveTheMachineAndAnAbortStopsIt) {
+  start("fanuc");
+  if (IsSkipped() || HasFatalFailure()) return;
+  system->push("end", "O1\nM30\n");
+  turn_on("end");
+  EXPECT_EQ(system->wait_ended(start_run("end")).value("state", ""), "completed");
+  const auto key_in = [&](const std::string& text) {
+    const auto reply = system->rest().post("/api/v1/machines/lathe-1/mdi", {{"text", text}});
+    EXPECT_EQ(reply.status, 201) << reply.body;
+    return reply.status == 201 ? reply.json().value("id", "") : std::string();
+  };
+  const double begun_at = linuxcnc->position()[0];
+  EXPECT_EQ(system->wait_ended(key_in("G21 G91 G1 X20. F2400\n")).value("state", ""), "completed");
+  EXPECT_NEAR(linuxcnc->position()[0], begun_at + 20, 0.001);
+  EXPECT_EQ(system->wait_ended(key_in("X5.\n")).value("state", ""), "completed");
+  EXPECT_NEAR(linuxcnc->position()[0], begun_at + 25, 0.001) << "G91 is in force";
+  const auto datum = system->rest().post("/api/v1/machines/lathe-1/datum",
+                                         {{"offset", "G54"}, {"axis", "X"}, {"value", 0}});
+  EXPECT_EQ(datum.status, 200) << datum.body;
+  EXPECT_NEAR(linuxcnc->position()[0], begun_at + 25, 0.001) << "nothing moves";
+  EXPECT_EQ(system->wait_ended(key_in("G90 G54 G1 X-3. F2400\n")).value("state", ""), "completed");
+  EXPECT_NEAR(linuxcnc->position()[0], begun_at + 22, 0.001) << "by the datum that was set";
+  const std::string id = key_in("G91 G1 X300. F1200\n");
+  ASSERT_TRUE(eventually([&] { return linuxcnc->position()[0] > begun_at + 27; }));
+  command(id, "abort");
+  EXPECT_EQ(system->wait_ended(id).value("state", ""), "aborted");
+  ASSERT_TRUE(eventually([&] { return linuxcnc->rests(); }));
+  EXPECT_LT(linuxcnc->position()[0], begun_at + 300);
+}
+
 TEST_F(LinuxCncSystem, AKilledGatewayLeavesNoMotionAndClaimsNothing) {
   start("rs274ngc");
   if (IsSkipped() || HasFatalFailure()) return;
