@@ -137,9 +137,10 @@ TEST_F(GrblSystem, BlocksKeyedInMoveTheBoardAndAreHeldAndAborted) {
                                {{"offset", "G55"}, {"axis", "X"}, {"value", 5}, {"unit", "mm"}});
   };
   EXPECT_NE(datum().body.find("#5241 is 20, it was 0"), std::string::npos) << datum().body;
-  EXPECT_EQ(system->wait_ended(key_in("G90 G55 X6\n")).value("state", ""), "completed");
+  EXPECT_EQ(system->wait_ended(key_in("G21 G90 G94 F3000 G55 G1 X6\n")).value("state", ""),
+            "completed");
   EXPECT_NEAR(board_x(), 26, 1e-3) << "by the datum that was set";
-  const std::string id = key_in("G90 X900\n");
+  const std::string id = key_in("G54 X900\n");
   ASSERT_TRUE(eventually([&] { return board_x() > 30; }));
   const auto busy = system->rest().post("/api/v1/machines/lathe-1/mdi", {{"text", "G0 X0\n"}});
   EXPECT_EQ(busy.status, 409) << busy.body;
