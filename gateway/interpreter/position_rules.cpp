@@ -4,7 +4,7 @@
 #include <array>
 
 #include "gateway/interpreter/core/dialects.hpp"
-#include "gateway/interpreter/dialects/position_rules.hpp"
+#include "gateway/interpreter/core/positions.hpp"
 
 namespace dripline::interpreter {
 

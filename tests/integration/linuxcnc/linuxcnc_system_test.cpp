@@ -76,7 +76,8 @@ TEST_F(LinuxCncSystem, BlocksKeyedInMoveTheMachineAndAnAbortStopsIt) {
                                          {{"offset", "G54"}, {"axis", "X"}, {"value", 0}});
   EXPECT_EQ(datum.status, 200) << datum.body;
   EXPECT_NEAR(linuxcnc->position()[0], begun_at + 25, 0.001) << "nothing moves";
-  EXPECT_EQ(system->wait_ended(key_in("G21 G90 G54 G1 X-3. F2400\n")).value("state", ""), "completed");
+  EXPECT_EQ(system->wait_ended(key_in("G21 G90 G54 G1 X-3. F2400\n")).value("state", ""),
+            "completed");
   EXPECT_NEAR(linuxcnc->position()[0], begun_at + 22, 0.001) << "by the datum that was set";
   const std::string id = key_in("G91 G1 X300. F1200\n");
   ASSERT_TRUE(eventually([&] { return linuxcnc->position()[0] > begun_at + 27; }));

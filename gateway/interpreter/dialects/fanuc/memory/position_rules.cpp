@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/position_rules.hpp"
+#include "gateway/interpreter/core/positions.hpp"
 
 #include <array>
 

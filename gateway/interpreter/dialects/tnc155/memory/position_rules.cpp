@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/position_rules.hpp"
+#include "gateway/interpreter/core/positions.hpp"
 
 // DATUM SET of the manual operating mode, and the actual position key of programming (manual:
 // setting the workpiece datum; programming by playback). Tools are measured by the same key: L of
