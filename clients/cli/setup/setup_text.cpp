@@ -1,6 +1,7 @@
 #include "clients/cli/setup/setup_text.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/context.hpp"
@@ -41,15 +42,26 @@ class Lengths {
 std::string tool_table(const std::vector<interpreter::ToolRecord>& tools, const Lengths& lengths,
                        bool has_color) {
   const std::string unit = lengths.unit();
-  Table table({right("TOOL"), right("X " + unit), right("Z " + unit), right("RADIUS " + unit),
-               right("WEAR X"), right("WEAR Z"), right("WEAR R"), right("TIP"), right("POCKET")});
+  std::vector<Column> columns{right("TOOL"),           right("X " + unit), right("Z " + unit),
+                              right("RADIUS " + unit), right("WEAR X"),    right("WEAR Z"),
+                              right("WEAR R"),         right("TIP"),       right("POCKET")};
+  const bool has_names =
+      std::ranges::any_of(tools, [](const auto& tool) { return !tool.name.empty(); });
+  if (has_names) columns.push_back({"NAME"});
+  Table table(std::move(columns));
   for (const auto& tool : tools) {
     const std::string pocket = tool.pocket ? std::to_string(*tool.pocket) : "-";
-    table.add({std::to_string(tool.number), lengths.text(tool.length, Axis::X),
-               lengths.text(tool.length, Axis::Z), lengths.text(tool.radius),
-               lengths.text(tool.wear, Axis::X), lengths.text(tool.wear, Axis::Z),
-               lengths.text(tool.radius_wear), std::to_string(tool.tip),
-               tool.is_special ? "S" + pocket : pocket});
+    std::vector<Cell> row{std::to_string(tool.number),
+                          lengths.text(tool.length, Axis::X),
+                          lengths.text(tool.length, Axis::Z),
+                          lengths.text(tool.radius),
+                          lengths.text(tool.wear, Axis::X),
+                          lengths.text(tool.wear, Axis::Z),
+                          lengths.text(tool.radius_wear),
+                          std::to_string(tool.tip),
+                          tool.is_special ? "S" + pocket : pocket};
+    if (has_names) row.emplace_back(tool.name);
+    table.add(std::move(row));
   }
   return table.render(has_color);
 }

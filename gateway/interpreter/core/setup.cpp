@@ -91,6 +91,7 @@ void read_tool(Table& table, std::vector<ToolRecord>& tools) {
   ToolRecord tool;
   table.require("number");
   table.integer("number", 0, 99'999'999, tool.number);
+  table.text("name", tool.name);
   table.axes({Axis::X, Axis::Z}, tool.length);
   if (table.has("length")) {
     if (table.has("Z")) table.complain("length", "a tool has either a length or X and Z");
@@ -280,7 +281,8 @@ void read_file(Table& file, Setup& setup, MachineData& machine) {
              [&](Table& switches) { read_switches(switches, setup.switches); });
   read_date_time(file, setup);
   file.texts("answers", setup.answers);
-  file.tables("tool", {"number", "length", "X", "Z", "radius", "tip", "wear", "pocket", "special"},
+  file.tables("tool",
+              {"number", "name", "length", "X", "Z", "radius", "tip", "wear", "pocket", "special"},
               [&](Table& tool) { read_tool(tool, setup.tools); });
   file.tables("offset", {"name", "X", "Y", "Z", "A", "B", "C", "U", "V", "W"},
               [&](Table& offset) { read_offset(offset, setup.offsets); });

@@ -23,7 +23,8 @@ struct Switches {
 
 struct ToolRecord {
   int number = 0;
-  Position length;  ///< mills: Z; lathes: X and Z
+  std::string name;  ///< by which programs may call it, on a control that has such calls
+  Position length;   ///< mills: Z; lathes: X and Z
   Position wear;
   Length radius;
   Length radius_wear;
