@@ -60,7 +60,8 @@ TncInterpreter::TncInterpreter(ControlOptions options, State state,
 
 BlockOutcome TncInterpreter::run_block() {
   if (!run_.state.are_calls_checked) [[unlikely]] {
-    const BlockOutcome outcome = check_calls();
+    BlockOutcome outcome = check_labels();
+    if (outcome == BlockOutcome::Finished) outcome = check_calls();
     if (outcome != BlockOutcome::Finished) return outcome;
   }
   if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
@@ -86,6 +87,31 @@ BlockOutcome TncInterpreter::next_block() {
   if (!execute_parts()) [[unlikely]]
     return BlockOutcome::Paused;
   return finish_block() ? BlockOutcome::Finished : BlockOutcome::Paused;
+}
+
+/// A label that is set twice is an alarm at the begin of the run.
+BlockOutcome TncInterpreter::check_labels() {
+  const BlockOutcome outcome = check_first_labels(run_, search_, kMainProgram);
+  run_.reader.drop_window();
+  if (outcome != BlockOutcome::Paused) return outcome;
+  run_.origin.block = blocks() + 1;
+  if (name_program()) return outcome;
+  run_.pause = Pause::None;
+  return BlockOutcome::NeedsText;
+}
+
+/// As the first block does, without executing it: for the alarm of a run that does not begin.
+/// False: its text is not here.
+bool TncInterpreter::name_program() {
+  ReadingState& reading = run_.state.reading;
+  BlockParts parts;
+  run_.reader.seek({});
+  const ReadState read = run_.reader.next(reading, parts);
+  if (read != ReadState::Ready) return read != ReadState::NotYet;
+  run_.state.program_number = reading.program.number;
+  run_.state.units = reading.program.units;
+  if (run_.options.is_later) run_.state.program_name = parts.later.name;
+  return true;
 }
 
 /// A called program that is missing is an alarm at the begin of the run.
@@ -355,6 +381,7 @@ void TncInterpreter::after_restore() {
   run_.is_in_block = false;
   has_kept_block_ = false;
   run_.definition_ahead.reset();
+  run_.called.reset();
   run_.answer.reset();
   ++run_.q_changes;
 }

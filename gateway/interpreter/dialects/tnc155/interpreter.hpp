@@ -35,6 +35,8 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>,
   Result<void> take_answer(const Answer& answer);
   void after_restore();
 
+  BlockOutcome check_labels();
+  bool name_program();
   BlockOutcome check_calls();
   BlockOutcome next_block();
   BlockOutcome read();

@@ -88,6 +88,7 @@ struct Run : BlockRun {
   std::optional<DefinitionAhead> definition_ahead;  ///< for the TOOL CALL being executed
 
   std::uint64_t q_changes = 0;  ///< how often a Q parameter was set
+  std::optional<ProgramIndex> called;  ///< by the jump that is being taken: it was found
 
   BlockParts parts;  ///< of the block being executed
   language::LoopGuard loops;

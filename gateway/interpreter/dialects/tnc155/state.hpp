@@ -31,7 +31,8 @@ inline constexpr int kLastLaterTool = 32'767;
 
 inline constexpr std::size_t kMaxLabelLevels = 8;  ///< subprograms and repeats together
 inline constexpr std::size_t kMaxProgramLevels = 4;
-inline constexpr std::size_t kMaxLabels = (kLastLaterLabel + 1) * (kMaxProgramLevels + 1);
+/// That a run has met and not left: more than a program may number.
+inline constexpr std::size_t kMaxLabels = 80'000;
 
 struct ToolData {
   double length = 0;
@@ -84,6 +85,8 @@ struct LabelPlace {
   ProgramIndex program = kMainProgram;
   std::uint32_t label = 0;
   TextPlace at;  ///< the block LBL
+  std::int32_t block = Block::kNone;
+  std::string name;  ///< of a later control's label that has one
 };
 
 /// A jump that needs text of another place; taken before the next block.
@@ -215,7 +218,7 @@ struct State {
 
   std::vector<LabelFrame> labels;
   std::vector<ProgramFrame> programs;
-  std::vector<LabelPlace> known_labels;
+  std::vector<LabelPlace> known_labels;  ///< those met; by program, number and name
   Jump jump;
   StartState start;
   bool is_restart = false;      ///< after GOTO

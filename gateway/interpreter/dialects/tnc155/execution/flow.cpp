@@ -2,9 +2,12 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -54,11 +57,18 @@ void drop_labels_of(State& state, ProgramIndex program) {
                 [&](const LabelPlace& label) { return label.program == program; });
 }
 
-const LabelPlace* known_label(const State& state, ProgramIndex program, std::uint32_t label) {
-  for (const LabelPlace& known : state.known_labels) {
-    if (known.program == program && known.label == label) return &known;
-  }
-  return nullptr;
+bool comes_before(const LabelPlace& a, const LabelPlace& b) {
+  return std::tie(a.program, a.label, a.name) < std::tie(b.program, b.label, b.name);
+}
+
+/// Both blocks that set the label are named; the second one is shown.
+bool fail_doubled(Run& run, const TextSearch& search, ProgramIndex program) {
+  const LabelSet& second = search.second();
+  run.origin.program = program;
+  run.origin.offset = second.at.offset;
+  run.origin.line = second.at.line;
+  run.origin.sequence = second.block;
+  return run.fail(ErrorCode::NumberAllocated, search.doubled());
 }
 
 void go_to(Run& run, const TextPlace& place) {
@@ -107,9 +117,6 @@ BlockOutcome find_label(Run& run, TextSearch& search) {
   State& state = run.state;
   const std::uint32_t label = state.jump.number;
   const ProgramIndex program = state.jump.call.program;
-  if (const LabelPlace* known = known_label(state, program, label)) {
-    return arrive_at_label(run, known->at);
-  }
   TextPlace found;
   switch (search.find_label(program, label, state.jump.name, found)) {
     case TextSearch::Outcome::Found:
@@ -121,6 +128,9 @@ BlockOutcome find_label(Run& run, TextSearch& search) {
     case TextSearch::Outcome::Failed:
       run.fail(ErrorCode::TextFailed, search.reason());
       break;
+    case TextSearch::Outcome::Doubled:
+      fail_doubled(run, search, program);
+      break;
     case TextSearch::Outcome::Missing:
       run.fail(ErrorCode::LabelNotFound, state.jump.name.empty()
                                              ? fmt::format("LBL {}", label)
@@ -130,24 +140,35 @@ BlockOutcome find_label(Run& run, TextSearch& search) {
   return BlockOutcome::Paused;
 }
 
-BlockOutcome find_program(Run& run) {
+/// The called program, once its text has arrived. Finished: `Run::called` is it.
+BlockOutcome look_up_program(Run& run) {
+  const Jump& jump = run.state.jump;
+  if (run.called) return BlockOutcome::Finished;
+  const ProgramLookup lookup =
+      run.reader.find(jump.name.empty() ? fmt::format("{}", jump.number) : jump.name);
+  if (lookup.state == ProgramLookup::State::NotYet) return BlockOutcome::NeedsText;
+  if (lookup.state == ProgramLookup::State::Found) {
+    run.called = lookup.program;
+    return BlockOutcome::Finished;
+  }
+  if (jump.name.empty()) {
+    fail_unavailable(run, jump.number);
+  } else {
+    run.fail_as(ErrorCode::ProgramUnavailable, fmt::format("PGM {} UNAVAILABLE", jump.name));
+  }
+  return BlockOutcome::Paused;
+}
+
+BlockOutcome find_program(Run& run, TextSearch& search) {
   State& state = run.state;
   if (state.programs.size() >= kMaxProgramLevels) {
     refuse_depth(run, kMaxProgramLevels, "levels of programs");
     return BlockOutcome::Paused;
   }
-  const ProgramLookup lookup = run.reader.find(
-      state.jump.name.empty() ? fmt::format("{}", state.jump.number) : state.jump.name);
-  if (lookup.state == ProgramLookup::State::NotYet) return BlockOutcome::NeedsText;
-  if (lookup.state == ProgramLookup::State::NotFound) {
-    if (state.jump.name.empty()) {
-      fail_unavailable(run, state.jump.number);
-    } else {
-      run.fail_as(ErrorCode::ProgramUnavailable,
-                  fmt::format("PGM {} UNAVAILABLE", state.jump.name));
-    }
-    return BlockOutcome::Paused;
-  }
+  BlockOutcome outcome = look_up_program(run);
+  if (outcome == BlockOutcome::Finished) outcome = check_first_labels(run, search, *run.called);
+  if (outcome != BlockOutcome::Finished) return outcome;
+  const ProgramIndex called = *std::exchange(run.called, std::nullopt);
   const bool is_cycle = state.jump.kind == JumpKind::CycleProgram;
   state.programs.push_back({state.at, state.reading, static_cast<std::uint8_t>(state.labels.size()),
                             is_cycle && state.cycle.is_modal_call});
@@ -158,29 +179,58 @@ BlockOutcome find_program(Run& run) {
     state.reading = ReadingState{};
   }
   TextPlace entry;
-  entry.program = lookup.program;
+  entry.program = called;
   go_to(run, entry);
   return BlockOutcome::NoBlock;
 }
 
 }  // namespace
 
+BlockOutcome check_first_labels(Run& run, TextSearch& search, ProgramIndex program) {
+  const bool is_wanted = run.options.is_later || run.options.checks_calls;
+  if (!is_wanted || run.options.blockwise_restrictions || run.options.is_mdi) {
+    return BlockOutcome::Finished;
+  }
+  switch (search.check_labels(program, AheadSearch::kMaxBlocks)) {
+    case TextSearch::Outcome::NotYet:
+      return BlockOutcome::NeedsText;
+    case TextSearch::Outcome::More:
+      return BlockOutcome::MoreFollows;
+    case TextSearch::Outcome::Doubled:
+      fail_doubled(run, search, program);
+      return BlockOutcome::Paused;
+    default:  // text that fails, fails when the run comes to it
+      return BlockOutcome::Finished;
+  }
+}
+
 bool meet_label(Run& run, const Block& block) {
   State& state = run.state;
-  if (block.target == kNameLabel) return true;  // the search finds it by its name
   if (block.target == 0) {
     return_from_label(run);
     return true;
   }
-  const TextPlace& here = run.reader.block_place();
-  const auto label = static_cast<std::uint32_t>(block.target);
-  if (const LabelPlace* known = known_label(state, here.program, label)) {
-    if (known->at.offset == here.offset) return true;
-    return run.fail(ErrorCode::NumberAllocated,
-                    fmt::format("LBL {} is set in line {} already", label, known->at.line));
+  LabelPlace label{run.reader.block_place().program,
+                   static_cast<std::uint32_t>(block.target),
+                   run.reader.block_place(),
+                   block.number,
+                   {}};
+  if (block.target == kNameLabel) label.name = run.parts.later.name;
+  const auto known = std::ranges::lower_bound(state.known_labels, label, comes_before);
+  if (known == state.known_labels.end() || comes_before(label, *known)) {
+    if (state.known_labels.size() == kMaxLabels) {
+      return run.fail(ErrorCode::MemoryExceeded, fmt::format("more than {} labels", kMaxLabels));
+    }
+    state.known_labels.insert(known, std::move(label));
+    return true;
   }
-  state.known_labels.push_back({here.program, label, here});
-  return true;
+  if (known->at.offset == label.at.offset) return true;
+  const LabelSet first{known->at, known->block}, second{label.at, label.block};
+  return run.fail(ErrorCode::NumberAllocated,
+                  fmt::format("LBL {} is set in {} and in {}",
+                              label.name.empty() ? fmt::format("{}", label.label)
+                                                 : fmt::format("\"{}\"", label.name),
+                              first.text(), second.text()));
 }
 
 bool call_label(Run& run, const Block& block) {
@@ -261,7 +311,7 @@ BlockOutcome take_jump(Run& run, TextSearch& search) {
       break;
     case JumpKind::Program:
     case JumpKind::CycleProgram:
-      outcome = find_program(run);
+      outcome = find_program(run, search);
       break;
     default:
       outcome = find_label(run, search);

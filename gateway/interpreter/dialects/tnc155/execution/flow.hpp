@@ -20,6 +20,11 @@ bool fail_unavailable(Run& run, std::int64_t number);
 /// END PGM, M02, M30 and the end of the text: returns to the caller, or ends the run.
 void end_program(Run& run, bool rewinds);
 
+/// Looks for a label that is set twice in the first part of a program, before it moves anything:
+/// as many blocks as the control's memory has. Beyond them the first jump finds it. Finished: there
+/// is none.
+BlockOutcome check_first_labels(Run& run, TextSearch& search, ProgramIndex program);
+
 /// Takes `State::jump`; afterwards the run continues at State::at.
 BlockOutcome take_jump(Run& run, TextSearch& search);
 

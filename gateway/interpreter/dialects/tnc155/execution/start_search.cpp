@@ -1,11 +1,8 @@
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
-
-#include <fmt/core.h>
 
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/path.hpp"
@@ -328,6 +325,9 @@ AheadSearch::LabelUse AheadSearch::label_use() const {
     const bool compares = block.kind == BlockKind::Comparison;
     if (block.kind == BlockKind::LabelCall || jumps || compares) use.used = block.target;
     use.returns = block.kind == BlockKind::LabelCall && block.repeats == Block::kNone;
+    const std::int32_t label = std::max(use.set, use.used);
+    const std::hash<std::string_view> hash;
+    if (label > 255) use.later = hash(parts_.later.name) + static_cast<std::size_t>(label);
     return use;
   }
   const IsoBlock& block = reader_.iso_block();
@@ -340,20 +340,34 @@ AheadSearch::LabelUse AheadSearch::label_use() const {
   return use;
 }
 
+/// With more labels than are kept it may lead back.
+bool AheadSearch::comes_back_later(bool is_before, const LabelUse& use) {
+  constexpr std::size_t kMost = 20'000;
+  if (is_before) {
+    if (use.set > 0 && later_before_.size() <= kMost) later_before_[use.later] = true;
+    return false;
+  }
+  const auto at = later_before_.find(use.later);
+  if (at == later_before_.end()) return use.used > 0 && later_before_.size() > kMost;
+  return use.used > 0 && (!use.returns || at->second);
+}
+
 /// Notes the labels before the place; after it: the block leads back over it.
 bool AheadSearch::comes_back(bool is_before) {
   const LabelUse use = label_use();
+  if (use.later != 0) return comes_back_later(is_before, use);
   const auto is_label = [](std::int32_t label) { return label >= 0 && label < 256; };
   if (is_before) {
-    if (use.set == 0) is_sub_open_.reset();
+    if (use.set == 0) {
+      is_sub_open_.reset();
+      for (auto& [label, is_open] : later_before_) is_open = false;
+    }
     if (use.set > 0 && is_label(use.set)) {
       before_.set(static_cast<std::size_t>(use.set));
       is_sub_open_.set(static_cast<std::size_t>(use.set));
     }
     return false;
   }
-  // Labels of later controls beyond those that are noted: it may lead back.
-  if (use.used > 255) return true;
   if (!is_label(use.used)) return false;
   return (use.returns ? is_sub_open_ : before_).test(static_cast<std::size_t>(use.used));
 }

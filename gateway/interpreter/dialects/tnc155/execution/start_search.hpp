@@ -2,6 +2,7 @@
 
 #include <bitset>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -106,8 +107,10 @@ class AheadSearch {
     std::int32_t set = Block::kNone;   ///< LBL
     std::int32_t used = Block::kNone;  ///< CALL LBL, a jump
     bool returns = false;              ///< the use: of a subprogram
+    std::size_t later = 0;             ///< of a label with a name or above 255: its hash
   };
   LabelUse label_use() const;
+  bool comes_back_later(bool is_before, const LabelUse& use);
   bool comes_back(bool is_before);
   Outcome look_up();
 
@@ -118,9 +121,12 @@ class AheadSearch {
   std::uint64_t blocks_ = 0;
   std::int32_t tool_ = Block::kNone;  ///< being looked for
   Block definition_;
-  std::bitset<256> undefined_;          ///< tools that were looked for in vain
-  std::bitset<256> before_;             ///< labels in front of the place that is looked at
-  std::bitset<256> is_sub_open_;        ///< and no LBL 0 between them and the place
+  std::bitset<256> undefined_;    ///< tools that were looked for in vain
+  std::bitset<256> before_;       ///< labels in front of the place that is looked at
+  std::bitset<256> is_sub_open_;  ///< and no LBL 0 between them and the place
+  /// The same for the other labels, by their hashes: whether no LBL 0 is between them and the
+  /// place. Two labels of one hash can only refuse a start.
+  std::map<std::size_t, bool> later_before_;
   std::vector<std::int32_t> called_;    ///< programs looked up
   std::optional<std::int32_t> wanted_;  ///< to be looked up before the search continues
 };

@@ -1,8 +1,11 @@
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
 
 #include <fmt/core.h>
+#include <limits>
+#include <utility>
 
 #include "gateway/interpreter/core/language/spelling.hpp"
+#include "gateway/interpreter/dialects/tnc155/state.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -30,6 +33,7 @@ class Characters {
     }
     return true;
   }
+  std::string_view rest() const { return line_.substr(at_); }
   /// Digits; -1 when there are none.
   std::int64_t number() {
     if (!language::is_digit(peek())) return -1;
@@ -64,6 +68,12 @@ std::int32_t label_of_iso(std::string_view block) {
   return sets_label ? static_cast<std::int32_t>(label) : -1;
 }
 
+/// After LBL: what is between two quotes.
+std::string_view quoted(std::string_view rest) {
+  const std::size_t end = rest.find('"', 1);
+  return end == std::string_view::npos ? std::string_view() : rest.substr(1, end - 1);
+}
+
 }  // namespace
 
 BlockHead read_head(std::string_view block, Form form) {
@@ -75,36 +85,19 @@ BlockHead read_head(std::string_view block, Form form) {
     return head;
   }
   head.number = text.number();
-  if (text.take("LBL")) head.label = static_cast<std::int32_t>(text.number());
+  if (text.take("LBL")) {
+    head.label = static_cast<std::int32_t>(text.number());
+    if (text.peek() == '"') head.name = quoted(text.rest());
+  } else {
+    head.is_end = text.take("ENDPGM");
+  }
   return head;
 }
 
-namespace {
-
-/// The label that a block of a later control sets, as the text has it; empty: none.
-std::string later_label(std::string_view block) {
-  block = block.substr(0, block.find(';'));
-  std::size_t at = 0;
-  const auto skip = [&](bool also_digits) {
-    while (at < block.size() && (static_cast<unsigned char>(block[at]) <= ' ' ||
-                                 (also_digits && language::is_digit(block[at])))) {
-      ++at;
-    }
-  };
-  skip(true);
-  if (!block.substr(at).starts_with("LBL")) return {};
-  at += 3;
-  skip(false);
-  if (at < block.size() && block[at] == '"') {
-    const std::size_t end = block.find('"', at + 1);
-    return end == std::string_view::npos ? std::string()
-                                         : std::string(block.substr(at, end + 1 - at));
-  }
-  const std::int64_t number = Characters(block.substr(at)).number();
-  return number > 0 ? fmt::format("{}", number) : std::string();
+std::string LabelSet::text() const {
+  return block < 0 ? fmt::format("line {}", at.line)
+                   : fmt::format("block {} (line {})", block, at.line);
 }
-
-}  // namespace
 
 TextSearch::TextSearch(ProgramSource& source, ReaderOptions options)
     : reader_(source, options), is_later_(options.is_later) {}
@@ -146,59 +139,89 @@ TextSearch::Outcome TextSearch::next_block(Progress& progress, std::string_view&
   return Outcome::Failed;
 }
 
-template <class Known, class Note>
-TextSearch::Outcome TextSearch::search(Index& index, Known known, Note note, TextPlace& found) {
+/// One large index at a time.
+void TextSearch::make_room(const Index& index) {
+  for (Index& other : indexes_) {
+    if (&other != &index && other.numbers.size() + other.names.size() > kLargeIndex) other = {};
+  }
+}
+
+void TextSearch::note_label(Index& index, const BlockHead& head, const LabelSet& set) {
+  const auto keep = [&](auto& labels, auto key, const std::string& shown) {
+    const auto [at, is_new] = labels.try_emplace(std::move(key), set);
+    if (is_new) return;
+    index.doubled =
+        fmt::format("LBL {} is set in {} and in {}", shown, at->second.text(), set.text());
+  };
+  if (!head.name.empty()) {
+    index.name_bytes += head.name.size();
+    keep(index.names, std::string(head.name), fmt::format("\"{}\"", head.name));
+  } else {
+    keep(index.numbers, static_cast<std::uint32_t>(head.label), fmt::format("{}", head.label));
+  }
+  const bool is_too_many = index.names.size() > kMaxNames || index.name_bytes > kMaxNameBytes;
+  if (is_too_many && index.doubled.empty()) {
+    index.doubled = fmt::format("more than {} labels with names, or {} characters in them",
+                                kMaxNames, kMaxNameBytes);
+  }
+  index.second = set;
+  if (index.numbers.size() + index.names.size() == kLargeIndex + 1) make_room(index);
+}
+
+void TextSearch::note(Index& index, std::string_view text) {
+  ++index.blocks;
+  const BlockHead head = read_head(text, index.progress.state.program.form);
+  index.is_complete = head.is_end;
+  const std::int32_t last = is_later_ ? kLastLaterLabel : kLastLabel;
+  const bool is_name = is_later_ && !head.name.empty();
+  if (!is_name && (head.label <= 0 || head.label > last)) return;
+  note_label(index, head, {reader_.block_place(), head.number});
+}
+
+/// To the end of the program, or of so many blocks.
+TextSearch::Outcome TextSearch::search(Index& index, std::uint64_t blocks) {
   for (unsigned count = 0; count < kBlocksPerCall; ++count) {
-    if (const TextPlace* place = known()) {
-      found = *place;
-      return Outcome::Found;
+    if (!index.doubled.empty()) {
+      reason_ = index.doubled;
+      second_ = index.second;
+      return Outcome::Doubled;
     }
-    if (index.is_complete) return Outcome::Missing;
+    if (index.is_complete || index.blocks >= blocks) return Outcome::Found;
     std::string_view text;
     const Outcome read = next_block(index.progress, text);
-    if (read == Outcome::Missing) index.is_complete = true;
-    if (read == Outcome::Missing) continue;
-    if (read != Outcome::Found) return read;
-    note(text);
+    if (read == Outcome::Missing) {
+      index.is_complete = true;
+    } else if (read != Outcome::Found) {
+      return read;
+    } else {
+      note(index, text);
+    }
   }
   return Outcome::More;
 }
 
-TextSearch::Outcome TextSearch::find_later_label(Index& index, const std::string& label,
-                                                 TextPlace& found) {
-  const auto known = [&]() -> const TextPlace* {
-    const auto place = index.others.find(label);
-    return place == index.others.end() ? nullptr : &place->second;
-  };
-  const auto note = [&](std::string_view text) {
-    if (std::string set = later_label(text); !set.empty())
-      index.others.try_emplace(std::move(set), reader_.block_place());
-  };
-  return search(index, known, note, found);
+TextSearch::Outcome TextSearch::check_labels(ProgramIndex program, std::uint64_t blocks) {
+  reader_.drop_window();
+  return search(index_of(program), blocks);
 }
 
 TextSearch::Outcome TextSearch::find_label(ProgramIndex program, std::uint32_t label,
                                            std::string_view name, TextPlace& found) {
-  if (is_later_) {
-    reader_.drop_window();
-    return find_later_label(index_of(program),
-                            name.empty() ? fmt::format("{}", label) : fmt::format("\"{}\"", name),
-                            found);
-  }
-  if (label >= kLabels) return Outcome::Missing;
   reader_.drop_window();
   Index& index = index_of(program);
-  const auto known = [&]() -> const TextPlace* {
-    const auto& place = index.labels[label];
-    return place ? &*place : nullptr;
-  };
-  const auto note = [&](std::string_view text) {
-    const std::int32_t set = read_head(text, index.progress.state.program.form).label;
-    if (set < 0 || static_cast<std::size_t>(set) >= kLabels) return;
-    auto& place = index.labels[static_cast<std::size_t>(set)];
-    if (!place) place = reader_.block_place();
-  };
-  return search(index, known, note, found);
+  const Outcome outcome = search(index, std::numeric_limits<std::uint64_t>::max());
+  if (outcome != Outcome::Found) return outcome;
+  const LabelSet* set = nullptr;
+  if (name.empty()) {
+    const auto at = index.numbers.find(label);
+    if (at != index.numbers.end()) set = &at->second;
+  } else {
+    const auto at = index.names.find(name);
+    if (at != index.names.end()) set = &at->second;
+  }
+  if (!set) return Outcome::Missing;
+  found = set->at;
+  return Outcome::Found;
 }
 
 }  // namespace dripline::interpreter::tnc155

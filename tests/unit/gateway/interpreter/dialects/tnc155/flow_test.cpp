@@ -66,8 +66,16 @@ TEST(TncFlow, LabelsNestEightDeep) {
 
 // HD-144, HD-153
 TEST(TncFlow, LabelsAreSetOnceAndFound) {
-  EXPECT_THAT(moves_of({"LBL 4", "L X+1 R0 F MAX", "LBL 4"}),
-              ElementsAre("R X1", "! NUMBER ALREADY ALLOCATED"));
+  EXPECT_THAT(moves_of({"L X+1 R0 F MAX", "LBL 4", "LBL 4"}),
+              ElementsAre("! NUMBER ALREADY ALLOCATED"));
+  const PathSetup at_call{"[control]\nprogram_check = \"call\"\n", {}};
+  EXPECT_THAT(moves_of({"L X+1 R0 F MAX", "LBL 4", "L X+2 F MAX", "LBL 4"}, at_call),
+              ElementsAre("R X1", "R X2", "! NUMBER ALREADY ALLOCATED"));
+  EXPECT_THAT(
+      moves_of({"L X+1 R0 F MAX", "CALL LBL 4 REP", "L X+2 F MAX", "LBL 4", "LBL 0", "LBL 4"},
+               at_call),
+      ElementsAre("R X1", "! NUMBER ALREADY ALLOCATED"))
+      << "before the jump";
   EXPECT_THAT(moves_of({"CALL LBL 7 REP"}), ElementsAre("! LBL NUMBER NOT FOUND"));
   EXPECT_THAT(moves_of({"CALL LBL 0 REP"}), ElementsAre("! JUMP TO LABEL 0 NOT PERMITTED"));
   EXPECT_THAT(moves_of({"FN 9: IF +0 EQU +0 GOTO LBL 0"}),

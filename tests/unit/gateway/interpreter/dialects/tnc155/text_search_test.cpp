@@ -77,5 +77,60 @@ TEST(Tnc155TextSearch, ReadsBlocksOfPlainLanguage) {
   EXPECT_EQ(label_in(text, 5), "6: 3 LB L 5");
 }
 
+/// Why a label cannot be found, in all windows.
+std::string doubled_in(const std::string& text, bool is_later) {
+  std::string reason;
+  found_in(text, {.is_later = is_later}, [&](TextSearch& search, TextPlace& place) {
+    const auto outcome = search.find_label(kMainProgram, 1, {}, place);
+    reason = outcome == TextSearch::Outcome::Doubled ? search.doubled() : "";
+    return outcome;
+  });
+  return reason;
+}
+
+TEST(Tnc155TextSearch, FindsNoLabelWhereOneIsSetTwice) {
+  EXPECT_EQ(doubled_in("0 BEGIN PGM 1 MM\n1 LBL 1\n2 LBL 0\n7 LBL 5\n8 LBL 0\n9 LB L 5\n", false),
+            "LBL 5 is set in block 7 (line 4) and in block 9 (line 6)");
+  EXPECT_EQ(doubled_in("%1 G71 *\nN1 G98 L1 * N2 X+1 G98 L6 *\nN3 G98 L6 *\n", false),
+            "LBL 6 is set in block 2 (line 2) and in block 3 (line 3)");
+  EXPECT_EQ(doubled_in("BEGIN PGM A MM\nLBL 1\nLBL \"A;B\" ; \"\nL X+1\nLBL\"A;B\"\n", true),
+            "LBL \"A;B\" is set in line 3 and in line 5");
+  EXPECT_EQ(doubled_in("BEGIN PGM A MM\nLBL 01\nLBL 1 ; again\n", true),
+            "LBL 1 is set in line 2 and in line 3");
+}
+
+TEST(Tnc155TextSearch, KeepsNamesApartFromNumbersAndProgramsFromWhatComesAfterThem) {
+  EXPECT_EQ(doubled_in("BEGIN PGM A MM\nLBL 1\nLBL \"1\"\n; LBL 1\n* - LBL 1\nCALL LBL 1\n"
+                       "END PGM A MM\nLBL 1\n",
+                       true),
+            "");
+}
+
+TEST(Tnc155TextSearch, ChecksTheFirstBlocksAlone) {
+  const std::string text = "BEGIN PGM A MM\nLBL 1\nL X+1\nLBL 1\n";
+  for (const std::uint64_t blocks : {3u, 4u}) {
+    WindowedSource source(text, 7);
+    TextSearch search(source, {.is_later = true});
+    EXPECT_EQ(search.check_labels(kMainProgram, blocks) == TextSearch::Outcome::Doubled,
+              blocks == 4)
+        << blocks;
+  }
+}
+
+TEST(Tnc155TextSearch, KeepsABoundedNumberOfNames) {
+  std::string text = "BEGIN PGM A MM\nLBL 1\n";
+  for (std::size_t i = 0; i < TextSearch::kMaxNames; ++i)
+    text += "LBL \"N" + std::to_string(i) + "\"\n";
+  WindowedSource source(text, 100'000);
+  TextSearch search(source, {.is_later = true});
+  TextPlace found;
+  EXPECT_EQ(search.find_label(kMainProgram, 1, {}, found), TextSearch::Outcome::Found);
+  text += "LBL \"ONE MORE\"\n";
+  WindowedSource longer(text, 100'000);
+  TextSearch refused(longer, {.is_later = true});
+  EXPECT_EQ(refused.find_label(kMainProgram, 1, {}, found), TextSearch::Outcome::Doubled);
+  EXPECT_EQ(refused.doubled(), "more than 10000 labels with names, or 524288 characters in them");
+}
+
 }  // namespace
 }  // namespace dripline::interpreter::tnc155
