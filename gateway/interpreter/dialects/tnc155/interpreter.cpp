@@ -382,6 +382,7 @@ void TncInterpreter::after_restore() {
   has_kept_block_ = false;
   run_.definition_ahead.reset();
   run_.called.reset();
+  run_.mask.reset();
   run_.answer.reset();
   ++run_.q_changes;
 }

@@ -23,6 +23,19 @@ struct DefinitionAhead {
   Units units = Units::Millimeter;
 };
 
+/// The mask that FN 16 is being read into.
+struct MaskText {
+  ProgramIndex program = kMainProgram;
+  std::string text;
+  bool is_whole = false;
+};
+
+/// TOOL CALL "NAME" of a later control.
+struct ToolName {
+  std::string name;
+  std::int32_t number = 0;
+};
+
 /// One run: the state that the files of this folder work on. Functions that cannot continue return
 /// false and leave the reason in `pause`. Only the last action of a block may ask a question; that
 /// action is executed again once the answer is there.
@@ -85,9 +98,11 @@ struct Run : BlockRun {
   BlockReader reader;
   State state;
   std::vector<ToolDefinition> tools;                ///< of the setup: the central tool file
+  std::vector<ToolName> tool_names;                 ///< of the setup's tools that have one
   std::optional<DefinitionAhead> definition_ahead;  ///< for the TOOL CALL being executed
 
   std::uint64_t q_changes = 0;  ///< how often a Q parameter was set
+  std::optional<MaskText> mask;        ///< of the FN 16 being executed
   std::optional<ProgramIndex> called;  ///< by the jump that is being taken: it was found
 
   BlockParts parts;  ///< of the block being executed

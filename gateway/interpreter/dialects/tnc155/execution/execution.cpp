@@ -185,6 +185,7 @@ constexpr std::array<bool (*)(Run&, const Block&),
              later::read_system,
              later::define_table,
              later::cycle_call_at,
+             later::print,
              later::accept};
 
 [[gnu::cold, gnu::noinline]] bool refuse_left_words(Run& run, const Block& block) {

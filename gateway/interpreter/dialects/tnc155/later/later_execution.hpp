@@ -27,6 +27,8 @@ bool assign(Run& run, const Block& block);
 bool compare(Run& run, const Block& block);
 bool raise_error(Run& run, const Block& block);
 bool read_system(Run& run, const Block& block);
+/// FN 16: the mask's text with the values now.
+bool print(Run& run, const Block& block);
 
 inline constexpr int kFirstTable = 200;  ///< cycles from this number on are tables of Q words
 bool define_table(Run& run, const Block& block);

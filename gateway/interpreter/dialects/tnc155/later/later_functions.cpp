@@ -222,6 +222,27 @@ bool read_system(Reading& in) {
   return in.cursor.ends();
 }
 
+/// F-PRINT TNC:\\MASKS\\M1.A / TNC:\\LOG.TXT; both may have blanks.
+bool read_print(Reading& in) {
+  in.block.kind = BlockKind::Print;
+  if (!in.cursor.take("F-PRINT")) return refuse(in, in.cursor.at());
+  in.cursor.peek();
+  const std::string_view text(in.cursor.at(), in.end);
+  const std::size_t slash = text.find('/');
+  const auto trimmed = [](std::string_view part) {
+    while (!part.empty() && static_cast<unsigned char>(part.front()) <= ' ') part.remove_prefix(1);
+    while (!part.empty() && static_cast<unsigned char>(part.back()) <= ' ') part.remove_suffix(1);
+    return std::string(part);
+  };
+  in.words.name = trimmed(text.substr(0, slash));
+  in.words.name.erase(0, in.words.name.find_last_of("\\:") + 1);  // folders are not ours
+  if (slash != std::string_view::npos) in.words.target = trimmed(text.substr(slash + 1));
+  if (in.words.name.empty()) return in.cursor.missing("the mask of F-PRINT");
+  if (in.words.target.empty()) return in.cursor.missing("the target of F-PRINT");
+  in.cursor.back_to(in.end);
+  return true;
+}
+
 }  // namespace
 
 bool read_assignment(Reading& in) {
@@ -241,6 +262,7 @@ bool read_function(Reading& in) {
   if (number <= 8 || number == 13) return read_calculation(in, number);
   if (number <= 12) return read_jump(in, number);
   if (number == 14) return read_error(in);
+  if (number == 16) return read_print(in);
   if (number == 18) return read_system(in);
   return refuse(in, start);
 }

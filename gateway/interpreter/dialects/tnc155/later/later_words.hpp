@@ -75,6 +75,7 @@ struct LaterWords {
     retracts = retracts_to_limit = false;
     tool = feed = retract = delta_length = delta_radius = Value{};
     name.clear();
+    target.clear();
     formula.clear();
     second.clear();
     words.clear();
@@ -90,7 +91,8 @@ struct LaterWords {
   Value tool;                        ///< TOOL CALL Q1
   Value feed;                        ///< of this block alone: RND, CHF, CYCL CALL POS; TOOL CALL
   Value delta_length, delta_radius;  ///< TOOL CALL: DL, DR
-  std::string name;                  ///< of a program, a label, a tool
+  std::string name;                  ///< of a program, a label, a tool, a mask
+  std::string target;                ///< Print: where it goes
   Formula formula, second;           ///< Assignment; Comparison: both sides
   std::vector<CycleWord> words;      ///< CycleTable
   std::vector<std::int32_t> ids;     ///< SYSREAD: ID, NR, IDX

@@ -72,6 +72,7 @@ enum class BlockKind : std::uint8_t {
   SystemRead,   ///< FN 18
   CycleTable,   ///< CYCL DEF 200 and above
   CycleCallAt,  ///< CYCL CALL POS
+  Print,        ///< FN 16
   Accepted,     ///< what says nothing about the path: a warning names it
 };
 

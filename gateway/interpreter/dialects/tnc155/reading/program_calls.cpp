@@ -33,7 +33,7 @@ Result<ProgramCalls> calls_of(const Result<ControlOptions>& options, ProgramSour
       continue;
     }
     for (const Block& block : parts) {
-      const bool is_call = block.kind == BlockKind::ProgramCall ||
+      const bool is_call = block.kind == BlockKind::ProgramCall || block.kind == BlockKind::Print ||
                            (block.kind == BlockKind::CycleDefinition && block.cycle == 12);
       const bool has_name = is_call && !parts.later.name.empty();
       if (!is_call || (block.target == Block::kNone && !has_name)) continue;
