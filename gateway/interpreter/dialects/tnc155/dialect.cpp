@@ -100,8 +100,12 @@ Result<std::unique_ptr<Interpreter>> make_with(Result<ControlOptions> options, c
     state.start.pass = options->start_pass;
     state.start.actual = setup.position.value_or(setup.start);
   }
+  std::vector<ToolName> names;
+  for (const ToolRecord& tool : setup.tools) {
+    if (!tool.name.empty()) names.push_back({tool.name, tool.number});
+  }
   return std::unique_ptr<Interpreter>(std::make_unique<TncInterpreter>(
-      *std::move(options), std::move(state), std::move(tools), source, sink));
+      *std::move(options), std::move(state), std::move(tools), source, sink, std::move(names)));
 }
 
 Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,

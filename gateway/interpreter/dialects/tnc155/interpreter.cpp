@@ -45,7 +45,7 @@ CoordinateFrame frame_of(const State& state) {
 
 TncInterpreter::TncInterpreter(ControlOptions options, State state,
                                std::vector<ToolDefinition> tools, ProgramSource& source,
-                               EventSink& sink)
+                               EventSink& sink, std::vector<ToolName> tool_names)
     : gate_(gate_of(state, sink)),
       run_(std::move(options), source, gate_ ? *gate_ : sink),
       search_(source, {run_.options.iso_continuation, {}, run_.options.is_later}),
@@ -53,8 +53,10 @@ TncInterpreter::TncInterpreter(ControlOptions options, State state,
       definitions_ahead_(source, {run_.options.iso_continuation, {}, run_.options.is_later}),
       way_back_(source, {run_.options.iso_continuation, {}, run_.options.is_later}) {
   run_.state = std::move(state);
+  run_.reader.set_block_skip(run_.options.block_skip);
   if (gate_) gate_->attach(run_.state.start);
   run_.tools = std::move(tools);
+  run_.tool_names = std::move(tool_names);
   run_.reset_stages();
 }
 

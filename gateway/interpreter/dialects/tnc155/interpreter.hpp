@@ -14,8 +14,13 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>,
                              public LiveValues {
  public:
   TncInterpreter(ControlOptions options, State state, std::vector<ToolDefinition> tools,
-                 ProgramSource& source, EventSink& sink);
+                 ProgramSource& source, EventSink& sink, std::vector<ToolName> tool_names = {});
 
+  bool set_block_skip(std::uint16_t levels) override {
+    if (!run_.options.is_later) return false;
+    run_.reader.set_block_skip((levels & 2u) != 0);
+    return true;
+  }
   Result<void> begin_next_text() override;
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;

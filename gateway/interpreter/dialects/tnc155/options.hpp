@@ -29,7 +29,9 @@ struct ControlOptions {
     Position datum;
   };
   std::vector<Preset> presets;
-  bool is_later = false;  ///< TNC 426/430, iTNC 530: the rules of later/
+  bool compares_exactly = false;  ///< FN 9 to FN 12: all binary digits, else within rounding
+  bool block_skip = false;        ///< Switches::block_skip, of a later control
+  bool is_later = false;          ///< TNC 426/430, iTNC 530: the rules of later/
 
   // touch probe
   double probe_clearance = 2;

@@ -34,7 +34,8 @@ void visit(Archive& archive, State& state) {
           state.last, state.pole, state.has_pole, state.polar, state.q, state.cycle, state.blank,
           state.labels, state.programs, state.known_labels, state.jump, state.start,
           state.is_restart, state.has_positioned, state.program_name, state.cycle_words,
-          state.tool_feed, state.pole_plane);
+          state.tool_feed, state.pole_plane, state.has_rounded, state.has_plane_angles,
+          state.takes_shorter_path);
 }
 
 namespace {

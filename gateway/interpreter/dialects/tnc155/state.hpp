@@ -213,6 +213,9 @@ struct State {
   std::vector<double> q = std::vector<double>(kParameterCount);  ///< a later control has more
   std::vector<double> cycle_words;  ///< of a later control's cycle, in the order of its rows
   double tool_feed = 0;             ///< F of TOOL CALL: F AUTO
+  bool has_plane_angles = false;    ///< Q120 to Q122, which are 0: no plane is tilted
+  bool takes_shorter_path = false;  ///< M126
+  bool has_rounded = false;         ///< a comparison of a later control took two values as equal
   CycleState cycle;
   BlankState blank;
 

@@ -319,6 +319,7 @@ bool define_cycle(Run& run, const Block& block) {
   CycleState& cycle = run.state.cycle;
   if (!take_machining(run, block, cycle_parts(block.cycle)[block.part])) return false;
   if (cycle.is_complete) cycle.machining = cycle.draft;
+  if (cycle.is_complete && run.options.is_later) cycle.is_modal_call = false;
   return true;
 }
 

@@ -210,7 +210,8 @@ bool execute(Run& run, const Block& block) {
         ErrorCode::CycleIncomplete,
         fmt::format("CYCL DEF {} ends before its last sub-block", run.state.cycle.defining));
   }
-  if (needs_check(block) && !run.options.is_later && !check_words(run, block)) [[unlikely]]
+  if (needs_check(block) && !(run.options.is_later ? later::check_plane_angles(run, block)
+                                                   : check_words(run, block))) [[unlikely]]
     return false;
   run.ledger.open((1u << block.coordinate_count) - 1);
   if (!kExecute[static_cast<std::size_t>(block.kind)](run, block)) return false;

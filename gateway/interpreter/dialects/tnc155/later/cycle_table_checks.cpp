@@ -43,8 +43,25 @@ bool check_spindle(Run& run, int cycle) {
   if (!state.tool.is_called || !state.spindle.has_speed) {
     return run.fail(ErrorCode::ToolCallMissing, "a cycle needs TOOL CALL with axis and S");
   }
-  if (cycle == kRigidTap || state.spindle.state != SpindleState::Off) return true;
+  if (is_rigid(cycle) || state.spindle.state != SpindleState::Off) return true;
   return run.fail(ErrorCode::SpindleRotatesMissing, "M3 or M4 before a cycle");
+}
+
+/// The spindle stands at an angle of the machine, so the wall is left along its axes.
+bool check_disengagement(Run& run, const Table& table) {
+  const double direction = table.of(214);
+  const Transformation& now = run.state.transformation;
+  if (direction > 4 || direction != std::trunc(direction)) {
+    return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q214 {} is not 0 to 4", direction));
+  }
+  const bool is_turned = now.rotation != 0 || now.basic_rotation != 0 || now.scale != 1 ||
+                         std::ranges::any_of(now.mirrored, [](bool is) { return is; });
+  if (direction == 0 || !is_turned) return true;
+  return run.fail(
+      ErrorCode::NotSupported,
+      fmt::format("Q214 {} under a rotation, a mirror image or a scaling: which way the "
+                  "tool leaves the wall is not known",
+                  direction));
 }
 
 bool check_bore(Run& run, const Table& table) {
@@ -78,8 +95,14 @@ bool check_values(Run& run, const Table& table, int cycle) {
     return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q{} {} {}", q, table.of(q), what));
   };
   if (table.of(201) > 0) return wrong(201, "is above the surface");
-  if (cycle != kRigidTap && !(table.of(206) > 0)) return wrong(206, "is no feed");
-  if (cycle == kRigidTap && table.of(239) == 0) return wrong(239, "is no pitch");
+  if (!is_rigid(cycle) && !(table.of(206) > 0)) return wrong(206, "is no feed");
+  if (is_rigid(cycle) && table.of(239) == 0) return wrong(239, "is no pitch");
+  if (cycle == kBore && !check_disengagement(run, table)) return false;
+  if (cycle == kChipTap && table.of(403) != 0 && table.of(403) != 1) {
+    run.warn("TNC-ACCEPTED", fmt::format("Q403 {} is not followed: the way out has the speed of "
+                                         "the way in",
+                                         table.of(403)));
+  }
   const double depth = -table.of(201);
   double passes = 1;
   if (cycle == kDrill || cycle == kUniversal || cycle == kPeck) {
@@ -95,6 +118,7 @@ bool check_values(Run& run, const Table& table, int cycle) {
   if (cycle == kUniversal && table.of(213) > 0 && !(table.of(256) > 0)) {
     return wrong(256, "is no way back to break chips");
   }
+  if (cycle == kChipTap && table.of(257) > 0) passes = depth / table.of(257);
   if (cycle == kBoreMill) {
     if (!(table.of(334) > 0)) return wrong(334, "is no infeed");
     passes = depth / table.of(334);
@@ -146,6 +170,7 @@ bool define_table(Run& run, const Block& block) {
   state.cycle_words = std::move(values);
   state.cycle.machining = MachiningCycle{};
   state.cycle.machining.number = block.cycle;
+  state.cycle.is_modal_call = false;
   return true;
 }
 

@@ -12,12 +12,18 @@ namespace dripline::interpreter::tnc155::later {
 enum Cycle : std::uint8_t {
   kDrill = 200,
   kReam = 201,
+  kBore = 202,
   kUniversal = 203,
   kPeck = 205,
   kTap = 206,
   kRigidTap = 207,
-  kBoreMill = 208
+  kBoreMill = 208,
+  kChipTap = 209
 };
+/// The spindle turns with the feed, and the cycle starts it itself.
+constexpr bool is_rigid(int cycle) {
+  return cycle == kRigidTap || cycle == kChipTap;
+}
 
 /// The words of the cycle, and the moves in the tool axis.
 class Table {
@@ -72,6 +78,14 @@ class Table {
     run_.events().on_thread(event);
     state.machine = event.to;
     state.nominal = target.at;
+  }
+  /// In the working plane, at a feed.
+  void shift(PlaneVector by, double feed) const {
+    const PlaneAxes axes = axes_of(run_.state.plane);
+    Target target = here(run_.state);
+    target.set(axes.first, target.at[index(axes.first)] + by.first);
+    target.set(axes.second, target.at[index(axes.second)] + by.second);
+    line_to(run_, target, {feed == 0, feed, feed});
   }
   Run& run() const { return run_; }
 

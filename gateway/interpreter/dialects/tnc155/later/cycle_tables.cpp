@@ -50,6 +50,18 @@ constexpr std::array kPeckingWords{kClearance,
                                    kReference};
 constexpr std::array kTappingWords{kClearance, kDepth, kPlunge, kAtBottom, kSurface, kSecond};
 constexpr std::array kRigidWords{kClearance, kDepth, P{239, Length}, kSurface, kSecond};
+constexpr std::array kBoringWords{kClearance, kDepth,           kPlunge,
+                                  kAtBottom,  P{208, Feed},     kSurface,
+                                  kSecond,    P{214, Distance}, P{336, Zero, false}};
+constexpr std::array kChipTapWords{kClearance,
+                                   kDepth,
+                                   P{239, Length},
+                                   kSurface,
+                                   kSecond,
+                                   P{257, Distance},
+                                   P{256, Distance},
+                                   P{336, Zero, false},
+                                   P{403, Number, false}};
 constexpr std::array kPresetWords{P{339, Number}};
 constexpr std::array kBoreMillingWords{kClearance,       kDepth,           kPlunge,
                                        P{334, Distance}, kSurface,         kSecond,
@@ -63,6 +75,8 @@ std::span<const CycleParameter> cycle_table(int cycle) {
       return kDrillingWords;
     case 201:
       return kReamingWords;
+    case 202:
+      return kBoringWords;
     case 203:
       return kUniversalWords;
     case 205:
@@ -73,6 +87,8 @@ std::span<const CycleParameter> cycle_table(int cycle) {
       return kRigidWords;
     case 208:
       return kBoreMillingWords;
+    case 209:
+      return kChipTapWords;
     case 247:
       return kPresetWords;
     default:

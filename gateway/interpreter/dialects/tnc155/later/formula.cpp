@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gateway/interpreter/core/language/expression.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
@@ -94,6 +95,7 @@ bool read_parameter(Run& run, std::int32_t parameter, double& value) {
   const double unit = state.mm_per_unit();
   value = state.q[static_cast<std::size_t>(parameter)];
   if (!is_of_control(parameter)) return true;
+  if (is_plane_angle(parameter)) return state.has_plane_angles || fail_plane_angle(run, parameter);
   if (parameter == kInchProgram) {
     value = state.units == Units::Inch ? 1 : 0;
     return true;
@@ -155,6 +157,26 @@ bool refuse_in_search(Run& run, const Block& block) {
                   fmt::format("a start after the computation of Q{}", block.target));
 }
 
+/// The control keeps values as binary numbers (IEEE 754; iTNC 530, User's Manual, programming notes
+/// of Q parameters), in which 0.1 + 0.2 is not 0.3, and its manual warns of that before jumps. Here
+/// values that differ by rounding alone are equal, as they would be in decimals: a loop by 0.1 then
+/// never goes a pass beyond the limit that it names, which is what the binary numbers may do. Two
+/// values that a program means to be different differ by more: its numbers have seven decimals.
+bool differ_by_rounding(double a, double b) {
+  constexpr double kLeast = 1e-9, kShare = 1e-14;
+  return a != b &&
+         std::fabs(a - b) <= std::max(kLeast, kShare * std::max(std::fabs(a), std::fabs(b)));
+}
+
+/// Once in a run: the first one names the place.
+void warn_of_rounding(Run& run, int function, double a, double b) {
+  if (std::exchange(run.state.has_rounded, true)) return;
+  run.warn("TNC-NEARLY-EQUAL",
+           fmt::format("FN {}: {} and {} differ by rounding and are taken as equal; a control that "
+                       "compares all digits may not (option comparison)",
+                       function, a, b));
+}
+
 }  // namespace
 
 bool assign(Run& run, const Block& block) {
@@ -167,13 +189,9 @@ bool compare(Run& run, const Block& block) {
   double a = 0, b = 0;
   const LaterWords& words = run.parts.later;
   if (!evaluate(run, words.formula, a) || !evaluate(run, words.second, b)) return false;
-  const double apart = std::fabs(a - b);
-  if (apart != 0 && apart < 1e-9 * std::max(1.0, std::fabs(a))) {
-    return run.fail(
-        ErrorCode::ArithmeticalError,
-        fmt::format("{} and {} differ by {}: whether the control takes them as equal is "
-                    "not known",
-                    a, b, apart));
+  if (!run.options.compares_exactly && differ_by_rounding(a, b)) {
+    warn_of_rounding(run, block.function, a, b);
+    b = a;
   }
   constexpr int kEqual = 9, kNotEqual = 10, kGreater = 11;
   const bool is_true = block.function == kEqual      ? a == b

@@ -67,7 +67,7 @@ bool read_table(Reading& in, int cycle, const char* block_end) {
     const char* line_end = line_without_comment(line, words);
     TextCursor cursor(begin, line_end, in.cursor.form(), in.cursor.fault());
     cursor.back_to(line);
-    Reading part{cursor, in.block, in.words, line_end};
+    Reading part{cursor, in.block, in.words, line_end, false};
     if (!cursor.is_at_end() && !read_cycle_word(part, cycle)) return false;
   }
   for (const CycleParameter& row : cycle_table(cycle)) {

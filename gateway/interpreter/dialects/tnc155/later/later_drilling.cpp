@@ -9,7 +9,7 @@
 #include "gateway/interpreter/dialects/tnc155/later/cycle_table_run.hpp"
 #include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
 
-/// Cycles 200 to 208. Source: iTNC 530 (and TNC 426/430), User's Manual, Cycles: drilling, tapping
+/// Cycles 200 to 209. Source: iTNC 530 (and TNC 426/430), User's Manual, Cycles: drilling, tapping
 /// and thread milling; the steps of each are in this folder's README.
 namespace dripline::interpreter::tnc155::later {
 namespace {
@@ -35,6 +35,30 @@ void ream(const Table& table) {
   table.dwell(table.of(211));
   table.retract(table.clearance());
   table.rapid(table.last());
+}
+
+/// Away from the wall, in the direction of Q214: 1 to 4 are the negative and positive first and
+/// second axis; see the README for the way back.
+PlaneVector disengagement(const Table& table) {
+  constexpr double kDistance = 0.2;
+  const int direction = static_cast<int>(table.of(214));
+  const double by = direction == 1 || direction == 2 ? -kDistance : kDistance;
+  if (direction == 0) return {};
+  return direction % 2 == 1 ? PlaneVector{by, 0} : PlaneVector{0, by};
+}
+
+void bore(const Table& table) {
+  const SpindleState direction = table.run().state.spindle.state;
+  table.cut(table.bottom(), table.feed(206));
+  table.dwell(table.of(211));
+  table.turn(SpindleState::Oriented);
+  const PlaneVector away = disengagement(table);
+  const double retraction = table.feed(table.of(208) > 0 ? 208 : 206);
+  if (table.of(214) > 0) table.shift(away, retraction);
+  table.retract(table.clearance());
+  table.rapid(table.last());
+  if (table.of(214) > 0) table.shift({-away.first, -away.second}, 0);
+  table.turn(direction);
 }
 
 /// Infeeds become smaller by Q212, down to Q205.
@@ -132,6 +156,29 @@ void tap_rigidly(const Table& table) {
   table.rapid(table.last());
 }
 
+/// Each Q257 the thread is cut back by Q256 pitches, or out of the hole.
+void tap_with_breaks(const Table& table) {
+  Run& run = table.run();
+  const SpindleState in =
+      table.of(239) > 0 ? SpindleState::Clockwise : SpindleState::Counterclockwise;
+  const double pitch = table.mm(239);
+  const double back = table.of(256) * std::fabs(pitch);
+  if (!run.is_measuring) run.events().on_override_inhibit(tapping_lock(run.origin));
+  for (double depth = table.surface(); depth > table.bottom();) {
+    const double step = table.mm(257) > 0 ? table.mm(257) : depth - table.bottom();
+    depth = std::max(table.bottom(), depth - step);
+    table.turn(in);
+    table.thread(depth, pitch);
+    table.turn(reversed(in));
+    const bool is_last = !(depth > table.bottom());
+    const bool leaves = is_last || back == 0;
+    table.thread(leaves ? table.clearance() : std::min(table.clearance(), depth + back), pitch);
+  }
+  table.turn(SpindleState::Off);
+  if (!run.is_measuring) run.events().on_override_inhibit({.origin = run.origin});
+  table.rapid(table.last());
+}
+
 /// Half a circle out to the wall at the clearance, down in a helix, once around at the bottom, and
 /// half a circle back to the center.
 void mill_bore(const Table& table) {
@@ -183,6 +230,10 @@ void make(const Table& table, int cycle) {
       return drill(table);
     case kReam:
       return ream(table);
+    case kBore:
+      return bore(table);
+    case kChipTap:
+      return tap_with_breaks(table);
     case kUniversal:
       return drill_universally(table);
     case kPeck:

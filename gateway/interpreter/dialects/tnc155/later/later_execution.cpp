@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
@@ -11,7 +12,6 @@
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
-#include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
 
 namespace dripline::interpreter::tnc155::later {
 namespace {
@@ -20,8 +20,9 @@ namespace {
 struct Extras {
   std::array<int, LaterWords::kMaxM> codes{};
   std::size_t count = 0;
-  bool calls_cycle = false;  ///< M99
-  bool ends = false;         ///< M2, M30
+  bool calls_cycle = false;   ///< M99
+  bool begins_calls = false;  ///< M89
+  bool ends = false;          ///< M2, M30
 };
 
 bool is_without_effect(int m) {
@@ -35,11 +36,11 @@ bool sort_m(Run& run, Extras& extras) {
     if (m == 99) {
       extras.calls_cycle = true;
     } else if (m == 89 && run.options.m89_modal) {
-      return run.fail(ErrorCode::NotSupported,
-                      "M89: whether its own block calls the cycle is not known; M99 in each block");
+      extras.begins_calls = true;
     } else if (m == 2 || m == 30) {
       extras.ends = true;
     } else if (is_without_effect(m)) {
+      if (m == 126 || m == 127) run.state.takes_shorter_path = m == 126;
       if (m == 90 || m == 107 || m == 108 || m == 120) {
         run.warn("TNC-ACCEPTED", fmt::format("M{} says nothing about the path here", m));
       }
@@ -64,10 +65,27 @@ bool end_codes(Run& run, const Extras& extras) {
   return true;
 }
 
-/// M99, then the end of the program.
-bool finish(Run& run, const Extras& extras) {
-  if (!end_codes(run, extras)) return false;
-  if (extras.calls_cycle && !call_cycle(run)) return false;
+/// M89 where its block says which position is meant, and nothing else calls the cycle.
+bool check_modal_call(Run& run, const Extras& extras, bool moves) {
+  if (!extras.begins_calls || (moves && !extras.calls_cycle)) return true;
+  return run.fail(ErrorCode::NotSupported, extras.calls_cycle
+                                               ? "M89 and M99 in one block"
+                                               : "M89 in a block that positions nothing");
+}
+
+/// M89 calls the cycle at the end of its own block and of each positioning block after it, until
+/// M99, CYCL CALL or the definition of another cycle.
+bool call_by_m(Run& run, const Extras& extras, bool moves) {
+  bool& is_modal = run.state.cycle.is_modal_call;
+  if (extras.begins_calls) is_modal = true;
+  if (!extras.calls_cycle && !(is_modal && moves)) return true;
+  if (extras.calls_cycle) is_modal = false;
+  return call_cycle(run);
+}
+
+/// The cycle, then the end of the program.
+bool finish(Run& run, const Extras& extras, bool moves = false) {
+  if (!end_codes(run, extras) || !call_by_m(run, extras, moves)) return false;
   if (extras.ends) end_program(run, true);
   return true;
 }
@@ -81,6 +99,22 @@ bool use_tool_feed(Run& run) {
   return true;
 }
 
+/// M126: rotary axes go the shorter way around. Up to half a turn that is the way they go anyway;
+/// beyond it the turns of the axis would have to be known.
+bool check_shorter_path(Run& run, const Block& block) {
+  constexpr double kHalfTurn = 180;
+  for (const Coordinate& word : block.words()) {
+    if (!is_rotary(word.axis)) continue;
+    const double value = run.number(word.value);
+    const double way = word.is_incremental ? value : value - run.state.nominal_of(word.axis);
+    if (std::fabs(way) <= kHalfTurn) continue;
+    return run.fail(
+        ErrorCode::NotSupported,
+        fmt::format("M126 with {} going {:+.3f}, more than half a turn", letter(word.axis), way));
+  }
+  return true;
+}
+
 /// M140: back along the tool axis, in rapid traverse where the block has no F.
 bool retract(Run& run, const Block& block) {
   State& state = run.state;
@@ -91,6 +125,9 @@ bool retract(Run& run, const Block& block) {
   }
   if (!state.tool.is_called || state.is_compensating() || state.is_parallel) {
     return run.fail(ErrorCode::NotSupported, "M140 without a tool axis, or within a contour");
+  }
+  if (state.cycle.is_modal_call) {
+    return run.fail(ErrorCode::NotSupported, "M140 while M89 calls the cycle: end it with M99");
   }
   if (!read_feed(run, block)) return false;
   Pace pace = kRapid;
@@ -138,11 +175,17 @@ bool begin_program(Run& run, const Block& block) {
 bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   const LaterWords& words = run.parts.later;
   if (words.is_auto_feed && !use_tool_feed(run)) return false;
-  if (words.m_count == 0 && block.m == Block::kNone && !words.retracts) [[likely]]
+  const bool is_plain =
+      !run.state.cycle.is_modal_call && !run.state.takes_shorter_path && !words.retracts;
+  if (words.m_count == 0 && block.m == Block::kNone && is_plain) [[likely]]
     return move(run, block);
   Extras extras;
-  if (!sort_m(run, extras) || !begin_codes(run, extras)) return false;
-  return (words.retracts ? retract(run, block) : move(run, block)) && finish(run, extras);
+  if (!sort_m(run, extras)) return false;
+  if (run.state.takes_shorter_path && !check_shorter_path(run, block)) return false;
+  const bool moves = block.coordinate_count != 0 || block.kind == BlockKind::PolarLine ||
+                     block.kind == BlockKind::PolarArc;
+  if (!check_modal_call(run, extras, moves) || !begin_codes(run, extras)) return false;
+  return (words.retracts ? retract(run, block) : move(run, block)) && finish(run, extras, moves);
 }
 
 bool set_pole(Run& run, const Block& block) {
@@ -185,7 +228,8 @@ bool stop_block(Run& run, const Block& block) {
   if (block.m != Block::kNone) {
     return run.fail(ErrorCode::BlockFormatIncorrect, fmt::format("STOP with M{}", block.m));
   }
-  if (!sort_m(run, extras) || !begin_codes(run, extras)) return false;
+  if (!sort_m(run, extras) || !check_modal_call(run, extras, false)) return false;
+  if (!begin_codes(run, extras)) return false;
   const auto codes = std::span(extras.codes).first(extras.count);
   const bool stops_itself = std::ranges::find(codes, 0) != codes.end();
   if (!finish(run, extras)) return false;
@@ -198,8 +242,10 @@ bool cycle_call(Run& run, const Block& block) {
   if (block.m != Block::kNone) {
     return run.fail(ErrorCode::BlockFormatIncorrect, fmt::format("CYCL CALL with M{}", block.m));
   }
-  if (!sort_m(run, extras) || !begin_codes(run, extras)) return false;
+  if (!sort_m(run, extras) || !check_modal_call(run, extras, false)) return false;
+  if (!begin_codes(run, extras)) return false;
   extras.calls_cycle = false;  // the call itself
+  run.state.cycle.is_modal_call = false;
   return call_cycle(run) && finish(run, extras);
 }
 
@@ -230,7 +276,8 @@ bool cycle_call_at(Run& run, const Block& block) {
         fmt::format("CYCL CALL POS with {}{:+.4f}: give the surface as Q203, and 0 here",
                     letter(state.tool.axis), shift));
   }
-  if (!sort_m(run, extras) || !begin_codes(run, extras) || !use_tool_feed(run)) return false;
+  if (!sort_m(run, extras) || !check_modal_call(run, extras, false)) return false;
+  if (!begin_codes(run, extras) || !use_tool_feed(run)) return false;
   Pace pace = kRapid;
   const Value& feed = run.parts.later.feed;
   if (feed.is_programmed()) {
@@ -252,6 +299,7 @@ bool cycle_call_at(Run& run, const Block& block) {
   over.set(axes.second, target.at[index(axes.second)]);
   line_to(run, over, pace);
   state.has_positioned = true;
+  state.cycle.is_modal_call = false;
   return call_cycle(run) && finish(run, extras);
 }
 
@@ -264,34 +312,6 @@ bool corner(Run& run, const Block& block) {
   const bool is_made = make_blend(run, block);
   state.feed = feed;
   return is_made;
-}
-
-bool call_tool(Run& run, const Block& block) {
-  State& state = run.state;
-  const LaterWords& words = run.parts.later;
-  Block call = block;
-  if (!words.name.empty()) {
-    return run.fail(ErrorCode::ToolDefMissing,
-                    fmt::format("tool \"{}\": the setup has tools by number", words.name));
-  }
-  if (words.tool.is_programmed()) {
-    const double number = run.number(words.tool);
-    if (!(number >= 0 && number <= kLastLaterTool) || number != static_cast<int>(number)) {
-      return run.fail(ErrorCode::EntryOutOfRange, fmt::format("TOOL CALL {}", number));
-    }
-    call.target = static_cast<std::int32_t>(number);
-  }
-  const bool has_delta = words.delta_length.is_programmed() || words.delta_radius.is_programmed();
-  if (has_delta && call.target == Block::kNone) {
-    return run.fail(ErrorCode::NotSupported, "DL or DR in TOOL CALL without a tool");
-  }
-  if (!tnc155::call_tool(run, call)) return false;
-  if (call.target != Block::kNone) state.tool_feed = 0;
-  if (words.feed.is_programmed()) {
-    if (!read_cycle_feed(run, words.feed, state.tool_feed)) return false;
-    state.feed = state.rotary_feed = state.tool_feed;
-  }
-  return true;
 }
 
 /// Cycle 247: a row of the preset table becomes the datum, and the transformations of the program
@@ -315,7 +335,24 @@ bool use_preset(Run& run, int number) {
   return true;
 }
 
+bool fail_plane_angle(Run& run, std::int32_t parameter) {
+  return run.fail(ErrorCode::NotSupported,
+                  fmt::format("Q{} before a PLANE has computed it", parameter));
+}
+
+/// Q120 to Q122 in the words of a block.
+bool check_plane_angles(Run& run, const Block& block) {
+  if (run.state.has_plane_angles) return true;
+  for (const Coordinate& word : block.words()) {
+    if (word.value.is_q() && is_plane_angle(word.value.number)) {
+      return fail_plane_angle(run, word.value.number);
+    }
+  }
+  return true;
+}
+
 bool accept(Run& run, const Block&) {
+  run.state.has_plane_angles |= run.parts.later.is_plane;
   run.warn("TNC-ACCEPTED", fmt::format("{} is not followed", run.parts.later.name));
   return true;
 }

@@ -23,6 +23,10 @@ bool call_tool(Run& run, const Block& block);
 bool use_preset(Run& run, int number);
 bool accept(Run& run, const Block& block);
 
+/// Q120 to Q122 before a PLANE has computed them. False.
+bool fail_plane_angle(Run& run, std::int32_t parameter);
+/// The same, where they are coordinates.
+bool check_plane_angles(Run& run, const Block& block);
 bool assign(Run& run, const Block& block);
 bool compare(Run& run, const Block& block);
 bool raise_error(Run& run, const Block& block);

@@ -44,7 +44,8 @@ bool read_operand(Reading& in, Formula& formula) {
     step.kind = Kind::Parameter;
     if (!cursor.read_integer(step.parameter, 0, kLaterParameters - 1, "Q")) return false;
     const bool is_known = step.parameter == kToolRadius || step.parameter == kToolAxis ||
-                          step.parameter == kInchProgram || step.parameter == kToolLength;
+                          step.parameter == kInchProgram || step.parameter == kToolLength ||
+                          is_plane_angle(step.parameter);
     if (is_of_control(step.parameter) && !is_known) return refuse(in, start);
     return add(in, formula, step);
   }

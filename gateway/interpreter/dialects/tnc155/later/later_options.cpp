@@ -32,7 +32,10 @@ constexpr auto kRows = in_table(
                                 kPositive),
         row<&C::m89_modal>(
             "m89_modal", kFlag,
-            "M89 is the modal cycle call, which is an alarm; else a free M function"),
+            "M89 calls the cycle after each positioning block; else a free M function"),
+        row<&C::compares_exactly>(
+            "comparison", "rounded|exact",
+            "FN 9 to FN 12: values that differ by rounding are equal, or all digits count"),
         row<&C::m06_stop>("m06_stop", kFlag, "M6 stops the program"),
         row<&C::spindle_minimum>("spindle_minimum", kNumber, "lowest speed", kSpeeds, "rpm"),
         row<&C::spindle_maximum>("spindle_maximum", kNumber, "highest speed", kSpeeds, "rpm"),
@@ -59,6 +62,7 @@ Result<ControlOptions> read_later_options(const Setup& setup) {
   read.program_start = ProgramStart::Any;
   read.checks_calls = false;
   read.decimal_sign = '.';
+  read.block_skip = setup.switches.block_skip;
   if (auto done = read_rows(later::kRows, setup.control, read); !done) return fail(done.error());
   if (auto good = check_limits(read); !good) return fail(good.error());
   for (const OffsetRecord& offset : setup.offsets) {

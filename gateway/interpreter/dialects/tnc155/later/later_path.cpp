@@ -30,6 +30,7 @@ bool read_m(Reading& in, const char* start) {
       case 107:
       case 108:
       case 120:
+      case 126:
       case 127:
       case 129:
       case 135:

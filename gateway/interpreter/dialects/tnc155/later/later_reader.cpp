@@ -39,7 +39,8 @@ bool read_value(Reading& in, Value& value, std::string_view name) {
     std::int32_t parameter = 0;
     if (!TextCursor::is_digit(*cursor.at())) return refuse(in, start);  // QL, QR, QS
     if (!cursor.read_integer(parameter, 0, kLaterParameters - 1, "Q")) return false;
-    if (is_of_control(parameter)) return refuse(in, start);
+    const bool is_taken = in.takes_plane_angle && is_plane_angle(parameter);
+    if (is_of_control(parameter) && !is_taken) return refuse(in, start);
     value = Value::q(parameter, is_negative);
     return true;
   }
@@ -96,7 +97,10 @@ bool read_axis_word(Reading& in) {
   if (in.block.coordinate_count == Block::kMaxCoordinates) {
     return cursor.wrong(fmt::format("more than {} axes", Block::kMaxCoordinates));
   }
-  if (!read_value(in, word.value, {&c, 1})) return false;
+  in.takes_plane_angle = is_rotary(word.axis);
+  const bool is_read = read_value(in, word.value, {&c, 1});
+  in.takes_plane_angle = false;
+  if (!is_read) return false;
   in.block.add(word);
   return true;
 }
@@ -171,6 +175,26 @@ bool read_program_call(Reading& in) {
   return in.cursor.ends();
 }
 
+/// PLANE SPATIAL with three angles of 0 and STAY: nothing is tilted and nothing moves. Every other
+/// plane is an alarm.
+bool read_flat_plane(Reading& in, const char* start) {
+  TextCursor& cursor = in.cursor;
+  for (const std::string_view word : {"SPA", "SPB", "SPC"}) {
+    Value angle;
+    if (!cursor.take(word)) return refuse(in, start);
+    if (!read_value(in, angle, word)) return false;
+    if (angle.is_q() || angle.number != 0) return refuse(in, start);
+  }
+  if (!cursor.take("STAY")) return refuse(in, start);
+  if (cursor.take("SEQ") && !cursor.take('+') && !cursor.take('-')) return refuse(in, start);
+  if (!cursor.take("TABLE ROT")) cursor.take("COORD ROT");
+  if (!cursor.is_at_end()) return refuse(in, start);
+  in.block.kind = BlockKind::Accepted;
+  in.words.name = "PLANE SPATIAL with angles of 0";
+  in.words.is_plane = true;
+  return true;
+}
+
 bool read_keyword(Reading& in, const char* start) {
   TextCursor& cursor = in.cursor;
   if (cursor.take("TOOL CALL")) return read_tool_call(in);
@@ -181,6 +205,7 @@ bool read_keyword(Reading& in, const char* start) {
   if (cursor.take("STOP")) return in.block.kind = BlockKind::Stop, read_m_words(in);
   if (cursor.take("RND")) return read_corner(in, BlockKind::Rounding);
   if (cursor.take("FN")) return read_function(in);
+  if (cursor.take("PLANE SPATIAL")) return read_flat_plane(in, start);
   // No plane is ever tilted here, and no tool center point control on.
   for (const std::string_view words : {"PLANE RESET STAY", "FUNCTION RESET TCPM"}) {
     cursor.back_to(start);
@@ -232,6 +257,18 @@ bool read_l(Reading& in, const char* start) {
   return read_path(in, BlockKind::Line);
 }
 
+/// Whether a jump still finds a label that is skipped, and where a program ends without its end,
+/// the manuals do not say.
+bool may_be_skipped(TextCursor& cursor) {
+  const char* start = cursor.at();
+  bool may = true;
+  for (const std::string_view word : {"LBL", "BEGIN", "END PGM"}) {
+    may &= !cursor.take(word);
+    cursor.back_to(start);
+  }
+  return may;
+}
+
 }  // namespace
 
 }  // namespace dripline::interpreter::tnc155::later
@@ -245,15 +282,22 @@ bool read_later_block(const char* begin, const char* end, const ReadingState& st
   Block& block = parts.add(BlockKind::Line);
   const char* line_end = later::line_without_comment(begin, end);
   TextCursor cursor(begin, line_end, state.program, fault);
-  later::Reading in{cursor, block, parts.later, line_end};
+  later::Reading in{cursor, block, parts.later, line_end, false};
   constexpr std::int32_t kHighest = 99'999'999;
+  const char* slash = (cursor.peek(), cursor.at());
+  bool is_skipped = cursor.take('/');  // by the switch of the panel; it is off
   if (cursor.is_digit_next() && !cursor.read_integer(block.number, 0, kHighest, "block number")) {
     return false;
+  }
+  if (!is_skipped) {
+    slash = (cursor.peek(), cursor.at());
+    is_skipped = cursor.take('/');
   }
   const char* start = (cursor.peek(), cursor.at());
   if (cursor.is_at_end()) return cursor.unexpected();
   if (cursor.take("CYCL DEF") && cursor.is_digit_next()) return later::read_cycle(in, end);
   cursor.back_to(start);
+  if (is_skipped && !later::may_be_skipped(cursor)) return later::refuse(in, slash);
   const bool is_read = *start == 'L'   ? later::read_l(in, start)
                        : *start == 'C' ? later::read_c(in, start)
                                        : later::read_keyword(in, start);

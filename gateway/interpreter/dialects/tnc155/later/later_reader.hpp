@@ -21,7 +21,8 @@ struct Reading {
   TextCursor& cursor;
   Block& block;
   LaterWords& words;
-  const char* end;  ///< of the block's first line, without its comment
+  const char* end;                 ///< of the block's first line, without its comment
+  bool takes_plane_angle = false;  ///< Q120 to Q122 may be the value
 };
 
 bool read_value(Reading& in, Value& value, std::string_view name);

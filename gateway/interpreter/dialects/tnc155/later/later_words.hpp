@@ -24,8 +24,13 @@ enum ControlParameter : std::int32_t {
   kToolRadius = 108,
   kToolAxis = 109,
   kInchProgram = 113,
-  kToolLength = 114
+  kToolLength = 114,
+  kFirstPlaneAngle = 120,  ///< A, B and C as PLANE has computed them
+  kLastPlaneAngle = 122
 };
+constexpr bool is_plane_angle(std::int32_t parameter) {
+  return parameter >= kFirstPlaneAngle && parameter <= kLastPlaneAngle;
+}
 
 enum class FormulaFunction : std::uint8_t {
   Sqrt,
@@ -72,7 +77,7 @@ struct LaterWords {
   void clear() {
     m_count = 0;
     is_auto_feed = false;
-    retracts = retracts_to_limit = false;
+    retracts = retracts_to_limit = is_plane = false;
     tool = feed = retract = delta_length = delta_radius = Value{};
     name.clear();
     target.clear();
@@ -87,6 +92,7 @@ struct LaterWords {
   bool is_auto_feed = false;
   bool retracts = false;           ///< M140 MB: along the tool axis
   bool retracts_to_limit = false;  ///< M140 MB MAX
+  bool is_plane = false;           ///< Accepted: PLANE without a tilt, which sets Q120 to Q122
   Value retract;
   Value tool;                        ///< TOOL CALL Q1
   Value feed;                        ///< of this block alone: RND, CHF, CYCL CALL POS; TOOL CALL

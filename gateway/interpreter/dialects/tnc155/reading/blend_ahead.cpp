@@ -12,7 +12,9 @@ std::size_t skip_blanks(std::string_view text, std::size_t at) {
 
 bool begins_as_blend(std::string_view text) {
   std::size_t at = skip_blanks(text, 0);
-  while (at < text.size() && (language::is_digit(text[at]) || text[at] == ' ')) ++at;
+  // the slash of a block that may be skipped
+  while (at < text.size() && (language::is_digit(text[at]) || text[at] == ' ' || text[at] == '/'))
+    ++at;
   if (at == text.size()) return false;
   if (text[at] == 'R' || text.substr(at, 3) == "CHF") return true;
   if (text[at] != 'L') return false;

@@ -1,6 +1,7 @@
 #include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 
 #include <fmt/format.h>
+#include <string_view>
 #include <utility>
 
 #include <algorithm>
@@ -23,6 +24,20 @@ std::uint64_t line_ends_in(const char* at, const char* end) {
     lines += *at == '\n' || (*at == '\r' && (at + 1 == end || at[1] != '\n')) ? 1 : 0;
   }
   return lines;
+}
+
+/// Block skip: a slash before the words, or before the number. Not of blocks that a reader refuses
+/// with it: what their absence means is not known.
+bool is_skipped(const char* at, const char* end) {
+  const auto skip = [&] {
+    while (at != end && (is_decimal(*at) || *at == ' ' || *at == '\t')) ++at;
+  };
+  skip();
+  if (at == end || *at != '/') return false;
+  ++at;
+  skip();
+  const std::string_view words(at, end);
+  return !words.starts_with("LBL") && !words.starts_with("BEGIN") && !words.starts_with("END");
 }
 
 /// The end of the first line that is not blank.
@@ -121,11 +136,23 @@ ReadState BlockReader::show(Form form) {
 
 ReadState BlockReader::load_later(ReadingState& state) {
   state.program.form = Form::Plain;
-  const WindowState loaded = window_.load(place_.program, place_.offset, LaterEnd{&is_one_line_});
-  if (loaded != WindowState::Ready) return complain_of(loaded);
-  text_end_ = window_.end();
-  text_ = LaterEnd::skip(window_.begin(), text_end_);
-  return text_ == text_end_ ? ReadState::End : ReadState::Ready;
+  for (;;) {
+    const WindowState loaded = window_.load(place_.program, place_.offset, LaterEnd{&is_one_line_});
+    if (loaded != WindowState::Ready) return complain_of(loaded);
+    text_end_ = window_.end();
+    text_ = LaterEnd::skip(window_.begin(), text_end_);
+    if (text_ == text_end_) return ReadState::End;
+    if (!skips_ || !is_skipped(text_, text_end_)) return ReadState::Ready;
+    pass_over();
+  }
+}
+
+/// The block loaded is none of the program's; the one read last stays so.
+void BlockReader::pass_over() {
+  const TextPlace last = block_place_;
+  find_place();
+  move_on();
+  block_place_ = last;
 }
 
 bool BlockReader::read_later(ReadingState& state, BlockParts& parts) {

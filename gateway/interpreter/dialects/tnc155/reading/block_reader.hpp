@@ -64,6 +64,9 @@ class BlockReader {
   /// Skips the block that was Wrong. False: its end is not known.
   bool skip_wrong();
 
+  /// Blocks with a slash are passed over from the next one on that is loaded. Of later controls.
+  void set_block_skip(bool skips) { skips_ = skips; }
+
   /// Where the next block begins.
   const TextPlace& place() const { return place_; }
   /// Where the block read last begins.
@@ -91,6 +94,7 @@ class BlockReader {
  private:
   ReadState load(ReadingState& state);
   [[gnu::noinline]] ReadState load_later(ReadingState& state);
+  void pass_over();
   [[gnu::noinline]] bool read_later(ReadingState& state, BlockParts& parts);
   ReadState find_form(ReadingState& state);
   ReadState show(Form form);
@@ -104,6 +108,7 @@ class BlockReader {
   ProgramSource* source_;
   ReaderOptions options_;
   language::LineWindow window_;
+  bool skips_ = false;
   bool is_peeked_ = false;  ///< the block at place_ is in the window already
   TextPlace place_;
   TextPlace block_place_;

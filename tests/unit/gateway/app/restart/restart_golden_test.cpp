@@ -75,7 +75,7 @@ class RestartOfGolden : public testing::TestWithParam<std::string> {
 TEST_P(RestartOfGolden, CutsThePathOfAnUndisturbedRun) {
   std::mt19937 random{20261123};
   const bool takes_all = std::getenv("DRIPLINE_RESTARTS") != nullptr;
-  constexpr std::size_t kFew = 40;
+  constexpr std::size_t kFew = 60;
   const auto names = interpreter::golden_names(GetParam());
   const int stride = takes_all || names.size() < kFew ? 1 : 3;
   int number = 0;
