@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,10 @@ struct ControlOptions {
     Position datum;
   };
   std::vector<Preset> presets;
-  bool compares_exactly = false;  ///< FN 9 to FN 12: all binary digits, else within rounding
-  bool block_skip = false;        ///< Switches::block_skip, of a later control
-  bool is_later = false;          ///< TNC 426/430, iTNC 530: the rules of later/
+  std::optional<Axis> kept_tool_axis;  ///< of the run before, until TOOL CALL names one
+  bool compares_exactly = false;       ///< FN 9 to FN 12: all binary digits, else within rounding
+  bool block_skip = false;             ///< Switches::block_skip, of a later control
+  bool is_later = false;               ///< TNC 426/430, iTNC 530: the rules of later/
 
   // touch probe
   double probe_clearance = 2;

@@ -119,12 +119,16 @@ bool check_shorter_path(Run& run, const Block& block) {
 bool retract(Run& run, const Block& block) {
   State& state = run.state;
   const LaterWords& words = run.parts.later;
-  const Axis axis = state.tool.axis;
+  const bool has_axis = state.tool.is_called || run.options.kept_tool_axis;
+  const Axis axis =
+      state.tool.is_called ? state.tool.axis : run.options.kept_tool_axis.value_or(Axis::Z);
   if (block.coordinate_count != 0 || block.kind != BlockKind::Line || block.m != Block::kNone) {
     return run.fail(ErrorCode::NotSupported, "M140 in a block that moves otherwise");
   }
-  if (!state.tool.is_called || state.is_compensating() || state.is_parallel) {
-    return run.fail(ErrorCode::NotSupported, "M140 without a tool axis, or within a contour");
+  if (!has_axis || state.is_compensating() || state.is_parallel) {
+    return run.fail(ErrorCode::NotSupported,
+                    has_axis ? "M140 within a contour"
+                             : "M140 before TOOL CALL has named an axis (option tool_axis)");
   }
   if (state.cycle.is_modal_call) {
     return run.fail(ErrorCode::NotSupported, "M140 while M89 calls the cycle: end it with M99");

@@ -15,6 +15,13 @@ Result<void> read_start(const Options& options, const OptionKey& /*key*/, C& con
   return read_start_block(options, kHighestBlock, control);
 }
 
+Result<void> read_tool_axis(const Options& options, const OptionKey& key, C& control) {
+  const auto word = read_word(options, key, 0);
+  if (!word) return fail(word.error());
+  if (*word != 0) control.kept_tool_axis = axis_of(key.words()[*word].front());
+  return {};
+}
+
 constexpr auto kRows = in_table(
     "option",
     std::array{
@@ -36,6 +43,10 @@ constexpr auto kRows = in_table(
         row<&C::compares_exactly>(
             "comparison", "rounded|exact",
             "FN 9 to FN 12: values that differ by rounding are equal, or all digits count"),
+        Row{{"tool_axis", "unknown|X|Y|Z",
+             "of M140 before the first TOOL CALL, as the control keeps it from the run before",
+             "unknown"},
+            read_tool_axis},
         row<&C::m06_stop>("m06_stop", kFlag, "M6 stops the program"),
         row<&C::spindle_minimum>("spindle_minimum", kNumber, "lowest speed", kSpeeds, "rpm"),
         row<&C::spindle_maximum>("spindle_maximum", kNumber, "highest speed", kSpeeds, "rpm"),
