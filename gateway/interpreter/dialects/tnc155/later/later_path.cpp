@@ -29,6 +29,9 @@ bool read_m(Reading& in, const char* start) {
     switch (m) {
       case 107:
       case 108:
+      case 111:
+      case 115:
+      case 117:
       case 120:
       case 126:
       case 127:
