@@ -136,7 +136,12 @@ bool read_label(Reading& in, BlockKind kind, std::int32_t least) {
   in.block.kind = kind;
   if (in.cursor.peek() == '"') {
     in.block.target = kNameLabel;
-    return read_quoted(in, in.words.name);
+    const char* start = in.cursor.at();
+    if (!read_quoted(in, in.words.name)) return false;
+    return in.words.name.size() <= kLongestLabel ||
+           in.cursor.wrong(ErrorCode::EntryOutOfRange, start,
+                           fmt::format("a label of {} characters, at most {}", in.words.name.size(),
+                                       kLongestLabel));
   }
   return in.cursor.read_integer(in.block.target, least, kLastLaterLabel, "LBL");
 }

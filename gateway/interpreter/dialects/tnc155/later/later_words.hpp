@@ -12,6 +12,7 @@ namespace dripline::interpreter::tnc155 {
 
 inline constexpr int kLaterParameters = 2000;  ///< Q0 to Q1999
 inline constexpr std::int32_t kLastLaterLabel = 65'534;
+inline constexpr std::size_t kLongestLabel = 64;  ///< its name: more than the controls take
 /// The label of a block whose label has a name (LaterWords::name); run labels have it plus a
 /// number.
 inline constexpr std::int32_t kNameLabel = 1 << 30;

@@ -136,6 +136,18 @@ TEST(LaterLabels, WithNamesAreSeenByAStartInTheMiddle) {
   }
 }
 
+TEST(LaterLabels, HaveNamesOfABoundedLength) {
+  for (const std::size_t size : {64u, 65u}) {
+    const std::string text =
+        fmt::format("BEGIN PGM P MM\nLBL \"{}\"\nL X+1 R0 F100\n", std::string(size, 'N'));
+    MemorySource source(text);
+    Moves moves;
+    run(*made(source, moves));
+    EXPECT_EQ(moves.alarm,
+              size == 64 ? "" : "ENTRY VALUE INCORRECT: a label of 65 characters, at most 64");
+  }
+}
+
 TEST(LaterLabels, OfSubprogramsThatOthersCallDoNotRefuseAStart) {
   for (const std::string_view label : {"700", "\"A\""}) {
     const std::string text = fmt::format(
