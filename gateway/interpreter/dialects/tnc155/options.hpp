@@ -31,7 +31,7 @@ struct ControlOptions {
   };
   std::vector<Preset> presets;
   std::optional<Axis> kept_tool_axis;  ///< of the run before, until TOOL CALL names one
-  bool compares_exactly = false;       ///< FN 9 to FN 12: all binary digits, else within rounding
+  bool compares_rounded = false;       ///< FN 9 to FN 12: within rounding, else all binary digits
   bool block_skip = false;             ///< Switches::block_skip, of a later control
   bool is_later = false;               ///< TNC 426/430, iTNC 530: the rules of later/
 

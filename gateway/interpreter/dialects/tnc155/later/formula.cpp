@@ -158,10 +158,9 @@ bool refuse_in_search(Run& run, const Block& block) {
 }
 
 /// The control keeps values as binary numbers (IEEE 754; iTNC 530, User's Manual, programming notes
-/// of Q parameters), in which 0.1 + 0.2 is not 0.3, and its manual warns of that before jumps. Here
-/// values that differ by rounding alone are equal, as they would be in decimals: a loop by 0.1 then
-/// never goes a pass beyond the limit that it names, which is what the binary numbers may do. Two
-/// values that a program means to be different differ by more: its numbers have seven decimals.
+/// of Q parameters), in which 0.1 + 0.2 is not 0.3, and its manual warns of that before jumps: a
+/// loop by 0.1 may go a pass beyond the limit that it names. Two values that a program means to be
+/// different differ by more than this: its numbers have seven decimals.
 bool differ_by_rounding(double a, double b) {
   constexpr double kLeast = 1e-9, kShare = 1e-14;
   return a != b &&
@@ -172,9 +171,11 @@ bool differ_by_rounding(double a, double b) {
 void warn_of_rounding(Run& run, int function, double a, double b) {
   if (std::exchange(run.state.has_rounded, true)) return;
   run.warn("TNC-NEARLY-EQUAL",
-           fmt::format("FN {}: {} and {} differ by rounding and are taken as equal; a control that "
-                       "compares all digits may not (option comparison)",
-                       function, a, b));
+           fmt::format("FN {}: {} and {} differ by rounding alone and {} (option comparison)",
+                       function, a, b,
+                       run.options.compares_rounded
+                           ? "are taken as equal; the control itself compares all digits"
+                           : "are not equal to the control: a loop may make one pass more"));
 }
 
 }  // namespace
@@ -189,9 +190,9 @@ bool compare(Run& run, const Block& block) {
   double a = 0, b = 0;
   const LaterWords& words = run.parts.later;
   if (!evaluate(run, words.formula, a) || !evaluate(run, words.second, b)) return false;
-  if (!run.options.compares_exactly && differ_by_rounding(a, b)) {
+  if (differ_by_rounding(a, b)) {
     warn_of_rounding(run, block.function, a, b);
-    b = a;
+    if (run.options.compares_rounded) b = a;
   }
   constexpr int kEqual = 9, kNotEqual = 10, kGreater = 11;
   const bool is_true = block.function == kEqual      ? a == b

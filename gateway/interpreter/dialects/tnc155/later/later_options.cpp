@@ -40,9 +40,9 @@ constexpr auto kRows = in_table(
         row<&C::m89_modal>(
             "m89_modal", kFlag,
             "M89 calls the cycle after each positioning block; else a free M function"),
-        row<&C::compares_exactly>(
-            "comparison", "rounded|exact",
-            "FN 9 to FN 12: values that differ by rounding are equal, or all digits count"),
+        row<&C::compares_rounded>(
+            "comparison", "exact|rounded",
+            "FN 9 to FN 12: all binary digits count, or values that differ by rounding are equal"),
         Row{{"tool_axis", "unknown|X|Y|Z",
              "of M140 before the first TOOL CALL, as the control keeps it from the run before",
              "unknown"},
