@@ -119,12 +119,18 @@ class TapeReaderHost final : public DisciplineBase {
     std::vector<std::byte> rows;
     return checker_.encode(text, rows);
   }
-  void text_offered(LineTime now) override { next_row_ = std::max(next_row_, now); }
+  /// That nothing follows may be known only after the control has stopped or wound back.
+  void text_offered(LineTime now) override {
+    next_row_ = std::max(next_row_, now);
+    if (!is_sending()) return;
+    if (std::exchange(is_back_pending_, false)) return wind_back(now);
+    if (is_stopped_ && is_read()) end_reading(now);
+  }
   void transfer_over(LineTime) override {
     rows_.clear();
     row_at_ = 0;
     row_ = 0;
-    is_running_ = false;
+    is_running_ = is_back_pending_ = false;
     limit_.reset();
   }
 
@@ -262,6 +268,11 @@ class TapeReaderHost final : public DisciplineBase {
 
   void wind_back(LineTime now) {
     is_wound_back_ = true;
+    const bool has_rest = has_text() || row_at_ != rows_.size();
+    if (is_sending() && stage_ == Stage::Text && !has_rest && !is_last_offered()) {
+      is_back_pending_ = true;
+      return;
+    }
     if (is_sending()) {
       if (is_read())
         end_reading(now);
@@ -285,9 +296,10 @@ class TapeReaderHost final : public DisciplineBase {
   std::uint64_t row_ = 0;  ///< of the transfer
   bool is_running_ = false, is_stopped_ = false, was_held_ = false;
   bool is_asked_ = false, is_wound_back_ = false, is_head_ = false;
-  bool has_begun_ = false;  ///< a character of the text was read
-  bool is_over_ = false;    ///< the tape was read to its end, and not wound back
-  bool runs_next_ = false;  ///< the control has run the reader since
+  bool has_begun_ = false;        ///< a character of the text was read
+  bool is_over_ = false;          ///< the tape was read to its end, and not wound back
+  bool runs_next_ = false;        ///< the control has run the reader since
+  bool is_back_pending_ = false;  ///< wound back, and whether text is left is not known
 };
 
 }  // namespace

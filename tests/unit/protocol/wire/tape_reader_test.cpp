@@ -66,6 +66,33 @@ TEST_P(TapeReaderLine, ReadsTheNextProgramOfTheTape) {
   EXPECT_EQ(wire.control().received, first) << "the reader runs already";
 }
 
+// The control has read the last block before the owner has said that it is the last.
+TEST_P(TapeReaderLine, LearnsLateThatNothingFollows) {
+  for (const std::string_view end : {"M02", "M30"}) {
+    const auto settings = settings_of(GetParam());
+    auto host = make_discipline(settings, Role::Host).value();
+    ASSERT_TRUE(host->begin_send("", {}));
+    ASSERT_TRUE(host->offer(fmt::format("%\nN1{}\n", end), false, {}));
+    std::array<std::byte, 400> rows{};
+    LineTime now = seconds(9);
+    for (int i = 0; i < 400; ++i) (void)host->transmit(rows, now += milliseconds(4));
+    const auto command = [&](char c) {
+      const auto byte = static_cast<std::byte>(c);
+      host->receive({&byte, 1}, now);
+    };
+    command('\x13');
+    if (end == "M30") command('\b');
+    const auto ends = [&] {
+      return std::ranges::count_if(host->take_events(), [](const Event& event) {
+        return std::holds_alternative<TransferEnded>(event);
+      });
+    };
+    EXPECT_EQ(ends(), 0) << end;
+    ASSERT_TRUE(host->offer("", true, now));
+    EXPECT_EQ(ends(), 1) << end;
+  }
+}
+
 TEST_P(TapeReaderLine, KeepsItsRate) {
   for (const double rate : {150.0, 300.0, 500.0}) {
     auto settings = settings_of(GetParam());

@@ -12,7 +12,7 @@ class TapeReaderPortTest : public PortServiceTest {
  protected:
   void add_reader(const std::string& offer) {
     start_ports();
-    add_machine("mill", "tektronix-1704");
+    add_machine("mill", "prototrak-plus");
     auto port = mill();
     port.settings = {{"baud", "115200"},     {"flow", "tape_reader"}, {"offer", offer},
                      {"reader_cps", "5000"}, {"code", "iso"},         {"parity", "none"},
@@ -32,7 +32,7 @@ class TapeReaderPortTest : public PortServiceTest {
 // With offer=repeat the tape stays in the reader: M30 winds it back, and the next start reads it.
 TEST_F(TapeReaderPortTest, KeepsATapeInTheReader) {
   add_reader("repeat");
-  push("TK1", "%\nN1X1\nN2M30\n", "tektronix-1704");
+  push("TK1", "%\nN1X1\nN2M30\n", "prototrak-plus");
   ASSERT_TRUE(start("TK1"));
   ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
   ASSERT_TRUE(control_->until([&] { return runs().size() == 2; }));
@@ -48,7 +48,7 @@ TEST_F(TapeReaderPortTest, KeepsATapeInTheReader) {
 
 TEST_F(TapeReaderPortTest, DoesNotRepeatARunThatWasBrokenOff) {
   add_reader("repeat");
-  push("TK1", "%\nN1X1\nN2M02\n%\nN1X2\nN2M30\n", "tektronix-1704");
+  push("TK1", "%\nN1X1\nN2M02\n%\nN1X2\nN2M30\n", "prototrak-plus");
   ASSERT_TRUE(start("TK1"));
   ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
   ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
@@ -61,7 +61,7 @@ TEST_F(TapeReaderPortTest, DoesNotRepeatARunThatWasBrokenOff) {
 // Nothing is sent that nobody ordered: without the setting the request waits for a run.
 TEST_F(TapeReaderPortTest, SendsNothingByItself) {
   add_reader("none");
-  push("TK1", "%\nN1X1\nN2M30\n", "tektronix-1704");
+  push("TK1", "%\nN1X1\nN2M30\n", "prototrak-plus");
   ASSERT_TRUE(start("TK1"));
   ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
   ASSERT_TRUE(control_->until([&] { return runs().front().state == RunState::Completed; }));
