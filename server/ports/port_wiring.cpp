@@ -148,6 +148,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
             if (end.progress.kind != JobKind::Run) return;
             inbound->on_run(end.progress.id);
             line_machines_.on_sent(name, end);
+            inbound->on_run_stored();
           },
       .on_request = [inbound](const wire::TransferRequest& request) { inbound->answer(request); },
       .on_change = [this, name] { line_machines_.on_change(name); }};

@@ -39,6 +39,7 @@ class InboundHandler final : private line::InboundSink {
   void answer(const wire::TransferRequest& request) { calls_.answer(request); }
   void on_answer_over() { calls_.on_answer_over(); }
   void on_transfer_completed() { calls_.on_transfer_completed(); }
+  void on_run_stored() { calls_.on_run_stored(); }
   /// What is printed from now on belongs to this run, until another one is on the line: a control
   /// prints while it executes, which continues after everything has been sent.
   void on_run(const std::string& run) {

@@ -204,6 +204,10 @@ void RemoteRequestHandler::repeat() {
   if (!last) return refuse(last.error().what, true);
   if (last->empty()) return refuse("there was no run to repeat", true);
   const storage::Run& run = last->front();
+  if (run.state == storage::RunState::Active) {
+    waits_for_end_ = true;
+    return;
+  }
   if (run.state != storage::RunState::Completed) {
     return refuse(fmt::format("run {} of program {} was not completed: it is not repeated", run.id,
                               run.program),

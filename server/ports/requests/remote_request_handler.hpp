@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "gateway/line/inbound/rule_set.hpp"
 #include "server/library/control_catalog.hpp"
@@ -50,6 +51,10 @@ class RemoteRequestHandler {
   void on_transfer_completed() { is_sent_since_ = true; }
   /// A run is on the line, or was.
   void on_run() { is_sent_since_ = false; }
+  /// The end of a run is stored.
+  void on_run_stored() {
+    if (std::exchange(waits_for_end_, false)) repeat();
+  }
   /// Short messages to the control, as a program; nothing when there is no program for it.
   void report(const std::vector<std::string>& words) const;
 
@@ -86,6 +91,8 @@ class RemoteRequestHandler {
   std::optional<std::vector<storage::Revision>> offers_;
   std::size_t next_offer_ = 0;
   bool is_end_told_ = false;
+  bool waits_for_end_ =
+      false;  ///< the tape is asked for again, and its run's end is not stored yet
   bool is_sent_since_ = false;  ///< a transfer went through after the last run
   SteadyTime asked_at_{};
 };

@@ -15,8 +15,8 @@ class TapeReaderPortTest : public PortServiceTest {
     add_machine("mill", "prototrak-plus");
     auto port = mill();
     port.settings = {{"baud", "115200"},     {"flow", "tape_reader"}, {"offer", offer},
-                     {"reader_cps", "5000"}, {"code", "iso"},         {"parity", "none"},
-                     {"data_bits", "8"}};
+                     {"reader_cps", "5000"}, {"code", "iso"},         {"trailer", "1000"},
+                     {"parity", "none"},     {"data_bits", "8"}};
     add_port(port);
     control_ = std::make_unique<PlayedControl>(ports_->port("com1")->settings, line());
   }
@@ -41,6 +41,10 @@ TEST_F(TapeReaderPortTest, KeepsATapeInTheReader) {
   EXPECT_EQ(runs()[0].program, "TK1");
   EXPECT_EQ(runs()[0].author, "request from the control");
   EXPECT_EQ(runs()[0].counters.sent, 0U) << "it waits for cycle start";
+  ASSERT_TRUE(control_->until([&] {
+    const auto machine = ports_->machines().machine("mill");
+    return machine->status && machine->status->execution == dds::Execution::Waiting;
+  }));
   ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
   ASSERT_TRUE(control_->until([&] { return runs().size() == 3; }));
   EXPECT_EQ(control_->programs.size(), 2U);
