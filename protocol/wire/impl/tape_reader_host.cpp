@@ -11,6 +11,8 @@ namespace {
 
 /// Time from the command to the first row.
 constexpr LineTime kStartUp = std::chrono::milliseconds(10);
+/// From a stop after the last character to the end: a control that winds back does so before.
+constexpr LineTime kSettled = std::chrono::seconds(1);
 
 /// The host as the reader: each text is a tape with leader, rewind stop and trailer that the
 /// control runs, stops and rewinds. Rewinding asks the owner for the same program again, and so
@@ -42,12 +44,14 @@ class TapeReaderHost final : public DisciplineBase {
   }
 
   void tick(LineTime now) override {
+    if (is_sending() && closes_at_ && *closes_at_ <= now) return end_reading(now);
     if (!is_sending() || is_running_ || !limit_ || *limit_ > now) return;
     fail_transfer({Errc::Timeout, "the control did not run the reader in time"}, now);
   }
 
   std::optional<LineTime> deadline() const override {
     if (!is_sending()) return std::nullopt;
+    if (closes_at_) return closes_at_;
     if (!is_running_) return limit_;
     const bool has_rows = row_at_ < rows_.size() || has_more();
     return has_rows ? std::optional(next_row_) : std::nullopt;
@@ -124,7 +128,7 @@ class TapeReaderHost final : public DisciplineBase {
     next_row_ = std::max(next_row_, now);
     if (!is_sending()) return;
     if (std::exchange(is_back_pending_, false)) return wind_back(now);
-    if (is_stopped_ && is_read()) end_reading(now);
+    if (is_stopped_ && is_read()) closes_at_ = now + kSettled;
   }
   void transfer_over(LineTime) override {
     rows_.clear();
@@ -132,6 +136,7 @@ class TapeReaderHost final : public DisciplineBase {
     row_ = 0;
     is_running_ = is_back_pending_ = false;
     limit_.reset();
+    closes_at_.reset();
   }
 
   bool has_more() const {
@@ -236,6 +241,7 @@ class TapeReaderHost final : public DisciplineBase {
 
   void run(LineTime now) {
     is_stopped_ = false;
+    if (is_sending() && closes_at_) end_reading(now);
     if (!is_sending() && std::exchange(is_over_, false)) {
       runs_next_ = true;
       return ask();
@@ -250,7 +256,7 @@ class TapeReaderHost final : public DisciplineBase {
   void stop(LineTime now) {
     is_stopped_ = true;
     runs_next_ = false;
-    if (is_sending() && is_read()) return end_reading(now);  // M02: nothing runs the trailer
+    if (is_sending() && is_read()) closes_at_ = now + kSettled;  // M02; M30 winds back now
     if (!is_sending() || !is_running_) return;
     wait(now);
     was_held_ = true;
@@ -296,10 +302,11 @@ class TapeReaderHost final : public DisciplineBase {
   std::uint64_t row_ = 0;  ///< of the transfer
   bool is_running_ = false, is_stopped_ = false, was_held_ = false;
   bool is_asked_ = false, is_wound_back_ = false, is_head_ = false;
-  bool has_begun_ = false;        ///< a character of the text was read
-  bool is_over_ = false;          ///< the tape was read to its end, and not wound back
-  bool runs_next_ = false;        ///< the control has run the reader since
-  bool is_back_pending_ = false;  ///< wound back, and whether text is left is not known
+  bool has_begun_ = false;             ///< a character of the text was read
+  bool is_over_ = false;               ///< the tape was read to its end, and not wound back
+  bool runs_next_ = false;             ///< the control has run the reader since
+  std::optional<LineTime> closes_at_;  ///< stopped after the last character: then it is over
+  bool is_back_pending_ = false;       ///< wound back, and whether text is left is not known
 };
 
 }  // namespace

@@ -29,27 +29,6 @@ class TapeReaderPortTest : public PortServiceTest {
   std::unique_ptr<PlayedControl> control_;
 };
 
-// With offer=repeat the tape stays in the reader: M30 winds it back, and the next start reads it.
-TEST_F(TapeReaderPortTest, KeepsATapeInTheReader) {
-  add_reader("repeat");
-  push("TK1", "%\nN1X1\nN2M30\n", "prototrak-plus");
-  ASSERT_TRUE(start("TK1"));
-  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
-  ASSERT_TRUE(control_->until([&] { return runs().size() == 2; }));
-  EXPECT_EQ(control_->programs.size(), 1U);
-  EXPECT_EQ(runs()[1].state, RunState::Completed);
-  EXPECT_EQ(runs()[0].program, "TK1");
-  EXPECT_EQ(runs()[0].author, "request from the control");
-  EXPECT_EQ(runs()[0].counters.sent, 0U) << "it waits for cycle start";
-  ASSERT_TRUE(control_->until([&] {
-    const auto machine = ports_->machines().machine("mill");
-    return machine->status && machine->status->execution == dds::Execution::Waiting;
-  }));
-  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
-  ASSERT_TRUE(control_->until([&] { return runs().size() == 3; }));
-  EXPECT_EQ(control_->programs.size(), 2U);
-}
-
 TEST_F(TapeReaderPortTest, DoesNotRepeatARunThatWasBrokenOff) {
   add_reader("repeat");
   push("TK1", "%\nN1X1\nN2M02\n%\nN1X2\nN2M30\n", "prototrak-plus");
@@ -59,18 +38,6 @@ TEST_F(TapeReaderPortTest, DoesNotRepeatARunThatWasBrokenOff) {
   ASSERT_TRUE(control_->line().begin_receive("%", control_->now()));  // in the middle of the tape
   ASSERT_TRUE(control_->until([&] { return runs().front().state == RunState::Interrupted; }));
   ASSERT_TRUE(control_->until([&] { return is_asked(); }));
-  EXPECT_EQ(runs().size(), 1U);
-}
-
-// Nothing is sent that nobody ordered: without the setting the request waits for a run.
-TEST_F(TapeReaderPortTest, SendsNothingByItself) {
-  add_reader("none");
-  push("TK1", "%\nN1X1\nN2M30\n", "prototrak-plus");
-  ASSERT_TRUE(start("TK1"));
-  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
-  ASSERT_TRUE(control_->until([&] { return runs().front().state == RunState::Completed; }));
-  ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
-  ASSERT_TRUE(control_->until([&] { return is_asked(); })) << "it was wound back";
   EXPECT_EQ(runs().size(), 1U);
 }
 
