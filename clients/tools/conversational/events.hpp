@@ -230,7 +230,7 @@ struct Miscellaneous {
   std::size_t feed_mode = 0;
   Entry feed;
   std::size_t spindle_mode = 0;
-  Entry speed;
+  Entry maximum_speed, speed;
   std::size_t gear = 0, spindle = 0, coolant = 0, compensation = 0, stop = 0, retract = 0;
   std::size_t cutting_mode = 0, program_mode = 0, work_coordinate = 0, option = 0;
   std::string text;  ///< a block of its own, as typed

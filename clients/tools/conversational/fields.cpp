@@ -143,6 +143,10 @@ void walk(Form& form, Miscellaneous& event) {
   choose("feed_per", "unit of feeds", kFeedModes, event.feed_mode);
   form.number({"feed", "F", Feed, "in force from this event on"}, event.feed);
   choose("spindle_mode", "unit of speeds", kSpindleModes, event.spindle_mode);
+  form.number(
+      Field{"maximum_speed", "RPM", Speed, "limit at constant surface speed"}.only(
+          kSpindleModes[event.spindle_mode].posted == "G96", "spindle_mode = surface speed"),
+      event.maximum_speed);
   form.number({"speed", "S", Speed, "in force from this event on"}, event.speed);
   choose("gear", "range of the spindle", kGears, event.gear);
   choose("spindle", "direction", kSpindles, event.spindle);

@@ -99,6 +99,7 @@ void post(Posting& out, const ToolSelection& event) {
 
 void post(Posting& out, const Miscellaneous& event) {
   out.block(BlockText(posted(kFeedModes, event.feed_mode)).word("F", event.feed));
+  if (event.maximum_speed) out.block(BlockText("G50").word("S", event.maximum_speed));
   out.block(BlockText(posted(kSpindleModes, event.spindle_mode)).word("S", event.speed));
   out.block(posted(kGears, event.gear));
   out.block(posted(kSpindles, event.spindle));

@@ -57,6 +57,12 @@ TEST(PostTools, PostsEachMiscellaneousChoice) {  // CEN-243
   EXPECT_EQ(posted(event("miscellaneous", "")), "");
 }
 
+TEST(PostTools, LimitsTheSpeedBeforeConstantSurfaceSpeed) {  // CEN-243
+  EXPECT_EQ(posted(event("miscellaneous",
+                         "spindle_mode = \"surface speed\"\nmaximum_speed = 1800\nspeed = 420")),
+            "G50 S1800\nG96 S420\n");
+}
+
 TEST(PostTools, CallsPrograms) {  // CEN-243
   EXPECT_EQ(posted(event("program_call", "program = 250\nrepeats = 4")), "CALL 250 L4\n");
   EXPECT_EQ(posted(event("program_call", "program = 3")), "CALL 3\n");

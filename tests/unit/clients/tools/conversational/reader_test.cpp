@@ -62,6 +62,9 @@ TEST(ConversationalReader, NamesEventFieldValueAndLimit) {
   EXPECT_EQ(error("miscellaneous", "text = \"A\\nB\""),
             "error: event 1 (miscellaneous), line 4: text has a character 0x0a: only those of "
             "plain text can be posted");
+  EXPECT_EQ(error("miscellaneous", "spindle_mode = \"rpm\"\nmaximum_speed = 1800"),
+            "error: event 1 (miscellaneous), line 4: maximum_speed does not apply here "
+            "(spindle_mode = surface speed)");
   EXPECT_EQ(error("mill", ""), "error: event 1, line 4: type = \"mill\" is not an event");
   EXPECT_EQ(error("thread_line", "z = -1\nlead = 1\nthreads_per_unit = 4"),
             "error: event 1 (thread_line), line 4: either lead or threads_per_unit must be given");
