@@ -5,6 +5,7 @@
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/edited_text.hpp"
 #include "clients/cli/offline/form_conversion.hpp"
+#include "clients/cli/offline/text_search_options.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -24,6 +25,7 @@ struct EditCommand {
   Texts values;                     ///< block numbers and words
   Texts omissions, shortenings;     ///< block numbers and addresses
   std::vector<std::string> wanted;  ///< addresses that are looked for
+  TextSearchOptions texts;
   std::optional<std::int32_t> increment;
   std::string setup;  ///< file with the control's options
   bool renumbers = false, protects = false, unprotects = false, is_trial = false;
@@ -114,6 +116,9 @@ Result<EditedProgram> change_blocks(const EditCommand& command, const EditedText
   auto changes = changes_of(command);
   if (!changes) return fail(changes.error());
   if (auto added = add_word_changes(command, original, *changes); !added) {
+    return fail(added.error());
+  }
+  if (auto added = command.texts.add_changes(original, *changes); !added) {
     return fail(added.error());
   }
   if (changes->empty()) return EditedProgram{original.text(), {}, 0};
@@ -215,17 +220,22 @@ int show_found(Context& context, const EditCommand& command, const EditedText& o
 
 /// Errors: Syntax (nothing to do, or two things that do not go together).
 Result<void> check_commands(const EditCommand& command) {
-  const bool has_changes = !command.deletions.empty() || !command.insertions.empty() ||
-                           !command.replacements.empty() || !command.values.empty() ||
-                           !command.omissions.empty() || !command.shortenings.empty() ||
-                           command.renumbers || command.protects || command.unprotects;
-  if (!has_changes && command.wanted.empty()) {
+  const bool has_changes =
+      !command.deletions.empty() || !command.insertions.empty() || !command.replacements.empty() ||
+      !command.values.empty() || !command.omissions.empty() || !command.shortenings.empty() ||
+      command.renumbers || command.protects || command.unprotects || command.texts.changes();
+  if (auto checked = command.texts.check(); !checked) return checked;
+  if (!has_changes && command.wanted.empty() && !command.texts.finds()) {
     return fail(Errc::Syntax,
                 "nothing to do: expected --delete, --replace, --insert-after, --set, --leave-out, "
-                "--shorten, --renumber, --protect, --unprotect or --find");
+                "--shorten, --change, --renumber, --protect, --unprotect, --find or --find-text");
   }
   if (has_changes && !command.wanted.empty()) {
     return fail(Errc::Syntax, "--find only shows blocks: expected no changes beside it");
+  }
+  if (command.texts.finds() && (has_changes || !command.wanted.empty())) {
+    return fail(Errc::Syntax,
+                "--find-text only shows lines: expected no changes and no --find beside it");
   }
   if (command.place.file.empty() == command.place.program.empty()) {
     return fail(Errc::Syntax, "expected FILE or --program NAME, and not both");
@@ -238,6 +248,7 @@ int edit(Context& context, const EditCommand& command) {
   EditedText original(context, command.place);
   if (!original.is_open()) return context.status;
   if (!command.wanted.empty()) return show_found(context, command, original);
+  if (command.texts.finds()) return command.texts.show(context, original);
   const auto edited = edited_program(command, original);
   if (!edited) {
     complain(edited.error());
@@ -312,6 +323,7 @@ void add_edit_command(Command app, Context& context) {
       .type_name("BLOCK TEXT")
       .allow_extra_args(false);
   add_word_options(command, *options);
+  options->texts.add_to(command);
   auto renumber = command
                       .add_option("--renumber", options->increment,
                                   "Renumber all blocks as the control does; in ISO with this step, "
@@ -333,10 +345,12 @@ void add_edit_command(Command app, Context& context) {
       "after\n"
       "it are renumbered. Words are named by their address as written in the block (X is not IX);\n"
       "values are set first, then words are removed. Blocks of other controls are named by line,\n"
-      "and have no words. The changed blocks are shown; a file is replaced as a whole or not at "
+      "and have no words, but --find-text and --change take any text of a line.\nThe changed "
+      "blocks are shown; a file is replaced as a whole or not at "
       "all.\n\nExit status: 0 done, 1 the control or the server refused and nothing was changed, 2 "
       "usage.\n\nExamples:\n  dnc edit 15.h --delete 5..7 --insert-after 9 \"L X+10 R0 F MAX M\"\n "
       " dnc edit 15.h --set 4 F250 --leave-out 5 M\n  dnc edit 15.h --find \"TOOL CALL\"\n  dnc "
+      "edit O0200 --change T0101 T0202 --whole-words --within 10..40\n  dnc "
       "edit --program 15.h --replace 4 \"TOOL CALL 2 Z S800\" --comment \"new tool\"");
   command.callback([&context, options, renumber] {
     options->renumbers = renumber.count() > 0;

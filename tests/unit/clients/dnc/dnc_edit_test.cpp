@@ -172,6 +172,39 @@ TEST_F(DncEdit, GoesByLinesForOtherControls) {
   EXPECT_EQ(dnc({"edit", "a.nc", "--control", "fanuc", "--renumber"}).status, 2);
 }
 
+// CEN-209
+TEST_F(DncEdit, FindsAndChangesTextsOfLines) {
+  const std::string program = "O0001\nT0101\nG1 X1\nG10 X2\nt0101\n";
+  dnc.write("O0001", program);
+  const std::vector<std::string> edit{"edit", "O0001", "--control", "centurion"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), edit.begin(), edit.end());
+    return dnc(more);
+  };
+  EXPECT_EQ(with({"--find-text", "G1", "--whole-words"}).out, "3: G1 X1\n");
+  EXPECT_EQ(with({"--find-text", "M30"}).out, "No line has M30.\n");
+  const auto shown = with({"--find-text", "G1", "--within", "4..5", "--json"});
+  EXPECT_EQ(json::parse(shown.out).at("blocks"),
+            json::parse(R"([{"block":4,"line":4,"text":"G10 X2"}])"));
+  EXPECT_EQ(with({"--change", "M30", "M2"}).status, 1);
+  EXPECT_EQ(with({"--find-text", "G1", "--change", "G1", "G0"}).status, 2);
+  EXPECT_EQ(with({"--ignore-case", "--delete", "1"}).status, 2);
+  EXPECT_EQ(dnc.read("O0001"), program) << "nothing was written";
+  const auto changed = with({"--change", "T0101", "T0202", "--ignore-case"});
+  EXPECT_EQ(changed.status, 0) << changed.err;
+  EXPECT_EQ(dnc.read("O0001"), "O0001\nT0202\nG1 X1\nG10 X2\nT0202\n");
+}
+
+// HD-061
+TEST_F(DncEdit, LeavesTextSearchToControlsThatKeepLines) {
+  dnc.write("15.h", kProgram);
+  const auto refused = dnc({"edit", "15.h", "--change", "F200", "F300"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.err,
+            "dnc: 15.h: its control keeps numbered blocks of words: use --find and --set\n");
+  EXPECT_EQ(dnc.read("15.h"), kProgram);
+}
+
 // HD-061
 TEST_F(DncEdit, StoresANewRevisionOfAProgramOnTheServer) {
   FakeServer server;
