@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/offline/event_editing.hpp"
 #include "clients/cli/port/port_file.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/table.hpp"
@@ -164,6 +165,7 @@ void add_conversational_commands(Command app, Context& context) {
   add_post(group, context, options);
   add_events(group, context, options);
   add_new(group, context, options);
+  add_event_editing(group, context);
   group.footer(
       "Example:\n  dnc conversational new --program 400 -o pin.toml\n"
       "  dnc conversational post pin.toml -o O0400\n  dnc check --control centurion O0400");

@@ -24,6 +24,29 @@ TEST_F(DncConversational, PostsAFileOfEvents) {  // CEN-210
   EXPECT_EQ(dnc.read("O0061"), program);
 }
 
+TEST_F(DncConversational, ListsInsertsAndDeletesEvents) {  // CEN-210
+  const std::string file =
+      "[[event]]\ntype = \"program_setup\"\nprogram = 61\n\n"
+      "[[event]]\ntype = \"end_of_program\"\n";
+  dnc.write("a.toml", file);
+  const auto inserted = dnc({"conversational", "insert", "a.toml", "--before", "1", "--text",
+                             "[[event]]\ntype = \"tool_call\"\ntool = 3"});
+  EXPECT_EQ(inserted.status, 0) << inserted.err;
+  const auto found = dnc({"conversational", "list", "a.toml", "--tool", "3", "--json"});
+  EXPECT_EQ(
+      nlohmann::json::parse(found.out).at("events"),
+      nlohmann::json::parse(R"([{"event":1,"type":"tool_call","line":5,"fields":"tool = 3"}])"));
+  EXPECT_EQ(dnc({"conversational", "list", "a.toml", "--type", "drill"}).out,
+            "No event matches.\n");
+  const auto refused = dnc({"conversational", "delete", "a.toml", "1..2"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err,
+            "dnc: a.toml: event 2 is the program's last: it is changed, not deleted\n");
+  EXPECT_EQ(dnc({"conversational", "delete", "a.toml", "1-2"}).status, 2);
+  EXPECT_EQ(dnc({"conversational", "delete", "a.toml", "1"}).status, 0);
+  EXPECT_EQ(dnc.read("a.toml"), file);
+}
+
 TEST_F(DncConversational, NamesWhatIsWrongAndWritesNothing) {
   dnc.write("a.toml",
             "[[event]]\ntype = \"program_setup\"\nprogram = 61\n"
