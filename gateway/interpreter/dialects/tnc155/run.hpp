@@ -101,7 +101,7 @@ struct Run : BlockRun {
   std::vector<ToolName> tool_names;                 ///< of the setup's tools that have one
   std::optional<DefinitionAhead> definition_ahead;  ///< for the TOOL CALL being executed
 
-  std::uint64_t q_changes = 0;  ///< how often a Q parameter was set
+  std::uint64_t q_changes = 0;         ///< how often a Q parameter was set
   std::optional<MaskText> mask;        ///< of the FN 16 being executed
   std::optional<ProgramIndex> called;  ///< by the jump that is being taken: it was found
 
