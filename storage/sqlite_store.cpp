@@ -5,22 +5,8 @@
 #include <mutex>
 #include <thread>
 
-#include "storage/impl/account_repository.hpp"
-#include "storage/impl/archive_repository.hpp"
-#include "storage/impl/job_repository.hpp"
-#include "storage/impl/measurement_repository.hpp"
-#include "storage/impl/offset_repository.hpp"
-#include "storage/impl/programs/attachment_repository.hpp"
-#include "storage/impl/programs/folder_repository.hpp"
-#include "storage/impl/programs/import_repository.hpp"
-#include "storage/impl/programs/program_repository.hpp"
-#include "storage/impl/programs/release_repository.hpp"
-#include "storage/impl/programs/search_repository.hpp"
-#include "storage/impl/programs/upload_repository.hpp"
-#include "storage/impl/record_reader_repository.hpp"
-#include "storage/impl/report_template_repository.hpp"
-#include "storage/impl/repositories.hpp"
-#include "storage/impl/webhook_repository.hpp"
+#include "storage/impl/all_repositories.hpp"
+#include "storage/impl/sqlite_connections.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -58,76 +44,28 @@ class Deadline {
 
 }  // namespace
 
-struct SqliteStore::Repositories {
-  Repositories(std::unique_ptr<Connections> opened, const Clock& clock, std::uint64_t cache_bytes)
-      : connections(std::move(opened)),
-        programs(*connections, clock, cache_bytes),
-        uploads(*connections, clock),
-        machines(*connections),
-        runs(*connections, clock),
-        records(*connections, clock),
-        ports(*connections),
-        setups(*connections, clock),
-        audit(*connections),
-        accounts(*connections),
-        releases(*connections),
-        imports(*connections),
-        report_templates(*connections),
-        measurements(*connections),
-        archives(*connections),
-        offsets(*connections),
-        attachments(*connections, uploads, clock),
-        search(*connections),
-        folders(*connections),
-        jobs(*connections),
-        webhooks(*connections),
-        record_readers(*connections) {}
+struct SqliteStore::Parts {
+  Parts(std::unique_ptr<SqliteConnections> opened, const Clock& clock, std::uint64_t cache_bytes)
+      : connections(std::move(opened)), repositories(*connections, clock, cache_bytes) {}
 
-  std::unique_ptr<Connections> connections;
-  ProgramRepository programs;
-  UploadRepository uploads;
-  MachineRepository machines;
-  RunRepository runs;
-  RecordRepository records;
-  PortRepository ports;
-  SetupRepository setups;
-  AuditRepository audit;
-  AccountRepository accounts;
-  ReleaseRepository releases;
-  ImportRepository imports;
-  ReportTemplateRepository report_templates;
-  MeasurementRepository measurements;
-  ArchiveRepository archives;
-  OffsetRepository offsets;
-  AttachmentRepository attachments;
-  SearchRepository search;
-  FolderRepository folders;
-  JobRepository jobs;
-  WebhookRepository webhooks;
-  RecordReaderRepository record_readers;
+  std::unique_ptr<SqliteConnections> connections;
+  Repositories repositories;
 };
 
 Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
                                                        const Clock& clock) {
-  auto connections = Connections::open(options);
+  auto connections = SqliteConnections::open(options);
   if (!connections) return fail(connections.error());
   return std::unique_ptr<SqliteStore>(new SqliteStore(
-      std::make_unique<Repositories>(std::move(*connections), clock, options.cache_bytes)));
+      std::make_unique<Parts>(std::move(*connections), clock, options.cache_bytes)));
 }
 
-SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
-    : Store{repositories->programs,     repositories->uploads,  repositories->machines,
-            repositories->runs,         repositories->records,  repositories->ports,
-            repositories->setups,       repositories->audit,    repositories->accounts,
-            repositories->releases,     repositories->imports,  repositories->report_templates,
-            repositories->measurements, repositories->archives, repositories->offsets,
-            repositories->attachments,  repositories->search,   repositories->folders,
-            repositories->jobs,         repositories->webhooks, repositories->record_readers},
-      repositories_(std::move(repositories)) {}
+SqliteStore::SqliteStore(std::unique_ptr<Parts> parts)
+    : OpenedStore(parts->repositories.store()), parts_(std::move(parts)) {}
 SqliteStore::~SqliteStore() = default;
 
 Result<bool> SqliteStore::check(std::chrono::milliseconds limit, const std::stop_token& stop) {
-  return repositories_->connections->read([&](sqlite::Database& database) -> Result<bool> {
+  return parts_->connections->read_file([&](sqlite::Database& database) -> Result<bool> {
     const Deadline deadline(database, limit, stop);
     const auto verdict = database.text("PRAGMA quick_check(1)");
     if (deadline.has_passed()) return false;
@@ -140,34 +78,33 @@ Result<bool> SqliteStore::check(std::chrono::milliseconds limit, const std::stop
 Result<void> SqliteStore::probe() {
   // Its own value again: the page is written and synchronized all the same, and no table is needed.
   std::int64_t id = 0;
-  const auto written =
-      repositories_->connections->write([&](sqlite::Database& database) -> Result<void> {
-        const auto now = database.integer("PRAGMA application_id");
-        if (!now) return fail(now.error());
-        id = *now;
-        return database.execute("PRAGMA application_id = " + std::to_string(id));
-      });
+  const auto written = parts_->connections->write([&](sql::Database& database) -> Result<void> {
+    const auto now = database.integer("PRAGMA application_id");
+    if (!now) return fail(now.error());
+    id = *now;
+    return database.execute("PRAGMA application_id = " + std::to_string(id));
+  });
   if (!written) return written;
-  return repositories_->connections->read([&](sqlite::Database& database) -> Result<void> {
+  return parts_->connections->read([&](sql::Database& database) -> Result<void> {
     const auto read = database.integer("PRAGMA application_id");
     if (!read) return fail(read.error());
     const auto tables = database.integer("SELECT COUNT(*) FROM sqlite_schema");
     if (!tables) return fail(tables.error());
     if (*read == id) return {};
-    return fail(Errc::Corrupt, "database {} gives another value than was written", database.file());
+    return fail(Errc::Corrupt, "the database gives another value than was written");
   });
 }
 
 Result<bool> SqliteStore::copy_to(
     const std::filesystem::path& file,
     const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) {
-  return repositories_->connections->read(
+  return parts_->connections->read_file(
       [&](sqlite::Database& database) -> Result<bool> { return database.copy_to(file, proceed); });
 }
 
 Result<std::string> SqliteStore::identity() {
-  return repositories_->connections->read(
-      [](sqlite::Database& database) { return database.text("SELECT id FROM identity"); });
+  return parts_->connections->read(
+      [](sql::Database& database) { return database.text("SELECT id FROM identity"); });
 }
 
 Result<std::string> check_copy(const std::filesystem::path& file) {

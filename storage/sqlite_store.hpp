@@ -8,7 +8,7 @@
 #include <stop_token>
 
 #include "protocol/base/clock.hpp"
-#include "storage/store.hpp"
+#include "storage/opened_store.hpp"
 
 namespace dripline::storage {
 
@@ -23,34 +23,27 @@ struct SqliteStoreOptions {
 /// The first Store: one SQLite file. Writes run one at a time on one connection, each on disk when
 /// it returns (except RunStore::update_counters); reads run beside them, each on one consistent
 /// snapshot. One process uses a file at a time.
-class SqliteStore final : public Store {
+class SqliteStore final : public OpenedStore {
  public:
   /// Creates or migrates the file. `clock` must outlive the store. Errors: Busy (another process
   /// uses the file), Unsupported (a newer version's file), Corrupt, Io.
   static Result<std::unique_ptr<SqliteStore>> open(const SqliteStoreOptions& options,
                                                    const Clock& clock);
-  ~SqliteStore();
-  SqliteStore(const SqliteStore&) = delete;
-  SqliteStore& operator=(const SqliteStore&) = delete;
+  ~SqliteStore() override;
 
-  /// Searches the whole file for damage of its structure (not of program content, which is checked
-  /// whenever it is read), for at most `limit` or until `stop`. False: the time was not enough, and
-  /// no damage was found so far. Reads and writes continue beside it. Errors: Corrupt.
-  Result<bool> check(std::chrono::milliseconds limit = std::chrono::hours(24),
-                     const std::stop_token& stop = {});
-  /// Writes something small onto the disk, and reads it. Errors: Io (a full disk), Corrupt, Busy.
-  Result<void> probe();
-  /// A copy of the file as it is now, while everything works; see sqlite::Database::copy_to. Until
-  /// it is complete the log of changes (the file beside, "-wal") grows with what is written.
+  using OpenedStore::check;
+  Result<bool> check(std::chrono::milliseconds limit, const std::stop_token& stop) override;
+  Result<void> probe() override;
+  /// See sqlite::Database::copy_to. Until it is complete the log of changes (the file beside,
+  /// "-wal") grows with what is written.
   Result<bool> copy_to(const std::filesystem::path& file,
-                       const std::function<bool(std::uint64_t, std::uint64_t)>& proceed);
-  /// Made together with the database and never changed: 32 hexadecimal digits.
-  Result<std::string> identity();
+                       const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) override;
+  Result<std::string> identity() override;
 
  private:
-  struct Repositories;
-  explicit SqliteStore(std::unique_ptr<Repositories> repositories);
-  std::unique_ptr<Repositories> repositories_;
+  struct Parts;
+  explicit SqliteStore(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
 };
 
 /// A file that no process uses, as a backup's copy is: searches the whole of it for damage.

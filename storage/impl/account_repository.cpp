@@ -3,7 +3,7 @@
 #include <map>
 
 #include "storage/impl/programs/content.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -22,7 +22,7 @@ struct UserRow {
   std::string role, state;
 };
 
-UserRow read_user(const sqlite::Statement& row) {
+UserRow read_user(const sql::Statement& row) {
   UserRow read;
   read.user.name = row.text(0);
   read.role = row.text(1);
@@ -38,7 +38,7 @@ struct CredentialRow {
   std::string kind, role;
 };
 
-CredentialRow read_credential(const sqlite::Statement& row) {
+CredentialRow read_credential(const sql::Statement& row) {
   CredentialRow read;
   Credential& credential = read.credential;
   credential.user = row.text(0);
@@ -56,23 +56,23 @@ CredentialRow read_credential(const sqlite::Statement& row) {
 
 /// (what has it, the group or machine).
 using Membership = std::pair<std::string, std::string>;
-Membership read_membership(const sqlite::Statement& row) {
+Membership read_membership(const sql::Statement& row) {
   return {row.text(0), row.text(1)};
 }
 struct CredentialMembership {
   std::string user, name, group;
 };
-CredentialMembership read_credential_membership(const sqlite::Statement& row) {
+CredentialMembership read_credential_membership(const sql::Statement& row) {
   return {row.text(0), row.text(1), row.text(2)};
 }
 
-Result<std::vector<User>> load_users(sqlite::Database& database) {
-  const auto rows = sqlite::all_rows(
-      database, "SELECT name, role, password, state, created_us, signed_in_us FROM user",
+Result<std::vector<User>> load_users(sql::Database& database) {
+  const auto rows = sql::all_rows(
+      database, "SELECT name, role, password, state, created_us, signed_in_us FROM \"user\" ORDER BY name",
       read_user);
   if (!rows) return fail(rows.error());
   const auto groups =
-      sqlite::all_rows(database, "SELECT user, machine_group FROM user_group", read_membership);
+      sql::all_rows(database, "SELECT \"user\", machine_group FROM user_group", read_membership);
   if (!groups) return fail(groups.error());
   std::multimap<std::string, std::string> groups_of(groups->begin(), groups->end());
   std::vector<User> users;
@@ -91,16 +91,16 @@ Result<std::vector<User>> load_users(sqlite::Database& database) {
   return users;
 }
 
-Result<std::vector<Credential>> load_credentials(sqlite::Database& database) {
-  const auto rows = sqlite::all_rows(
+Result<std::vector<Credential>> load_credentials(sql::Database& database) {
+  const auto rows = sql::all_rows(
       database,
-      "SELECT user, name, kind, sha256, role, has_groups, created_us, expires_us, used_us, "
-      "used_from FROM credential",
+      "SELECT \"user\", name, kind, sha256, role, has_groups, created_us, expires_us, used_us, "
+      "used_from FROM credential ORDER BY \"user\", name",
       read_credential);
   if (!rows) return fail(rows.error());
   const auto memberships =
-      sqlite::all_rows(database, "SELECT user, name, machine_group FROM credential_group",
-                       read_credential_membership);
+      sql::all_rows(database, "SELECT \"user\", name, machine_group FROM credential_group",
+                    read_credential_membership);
   if (!memberships) return fail(memberships.error());
   std::map<std::pair<std::string, std::string>, std::set<std::string>> groups_of;
   for (const auto& row : *memberships) groups_of[{row.user, row.name}].insert(row.group);
@@ -119,13 +119,13 @@ Result<std::vector<Credential>> load_credentials(sqlite::Database& database) {
   return credentials;
 }
 
-Result<std::vector<MachineGroup>> load_groups(sqlite::Database& database) {
+Result<std::vector<MachineGroup>> load_groups(sql::Database& database) {
   const auto rows =
-      sqlite::all_rows(database,
-                       "SELECT machine_group.name, coalesce(machine, '') FROM machine_group "
-                       "LEFT JOIN machine_group_member ON machine_group = name "
-                       "ORDER BY name, machine",
-                       read_membership);
+      sql::all_rows(database,
+                    "SELECT machine_group.name, coalesce(machine, '') FROM machine_group "
+                    "LEFT JOIN machine_group_member ON machine_group = name "
+                    "ORDER BY name, machine",
+                    read_membership);
   if (!rows) return fail(rows.error());
   std::vector<MachineGroup> groups;
   for (const auto& [name, machine] : *rows) {
@@ -135,12 +135,12 @@ Result<std::vector<MachineGroup>> load_groups(sqlite::Database& database) {
   return groups;
 }
 
-Result<void> remove_credential(sqlite::Database& database, const std::string& user,
+Result<void> remove_credential(sql::Database& database, const std::string& user,
                                const std::string& name) {
-  return sqlite::run(database, "DELETE FROM credential WHERE user = ?1 AND name = ?2", user, name);
+  return sql::run(database, "DELETE FROM credential WHERE \"user\" = ?1 AND name = ?2", user, name);
 }
 
-Result<void> remove_each(sqlite::Database& database, const std::string& user,
+Result<void> remove_each(sql::Database& database, const std::string& user,
                          const std::vector<std::string>& names) {
   Result<void> done;
   for (auto name = names.begin(); done && name != names.end(); ++name) {
@@ -149,19 +149,19 @@ Result<void> remove_each(sqlite::Database& database, const std::string& user,
   return done;
 }
 
-Result<void> save_user_groups(sqlite::Database& database, const User& user) {
-  auto done = sqlite::run(database, "DELETE FROM user_group WHERE user = ?1", user.name);
+Result<void> save_user_groups(sql::Database& database, const User& user) {
+  auto done = sql::run(database, "DELETE FROM user_group WHERE \"user\" = ?1", user.name);
   for (auto group = user.groups.begin(); done && group != user.groups.end(); ++group) {
-    done = sqlite::run(database, "INSERT INTO user_group (user, machine_group) VALUES (?1, ?2)",
-                       user.name, *group);
+    done = sql::run(database, "INSERT INTO user_group (\"user\", machine_group) VALUES (?1, ?2)",
+                    user.name, *group);
   }
   return done;
 }
 
-Result<void> insert_credential(sqlite::Database& database, const Credential& credential) {
-  auto done = sqlite::run(
+Result<void> insert_credential(sql::Database& database, const Credential& credential) {
+  auto done = sql::run(
       database,
-      "INSERT INTO credential (user, name, kind, sha256, role, has_groups, created_us, "
+      "INSERT INTO credential (\"user\", name, kind, sha256, role, has_groups, created_us, "
       "expires_us, used_us, used_from) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
       credential.user, credential.name, to_string(credential.kind),
       std::span<const std::byte>(credential.sha256.bytes), to_string(credential.role),
@@ -170,9 +170,10 @@ Result<void> insert_credential(sqlite::Database& database, const Credential& cre
   if (!credential.groups) return done;
   for (auto group = credential.groups->begin(); done && group != credential.groups->end();
        ++group) {
-    done = sqlite::run(
-        database, "INSERT INTO credential_group (user, name, machine_group) VALUES (?1, ?2, ?3)",
-        credential.user, credential.name, *group);
+    done =
+        sql::run(database,
+                 "INSERT INTO credential_group (\"user\", name, machine_group) VALUES (?1, ?2, ?3)",
+                 credential.user, credential.name, *group);
   }
   return done;
 }
@@ -180,7 +181,7 @@ Result<void> insert_credential(sqlite::Database& database, const Credential& cre
 }  // namespace
 
 Result<AccountData> AccountRepository::load() {
-  return connections_.read([](sqlite::Database& database) -> Result<AccountData> {
+  return connections_.read([](sql::Database& database) -> Result<AccountData> {
     auto users = load_users(database);
     if (!users) return fail(users.error());
     auto credentials = load_credentials(database);
@@ -192,10 +193,10 @@ Result<AccountData> AccountRepository::load() {
 }
 
 Result<void> AccountRepository::save_user(const User& user, const std::vector<std::string>& ended) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    auto done = sqlite::run(
+  return connections_.write([&](sql::Database& database) -> Result<void> {
+    auto done = sql::run(
         database,
-        "INSERT INTO user (name, role, password, state, created_us, signed_in_us) "
+        "INSERT INTO \"user\" (name, role, password, state, created_us, signed_in_us) "
         "VALUES (?1, ?2, ?3, ?4, ?5, ?6) ON CONFLICT (name) DO UPDATE SET role = excluded.role, "
         "password = excluded.password, state = excluded.state, "
         "signed_in_us = excluded.signed_in_us",
@@ -204,7 +205,7 @@ Result<void> AccountRepository::save_user(const User& user, const std::vector<st
     if (done) done = save_user_groups(database, user);
     if (!done) return done;
     if (user.state == UserState::Removed) {
-      return sqlite::run(database, "DELETE FROM credential WHERE user = ?1", user.name);
+      return sql::run(database, "DELETE FROM credential WHERE \"user\" = ?1", user.name);
     }
     return remove_each(database, user.name, ended);
   });
@@ -212,7 +213,7 @@ Result<void> AccountRepository::save_user(const User& user, const std::vector<st
 
 Result<void> AccountRepository::save_credential(const Credential& credential,
                                                 const std::vector<std::string>& ended) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     auto done = remove_each(database, credential.user, ended);
     if (done) done = remove_credential(database, credential.user, credential.name);
     if (!done) return done;
@@ -223,16 +224,16 @@ Result<void> AccountRepository::save_credential(const Credential& credential,
 Result<void> AccountRepository::remove_credentials(const std::string& user,
                                                    const std::vector<std::string>& names) {
   return connections_.write(
-      [&](sqlite::Database& database) { return remove_each(database, user, names); });
+      [&](sql::Database& database) { return remove_each(database, user, names); });
 }
 
 Result<void> AccountRepository::note_uses(const std::vector<CredentialUse>& uses) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     Result<void> done;
     for (auto use = uses.begin(); done && use != uses.end(); ++use) {
-      done = sqlite::run(
+      done = sql::run(
           database,
-          "UPDATE credential SET used_us = ?3, used_from = ?4 WHERE user = ?1 AND name = ?2",
+          "UPDATE credential SET used_us = ?3, used_from = ?4 WHERE \"user\" = ?1 AND name = ?2",
           use->user, use->name, use->used, use->from);
     }
     return done;
@@ -240,27 +241,27 @@ Result<void> AccountRepository::note_uses(const std::vector<CredentialUse>& uses
 }
 
 Result<void> AccountRepository::save_group(const MachineGroup& group) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    auto done = sqlite::run(
+  return connections_.write([&](sql::Database& database) -> Result<void> {
+    auto done = sql::run(
         database, "INSERT INTO machine_group (name) VALUES (?1) ON CONFLICT (name) DO NOTHING",
         group.name);
     if (done) {
-      done = sqlite::run(database, "DELETE FROM machine_group_member WHERE machine_group = ?1",
-                         group.name);
+      done = sql::run(database, "DELETE FROM machine_group_member WHERE machine_group = ?1",
+                      group.name);
     }
     for (auto machine = group.machines.begin(); done && machine != group.machines.end();
          ++machine) {
-      done = sqlite::run(
-          database, "INSERT INTO machine_group_member (machine_group, machine) VALUES (?1, ?2)",
-          group.name, *machine);
+      done = sql::run(database,
+                      "INSERT INTO machine_group_member (machine_group, machine) VALUES (?1, ?2)",
+                      group.name, *machine);
     }
     return done;
   });
 }
 
 Result<void> AccountRepository::remove_group(const std::string& name) {
-  return connections_.write([&](sqlite::Database& database) {
-    return sqlite::run(database, "DELETE FROM machine_group WHERE name = ?1", name);
+  return connections_.write([&](sql::Database& database) {
+    return sql::run(database, "DELETE FROM machine_group WHERE name = ?1", name);
   });
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "storage/impl/programs/content.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -21,7 +21,8 @@ const std::string kFirstRunFacts =
     "run.revision || ' ' || "
     "hex(run.control) || ' ' || hex(run.state) || ' ' || run.sent || ' ' || run.accepted || ' ' || "
     "run.executed || ' ' || run.line || ' ' || run.sequence || ' ' || hex(run.reason) || ' ' || "
-    "quote(CAST(run.executed_content AS BLOB)) || ' ' || quote(run.content_verified) || ' ' || "
+    "CASE WHEN run.executed_content IS NULL THEN 'NULL' ELSE 'X''' || hex(run.executed_content) || "
+    "'''' END || ' ' || quote(run.content_verified) || ' ' || "
     "hex(run.author) || ' ' || run.created_us || ' ' || quote(run.started_us) || ' ' || "
     "quote(run.ended_us) || ' ' || quote(run.setup) || ' ' || quote(run.sha256) || ' ' || "
     "hex(run.allowed_as) || ' ' || quote(run.approval) ";
@@ -29,19 +30,20 @@ const std::string kFirstRunFacts =
 /// older runs are as they were.
 const std::string kRunFacts =
     kFirstRunFacts +
-    "|| iif(run.gateway_setup IS NULL, '', ' setup ' || hex(run.gateway_setup)) || "
+    "|| CASE WHEN run.gateway_setup IS NULL THEN '' ELSE ' setup ' || hex(run.gateway_setup) END "
+    "|| "
     "coalesce((SELECT group_concat("
     "' call ' || hex(name) || ' ' || program || ' ' || revision || ' ' || hex(sha256), '') FROM "
-    "(SELECT * FROM run_call WHERE run_call.run = run.number ORDER BY name)), '') ";
+    "(SELECT * FROM run_call WHERE run_call.run = run.number ORDER BY name) AS calls), '') ";
 constexpr const char* kRunEnd = "run.end";
 
-Entry read_entry(const sqlite::Statement& row) {
+Entry read_entry(const sql::Statement& row) {
   return {row.number(0), row.time(1), row.text(2), row.text(3),
           row.text(4),   row.text(5), row.text(6), row.text(7)};
 }
 
 /// A row without one is damaged: no chain has this digest.
-Digest read_chain(const sqlite::Statement& row, int column) {
+Digest read_chain(const sql::Statement& row, int column) {
   return row.is_null(column) ? Digest{} : read_digest(row, column);
 }
 
@@ -51,12 +53,11 @@ struct ChainEnd {
 };
 
 /// Where the next entry goes.
-Result<ChainEnd> chain_end(sqlite::Database& database) {
-  const auto last =
-      sqlite::first_row(database, "SELECT id, chain FROM audit ORDER BY id DESC LIMIT 1",
-                        [](const sqlite::Statement& row) {
-                          return ChainEnd{row.number(0), read_chain(row, 1)};
-                        });
+Result<ChainEnd> chain_end(sql::Database& database) {
+  const auto last = sql::first_row(database, "SELECT id, chain FROM audit ORDER BY id DESC LIMIT 1",
+                                   [](const sql::Statement& row) {
+                                     return ChainEnd{row.number(0), read_chain(row, 1)};
+                                   });
   if (!last) return fail(last.error());
   if (*last) return **last;
   const auto identity = database.text("SELECT id FROM identity");
@@ -70,7 +71,7 @@ std::string_view digest_in(std::string_view detail) {
   return detail.size() < kHex ? detail : detail.substr(detail.size() - kHex);
 }
 
-ChainedEntry read_chained(const sqlite::Statement& row) {
+ChainedEntry read_chained(const sql::Statement& row) {
   ChainedEntry chained{read_entry(row), read_chain(row, 8), ""};
   if (chained.entry.action != kRunEnd) return chained;
   const std::string& run = chained.entry.subject;
@@ -82,13 +83,13 @@ ChainedEntry read_chained(const sqlite::Statement& row) {
   return chained;
 }
 
-Result<void> set_chain(sqlite::Database& database, std::uint64_t number, const Digest& digest) {
-  return sqlite::run(database, "UPDATE audit SET chain = ?2 WHERE id = ?1", number,
-                     std::span<const std::byte>(digest.bytes));
+Result<void> set_chain(sql::Database& database, std::uint64_t number, const Digest& digest) {
+  return sql::run(database, "UPDATE audit SET chain = ?2 WHERE id = ?1", number,
+                  std::span<const std::byte>(digest.bytes));
 }
 
 /// A piece at a time: a trail may be long.
-Result<void> chain_entries(sqlite::Database& database) {
+Result<void> chain_entries(sql::Database& database) {
   constexpr std::uint64_t kPiece = 10'000;
   static const std::string kSql =
       "SELECT " + kEntryColumns + "FROM audit WHERE id > ?1 ORDER BY id LIMIT ?2";
@@ -96,7 +97,7 @@ Result<void> chain_entries(sqlite::Database& database) {
   if (!identity) return fail(identity.error());
   ChainEnd end{0, audit::chain_begin(*identity)};
   for (;;) {
-    const auto entries = sqlite::all_rows(database, kSql, read_entry, end.number, kPiece);
+    const auto entries = sql::all_rows(database, kSql, read_entry, end.number, kPiece);
     if (!entries) return fail(entries.error());
     if (entries->empty()) return {};
     for (const Entry& entry : *entries) {
@@ -108,13 +109,13 @@ Result<void> chain_entries(sqlite::Database& database) {
 
 }  // namespace
 
-Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry) {
+Result<void> add_audit(sql::Database& database, const AuditEntry& entry) {
   const auto end = chain_end(database);
   if (!end) return fail(end.error());
   const Entry next{end->number + 1,   entry.time,   entry.who.name, entry.who.credential,
                    entry.who.address, entry.action, entry.subject,  entry.detail};
   const Digest digest = audit::chain_next(end->digest, audit::line_of(next));
-  return sqlite::run(
+  return sql::run(
       database,
       "INSERT INTO audit (id, time_us, who, action, subject, detail, credential, address, chain) "
       "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
@@ -134,11 +135,10 @@ std::string select_end(const std::string& facts) {
          "(SELECT 1 FROM audit WHERE audit.subject = run.id AND audit.action = 'run.end')";
 }
 
-Result<void> add_run_end(sqlite::Database& database, const std::string& sql,
-                         const std::string& run) {
-  const auto entry = sqlite::first_row(
+Result<void> add_run_end(sql::Database& database, const std::string& sql, const std::string& run) {
+  const auto entry = sql::first_row(
       database, sql,
-      [&](const sqlite::Statement& row) {
+      [&](const sql::Statement& row) {
         const std::string reason = row.text(5);
         return AuditEntry{
             row.time(6),
@@ -156,17 +156,17 @@ Result<void> add_run_end(sqlite::Database& database, const std::string& sql,
 
 }  // namespace
 
-Result<void> add_run_end(sqlite::Database& database, const std::string& run) {
+Result<void> add_run_end(sql::Database& database, const std::string& run) {
   static const std::string kSql = select_end(kRunFacts);
   return add_run_end(database, kSql, run);
 }
 
-Result<void> begin_chain(sqlite::Database& database) {
+Result<void> begin_chain(sql::Database& database) {
   static const std::string kSql = select_end(kFirstRunFacts);
   if (auto chained = chain_entries(database); !chained) return chained;
-  const auto ended = sqlite::all_rows(
+  const auto ended = sql::all_rows(
       database, "SELECT id FROM run WHERE state NOT IN ('ordered', 'active') ORDER BY number",
-      [](const sqlite::Statement& row) { return row.text(0); });
+      [](const sql::Statement& row) { return row.text(0); });
   if (!ended) return fail(ended.error());
   for (const auto& run : *ended) {
     if (auto added = add_run_end(database, kSql, run); !added) return added;
@@ -175,17 +175,17 @@ Result<void> begin_chain(sqlite::Database& database) {
 }
 
 Result<void> AuditRepository::add(const AuditEntry& entry) {
-  return connections_.write([&](sqlite::Database& database) { return add_audit(database, entry); });
+  return connections_.write([&](sql::Database& database) { return add_audit(database, entry); });
 }
 
 Result<std::vector<AuditEntry>> AuditRepository::list(Page page) {
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(
         database,
         "SELECT time_us, who, action, subject, detail, credential, address FROM audit "
         "ORDER BY id DESC "
         "LIMIT ?1 OFFSET ?2",
-        [](const sqlite::Statement& row) {
+        [](const sql::Statement& row) {
           return AuditEntry{row.time(0),
                             {row.text(1), row.text(5), row.text(6)},
                             row.text(2),
@@ -202,19 +202,19 @@ Result<std::vector<ChainedEntry>> AuditRepository::chained(std::uint64_t after,
       "SELECT " + kEntryColumns + ", " + kRunFacts +
       "FROM audit LEFT JOIN run ON audit.action = 'run.end' AND run.id = audit.subject "
       "WHERE audit.id > ?1 ORDER BY audit.id LIMIT ?2";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSql, read_chained, after, limit);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSql, read_chained, after, limit);
   });
 }
 
 Result<std::vector<audit::Checkpoint>> AuditRepository::checkpoints(std::uint64_t after,
                                                                     std::uint64_t limit) {
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(
         database,
         "SELECT number, entry, time_us, chain, signature FROM audit_checkpoint WHERE number > ?1 "
         "ORDER BY number LIMIT ?2",
-        [](const sqlite::Statement& row) {
+        [](const sql::Statement& row) {
           audit::Checkpoint checkpoint{
               row.number(0), row.number(1), row.time(2), read_chain(row, 3), {}};
           const auto signature = row.blob(4);
@@ -227,13 +227,13 @@ Result<std::vector<audit::Checkpoint>> AuditRepository::checkpoints(std::uint64_
 }
 
 Result<void> AuditRepository::add_checkpoint(const audit::Checkpoint& checkpoint) {
-  return connections_.write([&](sqlite::Database& database) {
-    return sqlite::run(database,
-                       "INSERT INTO audit_checkpoint (number, entry, time_us, chain, signature) "
-                       "VALUES (?1, ?2, ?3, ?4, ?5)",
-                       checkpoint.number, checkpoint.entry, checkpoint.time,
-                       std::span<const std::byte>(checkpoint.digest.bytes),
-                       std::span<const std::byte>(checkpoint.signature.bytes));
+  return connections_.write([&](sql::Database& database) {
+    return sql::run(database,
+                    "INSERT INTO audit_checkpoint (number, entry, time_us, chain, signature) "
+                    "VALUES (?1, ?2, ?3, ?4, ?5)",
+                    checkpoint.number, checkpoint.entry, checkpoint.time,
+                    std::span<const std::byte>(checkpoint.digest.bytes),
+                    std::span<const std::byte>(checkpoint.signature.bytes));
   });
 }
 
@@ -242,18 +242,17 @@ Result<std::optional<ChainedEntry>> AuditRepository::run_end(const std::string& 
       "SELECT " + kEntryColumns + ", " + kRunFacts +
       "FROM audit LEFT JOIN run ON run.id = audit.subject "
       "WHERE audit.subject = ?1 AND audit.action = 'run.end' ORDER BY audit.id LIMIT 1";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(database, kSql, read_chained, run);
-  });
+  return connections_.read(
+      [&](sql::Database& database) { return sql::first_row(database, kSql, read_chained, run); });
 }
 
 Result<std::optional<std::string>> AuditRepository::run_without_end() {
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(
+  return connections_.read([&](sql::Database& database) {
+    return sql::first_row(
         database,
         "SELECT id FROM run WHERE state NOT IN ('ordered', 'active') AND NOT EXISTS (SELECT 1 FROM "
         "audit WHERE audit.subject = run.id AND audit.action = 'run.end') ORDER BY number LIMIT 1",
-        [](const sqlite::Statement& row) { return row.text(0); });
+        [](const sql::Statement& row) { return row.text(0); });
   });
 }
 

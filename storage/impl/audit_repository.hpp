@@ -2,17 +2,17 @@
 
 #include "storage/audit_store.hpp"
 #include "storage/impl/connections.hpp"
-#include "storage/sqlite/database.hpp"
+#include "storage/sql/database.hpp"
 
 namespace dripline::storage {
 
 /// The next entry of the chain, inside the caller's transaction.
-Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry);
+Result<void> add_audit(sql::Database& database, const AuditEntry& entry);
 /// The entry of a run that has just ended, inside the transaction that ended it. Nothing when it
 /// has not ended, or has its entry already.
-Result<void> add_run_end(sqlite::Database& database, const std::string& run);
+Result<void> add_run_end(sql::Database& database, const std::string& run);
 /// Part of the migration to version 9: the chain over what is there.
-Result<void> begin_chain(sqlite::Database& database);
+Result<void> begin_chain(sql::Database& database);
 
 class AuditRepository final : public AuditStore {
  public:

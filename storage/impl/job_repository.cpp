@@ -5,7 +5,7 @@
 #include "storage/impl/audit_repository.hpp"
 #include "storage/impl/programs/revision_rows.hpp"
 #include "storage/impl/repositories.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -18,11 +18,12 @@ std::string select_with(const std::string& verdicts) {
          "job.removed_us, job.position, c.made AS completed, "
          "(SELECT count(*) FROM run WHERE run.job = job.id AND run.state <> 'refused') AS runs, "
          "EXISTS (SELECT 1 FROM run WHERE run.job = job.id AND run.state IN ('ordered', "
-         "'active')) AS is_active, job.counts, iif(job.counts = 'good', c.good, c.made) AS "
-         "counted, " +
+         "'active')) AS is_active, job.counts, CASE WHEN job.counts = 'good' THEN c.good ELSE "
+         "c.made "
+         "END AS counted, " +
          verdicts +
          " FROM job JOIN job_count AS c ON c.job = job.id JOIN machine ON machine.id = "
-         "job.machine JOIN program ON program.id = job.program) ";
+         "job.machine JOIN program ON program.id = job.program) AS jobs ";
 }
 
 std::string sum_of_runs(const char* parts, const char* runs) {
@@ -41,7 +42,7 @@ const std::string kSelectShown =
 const std::string kOpen = "removed_us IS NULL AND (counted < quantity OR is_active) ";
 const std::string kInOrder = "ORDER BY position, id ";
 
-Job read_job(const sqlite::Statement& row) {
+Job read_job(const sql::Statement& row) {
   Job job;
   job.id = row.number(0);
   job.machine = row.text(1);
@@ -77,18 +78,17 @@ Result<Job> one_job(std::uint64_t id, Result<std::optional<Job>> job) {
   return std::move(**job);
 }
 
-Result<Job> find_job(sqlite::Database& database, std::uint64_t id) {
+Result<Job> find_job(sql::Database& database, std::uint64_t id) {
   static const std::string kSql = kSelect + "WHERE id = ?1";
-  return one_job(id, sqlite::first_row(database, kSql, read_job, id));
+  return one_job(id, sql::first_row(database, kSql, read_job, id));
 }
 
 const std::string kOpenOfMachine =
     "WHERE machine = ?1 AND " + kOpen + kInOrder + "LIMIT ?2 OFFSET ?3";
 
-Result<std::vector<Job>> open_jobs(sqlite::Database& database, const std::string& machine,
-                                   Page page) {
+Result<std::vector<Job>> open_jobs(sql::Database& database, const std::string& machine, Page page) {
   static const std::string kSql = kSelect + kOpenOfMachine;
-  return sqlite::all_rows(database, kSql, read_job, machine, page.limit, page.offset);
+  return sql::all_rows(database, kSql, read_job, machine, page.limit, page.offset);
 }
 
 Result<void> check_open(const Job& job) {
@@ -97,7 +97,7 @@ Result<void> check_open(const Job& job) {
 }
 
 /// Numbers the open jobs anew, with `job` at `place`.
-Result<void> put_at(sqlite::Database& database, const Job& job, std::uint64_t place) {
+Result<void> put_at(sql::Database& database, const Job& job, std::uint64_t place) {
   auto jobs = open_jobs(database, job.machine, {.limit = JobStore::kMaxJobs + 1});
   if (!jobs) return fail(jobs.error());
   const auto own = std::ranges::find(*jobs, job.id, &Job::id);
@@ -107,7 +107,7 @@ Result<void> put_at(sqlite::Database& database, const Job& job, std::uint64_t pl
   std::int64_t position = 0;
   for (const Job& next : *jobs) {
     auto set =
-        sqlite::run(database, "UPDATE job SET position = ?2 WHERE id = ?1", next.id, ++position);
+        sql::run(database, "UPDATE job SET position = ?2 WHERE id = ?1", next.id, ++position);
     if (!set) return set;
   }
   return {};
@@ -123,18 +123,18 @@ const std::string kSelectHold =
     "SELECT machine.name, who, reason, since_us FROM job_hold JOIN machine ON machine.id = "
     "job_hold.machine ";
 
-JobHold read_hold(const sqlite::Statement& row) {
+JobHold read_hold(const sql::Statement& row) {
   return {row.text(0), row.text(1), row.text(2), row.time(3)};
 }
 
-Result<std::optional<JobHold>> find_hold(sqlite::Database& database, const std::string& machine) {
+Result<std::optional<JobHold>> find_hold(sql::Database& database, const std::string& machine) {
   static const std::string kSql = kSelectHold + "WHERE machine.name = ?1";
-  return sqlite::first_row(database, kSql, read_hold, machine);
+  return sql::first_row(database, kSql, read_hold, machine);
 }
 
 }  // namespace
 
-Result<void> check_job(sqlite::Database& database, const Run& run) {
+Result<void> check_job(sql::Database& database, const Run& run) {
   if (!run.job) return {};
   const auto job = find_job(database, *run.job);
   if (!job) return fail(job.error());
@@ -159,22 +159,22 @@ Result<std::vector<Job>> JobRepository::list(const std::string& machine, bool is
   static const std::string kClosed = kSelectShown + "WHERE machine = ?1 AND NOT (" + kOpen +
                                      ") ORDER BY id DESC LIMIT ?2 OFFSET ?3";
   static const std::string kOpenShown = kSelectShown + kOpenOfMachine;
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, is_open ? kOpenShown : kClosed, read_job, machine, page.limit,
-                            page.offset);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, is_open ? kOpenShown : kClosed, read_job, machine, page.limit,
+                         page.offset);
   });
 }
 
 Result<Job> JobRepository::find(std::uint64_t id) {
   static const std::string kSql = kSelectShown + "WHERE id = ?1";
-  return connections_.read([&](sqlite::Database& database) {
-    return one_job(id, sqlite::first_row(database, kSql, read_job, id));
+  return connections_.read([&](sql::Database& database) {
+    return one_job(id, sql::first_row(database, kSql, read_job, id));
   });
 }
 
 Result<Job> JobRepository::add(const Job& job, const Actor& who,
                                std::optional<std::uint64_t> place) {
-  return connections_.write([&](sqlite::Database& database) -> Result<Job> {
+  return connections_.write([&](sql::Database& database) -> Result<Job> {
     const auto machine = known_machine(database, job.machine);
     if (!machine) return fail(machine.error());
     const auto revision = find_revision(database, job.program, job.revision);
@@ -184,15 +184,16 @@ Result<Job> JobRepository::add(const Job& job, const Actor& who,
     if (open->size() >= kMaxJobs) {
       return fail(Errc::LimitExceeded, "machine {} has {} jobs, the limit", job.machine, kMaxJobs);
     }
-    const auto inserted = sqlite::run(
+    const auto inserted = sql::insert(
         database,
         "INSERT INTO job (machine, position, program, revision, quantity, parts_per_run, comment, "
         "author, created_us, counts) SELECT ?1, coalesce((SELECT max(position) FROM job WHERE "
-        "machine = ?1), 0) + 1, id, ?3, ?4, ?5, ?6, ?7, ?8, ?9 FROM program WHERE name = ?2",
+        "machine = ?1), 0) + 1, id, ?3, ?4, ?5, ?6, ?7, ?8, ?9 FROM program WHERE name = ?2 "
+        "RETURNING id",
         *machine, job.program, job.revision, job.quantity, job.parts_per_run, job.comment,
         job.author, job.created, to_string(job.counts));
     if (!inserted) return fail(inserted.error());
-    auto added = find_job(database, static_cast<std::uint64_t>(database.last_insert_id()));
+    auto added = find_job(database, static_cast<std::uint64_t>(*inserted));
     if (!added) return added;
     if (place) {
       if (auto put = put_at(database, *added, *place); !put) return fail(put.error());
@@ -206,7 +207,7 @@ Result<Job> JobRepository::add(const Job& job, const Actor& who,
 
 Result<Job> JobRepository::move(std::uint64_t id, std::uint64_t place, const Actor& who,
                                 UtcTime time) {
-  return connections_.write([&](sqlite::Database& database) -> Result<Job> {
+  return connections_.write([&](sql::Database& database) -> Result<Job> {
     auto job = find_job(database, id);
     if (!job) return job;
     if (auto open = check_open(*job); !open) return fail(open.error());
@@ -219,13 +220,13 @@ Result<Job> JobRepository::move(std::uint64_t id, std::uint64_t place, const Act
 }
 
 Result<void> JobRepository::remove(std::uint64_t id, const Actor& who, UtcTime time) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto job = find_job(database, id);
     if (!job) return fail(job.error());
     if (auto open = check_open(*job); !open) return open;
     if (job->state == JobState::Active)
       return fail(Errc::Busy, "job {} has a run that has not ended", id);
-    auto removed = sqlite::run(database, "UPDATE job SET removed_us = ?2 WHERE id = ?1", id, time);
+    auto removed = sql::run(database, "UPDATE job SET removed_us = ?2 WHERE id = ?1", id, time);
     if (!removed) return removed;
     return add_audit(database, {time, who, "job.remove", job->machine, words_of(*job)});
   });
@@ -235,31 +236,30 @@ Result<std::optional<Job>> JobRepository::next(const std::string& machine) {
   static const std::string kSql =
       kSelect + "WHERE machine = ?1 AND removed_us IS NULL AND counted < quantity " + kInOrder +
       "LIMIT 1";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(database, kSql, read_job, machine);
-  });
+  return connections_.read(
+      [&](sql::Database& database) { return sql::first_row(database, kSql, read_job, machine); });
 }
 
 Result<void> JobRepository::hold(const JobHold& hold, const Actor& who) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto machine = known_machine(database, hold.machine);
     if (!machine) return fail(machine.error());
-    auto held = sqlite::run(database,
-                            "INSERT INTO job_hold (machine, who, reason, since_us) VALUES (?1, ?2, "
-                            "?3, ?4) ON CONFLICT (machine) DO UPDATE SET who = excluded.who, "
-                            "reason = excluded.reason, since_us = excluded.since_us",
-                            *machine, hold.who, hold.reason, hold.since);
+    auto held = sql::run(database,
+                         "INSERT INTO job_hold (machine, who, reason, since_us) VALUES (?1, ?2, "
+                         "?3, ?4) ON CONFLICT (machine) DO UPDATE SET who = excluded.who, "
+                         "reason = excluded.reason, since_us = excluded.since_us",
+                         *machine, hold.who, hold.reason, hold.since);
     if (!held) return held;
     return add_audit(database, {hold.since, who, "job.hold", hold.machine, hold.reason});
   });
 }
 
 Result<void> JobRepository::release(const std::string& machine, const Actor& who, UtcTime time) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    auto released = sqlite::run(database,
-                                "DELETE FROM job_hold WHERE machine = (SELECT id FROM machine "
-                                "WHERE name = ?1)",
-                                machine);
+  return connections_.write([&](sql::Database& database) -> Result<void> {
+    auto released = sql::run(database,
+                             "DELETE FROM job_hold WHERE machine = (SELECT id FROM machine "
+                             "WHERE name = ?1)",
+                             machine);
     if (!released) return released;
     if (database.changes() == 0)
       return fail(Errc::NotFound, "the jobs of machine {} are not held", machine);
@@ -268,14 +268,13 @@ Result<void> JobRepository::release(const std::string& machine, const Actor& who
 }
 
 Result<std::optional<JobHold>> JobRepository::hold_of(const std::string& machine) {
-  return connections_.read(
-      [&](sqlite::Database& database) { return find_hold(database, machine); });
+  return connections_.read([&](sql::Database& database) { return find_hold(database, machine); });
 }
 
 Result<std::vector<JobHold>> JobRepository::holds() {
   static const std::string kSql = kSelectHold + "ORDER BY machine.name";
   return connections_.read(
-      [&](sqlite::Database& database) { return sqlite::all_rows(database, kSql, read_hold); });
+      [&](sql::Database& database) { return sql::all_rows(database, kSql, read_hold); });
 }
 
 }  // namespace dripline::storage

@@ -8,7 +8,7 @@ namespace dripline::storage {
 
 /// Whether a run may begin for its job, inside the transaction that creates it. Errors: NotFound,
 /// Conflict (of another machine or program, done, removed, or the machine's jobs are held).
-Result<void> check_job(sqlite::Database& database, const Run& run);
+Result<void> check_job(sql::Database& database, const Run& run);
 
 class JobRepository final : public JobStore {
  public:

@@ -1,6 +1,6 @@
 #include "protocol/base/names.hpp"
 #include "storage/impl/repositories.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 
@@ -12,50 +12,48 @@ const std::string kSelectMachine =
     "LEFT JOIN record_epoch "
     "ON record_epoch.machine = machine.id AND record_epoch.epoch = machine.epoch ";
 
-Machine read_machine(const sqlite::Statement& row) {
+Machine read_machine(const sql::Statement& row) {
   return {row.text(0),   row.text(1),   row.text(2), row.text(3),
           row.number(4), row.number(5), row.time(6), row.time(7)};
 }
 
 }  // namespace
 
-Result<std::int64_t> known_machine(sqlite::Database& database, const std::string& name) {
-  const auto id = sqlite::first_row(
+Result<std::int64_t> known_machine(sql::Database& database, const std::string& name) {
+  const auto id = sql::first_row(
       database, "SELECT id FROM machine WHERE name = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); }, name);
+      [](const sql::Statement& row) { return row.integer(0); }, name);
   if (!id) return fail(id.error());
   if (!*id) return fail(Errc::NotFound, "machine {} is not known", name);
   return **id;
 }
 
-Result<std::int64_t> machine_id(sqlite::Database& database, const std::string& name,
+Result<std::int64_t> machine_id(sql::Database& database, const std::string& name,
                                 std::uint64_t epoch, UtcTime now) {
-  const auto known = sqlite::first_row(
+  const auto known = sql::first_row(
       database, "SELECT id FROM machine WHERE name = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); }, name);
+      [](const sql::Statement& row) { return row.integer(0); }, name);
   if (!known) return fail(known.error());
   if (*known) return **known;
   if (auto checked = check_machine_name(name); !checked) return fail(checked.error());
-  const auto made = sqlite::run(
+  return sql::insert(
       database,
       "INSERT INTO machine (name, control, description, gateway_version, epoch, first_seen_us, "
-      "last_seen_us) VALUES (?1, '', '', '', ?2, ?3, ?3)",
+      "last_seen_us) VALUES (?1, '', '', '', ?2, ?3, ?3) RETURNING id",
       name, epoch, now);
-  if (!made) return fail(made.error());
-  return database.last_insert_id();
 }
 
 Result<void> MachineRepository::save(const Machine& machine) {
   if (auto checked = check_machine_name(machine.name); !checked) return checked;
-  return connections_.write([&](sqlite::Database& database) {
-    return sqlite::run(
+  return connections_.write([&](sql::Database& database) {
+    return sql::run(
         database,
         "INSERT INTO machine (name, control, description, gateway_version, epoch, first_seen_us, "
         "last_seen_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7) ON CONFLICT (name) DO UPDATE SET "
         "control = excluded.control, description = excluded.description, "
         "gateway_version = excluded.gateway_version, epoch = excluded.epoch, "
-        "first_seen_us = min(first_seen_us, excluded.first_seen_us), "
-        "last_seen_us = max(last_seen_us, excluded.last_seen_us)",
+        "first_seen_us = min(machine.first_seen_us, excluded.first_seen_us), "
+        "last_seen_us = max(machine.last_seen_us, excluded.last_seen_us)",
         machine.name, machine.control, machine.description, machine.gateway_version, machine.epoch,
         machine.first_seen, machine.last_seen);
   });
@@ -63,9 +61,8 @@ Result<void> MachineRepository::save(const Machine& machine) {
 
 Result<Machine> MachineRepository::find(const std::string& name) {
   static const std::string kSql = kSelectMachine + "WHERE name = ?1";
-  auto found = connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(database, kSql, read_machine, name);
-  });
+  auto found = connections_.read(
+      [&](sql::Database& database) { return sql::first_row(database, kSql, read_machine, name); });
   if (!found) return fail(found.error());
   if (!*found) return fail(Errc::NotFound, "machine {} is not known", name);
   return std::move(**found);
@@ -74,37 +71,37 @@ Result<Machine> MachineRepository::find(const std::string& name) {
 Result<std::vector<Machine>> MachineRepository::list() {
   static const std::string kSql = kSelectMachine + "ORDER BY name";
   return connections_.read(
-      [&](sqlite::Database& database) { return sqlite::all_rows(database, kSql, read_machine); });
+      [&](sql::Database& database) { return sql::all_rows(database, kSql, read_machine); });
 }
 
 Result<void> MachineRepository::hold(const MachineHold& hold) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto machine = known_machine(database, hold.machine);
     if (!machine) return fail(machine.error());
-    return sqlite::run(database,
-                       "INSERT INTO machine_hold (machine, run, who, reason, since_us) VALUES (?1, "
-                       "?2, ?3, ?4, ?5) ON CONFLICT (machine) DO UPDATE SET run = excluded.run, "
-                       "who = excluded.who, reason = excluded.reason, since_us = excluded.since_us",
-                       *machine, hold.run, hold.who, hold.reason, hold.since);
+    return sql::run(database,
+                    "INSERT INTO machine_hold (machine, run, who, reason, since_us) VALUES (?1, "
+                    "?2, ?3, ?4, ?5) ON CONFLICT (machine) DO UPDATE SET run = excluded.run, "
+                    "who = excluded.who, reason = excluded.reason, since_us = excluded.since_us",
+                    *machine, hold.run, hold.who, hold.reason, hold.since);
   });
 }
 
 Result<void> MachineRepository::release(const std::string& machine) {
-  return connections_.write([&](sqlite::Database& database) {
-    return sqlite::run(database,
-                       "DELETE FROM machine_hold WHERE machine = (SELECT id FROM machine WHERE "
-                       "name = ?1)",
-                       machine);
+  return connections_.write([&](sql::Database& database) {
+    return sql::run(database,
+                    "DELETE FROM machine_hold WHERE machine = (SELECT id FROM machine WHERE "
+                    "name = ?1)",
+                    machine);
   });
 }
 
 Result<std::vector<MachineHold>> MachineRepository::holds() {
-  return connections_.read([](sqlite::Database& database) {
-    return sqlite::all_rows(
+  return connections_.read([](sql::Database& database) {
+    return sql::all_rows(
         database,
         "SELECT machine.name, run, who, reason, since_us FROM machine_hold JOIN machine ON "
         "machine.id = machine_hold.machine ORDER BY machine.name",
-        [](const sqlite::Statement& row) {
+        [](const sql::Statement& row) {
           return MachineHold{row.text(0), row.text(1), row.text(2), row.text(3), row.time(4)};
         });
   });

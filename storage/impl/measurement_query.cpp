@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -55,25 +55,25 @@ const std::string& key_sql_of(Along along, bool is_newest_first) {
   return kTexts.at(static_cast<std::size_t>(along) * 2 + (is_newest_first ? 1 : 0));
 }
 
-Result<std::vector<std::int64_t>> machines_of(sqlite::Database& database,
+Result<std::vector<std::int64_t>> machines_of(sql::Database& database,
                                               const std::optional<std::string>& name) {
-  return sqlite::all_rows(
+  return sql::all_rows(
       database, "SELECT id FROM machine WHERE ?1 IS NULL OR name = ?1 ORDER BY id",
-      [](const sqlite::Statement& row) { return row.integer(0); }, name);
+      [](const sql::Statement& row) { return row.integer(0); }, name);
 }
 
 /// Those of another machine than the filter's are left out: what a gateway reports of foreign
 /// runs is not shown.
-Result<std::vector<std::int64_t>> parts_of(sqlite::Database& database,
+Result<std::vector<std::int64_t>> parts_of(sql::Database& database,
                                            const MeasurementFilter& filter) {
   static const std::string kSql =
       "SELECT id FROM measured_part WHERE {} AND (?2 IS NULL OR machine = (SELECT id FROM machine "
       "WHERE name = ?2)) ORDER BY id";
   static const std::string kOne = fmt::format(fmt::runtime(kSql), "id = ?1");
   static const std::string kOfRun = fmt::format(fmt::runtime(kSql), "run = ?1");
-  const auto read = [](const sqlite::Statement& row) { return row.integer(0); };
-  return filter.part_id ? sqlite::all_rows(database, kOne, read, *filter.part_id, filter.machine)
-                        : sqlite::all_rows(database, kOfRun, read, *filter.run, filter.machine);
+  const auto read = [](const sql::Statement& row) { return row.integer(0); };
+  return filter.part_id ? sql::all_rows(database, kOne, read, *filter.part_id, filter.machine)
+                        : sql::all_rows(database, kOfRun, read, *filter.run, filter.machine);
 }
 
 /// What the keys are looked for with.
@@ -83,12 +83,12 @@ struct Search {
   std::vector<std::int64_t> owners;  ///< machines or parts
 };
 
-Result<Search> search_of(sqlite::Database& database, const MeasurementFilter& filter) {
+Result<Search> search_of(sql::Database& database, const MeasurementFilter& filter) {
   Search search;
   if (filter.characteristic) {
-    const auto name = sqlite::first_row(
+    const auto name = sql::first_row(
         database, "SELECT id FROM characteristic_name WHERE name = ?1",
-        [](const sqlite::Statement& row) { return row.integer(0); }, *filter.characteristic);
+        [](const sql::Statement& row) { return row.integer(0); }, *filter.characteristic);
     if (!name) return fail(name.error());
     if (!*name) return search;  // never measured
     search.name = **name;
@@ -104,7 +104,7 @@ Result<Search> search_of(sqlite::Database& database, const MeasurementFilter& fi
   return search;
 }
 
-Result<std::vector<Key>> find_keys(sqlite::Database& database, const MeasurementFilter& filter,
+Result<std::vector<Key>> find_keys(sql::Database& database, const MeasurementFilter& filter,
                                    const MeasurementOrder& order, std::uint64_t limit) {
   const auto search = search_of(database, filter);
   if (!search) return fail(search.error());
@@ -126,9 +126,9 @@ Result<std::vector<Key>> find_keys(sqlite::Database& database, const Measurement
   if (order.from && !order.is_newest_first) since = std::max(since, from.time);
   std::vector<Key> keys;
   for (const std::int64_t owner : search->owners) {
-    const auto found = sqlite::all_rows(
+    const auto found = sql::all_rows(
         database, key_sql_of(search->along, order.is_newest_first),
-        [](const sqlite::Statement& row) {
+        [](const sql::Statement& row) {
           return Key{row.integer(0), row.integer(1)};
         },
         owner, search->name, since, until, from.time, from.id, filter.with_superseded ? 1 : 0,
@@ -146,7 +146,7 @@ Result<std::vector<Key>> find_keys(sqlite::Database& database, const Measurement
   return keys;
 }
 
-Measurement read_measurement(const sqlite::Statement& row) {
+Measurement read_measurement(const sql::Statement& row) {
   const auto optional_real = [&](int column) { return row.optional_real(column); };
   Measurement made;
   made.id = row.number(0);
@@ -179,7 +179,7 @@ const std::string kPartSelect =
     "p.serial, p.measurements, p.findings, p.verdict, p.begun_us, p.ended_us, p.is_superseded "
     "FROM measured_part AS p JOIN machine ON machine.id = p.machine ";
 
-MeasuredPart read_part(const sqlite::Statement& row) {
+MeasuredPart read_part(const sql::Statement& row) {
   return {.id = row.number(0),
           .machine = row.text(1),
           .run = row.optional_text(2).value_or(""),
@@ -201,7 +201,7 @@ const std::string kFindingSelect =
     "SELECT p.id, machine.name, p.run, coalesce(p.part, 0), p.epoch, p.number, p.time_us, p.kind, "
     "p.text FROM report_finding AS p JOIN machine ON machine.id = p.machine ";
 
-ReportFinding read_finding(const sqlite::Statement& row) {
+ReportFinding read_finding(const sql::Statement& row) {
   return {.id = row.number(0),
           .machine = row.text(1),
           .run = row.optional_text(2).value_or(""),
@@ -227,7 +227,7 @@ const char* condition_of(const PartFilter& filter) {
 
 }  // namespace
 
-Result<std::vector<Measurement>> query_measurements(sqlite::Database& database,
+Result<std::vector<Measurement>> query_measurements(sql::Database& database,
                                                     const MeasurementFilter& filter,
                                                     const MeasurementOrder& order,
                                                     std::uint64_t limit) {
@@ -243,52 +243,51 @@ Result<std::vector<Measurement>> query_measurements(sqlite::Database& database,
   std::vector<Measurement> rows;
   rows.reserve(keys->size());
   for (const Key& key : *keys) {
-    auto row = sqlite::first_row(database, kRow, read_measurement, key.id);
+    auto row = sql::first_row(database, kRow, read_measurement, key.id);
     if (!row) return fail(row.error());
     if (*row) rows.push_back(std::move(**row));
   }
   return rows;
 }
 
-Result<std::vector<MeasuredPart>> query_parts(sqlite::Database& database, const PartFilter& filter,
+Result<std::vector<MeasuredPart>> query_parts(sql::Database& database, const PartFilter& filter,
                                               Page page) {
   std::optional<std::int64_t> verdict;
   if (filter.verdict) verdict = static_cast<std::int64_t>(*filter.verdict);
-  return sqlite::all_rows(database,
-                          kPartSelect + condition_of(filter) +
-                              "AND (?4 IS NULL OR p.verdict = ?4) ORDER BY p.id DESC LIMIT ?5 "
-                              "OFFSET ?6",
-                          read_part, filter.run, filter.machine, filter.with_superseded ? 1 : 0,
-                          verdict, page.limit, page.offset);
+  return sql::all_rows(database,
+                       kPartSelect + condition_of(filter) +
+                           "AND (?4 IS NULL OR p.verdict = ?4) ORDER BY p.id DESC LIMIT ?5 "
+                           "OFFSET ?6",
+                       read_part, filter.run, filter.machine, filter.with_superseded ? 1 : 0,
+                       verdict, page.limit, page.offset);
 }
 
-Result<std::optional<MeasuredPart>> query_part(sqlite::Database& database, std::uint64_t id) {
+Result<std::optional<MeasuredPart>> query_part(sql::Database& database, std::uint64_t id) {
   static const std::string kSql = kPartSelect + "WHERE p.id = ?1";
-  return sqlite::first_row(database, kSql, read_part, id);
+  return sql::first_row(database, kSql, read_part, id);
 }
 
-Result<std::vector<ReportFinding>> query_findings_of(sqlite::Database& database,
-                                                     std::uint64_t part) {
+Result<std::vector<ReportFinding>> query_findings_of(sql::Database& database, std::uint64_t part) {
   static const std::string kSql = kFindingSelect + "WHERE p.part = ?1 ORDER BY p.id";
-  return sqlite::all_rows(database, kSql, read_finding, part);
+  return sql::all_rows(database, kSql, read_finding, part);
 }
 
-Result<std::vector<ReportFinding>> query_findings(sqlite::Database& database,
-                                                  const PartFilter& filter, Page page) {
-  return sqlite::all_rows(
-      database, kFindingSelect + condition_of(filter) + "ORDER BY p.id LIMIT ?4 OFFSET ?5",
-      read_finding, filter.run, filter.machine, filter.with_superseded ? 1 : 0, page.limit,
-      page.offset);
+Result<std::vector<ReportFinding>> query_findings(sql::Database& database, const PartFilter& filter,
+                                                  Page page) {
+  return sql::all_rows(database,
+                       kFindingSelect + condition_of(filter) + "ORDER BY p.id LIMIT ?4 OFFSET ?5",
+                       read_finding, filter.run, filter.machine, filter.with_superseded ? 1 : 0,
+                       page.limit, page.offset);
 }
 
-Result<std::vector<std::string>> query_characteristics(sqlite::Database& database,
+Result<std::vector<std::string>> query_characteristics(sql::Database& database,
                                                        const std::optional<std::string>& machine) {
-  const auto read = [](const sqlite::Statement& row) { return row.text(0); };
+  const auto read = [](const sql::Statement& row) { return row.text(0); };
   if (!machine) {
-    return sqlite::all_rows(database,
-                            "SELECT name FROM characteristic_name ORDER BY name LIMIT 10000", read);
+    return sql::all_rows(database, "SELECT name FROM characteristic_name ORDER BY name LIMIT 10000",
+                         read);
   }
-  return sqlite::all_rows(
+  return sql::all_rows(
       database,
       "SELECT name FROM characteristic_name AS n WHERE EXISTS (SELECT 1 FROM measurement "
       "WHERE name = n.id AND machine = (SELECT id FROM machine WHERE name = ?1)) ORDER BY name "

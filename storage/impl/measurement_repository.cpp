@@ -5,7 +5,7 @@
 
 #include "storage/impl/measurement_query.hpp"
 #include "storage/impl/repositories.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -19,14 +19,13 @@ std::optional<std::string> optional_text(const std::string& text) {
 
 /// The row id that `find` gives, or the one that `insert` makes.
 template <class... Values>
-Result<std::int64_t> intern(sqlite::Database& database, const std::string& find,
+Result<std::int64_t> intern(sql::Database& database, const std::string& find,
                             const std::string& insert, const Values&... values) {
-  const auto known = sqlite::first_row(
-      database, find, [](const sqlite::Statement& row) { return row.integer(0); }, values...);
+  const auto known = sql::first_row(
+      database, find, [](const sql::Statement& row) { return row.integer(0); }, values...);
   if (!known) return fail(known.error());
   if (*known) return **known;
-  if (auto made = sqlite::run(database, insert, values...); !made) return fail(made.error());
-  return database.last_insert_id();
+  return sql::insert(database, insert, values...);
 }
 
 /// Rows of characteristics, each looked up once in a batch.
@@ -35,7 +34,7 @@ class Characteristics {
   struct Rows {
     std::int64_t name = 0, characteristic = 0;
   };
-  explicit Characteristics(sqlite::Database& database) : database_(database) {}
+  explicit Characteristics(sql::Database& database) : database_(database) {}
 
   Result<Rows> rows_of(const Measurement& measurement) {
     const auto& wanted = measurement.characteristic;
@@ -44,15 +43,18 @@ class Characteristics {
       if (one.characteristic == wanted && one.tool == measurement.tool) return one.rows;
     }
     static const std::string kFindName = "SELECT id FROM characteristic_name WHERE name = ?1";
-    static const std::string kAddName = "INSERT INTO characteristic_name (name) VALUES (?1)";
+    static const std::string kAddName =
+        "INSERT INTO characteristic_name (name) VALUES (?1) RETURNING id";
     const auto name = intern(database_, kFindName, kAddName, wanted.name);
     if (!name) return fail(name.error());
     static const std::string kFind =
-        "SELECT id FROM characteristic WHERE name = ?1 AND nominal IS ?2 AND lower IS ?3 AND "
-        "upper IS ?4 AND unit = ?5 AND decimals = ?6 AND tool = ?7";
+        "SELECT id FROM characteristic WHERE name = ?1 AND nominal IS NOT DISTINCT FROM ?2 AND "
+        "lower IS "
+        "NOT DISTINCT FROM ?3 AND upper IS NOT DISTINCT FROM ?4 AND unit = ?5 AND decimals = ?6 "
+        "AND tool = ?7";
     static const std::string kAdd =
         "INSERT INTO characteristic (name, nominal, lower, upper, unit, decimals, tool) VALUES "
-        "(?1, ?2, ?3, ?4, ?5, ?6, ?7)";
+        "(?1, ?2, ?3, ?4, ?5, ?6, ?7) RETURNING id";
     const auto row = intern(database_, kFind, kAdd, *name, wanted.nominal, wanted.lower,
                             wanted.upper, wanted.unit, wanted.decimals, measurement.tool);
     if (!row) return fail(row.error());
@@ -68,34 +70,34 @@ class Characteristics {
     std::string tool;
     Rows rows;
   };
-  sqlite::Database& database_;
+  sql::Database& database_;
   std::map<std::string, std::vector<Known>> known_;
 };
 
-Result<void> save_parts(sqlite::Database& database, std::int64_t machine,
+Result<void> save_parts(sql::Database& database, std::int64_t machine,
                         const std::vector<MeasuredPart>& parts) {
   static const std::string kSave =
       "INSERT INTO measured_part (id, machine, run, program, revision, template, version, number, "
       "serial, measurements, findings, verdict, begun_us, ended_us) VALUES (?1, ?2, ?3, ?4, ?5, "
       "?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14) ON CONFLICT (id) DO UPDATE SET number = "
       "excluded.number, serial = excluded.serial, measurements = excluded.measurements, findings = "
-      "excluded.findings, verdict = excluded.verdict, ended_us = excluded.ended_us WHERE machine = "
-      "excluded.machine";
+      "excluded.findings, verdict = excluded.verdict, ended_us = excluded.ended_us WHERE "
+      "measured_part.machine = excluded.machine";
   std::uint64_t last = 0;
   for (const MeasuredPart& part : parts) {
-    auto saved = sqlite::run(database, kSave, part.id, machine, optional_text(part.run),
-                             part.program, part.revision, part.template_name, part.template_version,
-                             part.number, part.serial, part.measurements, part.findings,
-                             static_cast<int>(part.verdict), part.begun, part.ended);
+    auto saved = sql::run(database, kSave, part.id, machine, optional_text(part.run), part.program,
+                          part.revision, part.template_name, part.template_version, part.number,
+                          part.serial, part.measurements, part.findings,
+                          static_cast<int>(part.verdict), part.begun, part.ended);
     if (!saved) return saved;
     if (database.changes() == 0)
       return fail(Errc::Conflict, "part {} is another machine's", part.id);
     last = std::max(last, part.id);
   }
-  return sqlite::run(database, "UPDATE measured_part_number SET last = max(last, ?1)", last);
+  return sql::run(database, "UPDATE measured_part_number SET last = max(last, ?1)", last);
 }
 
-Result<void> add_measurements(sqlite::Database& database, std::int64_t machine,
+Result<void> add_measurements(sql::Database& database, std::int64_t machine,
                               const std::vector<Measurement>& measurements) {
   static const std::string kAdd =
       "INSERT INTO measurement (part, machine, name, characteristic, epoch, number, item, time_us, "
@@ -109,13 +111,13 @@ Result<void> add_measurements(sqlite::Database& database, std::int64_t machine,
     auto added = add->bind(one.part_id, machine, rows->name, rows->characteristic, one.record.epoch,
                            one.record.number, one.item, one.time, one.actual,
                            static_cast<int>(one.verdict), one.block, one.line)
-                     .run();
+                     .post();
     if (!added) return added;
   }
   return {};
 }
 
-Result<void> add_findings(sqlite::Database& database, std::int64_t machine,
+Result<void> add_findings(sql::Database& database, std::int64_t machine,
                           const std::vector<ReportFinding>& findings) {
   static const std::string kAdd =
       "INSERT INTO report_finding (machine, part, run, epoch, number, time_us, kind, text) VALUES "
@@ -123,42 +125,40 @@ Result<void> add_findings(sqlite::Database& database, std::int64_t machine,
   for (const ReportFinding& one : findings) {
     std::optional<std::uint64_t> part;
     if (one.part_id != 0) part = one.part_id;
-    auto added = sqlite::run(database, kAdd, machine, part, optional_text(one.run),
-                             one.record.epoch, one.record.number, one.time, one.kind, one.text);
+    auto added = sql::run(database, kAdd, machine, part, optional_text(one.run), one.record.epoch,
+                          one.record.number, one.time, one.kind, one.text);
     if (!added) return added;
   }
   return {};
 }
 
-Result<void> add_derived(sqlite::Database& database, std::int64_t machine,
-                         const DerivedBatch& batch) {
+Result<void> add_derived(sql::Database& database, std::int64_t machine, const DerivedBatch& batch) {
   if (auto done = save_parts(database, machine, batch.parts); !done) return done;
   if (auto done = add_measurements(database, machine, batch.measurements); !done) return done;
   return add_findings(database, machine, batch.findings);
 }
 
-Result<void> put_state(sqlite::Database& database, std::int64_t machine, const std::string& state) {
-  return sqlite::run(database,
-                     "INSERT INTO measurement_state (machine, state) VALUES (?1, ?2) ON CONFLICT "
-                     "(machine) DO UPDATE SET state = excluded.state",
-                     machine, state);
+Result<void> put_state(sql::Database& database, std::int64_t machine, const std::string& state) {
+  return sql::run(database,
+                  "INSERT INTO measurement_state (machine, state) VALUES (?1, ?2) ON CONFLICT "
+                  "(machine) DO UPDATE SET state = excluded.state",
+                  machine, state);
 }
 
-Result<void> move_cursor(sqlite::Database& database, std::int64_t machine,
-                         const DerivedBatch& batch) {
-  const auto now = sqlite::first_row(
+Result<void> move_cursor(sql::Database& database, std::int64_t machine, const DerivedBatch& batch) {
+  const auto now = sql::first_row(
       database, "SELECT number FROM measurement_cursor WHERE machine = ?1 AND epoch = ?2",
-      [](const sqlite::Statement& row) { return row.number(0); }, machine, batch.epoch);
+      [](const sql::Statement& row) { return row.number(0); }, machine, batch.epoch);
   if (!now) return fail(now.error());
   if (now->value_or(0) != batch.after) {
     return fail(Errc::Conflict, "records of {} epoch {} are derived up to {}, not {}",
                 batch.machine, batch.epoch, now->value_or(0), batch.after);
   }
-  auto moved = sqlite::run(database,
-                           "INSERT INTO measurement_cursor (machine, epoch, number) VALUES (?1, "
-                           "?2, ?3) ON CONFLICT (machine, epoch) DO UPDATE SET number = "
-                           "excluded.number",
-                           machine, batch.epoch, batch.through);
+  auto moved = sql::run(database,
+                        "INSERT INTO measurement_cursor (machine, epoch, number) VALUES (?1, "
+                        "?2, ?3) ON CONFLICT (machine, epoch) DO UPDATE SET number = "
+                        "excluded.number",
+                        machine, batch.epoch, batch.through);
   if (!moved) return moved;
   return put_state(database, machine, batch.state);
 }
@@ -167,7 +167,7 @@ Result<void> move_cursor(sqlite::Database& database, std::int64_t machine,
 
 Result<void> MeasurementRepository::save_state(const std::string& machine,
                                                const std::string& state) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto known = known_machine(database, machine);
     if (!known) return fail(known.error());
     return put_state(database, *known, state);
@@ -180,8 +180,8 @@ Result<std::vector<UnderivedRecords>> MeasurementRepository::underived() {
       "JOIN machine ON machine.id = e.machine LEFT JOIN measurement_cursor AS c "
       "ON c.machine = e.machine AND c.epoch = e.epoch WHERE e.last > coalesce(c.number, 0) "
       "ORDER BY machine.name, e.epoch";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSql, [](const sqlite::Statement& row) {
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSql, [](const sql::Statement& row) {
       return UnderivedRecords{.machine = row.text(0),
                               .epoch = row.number(1),
                               .derived = row.number(2),
@@ -194,16 +194,16 @@ Result<std::string> MeasurementRepository::state(const std::string& machine) {
   static const std::string kSql =
       "SELECT state FROM measurement_state WHERE machine = (SELECT id FROM machine WHERE name = "
       "?1)";
-  auto found = connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(
-        database, kSql, [](const sqlite::Statement& row) { return row.text(0); }, machine);
+  auto found = connections_.read([&](sql::Database& database) {
+    return sql::first_row(
+        database, kSql, [](const sql::Statement& row) { return row.text(0); }, machine);
   });
   if (!found) return fail(found.error());
   return found->value_or("");
 }
 
 Result<std::uint64_t> MeasurementRepository::next_part_id() {
-  const auto last = connections_.read([](sqlite::Database& database) {
+  const auto last = connections_.read([](sql::Database& database) {
     return database.integer("SELECT last FROM measured_part_number");
   });
   if (!last) return fail(last.error());
@@ -212,17 +212,17 @@ Result<std::uint64_t> MeasurementRepository::next_part_id() {
 
 Result<void> MeasurementRepository::commit(const DerivedBatch& batch) {
   return connections_.write(
-      [&](sqlite::Database& database) -> Result<void> {
+      [&](sql::Database& database) -> Result<void> {
         const auto machine = known_machine(database, batch.machine);
         if (!machine) return fail(machine.error());
         if (auto moved = move_cursor(database, *machine, batch); !moved) return moved;
         return add_derived(database, *machine, batch);
       },
-      sqlite::Synchronous::Normal);
+      Durability::Normal);
 }
 
 Result<void> MeasurementRepository::replace(const std::string& run, const DerivedBatch& batch) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto machine = known_machine(database, batch.machine);
     if (!machine) return fail(machine.error());
     for (const char* sql :
@@ -230,7 +230,7 @@ Result<void> MeasurementRepository::replace(const std::string& run, const Derive
           "(SELECT id FROM measured_part WHERE run = ?1 AND machine = ?2)",
           "UPDATE report_finding SET is_superseded = 1 WHERE run = ?1 AND machine = ?2",
           "UPDATE measured_part SET is_superseded = 1 WHERE run = ?1 AND machine = ?2"}) {
-      if (auto done = sqlite::run(database, sql, run, *machine); !done) return done;
+      if (auto done = sql::run(database, sql, run, *machine); !done) return done;
     }
     return add_derived(database, *machine, batch);
   });
@@ -239,7 +239,7 @@ Result<void> MeasurementRepository::replace(const std::string& run, const Derive
 Result<std::vector<Measurement>> MeasurementRepository::list(
     const MeasurementFilter& filter, const std::optional<MeasurementPlace>& after,
     std::uint64_t limit) {
-  return connections_.read([&](sqlite::Database& database) {
+  return connections_.read([&](sql::Database& database) {
     return query_measurements(database, filter, {.from = after, .is_newest_first = false}, limit);
   });
 }
@@ -247,7 +247,7 @@ Result<std::vector<Measurement>> MeasurementRepository::list(
 Result<std::vector<Measurement>> MeasurementRepository::list_newest(
     const MeasurementFilter& filter, const std::optional<MeasurementPlace>& before,
     std::uint64_t limit) {
-  return connections_.read([&](sqlite::Database& database) {
+  return connections_.read([&](sql::Database& database) {
     return query_measurements(database, filter, {.from = before, .is_newest_first = true}, limit);
   });
 }
@@ -255,12 +255,11 @@ Result<std::vector<Measurement>> MeasurementRepository::list_newest(
 Result<std::vector<MeasuredPart>> MeasurementRepository::parts(const PartFilter& filter,
                                                                Page page) {
   return connections_.read(
-      [&](sqlite::Database& database) { return query_parts(database, filter, page); });
+      [&](sql::Database& database) { return query_parts(database, filter, page); });
 }
 
 Result<MeasuredPart> MeasurementRepository::part(std::uint64_t id) {
-  auto found =
-      connections_.read([&](sqlite::Database& database) { return query_part(database, id); });
+  auto found = connections_.read([&](sql::Database& database) { return query_part(database, id); });
   if (!found) return fail(found.error());
   if (!*found) return fail(Errc::NotFound, "part {} is not known", id);
   return std::move(**found);
@@ -275,12 +274,12 @@ Result<RunParts> MeasurementRepository::parts_of_run(const std::string& run) {
       "SELECT verdict, count(*), NULL, 0 AS place FROM measured_part WHERE run = ?1 AND "
       "is_superseded = 0 GROUP BY verdict UNION ALL "
       "SELECT a.verdict, sum(a.parts), archive.file, archive.id FROM archived_part AS a JOIN "
-      "archive ON archive.id = a.archive WHERE a.run = ?1 GROUP BY a.archive, a.verdict "
+      "archive ON archive.id = a.archive WHERE a.run = ?1 GROUP BY archive.id, a.verdict "
       "ORDER BY place";
-  const auto rows = connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(
+  const auto rows = connections_.read([&](sql::Database& database) {
+    return sql::all_rows(
         database, kSql,
-        [](const sqlite::Statement& row) {
+        [](const sql::Statement& row) {
           return Row{row.number(0), row.number(1), row.optional_text(2)};
         },
         run);
@@ -300,13 +299,13 @@ Result<RunParts> MeasurementRepository::parts_of_run(const std::string& run) {
 Result<std::vector<ReportFinding>> MeasurementRepository::findings(const PartFilter& filter,
                                                                    Page page) {
   return connections_.read(
-      [&](sqlite::Database& database) { return query_findings(database, filter, page); });
+      [&](sql::Database& database) { return query_findings(database, filter, page); });
 }
 
 Result<std::vector<std::string>> MeasurementRepository::characteristics(
     const std::optional<std::string>& machine) {
   return connections_.read(
-      [&](sqlite::Database& database) { return query_characteristics(database, machine); });
+      [&](sql::Database& database) { return query_characteristics(database, machine); });
 }
 
 }  // namespace dripline::storage

@@ -3,12 +3,12 @@
 #include "protocol/base/names.hpp"
 #include "storage/impl/audit_repository.hpp"
 #include "storage/impl/setup_rows.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
 
-OffsetRules read_rules(const sqlite::Statement& row) {
+OffsetRules read_rules(const sql::Statement& row) {
   return {.machine = row.text(0),
           .version = row.number(1),
           .text = row.text(2),
@@ -16,12 +16,12 @@ OffsetRules read_rules(const sqlite::Statement& row) {
           .created = row.time(4)};
 }
 
-Result<std::optional<OffsetRules>> newest_rules(sqlite::Database& database,
+Result<std::optional<OffsetRules>> newest_rules(sql::Database& database,
                                                 const std::string& machine) {
-  return sqlite::first_row(database,
-                           "SELECT machine, version, text, author, created_us FROM offset_rules "
-                           "WHERE machine = ?1 ORDER BY version DESC LIMIT 1",
-                           read_rules, machine);
+  return sql::first_row(database,
+                        "SELECT machine, version, text, author, created_us FROM offset_rules "
+                        "WHERE machine = ?1 ORDER BY version DESC LIMIT 1",
+                        read_rules, machine);
 }
 
 const std::string kSelect =
@@ -29,7 +29,7 @@ const std::string kSelect =
     "mean, first, last, reasons, created_us, decided_us, who, comment, is_automatic, setup "
     "FROM offset_proposal ";
 
-OffsetProposal read_proposal(const sqlite::Statement& row) {
+OffsetProposal read_proposal(const sql::Statement& row) {
   OffsetProposal proposal;
   proposal.id = row.number(0);
   proposal.machine = row.text(1);
@@ -57,34 +57,34 @@ OffsetProposal read_proposal(const sqlite::Statement& row) {
   return proposal;
 }
 
-Result<OffsetProposal> find_proposal(sqlite::Database& database, std::uint64_t id) {
-  auto found = sqlite::first_row(database, kSelect + "WHERE id = ?1", read_proposal, id);
+Result<OffsetProposal> find_proposal(sql::Database& database, std::uint64_t id) {
+  auto found = sql::first_row(database, kSelect + "WHERE id = ?1", read_proposal, id);
   if (!found) return fail(found.error());
   if (*found) return std::move(**found);
   return fail(Errc::NotFound, "there is no offset proposal {}", id);
 }
 
-Result<OffsetProposal> find_pending(sqlite::Database& database, std::uint64_t id) {
+Result<OffsetProposal> find_pending(sql::Database& database, std::uint64_t id) {
   auto proposal = find_proposal(database, id);
   if (!proposal) return proposal;
   if (auto pending = check_pending(*proposal); !pending) return fail(pending.error());
   return proposal;
 }
 
-Result<std::optional<OffsetProposal>> pending_of(sqlite::Database& database,
+Result<std::optional<OffsetProposal>> pending_of(sql::Database& database,
                                                  const std::string& machine,
                                                  const std::string& target) {
-  return sqlite::first_row(database,
-                           kSelect + "WHERE machine = ?1 AND target = ?2 AND state = 'pending'",
-                           read_proposal, machine, target);
+  return sql::first_row(database,
+                        kSelect + "WHERE machine = ?1 AND target = ?2 AND state = 'pending'",
+                        read_proposal, machine, target);
 }
 
-Result<void> supersede(sqlite::Database& database, std::uint64_t id, UtcTime now,
+Result<void> supersede(sql::Database& database, std::uint64_t id, UtcTime now,
                        const std::string& reason) {
-  return sqlite::run(database,
-                     "UPDATE offset_proposal SET state = 'superseded', decided_us = ?2, comment = "
-                     "?3 WHERE id = ?1",
-                     id, now, reason);
+  return sql::run(database,
+                  "UPDATE offset_proposal SET state = 'superseded', decided_us = ?2, comment = "
+                  "?3 WHERE id = ?1",
+                  id, now, reason);
 }
 
 bool is_of_the_same(const OffsetProposal& a, const OffsetProposal& b) {
@@ -106,17 +106,17 @@ std::string change_text(const OffsetProposal& proposal) {
 
 Result<OffsetRules> OffsetRepository::save_rules(const OffsetRules& given, const Actor& who) {
   if (auto named = check_machine_name(given.machine); !named) return fail(named.error());
-  return connections_.write([&](sqlite::Database& database) -> Result<OffsetRules> {
+  return connections_.write([&](sql::Database& database) -> Result<OffsetRules> {
     auto newest = newest_rules(database, given.machine);
     if (!newest) return fail(newest.error());
     if (*newest && (*newest)->text == given.text) return std::move(**newest);
     OffsetRules rules = given;
     rules.version = *newest ? (*newest)->version + 1 : 1;
     const auto kept =
-        sqlite::run(database,
-                    "INSERT INTO offset_rules (machine, version, text, author, created_us) VALUES "
-                    "(?1, ?2, ?3, ?4, ?5)",
-                    rules.machine, rules.version, rules.text, rules.author, rules.created);
+        sql::run(database,
+                 "INSERT INTO offset_rules (machine, version, text, author, created_us) VALUES "
+                 "(?1, ?2, ?3, ?4, ?5)",
+                 rules.machine, rules.version, rules.text, rules.author, rules.created);
     if (!kept) return fail(kept.error());
     const auto noted = add_audit(database, {.time = rules.created,
                                             .who = who,
@@ -129,7 +129,7 @@ Result<OffsetRules> OffsetRepository::save_rules(const OffsetRules& given, const
 }
 
 Result<OffsetRules> OffsetRepository::rules(const std::string& machine) {
-  return connections_.read([&](sqlite::Database& database) -> Result<OffsetRules> {
+  return connections_.read([&](sql::Database& database) -> Result<OffsetRules> {
     auto newest = newest_rules(database, machine);
     if (!newest) return fail(newest.error());
     if (*newest) return std::move(**newest);
@@ -139,7 +139,7 @@ Result<OffsetRules> OffsetRepository::rules(const std::string& machine) {
 
 Result<KeptProposal> OffsetRepository::propose(const OffsetProposal& given) {
   if (auto named = check_machine_name(given.machine); !named) return fail(named.error());
-  return connections_.write([&](sqlite::Database& database) -> Result<KeptProposal> {
+  return connections_.write([&](sql::Database& database) -> Result<KeptProposal> {
     auto pending = pending_of(database, given.machine, given.target);
     if (!pending) return fail(pending.error());
     if (const auto& known = *pending) {
@@ -147,7 +147,7 @@ Result<KeptProposal> OffsetRepository::propose(const OffsetProposal& given) {
       if (auto done = supersede(database, known->id, given.created, "by a newer one"); !done)
         return fail(done.error());
     }
-    const auto kept = sqlite::run(
+    const auto kept = sql::run(
         database,
         "INSERT INTO offset_proposal (machine, rule, target, unit, old_value, new_value, base, "
         "used, "
@@ -165,7 +165,7 @@ Result<KeptProposal> OffsetRepository::propose(const OffsetProposal& given) {
 
 Result<void> OffsetRepository::withdraw(const std::string& machine, const std::string& target,
                                         UtcTime now, const std::string& reason) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto pending = pending_of(database, machine, target);
     if (!pending) return fail(pending.error());
     return *pending ? supersede(database, (*pending)->id, now, reason) : Result<void>{};
@@ -173,7 +173,7 @@ Result<void> OffsetRepository::withdraw(const std::string& machine, const std::s
 }
 
 Result<OffsetProposal> OffsetRepository::find(std::uint64_t id) {
-  return connections_.read([&](sqlite::Database& database) { return find_proposal(database, id); });
+  return connections_.read([&](sql::Database& database) { return find_proposal(database, id); });
 }
 
 Result<std::vector<OffsetProposal>> OffsetRepository::list(const OffsetFilter& filter, Page page) {
@@ -181,18 +181,20 @@ Result<std::vector<OffsetProposal>> OffsetRepository::list(const OffsetFilter& f
   if (filter.machine) sql += "AND machine = ?1 ";
   if (filter.target) sql += "AND target = ?2 ";
   if (filter.state) sql += "AND state = ?3 ";
-  sql += "AND ?1 IS ?1 AND ?2 IS ?2 AND ?3 IS ?3 ORDER BY id DESC LIMIT ?4 OFFSET ?5";
+  sql +=
+      "AND (?1 IS NULL OR true) AND (?2 IS NULL OR true) AND (?3 IS NULL OR true) ORDER BY id DESC "
+      "LIMIT ?4 OFFSET ?5";
   std::optional<std::string> state;
   if (filter.state) state = std::string(to_string(*filter.state));
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, sql, read_proposal, filter.machine, filter.target, state,
-                            page.limit, page.offset);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, sql, read_proposal, filter.machine, filter.target, state,
+                         page.limit, page.offset);
   });
 }
 
 Result<SetupRevision> OffsetRepository::apply(const OffsetDecision& decision,
                                               const SetupRevision& setup) {
-  return connections_.write([&](sqlite::Database& database) -> Result<SetupRevision> {
+  return connections_.write([&](sql::Database& database) -> Result<SetupRevision> {
     const auto proposal = find_pending(database, decision.id);
     if (!proposal) return fail(proposal.error());
     if (proposal->machine != setup.machine) {
@@ -205,7 +207,7 @@ Result<SetupRevision> OffsetRepository::apply(const OffsetDecision& decision,
       return fail(Errc::Conflict, "offset proposal {} changes nothing in setup {} of {}",
                   proposal->id, saved->number, saved->machine);
     }
-    const auto decided = sqlite::run(
+    const auto decided = sql::run(
         database,
         "UPDATE offset_proposal SET state = 'applied', setup = ?2, decided_us = ?3, who = ?4, "
         "comment = ?5, is_automatic = ?6 WHERE id = ?1",
@@ -226,14 +228,13 @@ Result<SetupRevision> OffsetRepository::apply(const OffsetDecision& decision,
 }
 
 Result<OffsetProposal> OffsetRepository::reject(const OffsetDecision& decision) {
-  return connections_.write([&](sqlite::Database& database) -> Result<OffsetProposal> {
+  return connections_.write([&](sql::Database& database) -> Result<OffsetProposal> {
     const auto proposal = find_pending(database, decision.id);
     if (!proposal) return proposal;
-    const auto decided =
-        sqlite::run(database,
-                    "UPDATE offset_proposal SET state = 'rejected', decided_us = ?2, "
-                    "who = ?3, comment = ?4 WHERE id = ?1",
-                    decision.id, decision.time, decision.who.name, decision.comment);
+    const auto decided = sql::run(database,
+                                  "UPDATE offset_proposal SET state = 'rejected', decided_us = ?2, "
+                                  "who = ?3, comment = ?4 WHERE id = ?1",
+                                  decision.id, decision.time, decision.who.name, decision.comment);
     if (!decided) return fail(decided.error());
     const auto noted = add_audit(database, {.time = decision.time,
                                             .who = decision.who,

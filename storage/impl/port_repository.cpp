@@ -2,7 +2,7 @@
 
 #include "protocol/base/names.hpp"
 #include "storage/impl/repositories.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 
@@ -30,27 +30,27 @@ Result<void> check_port(const Port& port) {
 }
 
 /// Two ports at one address would both write to the line.
-Result<void> check_address_free(sqlite::Database& database, const Port& port) {
-  const auto owner = sqlite::first_row(
+Result<void> check_address_free(sql::Database& database, const Port& port) {
+  const auto owner = sql::first_row(
       database, "SELECT name FROM port WHERE address = ?1 AND name <> ?2",
-      [](const sqlite::Statement& row) { return row.text(0); }, port.address, port.name);
+      [](const sql::Statement& row) { return row.text(0); }, port.address, port.name);
   if (!owner) return fail(owner.error());
   if (!*owner) return {};
   return fail(Errc::Busy, "address {} is port {}'s already", port.address, **owner);
 }
 
-Result<void> save_settings(sqlite::Database& database, const Port& port) {
-  auto done = sqlite::run(database, "DELETE FROM port_setting WHERE port = ?1", port.name);
+Result<void> save_settings(sql::Database& database, const Port& port) {
+  auto done = sql::run(database, "DELETE FROM port_setting WHERE port = ?1", port.name);
   for (std::size_t at = 0; done && at < port.settings.size(); ++at) {
     const auto& [key, value] = port.settings[at];
-    done = sqlite::run(
-        database, "INSERT INTO port_setting (port, position, key, value) VALUES (?1, ?2, ?3, ?4)",
-        port.name, at, key, value);
+    done = sql::run(database,
+                    "INSERT INTO port_setting (port, position, key, value) VALUES (?1, ?2, ?3, ?4)",
+                    port.name, at, key, value);
   }
   return done;
 }
 
-Port read_port(const sqlite::Statement& row) {
+Port read_port(const sql::Statement& row) {
   Port port;
   port.name = row.text(0);
   port.machine = row.text(1);
@@ -67,34 +67,33 @@ using Setting = std::pair<std::string, std::string>;
 
 Result<void> PortRepository::save(const Port& port) {
   if (auto checked = check_port(port); !checked) return checked;
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     if (auto is_free = check_address_free(database, port); !is_free) return is_free;
     const auto saved =
-        sqlite::run(database,
-                    "INSERT INTO port (name, machine, address, line_template, rules, is_enabled) "
-                    "VALUES (?1, ?2, ?3, ?4, ?5, ?6) ON CONFLICT (name) DO UPDATE SET "
-                    "machine = excluded.machine, address = excluded.address, "
-                    "line_template = excluded.line_template, rules = excluded.rules, "
-                    "is_enabled = excluded.is_enabled",
-                    port.name, port.machine, port.address, port.line_template, port.rules,
-                    port.is_enabled ? 1 : 0);
+        sql::run(database,
+                 "INSERT INTO port (name, machine, address, line_template, rules, is_enabled) "
+                 "VALUES (?1, ?2, ?3, ?4, ?5, ?6) ON CONFLICT (name) DO UPDATE SET "
+                 "machine = excluded.machine, address = excluded.address, "
+                 "line_template = excluded.line_template, rules = excluded.rules, "
+                 "is_enabled = excluded.is_enabled",
+                 port.name, port.machine, port.address, port.line_template, port.rules,
+                 port.is_enabled ? 1 : 0);
     if (!saved) return saved;
     return save_settings(database, port);
   });
 }
 
 Result<std::vector<Port>> PortRepository::list() {
-  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<Port>> {
-    auto ports = sqlite::all_rows(
+  return connections_.read([&](sql::Database& database) -> Result<std::vector<Port>> {
+    auto ports = sql::all_rows(
         database,
         "SELECT name, machine, address, line_template, rules, is_enabled FROM port ORDER BY name",
         read_port);
     if (!ports) return ports;
     for (Port& port : *ports) {
-      auto settings = sqlite::all_rows(
+      auto settings = sql::all_rows(
           database, "SELECT key, value FROM port_setting WHERE port = ?1 ORDER BY position",
-          [](const sqlite::Statement& row) { return Setting(row.text(0), row.text(1)); },
-          port.name);
+          [](const sql::Statement& row) { return Setting(row.text(0), row.text(1)); }, port.name);
       if (!settings) return fail(settings.error());
       port.settings = std::move(*settings);
     }
@@ -103,8 +102,8 @@ Result<std::vector<Port>> PortRepository::list() {
 }
 
 Result<void> PortRepository::remove(const std::string& name) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    const auto removed = sqlite::run(database, "DELETE FROM port WHERE name = ?1", name);
+  return connections_.write([&](sql::Database& database) -> Result<void> {
+    const auto removed = sql::run(database, "DELETE FROM port WHERE name = ?1", name);
     if (!removed) return removed;
     if (database.changes() == 0) return fail(Errc::NotFound, "port {} is not known", name);
     return {};

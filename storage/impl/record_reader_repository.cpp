@@ -1,25 +1,25 @@
 #include "storage/impl/record_reader_repository.hpp"
 
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
 
-Result<bool> is_reader_known(sqlite::Database& database, const std::string& reader) {
-  const auto known = sqlite::first_row(
+Result<bool> is_reader_known(sql::Database& database, const std::string& reader) {
+  const auto known = sql::first_row(
       database, "SELECT 1 FROM record_reader WHERE name = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); }, reader);
+      [](const sql::Statement& row) { return row.integer(0); }, reader);
   if (!known) return fail(known.error());
   return known->has_value();
 }
 
-Result<void> move_reader(sqlite::Database& database, const std::string& reader,
+Result<void> move_reader(sql::Database& database, const std::string& reader,
                          const RecordCursor& cursor) {
-  auto moved = sqlite::run(database,
-                           "INSERT INTO record_cursor (reader, machine, epoch, number) SELECT ?1, "
-                           "id, ?3, ?4 FROM machine WHERE name = ?2 ON CONFLICT (reader, machine, "
-                           "epoch) DO UPDATE SET number = max(number, excluded.number)",
-                           reader, cursor.machine, cursor.epoch, cursor.number);
+  auto moved = sql::run(database,
+                        "INSERT INTO record_cursor (reader, machine, epoch, number) SELECT ?1, "
+                        "id, ?3, ?4 FROM machine WHERE name = ?2 ON CONFLICT (reader, machine, "
+                        "epoch) DO UPDATE SET number = max(record_cursor.number, excluded.number)",
+                        reader, cursor.machine, cursor.epoch, cursor.number);
   if (!moved) return moved;
   if (database.changes() > 0) return {};
   return fail(Errc::NotFound, "machine '{}' is not known", cursor.machine);
@@ -28,17 +28,17 @@ Result<void> move_reader(sqlite::Database& database, const std::string& reader,
 }  // namespace
 
 Result<void> RecordReaderRepository::begin(const std::string& reader, UtcTime now) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto known = is_reader_known(database, reader);
     if (!known) return fail(known.error());
     if (*known) return {};
-    auto added = sqlite::run(database, "INSERT INTO record_reader (name, since_us) VALUES (?1, ?2)",
-                             reader, now);
+    auto added = sql::run(database, "INSERT INTO record_reader (name, since_us) VALUES (?1, ?2)",
+                          reader, now);
     if (!added) return added;
-    return sqlite::run(database,
-                       "INSERT INTO record_cursor (reader, machine, epoch, number) SELECT ?1, "
-                       "machine, epoch, last FROM record_epoch",
-                       reader);
+    return sql::run(database,
+                    "INSERT INTO record_cursor (reader, machine, epoch, number) SELECT ?1, "
+                    "machine, epoch, last FROM record_epoch",
+                    reader);
   });
 }
 
@@ -50,10 +50,10 @@ Result<std::vector<UnreadRecords>> RecordReaderRepository::unread(const std::str
       "WHERE e.last > coalesce(c.number, 0) "
       "AND EXISTS (SELECT 1 FROM record_reader WHERE name = ?1) "
       "ORDER BY machine.name, e.epoch = machine.epoch, e.epoch";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(
         database, kSql,
-        [](const sqlite::Statement& row) {
+        [](const sql::Statement& row) {
           return UnreadRecords{
               .cursor = {.machine = row.text(0), .epoch = row.number(1), .number = row.number(2)},
               .last = row.number(3)};
@@ -65,7 +65,7 @@ Result<std::vector<UnreadRecords>> RecordReaderRepository::unread(const std::str
 Result<void> RecordReaderRepository::advance(const std::string& reader,
                                              const std::vector<RecordCursor>& cursors) {
   return connections_.write(
-      [&](sqlite::Database& database) -> Result<void> {
+      [&](sql::Database& database) -> Result<void> {
         const auto known = is_reader_known(database, reader);
         if (!known) return fail(known.error());
         if (!*known) return fail(Errc::NotFound, "reader '{}' is not known", reader);
@@ -74,7 +74,7 @@ Result<void> RecordReaderRepository::advance(const std::string& reader,
         }
         return {};
       },
-      sqlite::Synchronous::Normal);
+      Durability::Normal);
 }
 
 }  // namespace dripline::storage

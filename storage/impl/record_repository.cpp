@@ -3,12 +3,12 @@
 #include <limits>
 #include <map>
 
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
 
-Record read_record(const sqlite::Statement& row) {
+Record read_record(const sql::Statement& row) {
   Record record;
   record.machine = row.text(0);
   record.epoch = row.number(1);
@@ -41,16 +41,16 @@ Result<void> check(const RecordBatch& batch) {
   return {};
 }
 
-Result<std::uint64_t> last_number(sqlite::Database& database, std::int64_t machine,
+Result<std::uint64_t> last_number(sql::Database& database, std::int64_t machine,
                                   std::uint64_t epoch) {
-  const auto last = sqlite::first_row(
+  const auto last = sql::first_row(
       database, "SELECT last FROM record_epoch WHERE machine = ?1 AND epoch = ?2",
-      [](const sqlite::Statement& row) { return row.number(0); }, machine, epoch);
+      [](const sql::Statement& row) { return row.number(0); }, machine, epoch);
   if (!last) return fail(last.error());
   return last->value_or(0);
 }
 
-Result<void> insert_record(sqlite::Statement& insert, std::int64_t machine, const Record& record,
+Result<void> insert_record(sql::Statement& insert, std::int64_t machine, const Record& record,
                            UtcTime received) {
   std::optional<std::string> run;
   if (!record.run.empty()) run = record.run;
@@ -58,7 +58,7 @@ Result<void> insert_record(sqlite::Statement& insert, std::int64_t machine, cons
       .bind(machine, record.epoch, record.number, record.time, run, record.kind, record.block,
             record.line, record.sequence, record.device, record.text,
             record.received.value_or(received))
-      .run();
+      .post();
 }
 
 /// Inserts what follows `last` without a gap; returns the new last number.
@@ -66,7 +66,7 @@ struct Received {
   std::int64_t machine = 0;
   UtcTime time;
 };
-Result<std::uint64_t> insert_contiguous(sqlite::Database& database, const RecordBatch& batch,
+Result<std::uint64_t> insert_contiguous(sql::Database& database, const RecordBatch& batch,
                                         const Received& received, std::uint64_t last) {
   auto insert = database.prepare(
       "INSERT INTO record (machine, epoch, number, time_us, run, kind, block, line, sequence, "
@@ -100,8 +100,8 @@ bool is_stored(const RecordBatch& batch, const std::string& run, std::string_vie
   return is_complete;
 }
 
-Result<void> apply_to_runs(sqlite::Database& database, const RecordBatch& batch,
-                           std::int64_t machine, std::uint64_t last) {
+Result<void> apply_to_runs(sql::Database& database, const RecordBatch& batch, std::int64_t machine,
+                           std::uint64_t last) {
   for (const RunBeginning& beginning : batch.beginnings) {
     if (!is_stored(batch, beginning.run, "run_started", last)) continue;
     if (auto done = apply_beginning(database, machine, beginning); !done) return done;
@@ -114,8 +114,7 @@ Result<void> apply_to_runs(sqlite::Database& database, const RecordBatch& batch,
 }
 
 /// Within a transaction.
-Result<std::uint64_t> write_batch(sqlite::Database& database, const RecordBatch& batch,
-                                  UtcTime now) {
+Result<std::uint64_t> write_batch(sql::Database& database, const RecordBatch& batch, UtcTime now) {
   const auto machine = machine_id(database, batch.machine, batch.epoch, now);
   if (!machine) return fail(machine.error());
   const auto before = last_number(database, *machine, batch.epoch);
@@ -124,10 +123,10 @@ Result<std::uint64_t> write_batch(sqlite::Database& database, const RecordBatch&
   if (!last) return last;
   if (*last > *before) {
     const auto noted =
-        sqlite::run(database,
-                    "INSERT INTO record_epoch (machine, epoch, last) VALUES (?1, ?2, ?3) "
-                    "ON CONFLICT (machine, epoch) DO UPDATE SET last = excluded.last",
-                    *machine, batch.epoch, *last);
+        sql::run(database,
+                 "INSERT INTO record_epoch (machine, epoch, last) VALUES (?1, ?2, ?3) "
+                 "ON CONFLICT (machine, epoch) DO UPDATE SET last = excluded.last",
+                 *machine, batch.epoch, *last);
     if (!noted) return fail(noted.error());
   }
   if (auto done = apply_to_runs(database, batch, *machine, *last); !done) return fail(done.error());
@@ -139,7 +138,7 @@ Result<std::uint64_t> write_batch(sqlite::Database& database, const RecordBatch&
 Result<std::uint64_t> RecordRepository::store(const RecordBatch& batch) {
   if (auto checked = check(batch); !checked) return fail(checked.error());
   return connections_.write(
-      [&](sqlite::Database& database) { return write_batch(database, batch, clock_.now()); });
+      [&](sql::Database& database) { return write_batch(database, batch, clock_.now()); });
 }
 
 /// What one of them cannot be stored for must not keep the others from the disk: then each has a
@@ -147,7 +146,8 @@ Result<std::uint64_t> RecordRepository::store(const RecordBatch& batch) {
 std::vector<Result<std::uint64_t>> RecordRepository::store_all(
     const std::vector<RecordBatch>& batches) {
   std::vector<Result<std::uint64_t>> stored;
-  const auto written = connections_.write([&](sqlite::Database& database) -> Result<void> {
+  const auto written = connections_.write([&](sql::Database& database) -> Result<void> {
+    stored.clear();
     for (const RecordBatch& batch : batches) {
       if (auto checked = check(batch); !checked) return checked;
       const auto last = write_batch(database, batch, clock_.now());
@@ -169,11 +169,10 @@ Result<std::vector<Record>> RecordRepository::of_run(const std::string& run,
   static const std::string kOrder = "ORDER BY record.epoch, number LIMIT ?2 OFFSET ?3";
   static const std::string kOfKind = kSelect + "AND kind = ?4 " + kOrder;
   static const std::string kOfAny = kSelect + kOrder;
-  return connections_.read([&](sqlite::Database& database) {
+  return connections_.read([&](sql::Database& database) {
     return kind.empty()
-               ? sqlite::all_rows(database, kOfAny, read_record, run, page.limit, page.offset)
-               : sqlite::all_rows(database, kOfKind, read_record, run, page.limit, page.offset,
-                                  kind);
+               ? sql::all_rows(database, kOfAny, read_record, run, page.limit, page.offset)
+               : sql::all_rows(database, kOfKind, read_record, run, page.limit, page.offset, kind);
   });
 }
 
@@ -186,9 +185,9 @@ Result<std::vector<Record>> RecordRepository::of_run_after(const std::string& ru
       "WHERE run = ?1 AND (record.epoch, number) > (?2, ?3) AND NOT EXISTS "
       "(SELECT 1 FROM run AS owned WHERE owned.id = ?1 AND owned.machine <> record.machine) "
       "AND (?4 = '' OR kind = ?4) ORDER BY record.epoch, number LIMIT ?5";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSelect, read_record, run, after.epoch, after.number, kind,
-                            limit);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSelect, read_record, run, after.epoch, after.number, kind,
+                         limit);
   });
 }
 
@@ -199,9 +198,8 @@ Result<std::vector<Record>> RecordRepository::of_machine_after(const std::string
       "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, "
       "received_us FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
       "AND epoch = ?2 AND number > ?3 ORDER BY number LIMIT ?4";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSelect, read_record, machine, after.epoch, after.number,
-                            limit);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSelect, read_record, machine, after.epoch, after.number, limit);
   });
 }
 
@@ -213,21 +211,20 @@ Result<std::vector<Record>> RecordRepository::machine_report(const std::string& 
       "received_us FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
       "AND run IS NULL AND kind IN ('output', 'probe') AND (epoch, number) > (?2, ?3) "
       "ORDER BY epoch, number LIMIT ?4";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSelect, read_record, machine, after.epoch, after.number,
-                            limit);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSelect, read_record, machine, after.epoch, after.number, limit);
   });
 }
 
 /// The condition is the index's own, word for word: only so is it used.
 Result<std::vector<MachineReport>> RecordRepository::machine_reports() {
   static const std::string kSelect =
-      "SELECT machine.name, count(*), min(time_us), max(time_us) FROM record "
-      "JOIN machine ON machine.id = record.machine "
-      "WHERE run IS NULL AND kind IN ('output', 'probe') "
-      "GROUP BY record.machine ORDER BY machine.name";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSelect, [](const sqlite::Statement& row) {
+      "SELECT (SELECT name FROM machine WHERE id = record.machine) AS name, count(*), "
+      "min(time_us), "
+      "max(time_us) FROM record WHERE run IS NULL AND kind IN ('output', 'probe') "
+      "GROUP BY record.machine ORDER BY name";
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSelect, [](const sql::Statement& row) {
       return MachineReport{.machine = row.text(0),
                            .lines = row.number(1),
                            .first = row.time(2),
@@ -247,7 +244,7 @@ struct MemoryPlace {
 
 /// Without the named index SQLite reads all records of the machine. Epochs of a gateway that lost
 /// its journal have no order, so the time of the server decides.
-Result<std::vector<MemoryPlace>> memory_places(sqlite::Database& database,
+Result<std::vector<MemoryPlace>> memory_places(sql::Database& database,
                                                const std::string& machine,
                                                const std::optional<std::string>& run,
                                                const std::string& prefix, Page page) {
@@ -259,9 +256,9 @@ Result<std::vector<MemoryPlace>> memory_places(sqlite::Database& database,
       "GROUP BY run, epoch "
       "ORDER BY max(coalesce(received_us, time_us)) DESC, epoch DESC, max(number) DESC "
       "LIMIT ?3 OFFSET ?4";
-  return sqlite::all_rows(
+  return sql::all_rows(
       database, kSelect,
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return MemoryPlace{row.text(0), row.number(1), row.time(2)};
       },
       machine, run, page.limit, page.offset, prefix);
@@ -287,13 +284,13 @@ Result<std::vector<MemoryReport>> RecordRepository::memory_reports_of(
       "SELECT text FROM record INDEXED BY record_of_memory "
       "WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
       "AND kind = 'message' AND device = 'memory' AND epoch = ?2 AND run = ?3 ORDER BY number";
-  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<MemoryReport>> {
+  return connections_.read([&](sql::Database& database) -> Result<std::vector<MemoryReport>> {
     const auto places = memory_places(database, machine, run, prefix, page);
     if (!places) return fail(places.error());
     std::vector<MemoryReport> reports;
     for (const MemoryPlace& place : *places) {
-      auto texts = sqlite::all_rows(
-          database, kTexts, [](const sqlite::Statement& row) { return row.text(0); }, machine,
+      auto texts = sql::all_rows(
+          database, kTexts, [](const sql::Statement& row) { return row.text(0); }, machine,
           place.epoch, place.run);
       if (!texts) return fail(texts.error());
       reports.push_back({place.run, place.time, *std::move(texts)});

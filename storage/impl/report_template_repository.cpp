@@ -2,14 +2,14 @@
 
 #include "protocol/base/names.hpp"
 #include "storage/impl/audit_repository.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
 
 const std::string kSelect = "SELECT name, version, text, author, created_us FROM report_template ";
 
-ReportTemplateVersion read_version(const sqlite::Statement& row) {
+ReportTemplateVersion read_version(const sql::Statement& row) {
   return {.name = row.text(0),
           .version = row.number(1),
           .text = row.text(2),
@@ -18,14 +18,14 @@ ReportTemplateVersion read_version(const sqlite::Statement& row) {
 }
 
 /// Of a template that is not removed.
-Result<std::optional<ReportTemplateVersion>> find_version(sqlite::Database& database,
+Result<std::optional<ReportTemplateVersion>> find_version(sql::Database& database,
                                                           const std::string& name,
                                                           std::optional<std::uint64_t> version) {
   static const std::string kNewest =
       kSelect + "WHERE name = ?1 AND is_removed = 0 ORDER BY version DESC LIMIT 1";
   static const std::string kOne = kSelect + "WHERE name = ?1 AND version = ?2";
-  return version ? sqlite::first_row(database, kOne, read_version, name, *version)
-                 : sqlite::first_row(database, kNewest, read_version, name);
+  return version ? sql::first_row(database, kOne, read_version, name, *version)
+                 : sql::first_row(database, kNewest, read_version, name);
 }
 
 std::string version_text(std::optional<std::uint64_t> version) {
@@ -44,12 +44,13 @@ std::string assignment_text(const TemplateAssignment& assignment) {
 
 /// As long as nothing is assigned nothing is derived, and no cursor moves: records that are there
 /// when the first assignment is made are no concern of it.
-Result<void> pass_over(sqlite::Database& database) {
+Result<void> pass_over(sql::Database& database) {
   const auto count = database.integer("SELECT count(*) FROM report_template_assignment");
   if (!count) return fail(count.error());
   if (*count > 0) return {};
   return database.execute(
-      "INSERT OR REPLACE INTO measurement_cursor SELECT machine, epoch, last FROM record_epoch");
+      "INSERT INTO measurement_cursor SELECT machine, epoch, last FROM record_epoch WHERE true "
+      "ON CONFLICT (machine, epoch) DO UPDATE SET number = excluded.number");
 }
 
 }  // namespace
@@ -57,20 +58,20 @@ Result<void> pass_over(sqlite::Database& database) {
 Result<ReportTemplateVersion> ReportTemplateRepository::push(const ReportTemplateVersion& version,
                                                              const Actor& who) {
   if (auto named = check_machine_name(version.name); !named) return fail(named.error());
-  return connections_.write([&](sqlite::Database& database) -> Result<ReportTemplateVersion> {
+  return connections_.write([&](sql::Database& database) -> Result<ReportTemplateVersion> {
     const auto newest = find_version(database, version.name, std::nullopt);
     if (!newest) return fail(newest.error());
     if (*newest && (*newest)->text == version.text) return **newest;
-    const auto last = sqlite::first_row(
+    const auto last = sql::first_row(
         database, "SELECT coalesce(max(version), 0) FROM report_template WHERE name = ?1",
-        [](const sqlite::Statement& row) { return row.number(0); }, version.name);
+        [](const sql::Statement& row) { return row.number(0); }, version.name);
     if (!last) return fail(last.error());
     ReportTemplateVersion made = version;
     made.version = last->value_or(0) + 1;
-    auto done = sqlite::run(database,
-                            "INSERT INTO report_template (name, version, text, author, created_us) "
-                            "VALUES (?1, ?2, ?3, ?4, ?5)",
-                            made.name, made.version, made.text, made.author, made.created);
+    auto done = sql::run(database,
+                         "INSERT INTO report_template (name, version, text, author, created_us) "
+                         "VALUES (?1, ?2, ?3, ?4, ?5)",
+                         made.name, made.version, made.text, made.author, made.created);
     if (!done) return fail(done.error());
     done = add_audit(database, {.time = made.created,
                                 .who = who,
@@ -88,21 +89,20 @@ Result<std::vector<ReportTemplateVersion>> ReportTemplateRepository::list() {
       "AS one WHERE is_removed = 0 AND version = (SELECT max(version) FROM report_template WHERE "
       "name = one.name) ORDER BY name";
   return connections_.read(
-      [&](sqlite::Database& database) { return sqlite::all_rows(database, kSql, read_version); });
+      [&](sql::Database& database) { return sql::all_rows(database, kSql, read_version); });
 }
 
 Result<std::vector<ReportTemplateVersion>> ReportTemplateRepository::versions(
     const std::string& name) {
   static const std::string kSql = kSelect + "WHERE name = ?1 ORDER BY version DESC LIMIT 1000";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSql, read_version, name);
-  });
+  return connections_.read(
+      [&](sql::Database& database) { return sql::all_rows(database, kSql, read_version, name); });
 }
 
 Result<ReportTemplateVersion> ReportTemplateRepository::find(const std::string& name,
                                                              std::optional<std::uint64_t> version) {
   auto found = connections_.read(
-      [&](sqlite::Database& database) { return find_version(database, name, version); });
+      [&](sql::Database& database) { return find_version(database, name, version); });
   if (!found) return fail(found.error());
   if (!*found) return fail(no_such(name, version));
   return std::move(**found);
@@ -110,14 +110,13 @@ Result<ReportTemplateVersion> ReportTemplateRepository::find(const std::string& 
 
 Result<void> ReportTemplateRepository::remove(const std::string& name, const Actor& who,
                                               UtcTime time) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    auto done = sqlite::run(
+  return connections_.write([&](sql::Database& database) -> Result<void> {
+    auto done = sql::run(
         database, "UPDATE report_template SET is_removed = 1 WHERE name = ?1 AND is_removed = 0",
         name);
     if (!done) return done;
     if (database.changes() == 0) return fail(no_such(name, {}));
-    done =
-        sqlite::run(database, "DELETE FROM report_template_assignment WHERE template = ?1", name);
+    done = sql::run(database, "DELETE FROM report_template_assignment WHERE template = ?1", name);
     if (!done) return done;
     return add_audit(database, {.time = time,
                                 .who = who,
@@ -129,7 +128,7 @@ Result<void> ReportTemplateRepository::remove(const std::string& name, const Act
 
 Result<void> ReportTemplateRepository::assign(const TemplateAssignment& assignment,
                                               const Actor& who) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto newest = find_version(database, assignment.name, std::nullopt);
     if (!newest) return fail(newest.error());
     if (!*newest) return fail(no_such(assignment.name, {}));
@@ -137,7 +136,7 @@ Result<void> ReportTemplateRepository::assign(const TemplateAssignment& assignme
     if (!pinned) return fail(pinned.error());
     if (!*pinned) return fail(no_such(assignment.name, assignment.version));
     if (auto passed = pass_over(database); !passed) return passed;
-    auto done = sqlite::run(
+    auto done = sql::run(
         database,
         "INSERT INTO report_template_assignment (scope, subject, template, version, author, "
         "created_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6) ON CONFLICT (scope, subject, template) DO "
@@ -156,11 +155,11 @@ Result<void> ReportTemplateRepository::assign(const TemplateAssignment& assignme
 
 Result<void> ReportTemplateRepository::unassign(const TemplateAssignment& assignment,
                                                 const Actor& who) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    auto done = sqlite::run(database,
-                            "DELETE FROM report_template_assignment WHERE scope = ?1 AND subject = "
-                            "?2 AND template = ?3",
-                            to_string(assignment.scope), assignment.subject, assignment.name);
+  return connections_.write([&](sql::Database& database) -> Result<void> {
+    auto done = sql::run(database,
+                         "DELETE FROM report_template_assignment WHERE scope = ?1 AND subject = "
+                         "?2 AND template = ?3",
+                         to_string(assignment.scope), assignment.subject, assignment.name);
     if (!done) return done;
     if (database.changes() == 0) {
       return fail(Errc::NotFound, "report template {} is not assigned to {}", assignment.name,
@@ -178,8 +177,8 @@ Result<std::vector<TemplateAssignment>> ReportTemplateRepository::assignments() 
   static const std::string kSql =
       "SELECT scope, subject, template, version, author, created_us FROM "
       "report_template_assignment ORDER BY scope, subject, template";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSql, [](const sqlite::Statement& row) {
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSql, [](const sql::Statement& row) {
       TemplateAssignment assignment;
       // The schema allows only these words.
       assignment.scope = parse_template_scope(row.text(0)).value_or(TemplateScope::Program);

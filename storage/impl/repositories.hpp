@@ -7,7 +7,7 @@
 #include "storage/record_store.hpp"
 #include "storage/run_store.hpp"
 #include "storage/setup_store.hpp"
-#include "storage/sqlite/database.hpp"
+#include "storage/sql/database.hpp"
 
 /// The repositories without a state of their own; each has a .cpp with its SQL. Thread-safe.
 
@@ -15,11 +15,11 @@ namespace dripline::storage {
 
 /// Inside the caller's transaction: the machine's row id, made when it is new (a gateway's records
 /// may come before its announcement). Errors: Syntax and LimitExceeded for a new name.
-Result<std::int64_t> machine_id(sqlite::Database& database, const std::string& name,
+Result<std::int64_t> machine_id(sql::Database& database, const std::string& name,
                                 std::uint64_t epoch, UtcTime now);
 
 /// The same of one that is there. Errors: NotFound.
-Result<std::int64_t> known_machine(sqlite::Database& database, const std::string& name);
+Result<std::int64_t> known_machine(sql::Database& database, const std::string& name);
 
 class MachineRepository final : public MachineStore {
  public:
@@ -124,19 +124,17 @@ class SetupRepository final : public SetupStore {
 
 /// Ordered becomes Active. Unknown and other runs stay as they are: a record is never refused for
 /// what it reports of a run.
-Result<void> apply_beginning(sqlite::Database& database, std::int64_t machine,
+Result<void> apply_beginning(sql::Database& database, std::int64_t machine,
                              const RunBeginning& beginning);
 
 /// An unfinished run gets its final state; a finished one keeps the state it has. Counters never go
 /// back. Errors: Syntax (the ending's state is none that ends).
-Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,
-                          const RunEnding& ending);
+Result<void> apply_ending(sql::Database& database, std::int64_t machine, const RunEnding& ending);
 
 struct NewOutputs {
   std::string run;
   std::uint64_t count = 0;
 };
-Result<void> add_outputs(sqlite::Database& database, std::int64_t machine,
-                         const NewOutputs& outputs);
+Result<void> add_outputs(sql::Database& database, std::int64_t machine, const NewOutputs& outputs);
 
 }  // namespace dripline::storage

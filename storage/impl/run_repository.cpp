@@ -14,14 +14,15 @@ const std::string kSelect =
     "0), "
     "run.control, run.state, run.sent, run.accepted, run.executed, run.line, run.sequence, "
     "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
-    "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS revision.sha256, "
+    "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS NOT DISTINCT FROM "
+    "revision.sha256, "
     "run.allowed_as, "
     "run.approval, run.job, run.gateway_setup, run.motion_seconds, run.path_mm FROM run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
     "LEFT JOIN content ON content.sha256 = run.sha256 ";
 
-Run read_run(const sqlite::Statement& row) {
+Run read_run(const sql::Statement& row) {
   Run run;
   run.id = row.text(0);
   run.machine = row.text(1);
@@ -62,9 +63,9 @@ Run read_run(const sqlite::Statement& row) {
 }
 
 /// Errors: NotFound.
-Result<Run> find_run(sqlite::Database& database, const std::string& id) {
+Result<Run> find_run(sql::Database& database, const std::string& id) {
   static const std::string kSql = kSelect + "WHERE run.id = ?1";
-  auto run = sqlite::first_row(database, kSql, read_run, id);
+  auto run = sql::first_row(database, kSql, read_run, id);
   if (!run) return fail(run.error());
   if (!*run) return fail(Errc::NotFound, "run {} is not known", id);
   return std::move(**run);
@@ -86,7 +87,7 @@ Result<void> check_state(const Run& run, RevisionState state) {
 }
 
 /// The run's content must be its revision's: what is fed is what was approved.
-Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) {
+Result<std::int64_t> known_revision(sql::Database& database, const Run& run) {
   struct Found {
     std::int64_t program;
     Digest content;
@@ -94,7 +95,7 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
     Digest named;
     RevisionState state;
   };
-  const auto found = sqlite::first_row(
+  const auto found = sql::first_row(
       database,
       "SELECT program.id, revision.sha256, revision.standing = 'held', content.sha256, "
       "revision.state FROM revision "
@@ -102,7 +103,7 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
       "LEFT JOIN content ON content.id = revision.content "
       "WHERE program.name = ?1 AND revision.number = ?2 "
       "AND revision.number > program.removed_through AND revision.standing <> 'rejected'",
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return Found{row.integer(0), read_digest(row, 1), row.integer(2) != 0, read_digest(row, 3),
                      parse_revision_state(row.text(4)).value_or(RevisionState::Withdrawn)};
       },
@@ -132,14 +133,14 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
 }
 
 /// Of a run under a release that pins what its program calls: none of that was withdrawn since.
-Result<void> check_pins(sqlite::Database& database, const Run& run) {
+Result<void> check_pins(sql::Database& database, const Run& run) {
   if (!run.approval) return {};
-  const auto withdrawn = sqlite::first_row(
+  const auto withdrawn = sql::first_row(
       database,
       "SELECT revision_pin.name, revision_pin.revision FROM revision_pin JOIN revision "
       "ON revision.program = revision_pin.program AND revision.number = revision_pin.revision "
       "WHERE revision_pin.step = ?1 AND revision.state <> 'released' LIMIT 1",
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return fmt::format("{} revision {}", row.text(0), row.number(1));
       },
       *run.approval);
@@ -149,17 +150,17 @@ Result<void> check_pins(sqlite::Database& database, const Run& run) {
               run.revision, **withdrawn);
 }
 
-Result<void> check_idle(sqlite::Database& database, std::int64_t machine, const std::string& name) {
-  const auto unfinished = sqlite::first_row(
+Result<void> check_idle(sql::Database& database, std::int64_t machine, const std::string& name) {
+  const auto unfinished = sql::first_row(
       database, "SELECT id FROM run WHERE machine = ?1 AND state IN ('ordered', 'active')",
-      [](const sqlite::Statement& row) { return row.text(0); }, machine);
+      [](const sql::Statement& row) { return row.text(0); }, machine);
   if (!unfinished) return fail(unfinished.error());
   if (!*unfinished) return {};
   return fail(Errc::Busy, "machine {} has the unfinished run {}", name, **unfinished);
 }
 
-Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPlace& place) {
-  return sqlite::run(
+Result<void> insert_run(sql::Database& database, const Run& run, const RunPlace& place) {
+  return sql::run(
       database,
       "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
       "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
@@ -176,7 +177,7 @@ Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPla
 }  // namespace
 
 Result<void> RunRepository::create(const Run& run) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto machine = known_machine(database, run.machine);
     if (!machine) return fail(machine.error());
     const auto program = known_revision(database, run);
@@ -192,7 +193,7 @@ Result<void> RunRepository::create(const Run& run) {
 }
 
 Result<Run> RunRepository::find(const std::string& id) {
-  return connections_.read([&](sqlite::Database& database) { return find_run(database, id); });
+  return connections_.read([&](sql::Database& database) { return find_run(database, id); });
 }
 
 namespace {
@@ -204,7 +205,10 @@ std::string select_filtered(const RunFilter& filter) {
   if (filter.state) sql += "AND run.state = ?3 ";
   if (filter.setup) sql += "AND run.setup = ?4 ";
   if (filter.with_outputs) sql += "AND run.outputs > 0 ";
-  return sql + "AND ?1 IS ?1 AND ?2 IS ?2 AND ?3 IS ?3 AND ?4 IS ?4 ";
+  return sql +
+         "AND (?1 IS NULL OR true) AND (?2 IS NULL OR true) AND (?3 IS NULL OR true) AND (?4 IS "
+         "NULL OR "
+         "true) ";
 }
 
 std::optional<std::string> state_of(const RunFilter& filter) {
@@ -215,11 +219,11 @@ std::optional<std::string> state_of(const RunFilter& filter) {
 }  // namespace
 
 Result<std::uint64_t> RunRepository::count(const RunFilter& filter) {
-  const std::string sql = "SELECT count(*) FROM (" + select_filtered(filter) + ")";
+  const std::string sql = "SELECT count(*) FROM (" + select_filtered(filter) + ") AS runs";
   const auto state = state_of(filter);
-  const auto found = connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(
-        database, sql, [](const sqlite::Statement& row) { return row.number(0); }, filter.machine,
+  const auto found = connections_.read([&](sql::Database& database) {
+    return sql::first_row(
+        database, sql, [](const sql::Statement& row) { return row.number(0); }, filter.machine,
         filter.program, state, filter.setup);
   });
   if (!found) return fail(found.error());
@@ -229,15 +233,15 @@ Result<std::uint64_t> RunRepository::count(const RunFilter& filter) {
 Result<std::vector<Run>> RunRepository::list(const RunFilter& filter, Page page) {
   const std::string sql = select_filtered(filter) + "ORDER BY run.number DESC LIMIT ?5 OFFSET ?6";
   const auto state = state_of(filter);
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, sql, read_run, filter.machine, filter.program, state,
-                            filter.setup, page.limit, page.offset);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, sql, read_run, filter.machine, filter.program, state,
+                         filter.setup, page.limit, page.offset);
   });
 }
 
 Result<void> RunRepository::set_state(const std::string& id, RunState state,
                                       const std::string& reason) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto run = find_run(database, id);
     if (!run) return fail(run.error());
     if (run->state == state) return {};
@@ -246,32 +250,32 @@ Result<void> RunRepository::set_state(const std::string& id, RunState state,
                   to_string(state));
     }
     if (state == RunState::Active) {
-      return sqlite::run(database,
-                         "UPDATE run SET state = 'active', started_us = max(?2, created_us) "
-                         "WHERE id = ?1 AND state = 'ordered'",
-                         id, clock_.now());
+      return sql::run(database,
+                      "UPDATE run SET state = 'active', started_us = max(?2, created_us) "
+                      "WHERE id = ?1 AND state = 'ordered'",
+                      id, clock_.now());
     }
     const auto ended =
-        sqlite::run(database,
-                    "UPDATE run SET state = ?2, reason = ?3, "
-                    "ended_us = max(?4, coalesce(started_us, created_us)) WHERE id = ?1",
-                    id, to_string(state), reason, clock_.now());
+        sql::run(database,
+                 "UPDATE run SET state = ?2, reason = ?3, "
+                 "ended_us = max(?4, coalesce(started_us, created_us)) WHERE id = ?1",
+                 id, to_string(state), reason, clock_.now());
     return ended ? add_run_end(database, id) : ended;
   });
 }
 
 namespace {
 
-Result<void> write_counters(sqlite::Database& database, const RunProgress& progress) {
-  const auto updated =
-      sqlite::run(database,
-                  "UPDATE run SET line = iif(?4 >= executed, ?5, line), "
-                  "sequence = iif(?4 >= executed, ?6, sequence), sent = max(sent, ?2), "
-                  "accepted = max(accepted, ?3), executed = max(executed, ?4) "
-                  "WHERE id = ?1 AND machine = (SELECT id FROM machine WHERE name = ?7) "
-                  "AND state IN ('ordered', 'active')",
-                  progress.run, progress.counters.sent, progress.counters.accepted,
-                  progress.counters.executed, progress.line, progress.sequence, progress.machine);
+Result<void> write_counters(sql::Database& database, const RunProgress& progress) {
+  const auto updated = sql::run(
+      database,
+      "UPDATE run SET line = CASE WHEN ?4 >= executed THEN ?5 ELSE line END, "
+      "sequence = CASE WHEN ?4 >= executed THEN ?6 ELSE sequence END, sent = max(sent, ?2), "
+      "accepted = max(accepted, ?3), executed = max(executed, ?4) "
+      "WHERE id = ?1 AND machine = (SELECT id FROM machine WHERE name = ?7) "
+      "AND state IN ('ordered', 'active')",
+      progress.run, progress.counters.sent, progress.counters.accepted, progress.counters.executed,
+      progress.line, progress.sequence, progress.machine);
   if (!updated || database.changes() > 0) return updated;
   const auto run = find_run(database, progress.run);  // ended: ignored
   if (!run) return fail(run.error());
@@ -285,8 +289,8 @@ Result<void> write_counters(sqlite::Database& database, const RunProgress& progr
 // Every few seconds for each machine, and repeated by the next status: not worth a disk flush.
 Result<void> RunRepository::update_counters(const RunProgress& progress) {
   return connections_.write(
-      [&](sqlite::Database& database) { return write_counters(database, progress); },
-      sqlite::Synchronous::Normal);
+      [&](sql::Database& database) { return write_counters(database, progress); },
+      Durability::Normal);
 }
 
 /// One that fails has changed nothing, and does not undo the others.
@@ -294,24 +298,25 @@ std::vector<Result<void>> RunRepository::update_all_counters(
     const std::vector<RunProgress>& progresses) {
   std::vector<Result<void>> updated;
   const auto written = connections_.write(
-      [&](sqlite::Database& database) -> Result<void> {
+      [&](sql::Database& database) -> Result<void> {
+        updated.clear();
         for (const auto& progress : progresses)
           updated.push_back(write_counters(database, progress));
         return {};
       },
-      sqlite::Synchronous::Normal);
+      Durability::Normal);
   if (!written) updated.assign(progresses.size(), fail(written.error()));
   return updated;
 }
 
 namespace {
 
-RunCall read_call(const sqlite::Statement& row) {
+RunCall read_call(const sql::Statement& row) {
   return {row.text(0), row.text(1), row.number(2), read_digest(row, 3)};
 }
 
-Result<std::vector<RunCall>> calls_of(sqlite::Database& database, const std::string& run) {
-  return sqlite::all_rows(
+Result<std::vector<RunCall>> calls_of(sql::Database& database, const std::string& run) {
+  return sql::all_rows(
       database,
       "SELECT run_call.name, program.name, run_call.revision, run_call.sha256 FROM run_call "
       "JOIN run ON run.number = run_call.run JOIN program ON program.id = run_call.program "
@@ -322,7 +327,7 @@ Result<std::vector<RunCall>> calls_of(sqlite::Database& database, const std::str
 }  // namespace
 
 Result<void> RunRepository::add_call(const std::string& id, const RunCall& call) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto run = find_run(database, id);
     if (!run) return fail(run.error());
     const auto calls = calls_of(database, id);
@@ -338,7 +343,7 @@ Result<void> RunRepository::add_call(const std::string& id, const RunCall& call)
     if (calls->size() >= RunCall::kMax) {
       return fail(Errc::LimitExceeded, "run {} calls more than {} programs", id, RunCall::kMax);
     }
-    const auto added = sqlite::run(
+    const auto added = sql::run(
         database,
         "INSERT INTO run_call (run, name, program, revision, sha256) SELECT run.number, ?2, "
         "program.id, ?4, ?5 FROM run, program WHERE run.id = ?1 AND program.name = ?3",
@@ -349,30 +354,28 @@ Result<void> RunRepository::add_call(const std::string& id, const RunCall& call)
 }
 
 Result<std::vector<RunCall>> RunRepository::calls(const std::string& run) {
-  return connections_.read([&](sqlite::Database& database) { return calls_of(database, run); });
+  return connections_.read([&](sql::Database& database) { return calls_of(database, run); });
 }
 
-Result<void> apply_beginning(sqlite::Database& database, std::int64_t machine,
+Result<void> apply_beginning(sql::Database& database, std::int64_t machine,
                              const RunBeginning& beginning) {
-  const auto begun =
-      sqlite::run(database,
-                  "UPDATE run SET state = 'active', started_us = max(?2, created_us) "
-                  "WHERE id = ?1 AND machine = ?3 AND state = 'ordered'",
-                  beginning.run, beginning.started, machine);
+  const auto begun = sql::run(database,
+                              "UPDATE run SET state = 'active', started_us = max(?2, created_us) "
+                              "WHERE id = ?1 AND machine = ?3 AND state = 'ordered'",
+                              beginning.run, beginning.started, machine);
   if (!begun || !beginning.gateway_setup) return begun;
-  return sqlite::run(database,
-                     "UPDATE run SET gateway_setup = ?2 "
-                     "WHERE id = ?1 AND machine = ?3 AND state = 'active'",
-                     beginning.run, *beginning.gateway_setup, machine);
+  return sql::run(database,
+                  "UPDATE run SET gateway_setup = ?2 "
+                  "WHERE id = ?1 AND machine = ?3 AND state = 'active'",
+                  beginning.run, *beginning.gateway_setup, machine);
 }
 
-Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,
-                          const RunEnding& ending) {
+Result<void> apply_ending(sql::Database& database, std::int64_t machine, const RunEnding& ending) {
   if (!is_finished(ending.state)) {
     return fail(Errc::Syntax, "run {}: {} is not an end", ending.run, to_string(ending.state));
   }
   const auto& statistics = ending.statistics;
-  const auto ended = sqlite::run(
+  const auto ended = sql::run(
       database,
       "UPDATE run SET state = ?2, sent = max(sent, ?3), accepted = max(accepted, ?4), "
       "executed = max(executed, ?5), line = ?6, sequence = ?7, reason = ?8, "
@@ -388,11 +391,9 @@ Result<void> apply_ending(sqlite::Database& database, std::int64_t machine,
   return add_run_end(database, ending.run);
 }
 
-Result<void> add_outputs(sqlite::Database& database, std::int64_t machine,
-                         const NewOutputs& outputs) {
-  return sqlite::run(database,
-                     "UPDATE run SET outputs = outputs + ?2 WHERE id = ?1 AND machine = ?3",
-                     outputs.run, outputs.count, machine);
+Result<void> add_outputs(sql::Database& database, std::int64_t machine, const NewOutputs& outputs) {
+  return sql::run(database, "UPDATE run SET outputs = outputs + ?2 WHERE id = ?1 AND machine = ?3",
+                  outputs.run, outputs.count, machine);
 }
 
 }  // namespace dripline::storage

@@ -3,7 +3,7 @@
 #include "storage/impl/programs/content.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/setup_rows.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 
@@ -11,9 +11,9 @@ namespace {
 
 /// Everything but the text.
 constexpr const char* kColumns =
-    "machine, number, sha256, length(CAST(text AS BLOB)), comment, author, created_us";
+    "machine, number, sha256, length(hex(text)) / 2, comment, author, created_us";
 
-SetupRevision read_setup(const sqlite::Statement& row) {
+SetupRevision read_setup(const sql::Statement& row) {
   SetupRevision setup;
   setup.machine = row.text(0);
   setup.number = row.number(1);
@@ -24,17 +24,16 @@ SetupRevision read_setup(const sqlite::Statement& row) {
   setup.created = row.time(6);
   return setup;
 }
-SetupRevision read_with_text(const sqlite::Statement& row) {
+SetupRevision read_with_text(const sql::Statement& row) {
   SetupRevision setup = read_setup(row);
   setup.text = row.text(7);
   return setup;
 }
 
-Result<std::optional<SetupRevision>> newest(sqlite::Database& database,
-                                            const std::string& machine) {
+Result<std::optional<SetupRevision>> newest(sql::Database& database, const std::string& machine) {
   static const std::string kSql = fmt::format(
       "SELECT {}, text FROM setup WHERE machine = ?1 ORDER BY number DESC LIMIT 1", kColumns);
-  return sqlite::first_row(database, kSql, read_with_text, machine);
+  return sql::first_row(database, kSql, read_with_text, machine);
 }
 
 Result<void> check_setup(const SetupRevision& setup) {
@@ -58,28 +57,28 @@ Result<void> check_base(const SetupRevision& setup, std::optional<std::uint64_t>
               setup.machine, made_from, newest);
 }
 
-Result<void> insert(sqlite::Database& database, const SetupRevision& setup) {
-  return sqlite::run(database,
-                     "INSERT INTO setup (machine, number, text, sha256, comment, author, "
-                     "created_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
-                     setup.machine, setup.number, setup.text,
-                     std::span<const std::byte>(setup.sha256.bytes), setup.comment, setup.author,
-                     setup.created);
+Result<void> insert(sql::Database& database, const SetupRevision& setup) {
+  return sql::run(database,
+                  "INSERT INTO setup (machine, number, text, sha256, comment, author, "
+                  "created_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
+                  setup.machine, setup.number, setup.text,
+                  std::span<const std::byte>(setup.sha256.bytes), setup.comment, setup.author,
+                  setup.created);
 }
 
 /// Absent: any.
-Result<void> check_exists(sqlite::Database& database, const std::string& machine,
+Result<void> check_exists(sql::Database& database, const std::string& machine,
                           std::optional<std::uint64_t> number) {
-  const auto found = sqlite::first_row(
+  const auto found = sql::first_row(
       database, "SELECT number FROM setup WHERE machine = ?1 AND number = coalesce(?2, number)",
-      [](const sqlite::Statement& row) { return row.number(0); }, machine, number);
+      [](const sql::Statement& row) { return row.number(0); }, machine, number);
   if (!found) return fail(found.error());
   if (*found) return {};
   if (!number) return fail(Errc::NotFound, "machine {} has no setup on the server", machine);
   return fail(Errc::NotFound, "machine {} has no setup {}", machine, *number);
 }
 
-LoadedSetup read_loaded(const sqlite::Statement& row) {
+LoadedSetup read_loaded(const sql::Statement& row) {
   LoadedSetup loaded{.machine = row.text(0), .number = {}, .who = row.text(2), .time = row.time(3)};
   if (const auto number = row.optional_integer(1))
     loaded.number = static_cast<std::uint64_t>(*number);
@@ -88,7 +87,7 @@ LoadedSetup read_loaded(const sqlite::Statement& row) {
 
 }  // namespace
 
-Result<SetupRevision> save_setup(sqlite::Database& database, const SetupRevision& given,
+Result<SetupRevision> save_setup(sql::Database& database, const SetupRevision& given,
                                  std::optional<std::uint64_t> base, UtcTime now) {
   if (auto checked = check_setup(given); !checked) return fail(checked.error());
   SetupRevision setup = given;
@@ -109,14 +108,14 @@ Result<SetupRevision> SetupRepository::save(const SetupRevision& setup,
                                             std::optional<std::uint64_t> base) {
   const UtcTime now = clock_.now();
   return connections_.write(
-      [&](sqlite::Database& database) { return save_setup(database, setup, base, now); });
+      [&](sql::Database& database) { return save_setup(database, setup, base, now); });
 }
 
 Result<std::vector<SetupRevision>> SetupRepository::list(const std::string& machine, Page page) {
   static const std::string kSql = fmt::format(
       "SELECT {} FROM setup WHERE machine = ?1 ORDER BY number DESC LIMIT ?2 OFFSET ?3", kColumns);
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSql, read_setup, machine, page.limit, page.offset);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSql, read_setup, machine, page.limit, page.offset);
   });
 }
 
@@ -124,8 +123,8 @@ Result<SetupRevision> SetupRepository::find(const std::string& machine,
                                             std::optional<std::uint64_t> number) {
   static const std::string kSql =
       fmt::format("SELECT {}, text FROM setup WHERE machine = ?1 AND number = ?2", kColumns);
-  return connections_.read([&](sqlite::Database& database) -> Result<SetupRevision> {
-    auto found = number ? sqlite::first_row(database, kSql, read_with_text, machine, *number)
+  return connections_.read([&](sql::Database& database) -> Result<SetupRevision> {
+    auto found = number ? sql::first_row(database, kSql, read_with_text, machine, *number)
                         : newest(database, machine);
     if (!found) return fail(found.error());
     if (*found) return std::move(**found);
@@ -140,14 +139,14 @@ Result<LoadedSetup> SetupRepository::note_loaded(const std::string& machine,
   if (auto named = check_machine_name(machine); !named) return fail(named.error());
   const LoadedSetup loaded{
       .machine = machine, .number = number, .who = who.name, .time = clock_.now()};
-  return connections_.write([&](sqlite::Database& database) -> Result<LoadedSetup> {
+  return connections_.write([&](sql::Database& database) -> Result<LoadedSetup> {
     if (auto there = check_exists(database, machine, number); !there) return fail(there.error());
     const auto kept =
-        sqlite::run(database,
-                    "INSERT INTO loaded_setup (machine, number, who, loaded_us) VALUES (?1, ?2, "
-                    "?3, ?4) ON CONFLICT (machine) DO UPDATE SET number = excluded.number, who = "
-                    "excluded.who, loaded_us = excluded.loaded_us",
-                    machine, number, who.name, loaded.time);
+        sql::run(database,
+                 "INSERT INTO loaded_setup (machine, number, who, loaded_us) VALUES (?1, ?2, "
+                 "?3, ?4) ON CONFLICT (machine) DO UPDATE SET number = excluded.number, who = "
+                 "excluded.who, loaded_us = excluded.loaded_us",
+                 machine, number, who.name, loaded.time);
     if (!kept) return fail(kept.error());
     const auto noted = add_audit(
         database, {.time = loaded.time,
@@ -162,8 +161,8 @@ Result<LoadedSetup> SetupRepository::note_loaded(const std::string& machine,
 }
 
 Result<std::optional<LoadedSetup>> SetupRepository::loaded(const std::string& machine) {
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(
+  return connections_.read([&](sql::Database& database) {
+    return sql::first_row(
         database, "SELECT machine, number, who, loaded_us FROM loaded_setup WHERE machine = ?1",
         read_loaded, machine);
   });

@@ -12,12 +12,17 @@ function(dripline_embed_schema OUTPUT)
   file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 // Generated from storage/schema/*.sql.
 #include "storage/impl/audit_repository.hpp"
+#include "storage/impl/sqlite_connections.hpp"
 
 namespace dripline::storage {
 namespace {
 
+Result<void> begin_chain_of(sqlite::Database& database) {
+  return begin_chain(database);
+}
+
 constexpr auto step_after(int version) {
-  return version == 9 ? &begin_chain : nullptr;
+  return version == 9 ? &begin_chain_of : nullptr;
 }
 
 constexpr sqlite::Migration kMigrations[] = {

@@ -97,33 +97,16 @@ Result<Statement> Database::prepare(const std::string& sql) {
   try {
     Prepared& prepared = connection_->prepared[sql];
     if (prepared.is_busy) {  // a second use of the same text at the same time gets its own
-      return Statement(std::make_shared<SQLite::Statement>(connection_->sqlite, sql), nullptr);
+      return Statement(std::make_unique<PreparedCursor>(
+          std::make_shared<SQLite::Statement>(connection_->sqlite, sql), nullptr));
     }
     if (!prepared.statement) {
       prepared.statement = std::make_shared<SQLite::Statement>(connection_->sqlite, sql);
     }
-    return Statement(prepared.statement, &prepared.is_busy);
+    return Statement(std::make_unique<PreparedCursor>(prepared.statement, &prepared.is_busy));
   } catch (const SQLite::Exception& exception) {
     return fail(error_of(exception, sql));
   }
-}
-
-Result<std::int64_t> Database::integer(const std::string& sql) {
-  auto statement = prepare(sql);
-  if (!statement) return fail(statement.error());
-  const auto has_row = statement->step();
-  if (!has_row) return fail(has_row.error());
-  if (!*has_row) return fail(Errc::NotFound, "no row from: {}", sql);
-  return statement->integer(0);
-}
-
-Result<std::string> Database::text(const std::string& sql) {
-  auto statement = prepare(sql);
-  if (!statement) return fail(statement.error());
-  const auto has_row = statement->step();
-  if (!has_row) return fail(has_row.error());
-  if (!*has_row) return fail(Errc::NotFound, "no row from: {}", sql);
-  return statement->text(0);
 }
 
 std::uint64_t Database::changes() const {

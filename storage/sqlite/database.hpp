@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "protocol/base/result.hpp"
+#include "storage/sql/database.hpp"
 #include "storage/sqlite/statement.hpp"
 
 namespace dripline::storage::sqlite {
@@ -29,30 +30,19 @@ struct OpenOptions {
   std::uint64_t checkpoint_bytes = 4 << 20;  ///< of log after which it is written into the file
 };
 
-/// One connection to one file: WAL, foreign keys on, no secure delete. One thread at a time; a
-/// thread may hand it to another. Errors of everything here: Busy (another connection writes),
-/// Corrupt, Io (of a full disk: "disk full"), Conflict (a constraint of the schema); the text
-/// holds SQLite's extended code and the SQL.
-class Database {
+/// One connection to one file: WAL, foreign keys on, no secure delete. The text of an error holds
+/// SQLite's extended code.
+class Database final : public sql::Database {
  public:
   static Result<Database> open(const std::filesystem::path& file, const OpenOptions& options = {});
   Database(Database&&) noexcept;
   Database& operator=(Database&&) noexcept;
-  ~Database();
+  ~Database() override;
 
-  /// Runs one or several statements that return nothing.
-  Result<void> execute(const std::string& sql);
-
-  /// A prepared statement, kept for the next caller with the same text: so SQL texts are
-  /// constants, values are bound. It must be destroyed before the database.
-  Result<Statement> prepare(const std::string& sql);
-
-  /// The first column of the only row, for PRAGMA and COUNT. Errors: also NotFound (no row).
-  Result<std::int64_t> integer(const std::string& sql);
-  Result<std::string> text(const std::string& sql);
-
-  /// Rows changed by the statement that ran last.
-  std::uint64_t changes() const;
+  sql::Engine engine() const override { return sql::Engine::Sqlite; }
+  Result<void> execute(const std::string& sql) override;
+  Result<Statement> prepare(const std::string& sql) override;
+  std::uint64_t changes() const override;
   /// Row id of the last INSERT.
   std::int64_t last_insert_id() const;
   bool in_transaction() const;

@@ -26,22 +26,18 @@ auto expect_position(Action action) {
 
 }  // namespace
 
-Statement::Statement(std::shared_ptr<SQLite::Statement> statement, bool* is_busy)
+PreparedCursor::PreparedCursor(std::shared_ptr<SQLite::Statement> statement, bool* is_busy)
     : statement_(std::move(statement)), is_busy_(is_busy) {
   if (is_busy_ != nullptr) *is_busy_ = true;
 }
 
-Statement::Statement(Statement&& other) noexcept
-    : statement_(std::move(other.statement_)), is_busy_(std::exchange(other.is_busy_, nullptr)) {}
-
-Statement::~Statement() {
-  if (statement_ == nullptr) return;
+PreparedCursor::~PreparedCursor() {
   statement_->tryReset();
   expect_position([this] { statement_->clearBindings(); });  // lets go of the caller's bytes
   if (is_busy_ != nullptr) *is_busy_ = false;
 }
 
-Result<bool> Statement::step() {
+Result<bool> PreparedCursor::step() {
   if (statement_->isDone()) statement_->tryReset();
   const int code = statement_->tryExecuteStep();
   if (code == SQLITE_ROW) return true;
@@ -52,7 +48,7 @@ Result<bool> Statement::step() {
   return fail(error);
 }
 
-Result<void> Statement::run() {
+Result<void> PreparedCursor::run() {
   for (;;) {
     const auto has_row = step();
     if (!has_row) return fail(has_row.error());
@@ -62,49 +58,45 @@ Result<void> Statement::run() {
   return {};
 }
 
-void Statement::reset() {
+void PreparedCursor::reset() {
   statement_->tryReset();
 }
 
-void Statement::bind_integer(int position, std::int64_t value) {
+void PreparedCursor::bind_integer(int position, std::int64_t value) {
   expect_position([&] { statement_->bind(position, value); });
 }
 
-void Statement::bind_real(int position, double value) {
+void PreparedCursor::bind_real(int position, double value) {
   expect_position([&] { statement_->bind(position, value); });
 }
 
-void Statement::bind_text(int position, const std::string& value) {
+void PreparedCursor::bind_text(int position, const std::string& value) {
   expect_position([&] { statement_->bind(position, value); });
 }
 
-void Statement::bind_blob(int position, std::span<const std::byte> value) {
+void PreparedCursor::bind_blob(int position, std::span<const std::byte> value) {
   const void* bytes = value.empty() ? "" : static_cast<const void*>(value.data());  // null is NULL
   invariant(value.size() <= 1'000'000'000, "a blob has at most 10^9 bytes");
   expect_position([&] { statement_->bindNoCopy(position, bytes, static_cast<int>(value.size())); });
 }
 
-void Statement::bind_null(int position) {
+void PreparedCursor::bind_null(int position, sql::Kind) {
   expect_position([&] { statement_->bind(position); });
 }
 
-std::int64_t Statement::integer(int column) const {
+std::int64_t PreparedCursor::integer(int column) const {
   return expect_position([&] { return statement_->getColumn(column).getInt64(); });
 }
 
-std::uint64_t Statement::number(int column) const {
-  return static_cast<std::uint64_t>(integer(column));
-}
-
-double Statement::real(int column) const {
+double PreparedCursor::real(int column) const {
   return expect_position([&] { return statement_->getColumn(column).getDouble(); });
 }
 
-std::string Statement::text(int column) const {
+std::string PreparedCursor::text(int column) const {
   return expect_position([&] { return statement_->getColumn(column).getString(); });
 }
 
-std::span<const std::byte> Statement::blob(int column) const {
+std::span<const std::byte> PreparedCursor::blob(int column) const {
   return expect_position([&]() -> std::span<const std::byte> {
     const SQLite::Column value = statement_->getColumn(column);
     const auto* bytes = static_cast<const std::byte*>(value.getBlob());
@@ -112,32 +104,8 @@ std::span<const std::byte> Statement::blob(int column) const {
   });
 }
 
-UtcTime Statement::time(int column) const {
-  return UtcTime{std::chrono::microseconds{integer(column)}};
-}
-
-bool Statement::is_null(int column) const {
+bool PreparedCursor::is_null(int column) const {
   return expect_position([&] { return statement_->isColumnNull(column); });
-}
-
-std::optional<std::int64_t> Statement::optional_integer(int column) const {
-  if (is_null(column)) return std::nullopt;
-  return integer(column);
-}
-
-std::optional<double> Statement::optional_real(int column) const {
-  if (is_null(column)) return std::nullopt;
-  return real(column);
-}
-
-std::optional<std::string> Statement::optional_text(int column) const {
-  if (is_null(column)) return std::nullopt;
-  return text(column);
-}
-
-std::optional<UtcTime> Statement::optional_time(int column) const {
-  if (is_null(column)) return std::nullopt;
-  return time(column);
 }
 
 namespace {

@@ -1,16 +1,12 @@
 #pragma once
 
-#include <concepts>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "protocol/base/clock.hpp"
-#include "protocol/base/result.hpp"
+#include "storage/sql/statement.hpp"
 
 namespace SQLite {
 class Statement;
@@ -22,79 +18,35 @@ class Exception;
 
 namespace dripline::storage::sqlite {
 
-/// A prepared statement and its use: bound, stepped, and reset when it leaves its scope. Positions
-/// of parameters count from 1, of columns from 0. A position that does not exist is a bug of ours
-/// and ends the program. One thread at a time.
-class Statement {
+using sql::Statement;
+
+/// A statement of SQLite's, kept by its connection for the next use.
+class PreparedCursor final : public sql::Cursor {
  public:
-  Statement(Statement&&) noexcept;
-  Statement& operator=(Statement&&) = delete;
-  ~Statement();
+  /// `is_busy` belongs to the kept statement and is cleared at the end of the use; may be null.
+  PreparedCursor(std::shared_ptr<SQLite::Statement> statement, bool* is_busy);
+  PreparedCursor(const PreparedCursor&) = delete;
+  PreparedCursor& operator=(const PreparedCursor&) = delete;
+  ~PreparedCursor() override;
 
-  /// Binds to parameters ?1, ?2 ... in order. Text is copied; a span's bytes are not and must live
-  /// as long as this object. nullopt is NULL. Unsigned numbers keep their 64 bits (SQL sees them
-  /// as signed).
-  template <class... Values>
-  Statement& bind(const Values&... values) {
-    int position = 0;
-    (bind_one(++position, values), ...);
-    return *this;
-  }
+  Result<bool> step() override;
+  Result<void> run() override;
+  Result<void> post() override { return run(); }  // there is nothing to wait for
+  void reset() override;
 
-  /// True: there is a row to read. False: done; the next step begins again. Errors: see Database.
-  Result<bool> step();
-  /// Steps to the end and resets, so that it can be bound and run again.
-  Result<void> run();
-  void reset();
+  void bind_integer(int position, std::int64_t value) override;
+  void bind_real(int position, double value) override;
+  void bind_text(int position, const std::string& value) override;
+  void bind_blob(int position, std::span<const std::byte> value) override;
+  void bind_null(int position, sql::Kind kind) override;
 
-  // The current row. What the schema declares NOT NULL is read with these,
-  std::int64_t integer(int column) const;
-  std::uint64_t number(int column) const;
-  double real(int column) const;
-  std::string text(int column) const;
-  std::span<const std::byte> blob(int column) const;  ///< valid until the next step or reset
-  UtcTime time(int column) const;
-  // and what may be NULL with those.
-  bool is_null(int column) const;
-  std::optional<std::int64_t> optional_integer(int column) const;
-  std::optional<double> optional_real(int column) const;
-  std::optional<std::string> optional_text(int column) const;
-  std::optional<UtcTime> optional_time(int column) const;
+  std::int64_t integer(int column) const override;
+  double real(int column) const override;
+  std::string text(int column) const override;
+  std::span<const std::byte> blob(int column) const override;
+  bool is_null(int column) const override;
 
  private:
-  friend class Database;
-  /// `is_busy` belongs to the cached statement and is cleared at the end of the use.
-  Statement(std::shared_ptr<SQLite::Statement> statement, bool* is_busy);
-
-  void bind_one(int position, std::signed_integral auto value) {
-    bind_integer(position, static_cast<std::int64_t>(value));
-  }
-  void bind_one(int position, std::unsigned_integral auto value) {
-    bind_integer(position, static_cast<std::int64_t>(value));
-  }
-  void bind_one(int position, double value) { bind_real(position, value); }
-  void bind_one(int position, const std::string& value) { bind_text(position, value); }
-  void bind_one(int position, std::string_view value) { bind_text(position, std::string(value)); }
-  void bind_one(int position, const char* value) { bind_text(position, value); }
-  void bind_one(int position, std::span<const std::byte> value) { bind_blob(position, value); }
-  void bind_one(int position, UtcTime value) {
-    bind_integer(position, value.time_since_epoch().count());
-  }
-  void bind_one(int position, std::nullopt_t) { bind_null(position); }
-  template <class T>
-  void bind_one(int position, const std::optional<T>& value) {
-    if (value) {
-      bind_one(position, *value);
-    } else {
-      bind_null(position);
-    }
-  }
-  void bind_integer(int position, std::int64_t value);
-  void bind_real(int position, double value);
-  void bind_text(int position, const std::string& value);
-  void bind_blob(int position, std::span<const std::byte> value);
-  void bind_null(int position);
-
   std::shared_ptr<SQLite::Statement> statement_;
   bool* is_busy_;
 };

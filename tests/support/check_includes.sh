@@ -14,7 +14,8 @@ protocol/wire: protocol/base protocol/wire
 protocol/process: protocol/base protocol/process
 protocol/serial: protocol/base protocol/wire protocol/serial
 protocol/dds: protocol/base protocol/pki protocol/dds
-storage/sqlite: protocol/base storage/sqlite
+storage/sql: protocol/base storage/sql
+storage/sqlite: protocol/base storage/sql storage/sqlite
 storage/backup: protocol/base storage
 storage: protocol/base protocol/audit protocol/measurement storage
 gateway/interpreter/core: protocol/base gateway/interpreter/core
@@ -33,10 +34,10 @@ clients/tools/authority: protocol/base protocol/pki clients/tools/authority
 clients/tools/tnc_probing: protocol/base gateway/interpreter clients/tools/tnc_probing
 gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/machine/grbl: protocol/base protocol/wire protocol/serial gateway/interpreter gateway/machine
-gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
+gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sql storage/sqlite
 gateway/line: protocol/base protocol/measurement protocol/wire protocol/process protocol/serial gateway/interpreter gateway/line
-gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
-gateway/app: protocol gateway storage/sqlite
+gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sql storage/sqlite
+gateway/app: protocol gateway storage/sql storage/sqlite
 server/library: protocol/base protocol/archive protocol/measurement protocol/pki protocol/audit protocol/process storage gateway/interpreter server/library
 server/identity: protocol/base protocol/process storage server/library server/identity
 server/machines: protocol storage gateway/interpreter server/library server/machines

@@ -21,7 +21,7 @@ struct AttachmentRow {
   std::int64_t id = 0, content = 0;
 };
 
-AttachmentRow read_row(const sqlite::Statement& row) {
+AttachmentRow read_row(const sql::Statement& row) {
   AttachmentRow found;
   Attachment& attachment = found.attachment;
   attachment.program = row.text(0);
@@ -43,17 +43,16 @@ std::string words_of(const std::string& program, std::optional<std::uint64_t> re
   return revision ? fmt::format("{} revision {}", program, *revision) : program;
 }
 
-Result<std::optional<AttachmentRow>> find_row(sqlite::Database& database,
-                                              const AttachmentName& name) {
+Result<std::optional<AttachmentRow>> find_row(sql::Database& database, const AttachmentName& name) {
   static const std::string kSql = kAttachmentSelect +
                                   "WHERE attachment.program = ?1 AND coalesce(attachment.revision, "
                                   "0) = ?2 AND attachment.name = ?3";
   const auto owner = find_owner(database, name.program, name.revision);
   if (!owner) return fail(owner.error());
-  return sqlite::first_row(database, kSql, read_row, *owner, name.revision.value_or(0), name.name);
+  return sql::first_row(database, kSql, read_row, *owner, name.revision.value_or(0), name.name);
 }
 
-Result<AttachmentRow> known_row(sqlite::Database& database, const AttachmentName& name) {
+Result<AttachmentRow> known_row(sql::Database& database, const AttachmentName& name) {
   auto row = find_row(database, name);
   if (!row) return fail(row.error());
   if (*row) return std::move(**row);
@@ -61,7 +60,7 @@ Result<AttachmentRow> known_row(sqlite::Database& database, const AttachmentName
               words_of(name.program, name.revision), name.name);
 }
 
-Result<void> write_down(sqlite::Database& database, const Attachment& attachment,
+Result<void> write_down(sql::Database& database, const Attachment& attachment,
                         const AuditEntry& of) {
   AuditEntry entry = of;
   entry.subject = attachment.program;
@@ -72,10 +71,10 @@ Result<void> write_down(sqlite::Database& database, const Attachment& attachment
   return add_audit(database, entry);
 }
 
-Result<void> check_room(sqlite::Database& database, std::int64_t program, const std::string& name) {
-  const auto count = sqlite::first_row(
+Result<void> check_room(sql::Database& database, std::int64_t program, const std::string& name) {
+  const auto count = sql::first_row(
       database, "SELECT count(*) FROM attachment WHERE program = ?1",
-      [](const sqlite::Statement& row) { return row.number(0); }, program);
+      [](const sql::Statement& row) { return row.number(0); }, program);
   if (!count) return fail(count.error());
   if (count->value_or(0) < AttachmentStore::kMaxAttachments) return {};
   return fail(Errc::LimitExceeded, "program {} has {} attachments: at most {}", name, **count,
@@ -83,14 +82,14 @@ Result<void> check_room(sqlite::Database& database, std::int64_t program, const 
 }
 
 /// A content that nothing names any more.
-Result<void> drop_if_unused(sqlite::Database& database, const AttachmentRow& removed) {
-  const auto used = sqlite::first_row(
+Result<void> drop_if_unused(sql::Database& database, const AttachmentRow& removed) {
+  const auto used = sql::first_row(
       database,
       "SELECT EXISTS (SELECT 1 FROM attachment WHERE content = ?1) OR "
       "EXISTS (SELECT 1 FROM revision WHERE content = ?1) OR "
       "EXISTS (SELECT 1 FROM revision WHERE sha256 = ?2) OR "
       "EXISTS (SELECT 1 FROM upload WHERE content = ?1)",
-      [](const sqlite::Statement& row) { return row.integer(0) != 0; }, removed.content,
+      [](const sql::Statement& row) { return row.integer(0) != 0; }, removed.content,
       std::span<const std::byte>(removed.attachment.content.bytes));
   if (!used) return fail(used.error());
   return used->value_or(true) ? Result<void>() : drop_content(database, removed.content);
@@ -98,20 +97,20 @@ Result<void> drop_if_unused(sqlite::Database& database, const AttachmentRow& rem
 
 }  // namespace
 
-Result<std::int64_t> find_owner(sqlite::Database& database, const std::string& program,
+Result<std::int64_t> find_owner(sql::Database& database, const std::string& program,
                                 std::optional<std::uint64_t> revision) {
   if (revision) {
     if (auto known = find_revision(database, program, revision); !known) return fail(known.error());
   }
-  const auto owner = sqlite::first_row(
+  const auto owner = sql::first_row(
       database, "SELECT id FROM program WHERE name = ?1 AND latest IS NOT NULL",
-      [](const sqlite::Statement& row) { return row.integer(0); }, program);
+      [](const sql::Statement& row) { return row.integer(0); }, program);
   if (!owner) return fail(owner.error());
   if (*owner) return **owner;
   return fail(Errc::NotFound, "program {} is not in the library", program);
 }
 
-Result<Attachment> publish_attachment(sqlite::Database& database, const NewAttachment& added) {
+Result<Attachment> publish_attachment(sql::Database& database, const NewAttachment& added) {
   const Upload& upload = added.upload;
   const AttachmentName name{upload.program, upload.attachment_revision, *upload.attachment};
   const auto known = find_row(database, name);
@@ -126,7 +125,7 @@ Result<Attachment> publish_attachment(sqlite::Database& database, const NewAttac
   const auto owner = find_owner(database, name.program, name.revision);
   if (!owner) return fail(owner.error());
   if (auto room = check_room(database, *owner, name.program); !room) return fail(room.error());
-  const auto inserted = sqlite::run(
+  const auto inserted = sql::run(
       database,
       "INSERT INTO attachment (program, revision, name, content, sha256, comment, author, "
       "created_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
@@ -149,17 +148,17 @@ Result<std::vector<Attachment>> AttachmentRepository::list(const std::string& pr
       "attachment.revision = ?2) AND coalesce(attachment.revision, ?3) > program.removed_through "
       "ORDER BY coalesce(attachment.revision, 0), attachment.name";
   constexpr auto kAlways = std::numeric_limits<std::int64_t>::max();
-  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<Attachment>> {
+  return connections_.read([&](sql::Database& database) -> Result<std::vector<Attachment>> {
     const auto owner = find_owner(database, program, revision);
     if (!owner) return fail(owner.error());
-    return sqlite::all_rows(
-        database, kSql, [](const sqlite::Statement& row) { return read_row(row).attachment; },
-        *owner, revision, kAlways);
+    return sql::all_rows(
+        database, kSql, [](const sql::Statement& row) { return read_row(row).attachment; }, *owner,
+        revision, kAlways);
   });
 }
 
 Result<Attachment> AttachmentRepository::find(const AttachmentName& name) {
-  return connections_.read([&](sqlite::Database& database) -> Result<Attachment> {
+  return connections_.read([&](sql::Database& database) -> Result<Attachment> {
     auto row = known_row(database, name);
     if (!row) return fail(row.error());
     return std::move(row->attachment);
@@ -167,10 +166,10 @@ Result<Attachment> AttachmentRepository::find(const AttachmentName& name) {
 }
 
 Result<void> AttachmentRepository::remove(const AttachmentName& name, const Actor& who) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto row = known_row(database, name);
     if (!row) return fail(row.error());
-    const auto deleted = sqlite::run(database, "DELETE FROM attachment WHERE id = ?1", row->id);
+    const auto deleted = sql::run(database, "DELETE FROM attachment WHERE id = ?1", row->id);
     if (!deleted) return deleted;
     if (auto dropped = drop_if_unused(database, *row); !dropped) return dropped;
     return write_down(database, row->attachment, {clock_.now(), who, "program.detach", {}, {}});

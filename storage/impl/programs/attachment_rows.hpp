@@ -1,14 +1,14 @@
 #pragma once
 
 #include "storage/attachment_store.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 #include "storage/upload_store.hpp"
 
 /// Rows of attachment, inside the caller's transaction.
 namespace dripline::storage {
 
 /// The row id of a program that can be seen, and has that revision. Errors: NotFound.
-Result<std::int64_t> find_owner(sqlite::Database& database, const std::string& program,
+Result<std::int64_t> find_owner(sql::Database& database, const std::string& program,
                                 std::optional<std::uint64_t> revision);
 
 struct NewAttachment {
@@ -19,6 +19,6 @@ struct NewAttachment {
   UtcTime now;
 };
 /// Promises: AttachmentStore::commit. The same bytes under the same name are there already.
-Result<Attachment> publish_attachment(sqlite::Database& database, const NewAttachment& added);
+Result<Attachment> publish_attachment(sql::Database& database, const NewAttachment& added);
 
 }  // namespace dripline::storage

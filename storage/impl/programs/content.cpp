@@ -6,63 +6,61 @@ namespace dripline::storage {
 
 namespace {
 
-Result<std::int64_t> put_chunk(sqlite::Database& database, const EncodedChunk& chunk) {
+Result<std::int64_t> put_chunk(sql::Database& database, const EncodedChunk& chunk) {
   // The update heals a chunk whose stored bytes were damaged: the new bytes are known to be good.
-  const auto stored = sqlite::run(
+  const auto stored = sql::run(
       database,
       "INSERT INTO chunk (sha256, size, data) VALUES (?1, ?2, ?3) ON CONFLICT (sha256) DO UPDATE "
       "SET size = excluded.size, data = excluded.data "
-      "WHERE size <> excluded.size OR data <> excluded.data",
+      "WHERE chunk.size <> excluded.size OR chunk.data <> excluded.data",
       std::span<const std::byte>(chunk.digest.bytes), chunk.size,
       std::span<const std::byte>(chunk.data));
   if (!stored) return fail(stored.error());
-  const auto id = sqlite::first_row(
+  const auto id = sql::first_row(
       database, "SELECT id FROM chunk WHERE sha256 = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); },
+      [](const sql::Statement& row) { return row.integer(0); },
       std::span<const std::byte>(chunk.digest.bytes));
   if (!id) return fail(id.error());
   return id->value();
 }
 
-Result<std::optional<std::int64_t>> chunk_at(sqlite::Database& database, std::int64_t content,
+Result<std::optional<std::int64_t>> chunk_at(sql::Database& database, std::int64_t content,
                                              std::uint64_t position) {
-  return sqlite::first_row(
+  return sql::first_row(
       database, "SELECT chunk FROM content_chunk WHERE content = ?1 AND position = ?2",
-      [](const sqlite::Statement& row) { return row.integer(0); }, content, position);
+      [](const sql::Statement& row) { return row.integer(0); }, content, position);
 }
 
-Result<void> drop_chunk_if_unused(sqlite::Database& database, std::int64_t chunk) {
-  return sqlite::run(database,
-                     "DELETE FROM chunk WHERE id = ?1 AND NOT EXISTS "
-                     "(SELECT 1 FROM content_chunk WHERE chunk = ?1)",
-                     chunk);
+Result<void> drop_chunk_if_unused(sql::Database& database, std::int64_t chunk) {
+  return sql::run(database,
+                  "DELETE FROM chunk WHERE id = ?1 AND NOT EXISTS "
+                  "(SELECT 1 FROM content_chunk WHERE chunk = ?1)",
+                  chunk);
 }
 
 }  // namespace
 
-Digest read_digest(const sqlite::Statement& row, int column) {
+Digest read_digest(const sql::Statement& row, int column) {
   Digest digest;
   const auto stored = row.blob(column);  // the schema demands 32 bytes
   std::copy_n(stored.begin(), std::min(stored.size(), Digest::kSize), digest.bytes.begin());
   return digest;
 }
 
-Result<std::optional<ContentRow>> find_content(sqlite::Database& database, const Digest& digest) {
-  return sqlite::first_row(
+Result<std::optional<ContentRow>> find_content(sql::Database& database, const Digest& digest) {
+  return sql::first_row(
       database, "SELECT id, size FROM content WHERE sha256 = ?1",
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return ContentRow{row.integer(0), row.number(1)};
       },
       std::span<const std::byte>(digest.bytes));
 }
 
-Result<std::int64_t> create_content(sqlite::Database& database) {
-  const auto made = sqlite::run(database, "INSERT INTO content (sha256, size) VALUES (NULL, 0)");
-  if (!made) return fail(made.error());
-  return database.last_insert_id();
+Result<std::int64_t> create_content(sql::Database& database) {
+  return sql::insert(database, "INSERT INTO content (sha256, size) VALUES (NULL, 0) RETURNING id");
 }
 
-Result<void> put_chunks(sqlite::Database& database, std::int64_t content, std::uint64_t position,
+Result<void> put_chunks(sql::Database& database, std::int64_t content, std::uint64_t position,
                         std::span<const EncodedChunk> chunks) {
   const auto replaced = chunk_at(database, content, position);
   if (!replaced) return fail(replaced.error());
@@ -70,7 +68,7 @@ Result<void> put_chunks(sqlite::Database& database, std::int64_t content, std::u
   for (const EncodedChunk& chunk : chunks) {
     const auto id = put_chunk(database, chunk);
     if (!id) return fail(id.error());
-    const auto placed = sqlite::run(
+    const auto placed = sql::run(
         database,
         "INSERT INTO content_chunk (content, position, chunk, sha256) "
         "VALUES (?1, ?2, ?3, ?4) ON CONFLICT (content, position) DO UPDATE "
@@ -80,59 +78,59 @@ Result<void> put_chunks(sqlite::Database& database, std::int64_t content, std::u
     bytes_before += chunk.size;
   }
   const auto counted =
-      sqlite::run(database, "UPDATE content SET size = ?2 WHERE id = ?1", content, bytes_before);
+      sql::run(database, "UPDATE content SET size = ?2 WHERE id = ?1", content, bytes_before);
   if (!counted) return counted;
   if (*replaced) return drop_chunk_if_unused(database, **replaced);
   return {};
 }
 
-Result<void> drop_content(sqlite::Database& database, std::int64_t content) {
-  const auto chunks = sqlite::all_rows(
+Result<void> drop_content(sql::Database& database, std::int64_t content) {
+  const auto chunks = sql::all_rows(
       database, "SELECT DISTINCT chunk FROM content_chunk WHERE content = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); }, content);
+      [](const sql::Statement& row) { return row.integer(0); }, content);
   if (!chunks) return fail(chunks.error());
-  auto done = sqlite::run(database, "DELETE FROM content_chunk WHERE content = ?1", content);
+  auto done = sql::run(database, "DELETE FROM content_chunk WHERE content = ?1", content);
   if (!done) return done;
   for (const std::int64_t chunk : *chunks) {
     if (done = drop_chunk_if_unused(database, chunk); !done) return done;
   }
-  return sqlite::run(database, "DELETE FROM content WHERE id = ?1", content);
+  return sql::run(database, "DELETE FROM content WHERE id = ?1", content);
 }
 
-Result<void> replace_content(sqlite::Database& database, std::int64_t content,
+Result<void> replace_content(sql::Database& database, std::int64_t content,
                              std::int64_t replacement) {
-  const auto chunks = sqlite::all_rows(
+  const auto chunks = sql::all_rows(
       database, "SELECT DISTINCT chunk FROM content_chunk WHERE content = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); }, content);
+      [](const sql::Statement& row) { return row.integer(0); }, content);
   if (!chunks) return fail(chunks.error());
-  auto done = sqlite::run(database, "DELETE FROM content_chunk WHERE content = ?1", content);
+  auto done = sql::run(database, "DELETE FROM content_chunk WHERE content = ?1", content);
   if (!done) return done;
-  done = sqlite::run(database, "UPDATE content_chunk SET content = ?1 WHERE content = ?2", content,
-                     replacement);
+  done = sql::run(database, "UPDATE content_chunk SET content = ?1 WHERE content = ?2", content,
+                  replacement);
   if (!done) return done;
-  done = sqlite::run(database,
-                     "UPDATE content SET seal = NULL, size = (SELECT size FROM content WHERE id = "
-                     "?2) WHERE id = ?1",
-                     content, replacement);
+  done = sql::run(database,
+                  "UPDATE content SET seal = NULL, size = (SELECT size FROM content WHERE id = "
+                  "?2) WHERE id = ?1",
+                  content, replacement);
   if (!done) return done;
   for (const std::int64_t chunk : *chunks) {
     if (done = drop_chunk_if_unused(database, chunk); !done) return done;
   }
-  return sqlite::run(database, "DELETE FROM content WHERE id = ?1", replacement);
+  return sql::run(database, "DELETE FROM content WHERE id = ?1", replacement);
 }
 
-Result<std::vector<std::byte>> load_chunk(sqlite::Database& database, std::int64_t content,
+Result<std::vector<std::byte>> load_chunk(sql::Database& database, std::int64_t content,
                                           std::uint64_t position, std::string_view label,
                                           const Digest* expected) {
   const auto place = [&] {
     return fmt::format("{}: chunk {} (bytes from {})", label, position, position * kChunkBytes);
   };
-  auto plain = sqlite::first_row(
+  auto plain = sql::first_row(
       database,
       "SELECT chunk.sha256, chunk.size, chunk.data, content_chunk.sha256 FROM content_chunk "
       "JOIN chunk ON chunk.id = content_chunk.chunk "
       "WHERE content_chunk.content = ?1 AND content_chunk.position = ?2",
-      [expected](const sqlite::Statement& row) -> Result<std::vector<std::byte>> {
+      [expected](const sql::Statement& row) -> Result<std::vector<std::byte>> {
         const Digest digest = read_digest(row, 0);
         const bool is_listed = row.is_null(3) || read_digest(row, 3) == digest;
         if (!is_listed || (expected != nullptr && *expected != digest)) {
@@ -147,7 +145,7 @@ Result<std::vector<std::byte>> load_chunk(sqlite::Database& database, std::int64
   return std::move(**plain);
 }
 
-Result<std::vector<std::byte>> load_range(sqlite::Database& database, const ContentRow& content,
+Result<std::vector<std::byte>> load_range(sql::Database& database, const ContentRow& content,
                                           std::uint64_t offset, std::uint64_t length,
                                           std::string_view label) {
   std::vector<std::byte> bytes;

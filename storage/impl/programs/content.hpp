@@ -14,7 +14,7 @@
 
 #include "protocol/base/digest.hpp"
 #include "storage/chunk_codec.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 /// Rows of content, content_chunk and chunk. Functions that write run inside the caller's
 /// transaction.
@@ -26,33 +26,33 @@ struct ContentRow {
   std::uint64_t size = 0;
 };
 
-Digest read_digest(const sqlite::Statement& row, int column);
+Digest read_digest(const sql::Statement& row, int column);
 
-Result<std::optional<ContentRow>> find_content(sqlite::Database& database, const Digest& digest);
+Result<std::optional<ContentRow>> find_content(sql::Database& database, const Digest& digest);
 
 /// A new content without bytes; returns its id.
-Result<std::int64_t> create_content(sqlite::Database& database);
+Result<std::int64_t> create_content(sql::Database& database);
 
 /// Puts the chunks at `position`, `position` + 1 ...; the first one replaces what was there.
 /// A damaged chunk of the same digest is healed.
-Result<void> put_chunks(sqlite::Database& database, std::int64_t content, std::uint64_t position,
+Result<void> put_chunks(sql::Database& database, std::int64_t content, std::uint64_t position,
                         std::span<const EncodedChunk> chunks);
 
 /// Deletes the content and those of its chunks that no other content has.
-Result<void> drop_content(sqlite::Database& database, std::int64_t content);
+Result<void> drop_content(sql::Database& database, std::int64_t content);
 
 /// `content` gets the chunks of `replacement`, which is deleted.
-Result<void> replace_content(sqlite::Database& database, std::int64_t content,
+Result<void> replace_content(sql::Database& database, std::int64_t content,
                              std::int64_t replacement);
 
 /// One chunk, checked: it is whole, and the one that was stored at this place (`expected`, if
 /// given). `label` names the content in errors. Errors: Corrupt (also: missing).
-Result<std::vector<std::byte>> load_chunk(sqlite::Database& database, std::int64_t content,
+Result<std::vector<std::byte>> load_chunk(sql::Database& database, std::int64_t content,
                                           std::uint64_t position, std::string_view label,
                                           const Digest* expected = nullptr);
 
 /// A range of bytes, checked chunk by chunk; ends at the content's end.
-Result<std::vector<std::byte>> load_range(sqlite::Database& database, const ContentRow& content,
+Result<std::vector<std::byte>> load_range(sql::Database& database, const ContentRow& content,
                                           std::uint64_t offset, std::uint64_t length,
                                           std::string_view label);
 

@@ -32,15 +32,15 @@ Digest seal_of(const ChunkDigests& chunks, std::uint64_t size, const Digest& dig
 }
 
 /// The list as it is stored. Errors: Corrupt (it is not one of so many bytes).
-Result<ChunkDigests> read_list(sqlite::Database& database, const ContentRow& content,
+Result<ChunkDigests> read_list(sql::Database& database, const ContentRow& content,
                                const Digest& digest) {
   struct Row {
     std::uint64_t position;
     std::optional<Digest> chunk;
   };
-  const auto rows = sqlite::all_rows(
+  const auto rows = sql::all_rows(
       database, "SELECT position, sha256 FROM content_chunk WHERE content = ?1 ORDER BY position",
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return Row{row.number(0),
                    row.is_null(1) ? std::nullopt : std::optional(read_digest(row, 1))};
       },
@@ -58,14 +58,15 @@ Result<ChunkDigests> read_list(sqlite::Database& database, const ContentRow& con
 }
 
 /// Errors: Corrupt, naming the first chunk that is not the one that was stored at its place.
-Result<void> check_places(sqlite::Database& database, const ContentRow& content,
+Result<void> check_places(sql::Database& database, const ContentRow& content,
                           const Digest& digest) {
-  const auto wrong = sqlite::first_row(
+  const auto wrong = sql::first_row(
       database,
       "SELECT position, chunk.id IS NULL FROM content_chunk "
       "LEFT JOIN chunk INDEXED BY chunk_digest ON chunk.id = content_chunk.chunk "
-      "WHERE content = ?1 AND chunk.sha256 IS NOT content_chunk.sha256 ORDER BY position LIMIT 1",
-      [](const sqlite::Statement& row) { return std::pair(row.number(0), row.integer(1) != 0); },
+      "WHERE content = ?1 AND chunk.sha256 IS DISTINCT FROM content_chunk.sha256 ORDER BY position "
+      "LIMIT 1",
+      [](const sql::Statement& row) { return std::pair(row.number(0), row.integer(1) != 0); },
       content.id);
   if (!wrong) return fail(wrong.error());
   if (!*wrong) return {};
@@ -77,28 +78,28 @@ Result<void> check_places(sqlite::Database& database, const ContentRow& content,
 
 }  // namespace
 
-Result<void> seal_content(sqlite::Database& database, const ContentRow& content,
+Result<void> seal_content(sql::Database& database, const ContentRow& content,
                           const Digest& digest) {
   // Rows of a version before 5 have none.
   const auto filled =
-      sqlite::run(database,
-                  "UPDATE content_chunk SET sha256 = (SELECT sha256 FROM chunk WHERE chunk.id = "
-                  "content_chunk.chunk) WHERE content = ?1 AND sha256 IS NULL",
-                  content.id);
+      sql::run(database,
+               "UPDATE content_chunk SET sha256 = (SELECT sha256 FROM chunk WHERE chunk.id = "
+               "content_chunk.chunk) WHERE content = ?1 AND sha256 IS NULL",
+               content.id);
   if (!filled) return filled;
   const auto chunks = read_list(database, content, digest);
   if (!chunks) return fail(chunks.error());
   const Digest seal = seal_of(*chunks, content.size, digest);
-  return sqlite::run(database, "UPDATE content SET seal = ?2 WHERE id = ?1", content.id,
-                     std::span<const std::byte>(seal.bytes));
+  return sql::run(database, "UPDATE content SET seal = ?2 WHERE id = ?1", content.id,
+                  std::span<const std::byte>(seal.bytes));
 }
 
-Result<std::shared_ptr<const ChunkDigests>> check_seal(sqlite::Database& database,
+Result<std::shared_ptr<const ChunkDigests>> check_seal(sql::Database& database,
                                                        const ContentRow& content,
                                                        const Digest& digest) {
-  const auto seal = sqlite::first_row(
+  const auto seal = sql::first_row(
       database, "SELECT seal FROM content WHERE id = ?1",
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return row.is_null(0) ? std::nullopt : std::optional(read_digest(row, 0));
       },
       content.id);
@@ -114,7 +115,7 @@ Result<std::shared_ptr<const ChunkDigests>> check_seal(sqlite::Database& databas
   return std::make_shared<const ChunkDigests>(*std::move(chunks));
 }
 
-Result<void> compare_whole(sqlite::Database& database, const ContentRow& content,
+Result<void> compare_whole(sql::Database& database, const ContentRow& content,
                            const Digest& digest) {
   Sha256 hash;
   for (std::uint64_t offset = 0; offset < content.size; offset += kChunkBytes) {

@@ -20,17 +20,16 @@ using ChunkDigests = std::vector<Digest>;
 
 /// Seals a content whose bytes were compared with `digest` in this transaction or before it.
 /// Errors: Corrupt (rows are missing).
-Result<void> seal_content(sqlite::Database& database, const ContentRow& content,
-                          const Digest& digest);
+Result<void> seal_content(sql::Database& database, const ContentRow& content, const Digest& digest);
 
 /// Null: it is not sealed yet. Errors: Corrupt, naming the chunk where that is known.
-Result<std::shared_ptr<const ChunkDigests>> check_seal(sqlite::Database& database,
+Result<std::shared_ptr<const ChunkDigests>> check_seal(sql::Database& database,
                                                        const ContentRow& content,
                                                        const Digest& digest);
 
 /// Reads all bytes of a content that was committed before seals were known. Errors: Corrupt (they
 /// are not what `digest` says, or a chunk is damaged).
-Result<void> compare_whole(sqlite::Database& database, const ContentRow& content,
+Result<void> compare_whole(sql::Database& database, const ContentRow& content,
                            const Digest& digest);
 
 /// Those checked last, at most kCapacity digests of chunks. Thread-safe.

@@ -9,16 +9,16 @@ namespace dripline::storage {
 const std::string kFieldColumns =
     "program.part, program.operation, program.material, program.machine_group ";
 
-ProgramFields read_fields(const sqlite::Statement& row, int first_column) {
+ProgramFields read_fields(const sql::Statement& row, int first_column) {
   return {row.text(first_column), row.text(first_column + 1), row.text(first_column + 2),
           row.text(first_column + 3)};
 }
 
-Result<void> check_group(sqlite::Database& database, const FieldChange& change) {
+Result<void> check_group(sql::Database& database, const FieldChange& change) {
   if (!change.machine_group || change.machine_group->empty()) return {};
-  const auto known = sqlite::first_row(
+  const auto known = sql::first_row(
       database, "SELECT 1 FROM machine_group WHERE name = ?1",
-      [](const sqlite::Statement& row) { return row.integer(0); }, *change.machine_group);
+      [](const sql::Statement& row) { return row.integer(0); }, *change.machine_group);
   if (!known) return fail(known.error());
   if (*known) return {};
   return fail(Errc::Conflict, "there is no machine group '{}'", *change.machine_group);
@@ -32,13 +32,13 @@ struct Before {
   std::string cam_file;
 };
 
-Result<Before> find_before(sqlite::Database& database, const Revision& revision) {
+Result<Before> find_before(sql::Database& database, const Revision& revision) {
   static const std::string kSql = "SELECT program.id, revision.cam_file, " + kFieldColumns +
                                   "FROM program JOIN revision ON revision.program = program.id "
                                   "WHERE program.name = ?1 AND revision.number = ?2";
-  auto found = sqlite::first_row(
+  auto found = sql::first_row(
       database, kSql,
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return Before{row.integer(0), read_fields(row, 2), row.text(1)};
       },
       revision.program, revision.number);
@@ -50,8 +50,8 @@ Result<Before> find_before(sqlite::Database& database, const Revision& revision)
 
 }  // namespace
 
-Result<void> describe(sqlite::Database& database, const Revision& revision,
-                      const FieldChange& change, const Actor& who, UtcTime now) {
+Result<void> describe(sql::Database& database, const Revision& revision, const FieldChange& change,
+                      const Actor& who, UtcTime now) {
   if (change.is_empty()) return {};
   if (auto known = check_group(database, change); !known) return known;
   auto before = find_before(database, revision);
@@ -70,19 +70,19 @@ Result<void> describe(sqlite::Database& database, const Revision& revision,
   set("material", fields.material, change.material);
   set("machine group", fields.machine_group, change.machine_group);
   if (fields != fields_before) {
-    const auto updated = sqlite::run(database,
-                                     "UPDATE program SET part = ?2, operation = ?3, material = ?4, "
-                                     "machine_group = ?5 WHERE id = ?1",
-                                     before->program, fields.part, fields.operation,
-                                     fields.material, fields.machine_group);
+    const auto updated = sql::run(database,
+                                  "UPDATE program SET part = ?2, operation = ?3, material = ?4, "
+                                  "machine_group = ?5 WHERE id = ?1",
+                                  before->program, fields.part, fields.operation, fields.material,
+                                  fields.machine_group);
     if (!updated) return updated;
   }
   const std::string cam_file_before = before->cam_file;
   set(fmt::format("CAM file of revision {}", revision.number), before->cam_file, change.cam_file);
   if (before->cam_file != cam_file_before) {
-    const auto updated = sqlite::run(
-        database, "UPDATE revision SET cam_file = ?3 WHERE program = ?1 AND number = ?2",
-        before->program, revision.number, before->cam_file);
+    const auto updated =
+        sql::run(database, "UPDATE revision SET cam_file = ?3 WHERE program = ?1 AND number = ?2",
+                 before->program, revision.number, before->cam_file);
     if (!updated) return updated;
   }
   if (changes.empty()) return {};

@@ -1,7 +1,7 @@
 #include "storage/impl/programs/folder_repository.hpp"
 
 #include "storage/impl/programs/content.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -10,7 +10,7 @@ const std::string kSelect =
     "SELECT id, folder, name, sha256, size, changed_ns, state, program, coalesce(revision, 0), "
     "reason, target, taken_us, moved_us FROM folder_file ";
 
-FolderFile read_file(const sqlite::Statement& row) {
+FolderFile read_file(const sql::Statement& row) {
   FolderFile file;
   file.id = row.number(0);
   file.folder = row.text(1);
@@ -29,45 +29,45 @@ FolderFile read_file(const sqlite::Statement& row) {
   return file;
 }
 
-Result<std::optional<FolderFile>> find_unfinished(sqlite::Database& database,
+Result<std::optional<FolderFile>> find_unfinished(sql::Database& database,
                                                   const std::string& folder,
                                                   const std::string& name) {
   static const std::string kSql = kSelect + "WHERE folder = ?1 AND name = ?2 AND moved_us IS NULL";
-  return sqlite::first_row(database, kSql, read_file, folder, name);
+  return sql::first_row(database, kSql, read_file, folder, name);
 }
 
-Result<void> check_changed(const sqlite::Database& database, std::uint64_t id) {
+Result<void> check_changed(const sql::Database& database, std::uint64_t id) {
   if (database.changes() > 0) return {};
   return fail(Errc::NotFound, "folder file {} is not known, or in another state", id);
 }
 
 }  // namespace
 
-Result<void> store_folder_file(sqlite::Database& database, std::uint64_t id,
+Result<void> store_folder_file(sql::Database& database, std::uint64_t id,
                                const Revision& revision) {
-  const auto stored = sqlite::run(database,
-                                  "UPDATE folder_file SET state = 'stored', program = ?2, revision "
-                                  "= ?3 WHERE id = ?1 AND state = 'taken'",
-                                  id, revision.program, revision.number);
+  const auto stored = sql::run(database,
+                               "UPDATE folder_file SET state = 'stored', program = ?2, revision "
+                               "= ?3 WHERE id = ?1 AND state = 'taken'",
+                               id, revision.program, revision.number);
   return stored ? check_changed(database, id) : stored;
 }
 
 Result<std::vector<FolderFile>> FolderRepository::unfinished(const std::string& folder) {
   static const std::string kSql =
       kSelect + "WHERE folder = ?1 AND moved_us IS NULL ORDER BY id LIMIT ?2";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSql, read_file, folder, kKept);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSql, read_file, folder, kKept);
   });
 }
 
 Result<std::optional<FolderFile>> FolderRepository::unfinished(const std::string& folder,
                                                                const std::string& name) {
   return connections_.read(
-      [&](sqlite::Database& database) { return find_unfinished(database, folder, name); });
+      [&](sql::Database& database) { return find_unfinished(database, folder, name); });
 }
 
 Result<FolderFile> FolderRepository::begin(const FolderFile& file) {
-  return connections_.write([&](sqlite::Database& database) -> Result<FolderFile> {
+  return connections_.write([&](sql::Database& database) -> Result<FolderFile> {
     const auto before = find_unfinished(database, file.folder, file.name);
     if (!before) return fail(before.error());
     if (*before && (*before)->state != FolderFileState::Taken) {
@@ -75,49 +75,49 @@ Result<FolderFile> FolderRepository::begin(const FolderFile& file) {
                   file.name, file.folder, to_string((*before)->state));
     }
     if (*before) {
-      auto dropped = sqlite::run(database, "DELETE FROM folder_file WHERE id = ?1", (*before)->id);
+      auto dropped = sql::run(database, "DELETE FROM folder_file WHERE id = ?1", (*before)->id);
       if (!dropped) return fail(dropped.error());
     }
-    const auto inserted = sqlite::run(
+    const auto inserted = sql::insert(
         database,
         "INSERT INTO folder_file (folder, name, sha256, size, changed_ns, state, reason, taken_us) "
-        "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+        "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8) RETURNING id",
         file.folder, file.name, std::span<const std::byte>(file.sha256.bytes), file.size,
         file.changed_ns, to_string(file.state), file.reason, file.taken);
     if (!inserted) return fail(inserted.error());
     FolderFile begun = file;
-    begun.id = static_cast<std::uint64_t>(database.last_insert_id());
+    begun.id = static_cast<std::uint64_t>(*inserted);
     return begun;
   });
 }
 
 Result<void> FolderRepository::fail_file(std::uint64_t id, const std::string& reason) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    const auto failed = sqlite::run(database,
-                                    "UPDATE folder_file SET state = 'failed', reason = ?2 "
-                                    "WHERE id = ?1 AND state = 'taken'",
-                                    id, reason);
+  return connections_.write([&](sql::Database& database) -> Result<void> {
+    const auto failed = sql::run(database,
+                                 "UPDATE folder_file SET state = 'failed', reason = ?2 "
+                                 "WHERE id = ?1 AND state = 'taken'",
+                                 id, reason);
     return failed ? check_changed(database, id) : failed;
   });
 }
 
 Result<void> FolderRepository::set_target(std::uint64_t id, const std::string& target) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto set =
-        sqlite::run(database, "UPDATE folder_file SET target = ?2 WHERE id = ?1", id, target);
+        sql::run(database, "UPDATE folder_file SET target = ?2 WHERE id = ?1", id, target);
     return set ? check_changed(database, id) : set;
   });
 }
 
 Result<void> FolderRepository::set_moved(std::uint64_t id, UtcTime time) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto moved =
-        sqlite::run(database, "UPDATE folder_file SET moved_us = ?2 WHERE id = ?1", id, time);
+        sql::run(database, "UPDATE folder_file SET moved_us = ?2 WHERE id = ?1", id, time);
     if (!moved) return moved;
     if (auto changed = check_changed(database, id); !changed) return changed;
-    return sqlite::run(database,
-                       "DELETE FROM folder_file WHERE moved_us IS NOT NULL AND id <= ?1 - ?2", id,
-                       kKept);
+    return sql::run(database,
+                    "DELETE FROM folder_file WHERE moved_us IS NOT NULL AND id <= ?1 - ?2", id,
+                    kKept);
   });
 }
 
@@ -125,18 +125,18 @@ Result<std::vector<FolderFile>> FolderRepository::list(const std::optional<std::
                                                        Page page) {
   static const std::string kSql =
       kSelect + "WHERE ?1 IS NULL OR folder = ?1 ORDER BY id DESC LIMIT ?2 OFFSET ?3";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSql, read_file, folder, page.limit, page.offset);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSql, read_file, folder, page.limit, page.offset);
   });
 }
 
 Result<FolderCounts> FolderRepository::counts(const std::string& folder) {
-  const auto found = connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(
+  const auto found = connections_.read([&](sql::Database& database) {
+    return sql::first_row(
         database,
         "SELECT count(*) FILTER (WHERE state = 'stored'), count(*) FILTER (WHERE state = "
         "'failed') FROM folder_file WHERE folder = ?1",
-        [](const sqlite::Statement& row) {
+        [](const sql::Statement& row) {
           return FolderCounts{row.number(0), row.number(1)};
         },
         folder);

@@ -7,8 +7,7 @@
 namespace dripline::storage {
 
 /// Inside the transaction that stores the file's revision. Errors: NotFound (it is not Taken).
-Result<void> store_folder_file(sqlite::Database& database, std::uint64_t id,
-                               const Revision& revision);
+Result<void> store_folder_file(sql::Database& database, std::uint64_t id, const Revision& revision);
 
 class FolderRepository final : public FolderStore {
  public:

@@ -4,7 +4,7 @@
 #include "storage/impl/audit_repository.hpp"
 #include "storage/impl/programs/content.hpp"
 #include "storage/impl/programs/revision_rows.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -22,7 +22,7 @@ const std::string& import_select() {
   return kSelect;
 }
 
-Import read_import(const sqlite::Statement& row) {
+Import read_import(const sql::Statement& row) {
   Import import;
   import.revision = read_revision(row);
   import.machine = row.text(kAfterRevision);
@@ -47,18 +47,18 @@ Import read_import(const sqlite::Statement& row) {
   return import;
 }
 
-Result<Import> find_import(sqlite::Database& database, const std::string& program,
+Result<Import> find_import(sql::Database& database, const std::string& program,
                            std::uint64_t revision) {
   static const std::string kSql =
       import_select() + "WHERE program.name = ?1 AND import.revision = ?2";
-  auto found = sqlite::first_row(database, kSql, read_import, program, revision);
+  auto found = sql::first_row(database, kSql, read_import, program, revision);
   if (!found) return fail(found.error());
   if (*found) return std::move(**found);
   return fail(Errc::NotFound, "program {} revision {} did not come from a machine", program,
               revision);
 }
 
-Result<void> check_newest(sqlite::Database& database, const ImportDecision& decision) {
+Result<void> check_newest(sql::Database& database, const ImportDecision& decision) {
   if (!decision.at_once) return {};
   const auto newest = find_revision(database, decision.program, std::nullopt);
   if (!newest) return fail(newest.error());
@@ -67,16 +67,16 @@ Result<void> check_newest(sqlite::Database& database, const ImportDecision& deci
               newest->number);
 }
 
-Result<void> put_class(sqlite::Database& database, const std::string& program,
-                       std::uint64_t revision, const ImportClass& found) {
-  return sqlite::run(database,
-                     "UPDATE import SET base = ?3, class = ?4, fault = ?5, compared_us = ?6 "
-                     "WHERE revision = ?2 AND program = (SELECT id FROM program WHERE name = ?1)",
-                     program, revision, found.base, found.edit, found.fault, found.time);
+Result<void> put_class(sql::Database& database, const std::string& program, std::uint64_t revision,
+                       const ImportClass& found) {
+  return sql::run(database,
+                  "UPDATE import SET base = ?3, class = ?4, fault = ?5, compared_us = ?6 "
+                  "WHERE revision = ?2 AND program = (SELECT id FROM program WHERE name = ?1)",
+                  program, revision, found.base, found.edit, found.fault, found.time);
 }
 
 /// The revision of the target.
-Result<Revision> accept_as(sqlite::Database& database, const ImportDecision& decision,
+Result<Revision> accept_as(sql::Database& database, const ImportDecision& decision,
                            const Import& import) {
   if (auto named = check_program_name(decision.target); !named) return fail(named.error());
   if (decision.target == decision.program) {
@@ -107,9 +107,9 @@ Result<std::vector<Import>> ImportRepository::list(bool is_pending, Page page) {
                                       "WHERE import.state <> 'pending' "
                                       "ORDER BY import.decided_us DESC, program.name, "
                                       "revision.number LIMIT ?1 OFFSET ?2";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, is_pending ? kPending : kDecided, read_import, page.limit,
-                            page.offset);
+  return connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, is_pending ? kPending : kDecided, read_import, page.limit,
+                         page.offset);
   });
 }
 
@@ -119,9 +119,8 @@ Result<std::uint64_t> ImportRepository::count_pending() {
       "revision.number = import.revision JOIN program ON program.id = import.program "
       "WHERE import.state = 'pending' AND " +
       kRevisionVisible;
-  const auto found = connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(database, kSql,
-                             [](const sqlite::Statement& row) { return row.number(0); });
+  const auto found = connections_.read([&](sql::Database& database) {
+    return sql::first_row(database, kSql, [](const sql::Statement& row) { return row.number(0); });
   });
   if (!found) return fail(found.error());
   return found->value_or(0);
@@ -129,21 +128,20 @@ Result<std::uint64_t> ImportRepository::count_pending() {
 
 Result<Import> ImportRepository::find(const std::string& program, std::uint64_t revision) {
   return connections_.read(
-      [&](sqlite::Database& database) { return find_import(database, program, revision); });
+      [&](sql::Database& database) { return find_import(database, program, revision); });
 }
 
 Result<std::vector<Import>> ImportRepository::uncompared(std::uint64_t limit) {
   static const std::string kSql =
       import_select() + "WHERE import.state = 'pending' AND import.compared_us IS NULL AND " +
       kRevisionVisible + "ORDER BY revision.created_us, program.name, revision.number LIMIT ?1";
-  return connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSql, read_import, limit);
-  });
+  return connections_.read(
+      [&](sql::Database& database) { return sql::all_rows(database, kSql, read_import, limit); });
 }
 
 Result<void> ImportRepository::set_class(const std::string& program, std::uint64_t revision,
                                          const ImportClass& found) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto import = find_import(database, program, revision);
     if (!import) return fail(import.error());
     if (import->state != ImportState::Pending)
@@ -153,7 +151,7 @@ Result<void> ImportRepository::set_class(const std::string& program, std::uint64
 }
 
 Result<Revision> ImportRepository::decide(const ImportDecision& decision) {
-  return connections_.write([&](sqlite::Database& database) -> Result<Revision> {
+  return connections_.write([&](sql::Database& database) -> Result<Revision> {
     const auto import = find_import(database, decision.program, decision.revision);
     if (!import) return fail(import.error());
     if (import->state != ImportState::Pending) {

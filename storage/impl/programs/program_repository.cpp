@@ -10,7 +10,7 @@
 #include "storage/impl/programs/revision_rows.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/program_store.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -21,15 +21,15 @@ struct ProgramState {
   std::uint64_t held = 0;       ///< the highest of those that wait for acceptance; 0: none
 };
 
-Result<ProgramState> state_of(sqlite::Database& database, const std::string& program) {
+Result<ProgramState> state_of(sql::Database& database, const std::string& program) {
   static const std::string kSql =
       "SELECT count(DISTINCT program.id), count(revision.number), "
-      "coalesce(max(iif(revision.standing = 'held', revision.number, 0)), 0) "
+      "coalesce(max(CASE WHEN revision.standing = 'held' THEN revision.number ELSE 0 END), 0) "
       "FROM program LEFT JOIN revision ON revision.program = program.id AND " +
       kRevisionVisible + "WHERE program.name = ?1";
-  const auto row = sqlite::first_row(
+  const auto row = sql::first_row(
       database, kSql,
-      [](const sqlite::Statement& s) {
+      [](const sql::Statement& s) {
         return ProgramState{s.integer(0) != 0, s.number(1), s.number(2)};
       },
       program);
@@ -38,7 +38,7 @@ Result<ProgramState> state_of(sqlite::Database& database, const std::string& pro
 }
 
 /// `to` must be free. A name that a removed program had is not free for a rename: runs have it.
-Result<void> check_target(sqlite::Database& database, const ProgramMove& move, bool is_rename) {
+Result<void> check_target(sql::Database& database, const ProgramMove& move, bool is_rename) {
   if (auto named = check_program_name(move.to); !named) return named;
   if (move.from == move.to) {
     return fail(Errc::Conflict, "program {} cannot be {} itself", move.from,
@@ -56,19 +56,19 @@ Result<void> check_target(sqlite::Database& database, const ProgramMove& move, b
               move.to);
 }
 
-Result<void> write_down(sqlite::Database& database, const ProgramMove& move,
-                        const std::string& action, const std::string& detail, UtcTime now) {
+Result<void> write_down(sql::Database& database, const ProgramMove& move, const std::string& action,
+                        const std::string& detail, UtcTime now) {
   return add_audit(database, {now, move.who, action, move.to, detail});
 }
 
 /// Errors: Busy (an unfinished run uses the program, named).
-Result<void> check_unused(sqlite::Database& database, const std::string& program) {
-  const auto run = sqlite::first_row(
+Result<void> check_unused(sql::Database& database, const std::string& program) {
+  const auto run = sql::first_row(
       database,
       "SELECT run.id, machine.name FROM run JOIN machine ON machine.id = run.machine "
       "JOIN program ON program.id = run.program "
       "WHERE program.name = ?1 AND run.state IN ('ordered', 'active') LIMIT 1",
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return fmt::format("run {} on {}", row.text(0), row.text(1));
       },
       program);
@@ -77,18 +77,18 @@ Result<void> check_unused(sqlite::Database& database, const std::string& program
   return fail(Errc::Busy, "program {} is used by the unfinished {}", program, **run);
 }
 
-Result<ProgramFields> fields_of(sqlite::Database& database, const std::string& program) {
+Result<ProgramFields> fields_of(sql::Database& database, const std::string& program) {
   static const std::string kSql =
       "SELECT " + kFieldColumns + "FROM program WHERE name = ?1 AND latest IS NOT NULL";
-  auto found = sqlite::first_row(
-      database, kSql, [](const sqlite::Statement& row) { return read_fields(row, 0); }, program);
+  auto found = sql::first_row(
+      database, kSql, [](const sql::Statement& row) { return read_fields(row, 0); }, program);
   if (!found) return fail(found.error());
   if (*found) return std::move(**found);
   return fail(Errc::NotFound, "program {} is not in the library", program);
 }
 
 /// Promises of both: storage/program_store.hpp.
-Result<Revision> copy_program(sqlite::Database& database, const ProgramMove& move,
+Result<Revision> copy_program(sql::Database& database, const ProgramMove& move,
                               std::optional<std::uint64_t> number, UtcTime now) {
   const auto source = find_revision(database, move.from, number);
   if (!source) return source;
@@ -120,7 +120,7 @@ Result<Revision> copy_program(sqlite::Database& database, const ProgramMove& mov
   return copy;
 }
 
-Result<void> rename_program(sqlite::Database& database, const ProgramMove& move, UtcTime now) {
+Result<void> rename_program(sql::Database& database, const ProgramMove& move, UtcTime now) {
   const auto source = state_of(database, move.from);
   if (!source) return fail(source.error());
   if (source->revisions == 0) {
@@ -135,7 +135,7 @@ Result<void> rename_program(sqlite::Database& database, const ProgramMove& move,
   }
   if (auto unused = check_unused(database, move.from); !unused) return unused;
   if (auto renamed =
-          sqlite::run(database, "UPDATE program SET name = ?2 WHERE name = ?1", move.from, move.to);
+          sql::run(database, "UPDATE program SET name = ?2 WHERE name = ?1", move.from, move.to);
       !renamed) {
     return renamed;
   }
@@ -149,8 +149,8 @@ Result<void> rename_program(sqlite::Database& database, const ProgramMove& move,
 namespace {
 
 /// A condition of a filter and the column it is on, the most selective first: of those that are
-/// given the first one is looked up by its index, the others are compared (the + keeps SQLite from
-/// choosing theirs).
+/// given the first one is looked up by its index, the others are compared (what is joined to them
+/// keeps SQLite from choosing theirs).
 struct FilterColumn {
   std::string_view column;
   std::optional<std::string> value;
@@ -171,12 +171,13 @@ std::string select_page(const std::vector<FilterColumn>& columns) {
   std::string sql = "SELECT id FROM program WHERE latest IS NOT NULL AND name > ?3 ";
   bool has_index = false;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    sql += fmt::format("AND ?{0} IS ?{0} ", i + 4);  // every parameter is there to be bound
+    sql +=
+        fmt::format("AND (?{0} IS NULL OR true) ", i + 4);  // every parameter is there to be bound
     if (!columns[i].value) continue;
     const bool is_latest = columns[i].column == "author" || columns[i].column == "state" ||
                            columns[i].column == "control";
-    sql += fmt::format("AND {}{}{} = ?{} ", std::exchange(has_index, true) ? "+" : "",
-                       is_latest ? "latest_" : "", columns[i].column, i + 4);
+    sql += fmt::format("AND {}{}{} = ?{} ", is_latest ? "latest_" : "", columns[i].column,
+                       std::exchange(has_index, true) ? " || ''" : "", i + 4);
   }
   return sql + "ORDER BY name LIMIT ?1 OFFSET ?2";
 }
@@ -193,7 +194,7 @@ Result<std::vector<ProgramSummary>> ProgramRepository::list(const ProgramFilter&
       "JOIN revision ON revision.program = program.id AND revision.number = program.latest "
       "LEFT JOIN content ON content.sha256 = revision.sha256 "
       "LEFT JOIN content AS named ON named.id = revision.content ORDER BY program.name";
-  const auto read = [](const sqlite::Statement& row) {
+  const auto read = [](const sql::Statement& row) {
     ProgramSummary program{.latest = read_revision(row),
                            .revisions = row.number(kAfterRevision),
                            .held = row.number(kAfterRevision + 1),
@@ -202,22 +203,22 @@ Result<std::vector<ProgramSummary>> ProgramRepository::list(const ProgramFilter&
       program.released = static_cast<std::uint64_t>(*released);
     return program;
   };
-  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<ProgramSummary>> {
-    return sqlite::all_rows(database, sql, read, page.limit, page.offset, filter.after,
-                            columns[0].value, columns[1].value, columns[2].value, columns[3].value,
-                            columns[4].value, columns[5].value, columns[6].value);
+  return connections_.read([&](sql::Database& database) -> Result<std::vector<ProgramSummary>> {
+    return sql::all_rows(database, sql, read, page.limit, page.offset, filter.after,
+                         columns[0].value, columns[1].value, columns[2].value, columns[3].value,
+                         columns[4].value, columns[5].value, columns[6].value);
   });
 }
 
 namespace {
 
 /// The latest also where all are held.
-Result<Revision> any_revision(sqlite::Database& database, const std::string& program,
+Result<Revision> any_revision(sql::Database& database, const std::string& program,
                               std::optional<std::uint64_t> number) {
   if (number) return find_revision(database, program, number);
-  const auto latest = sqlite::first_row(
+  const auto latest = sql::first_row(
       database, "SELECT latest FROM program WHERE name = ?1 AND latest IS NOT NULL",
-      [](const sqlite::Statement& row) { return row.number(0); }, program);
+      [](const sql::Statement& row) { return row.number(0); }, program);
   if (!latest) return fail(latest.error());
   if (!*latest) return fail(Errc::NotFound, "program {} is not in the library", program);
   return find_revision(database, program, **latest);
@@ -226,21 +227,20 @@ Result<Revision> any_revision(sqlite::Database& database, const std::string& pro
 }  // namespace
 
 Result<std::uint64_t> ProgramRepository::count() {
-  const auto found = connections_.read([&](sqlite::Database& database) {
-    return sqlite::first_row(database, "SELECT count(*) FROM program WHERE latest IS NOT NULL",
-                             [](const sqlite::Statement& row) { return row.number(0); });
+  const auto found = connections_.read([&](sql::Database& database) {
+    return sql::first_row(database, "SELECT count(*) FROM program WHERE latest IS NOT NULL",
+                          [](const sql::Statement& row) { return row.number(0); });
   });
   if (!found) return fail(found.error());
   return found->value_or(0);
 }
 
 Result<ProgramFields> ProgramRepository::fields(const std::string& program) {
-  return connections_.read(
-      [&](sqlite::Database& database) { return fields_of(database, program); });
+  return connections_.read([&](sql::Database& database) { return fields_of(database, program); });
 }
 
 Result<void> ProgramRepository::describe(const Description& description) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto revision = any_revision(database, description.program, description.revision);
     if (!revision) return fail(revision.error());
     return storage::describe(database, *revision, description.change, description.who,
@@ -252,8 +252,8 @@ Result<std::vector<Revision>> ProgramRepository::revisions(const std::string& pr
   static const std::string kSql = "SELECT " + kRevisionColumns + kRevisionTables +
                                   "WHERE program.name = ?1 AND " + kRevisionVisible +
                                   "ORDER BY revision.number DESC";
-  auto found = connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(database, kSql, read_revision, program);
+  auto found = connections_.read([&](sql::Database& database) {
+    return sql::all_rows(database, kSql, read_revision, program);
   });
   if (found && found->empty()) {
     return fail(Errc::NotFound, "program {} is not in the library", program);
@@ -264,52 +264,51 @@ Result<std::vector<Revision>> ProgramRepository::revisions(const std::string& pr
 Result<Revision> ProgramRepository::revision(const std::string& program,
                                              std::optional<std::uint64_t> number) {
   return connections_.read(
-      [&](sqlite::Database& database) { return find_revision(database, program, number); });
+      [&](sql::Database& database) { return find_revision(database, program, number); });
 }
 
 Result<Revision> ProgramRepository::accept(const std::string& program, std::uint64_t number,
                                            const Actor& who) {
-  return connections_.write([&](sqlite::Database& database) {
+  return connections_.write([&](sql::Database& database) {
     return accept_revision(database, {program, number, who, clock_.now()});
   });
 }
 
 Result<void> ProgramRepository::reject(const std::string& program, std::uint64_t number,
                                        const Actor& who) {
-  return connections_.write([&](sqlite::Database& database) {
+  return connections_.write([&](sql::Database& database) {
     return reject_revision(database, {program, number, who, clock_.now()});
   });
 }
 
 Result<void> ProgramRepository::remove(const std::string& program) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     if (const auto latest = find_revision(database, program, std::nullopt);
         !latest && latest.error().code != Errc::Conflict) {
       return fail(latest.error());
     }
     if (auto unused = check_unused(database, program); !unused) return unused;
-    return sqlite::run(database,
-                       "UPDATE program SET removed_through = "
-                       "(SELECT max(number) FROM revision WHERE program = id) WHERE name = ?1",
-                       program);
+    return sql::run(database,
+                    "UPDATE program SET removed_through = "
+                    "(SELECT max(number) FROM revision WHERE program = id) WHERE name = ?1",
+                    program);
   });
 }
 
 Result<Revision> ProgramRepository::copy(const ProgramMove& move,
                                          std::optional<std::uint64_t> number) {
-  return connections_.write([&](sqlite::Database& database) {
-    return copy_program(database, move, number, clock_.now());
-  });
+  return connections_.write(
+      [&](sql::Database& database) { return copy_program(database, move, number, clock_.now()); });
 }
 
 Result<void> ProgramRepository::rename(const ProgramMove& move) {
   return connections_.write(
-      [&](sqlite::Database& database) { return rename_program(database, move, clock_.now()); });
+      [&](sql::Database& database) { return rename_program(database, move, clock_.now()); });
 }
 
 /// Looks at the stored list each time. Errors: NotFound, Corrupt.
 Result<ProgramRepository::Sealed> ProgramRepository::sealed(const Digest& content) {
-  auto found = connections_.read([&](sqlite::Database& database) -> Result<Sealed> {
+  auto found = connections_.read([&](sql::Database& database) -> Result<Sealed> {
     const auto row = find_content(database, content);
     if (!row) return fail(row.error());
     if (!*row) return fail(Errc::NotFound, "content {} is not in the library", content.hex());
@@ -326,9 +325,9 @@ Result<ProgramRepository::Sealed> ProgramRepository::sealed(const Digest& conten
 Result<ProgramRepository::Sealed> ProgramRepository::seal(const Digest& content,
                                                           const ContentRow& row) {
   const auto compared = connections_.read(
-      [&](sqlite::Database& database) { return compare_whole(database, row, content); });
+      [&](sql::Database& database) { return compare_whole(database, row, content); });
   if (!compared) return fail(compared.error());
-  return connections_.write([&](sqlite::Database& database) -> Result<Sealed> {
+  return connections_.write([&](sql::Database& database) -> Result<Sealed> {
     if (auto done = seal_content(database, row, content); !done) return fail(done.error());
     auto chunks = check_seal(database, row, content);
     if (!chunks) return fail(chunks.error());
@@ -352,7 +351,7 @@ Result<std::shared_ptr<const CachedChunk>> ProgramRepository::chunk(const Digest
     if (!found) return fail(found.error());
     digests = found->chunks;
   }
-  auto loaded = connections_.read([&](sqlite::Database& database) -> Loaded {
+  auto loaded = connections_.read([&](sql::Database& database) -> Loaded {
     const auto row = find_content(database, content);
     if (!row) return fail(row.error());
     if (!*row) return fail(Errc::NotFound, "content {} is not in the library", content.hex());

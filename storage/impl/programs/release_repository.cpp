@@ -5,13 +5,13 @@
 #include "storage/impl/programs/content.hpp"
 #include "storage/impl/programs/revision_rows.hpp"
 #include "storage/impl/repositories.hpp"
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 namespace {
 
 /// A row with another word is damaged, and so is its signature.
-Decision read_decision(const sqlite::Statement& row) {
+Decision read_decision(const sql::Statement& row) {
   Decision decision;
   decision.id = row.number(0);
   decision.program = row.text(1);
@@ -32,8 +32,7 @@ Decision read_decision(const sqlite::Statement& row) {
   return decision;
 }
 
-Result<Revision> decidable(sqlite::Database& database, const Decision& decision,
-                           RevisionState from) {
+Result<Revision> decidable(sql::Database& database, const Decision& decision, RevisionState from) {
   auto revision = find_revision(database, decision.program, decision.revision);
   if (!revision) return revision;
   if (revision->is_held) {
@@ -56,12 +55,13 @@ std::optional<std::int64_t> pin_count(const Decision& decision) {
   return static_cast<std::int64_t>(decision.closure->size());
 }
 
-Result<void> insert_decision(sqlite::Database& database, const Decision& decision) {
-  return sqlite::run(
+/// Returns its id.
+Result<std::int64_t> insert_decision(sql::Database& database, const Decision& decision) {
+  return sql::insert(
       database,
       "INSERT INTO revision_step (program, revision, name, sha256, step, time_us, who, credential, "
       "address, comment, policy, signature, closure) VALUES ((SELECT id FROM program WHERE name = "
-      "?1), ?2, ?1, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)",
+      "?1), ?2, ?1, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12) RETURNING id",
       decision.program, decision.revision, std::span<const std::byte>(decision.content.bytes),
       to_string(decision.step), decision.time, decision.who.name, decision.who.credential,
       decision.who.address, decision.comment, std::span<const std::byte>(decision.policy.bytes),
@@ -69,7 +69,7 @@ Result<void> insert_decision(sqlite::Database& database, const Decision& decisio
 }
 
 /// What is pinned must be released, and be what was looked at.
-Result<void> check_pin(sqlite::Database& database, const Pin& pin) {
+Result<void> check_pin(sql::Database& database, const Pin& pin) {
   const auto revision = find_revision(database, pin.program, pin.revision);
   if (!revision) return fail(revision.error());
   if (revision->state == RevisionState::Released && revision->content == pin.content) return {};
@@ -77,19 +77,18 @@ Result<void> check_pin(sqlite::Database& database, const Pin& pin) {
               to_string(revision->state));
 }
 
-Result<void> insert_pins(sqlite::Database& database, const Decision& decision) {
+Result<void> insert_pins(sql::Database& database, std::int64_t step, const Decision& decision) {
   if (!decision.closure) return {};
   if (decision.closure->size() > Decision::kMaxPins) {
     return fail(Errc::LimitExceeded, "program {} revision {} pins {} revisions: at most {}",
                 decision.program, decision.revision, decision.closure->size(), Decision::kMaxPins);
   }
-  const std::int64_t step = database.last_insert_id();
   std::int64_t position = 0;
   for (const Pin& pin : *decision.closure) {
     // A program that calls itself is released by this very decision.
     const bool is_itself = pin.program == decision.program && pin.revision == decision.revision;
     if (auto good = is_itself ? Result<void>() : check_pin(database, pin); !good) return good;
-    const auto inserted = sqlite::run(
+    const auto inserted = sql::run(
         database,
         "INSERT INTO revision_pin (step, position, program, revision, name, sha256) VALUES (?1, "
         "?2, (SELECT id FROM program WHERE name = ?3), ?4, ?3, ?5)",
@@ -111,22 +110,22 @@ std::string pin_words(const Decision& decision) {
   return words;
 }
 
-Result<void> set_state(sqlite::Database& database, const Decision& decision) {
-  return sqlite::run(database,
-                     "UPDATE revision SET state = ?3, "
-                     "released_us = iif(?3 = 'released', ?4, released_us), "
-                     "withdrawn_us = iif(?3 = 'withdrawn', ?4, withdrawn_us) "
-                     "WHERE number = ?2 AND program = (SELECT id FROM program WHERE name = ?1)",
-                     decision.program, decision.revision, to_string(state_after(decision.step)),
-                     decision.time);
+Result<void> set_state(sql::Database& database, const Decision& decision) {
+  return sql::run(database,
+                  "UPDATE revision SET state = ?3, "
+                  "released_us = CASE WHEN ?3 = 'released' THEN ?4 ELSE released_us END, "
+                  "withdrawn_us = CASE WHEN ?3 = 'withdrawn' THEN ?4 ELSE withdrawn_us END "
+                  "WHERE number = ?2 AND program = (SELECT id FROM program WHERE name = ?1)",
+                  decision.program, decision.revision, to_string(state_after(decision.step)),
+                  decision.time);
 }
 
-Result<Revision> take_step(sqlite::Database& database, const Decision& decision,
-                           RevisionState from) {
+Result<Revision> take_step(sql::Database& database, const Decision& decision, RevisionState from) {
   const auto before = decidable(database, decision, from);
   if (!before) return before;
-  if (auto stored = insert_decision(database, decision); !stored) return fail(stored.error());
-  if (auto pinned = insert_pins(database, decision); !pinned) return fail(pinned.error());
+  const auto stored = insert_decision(database, decision);
+  if (!stored) return fail(stored.error());
+  if (auto pinned = insert_pins(database, *stored, decision); !pinned) return fail(pinned.error());
   if (auto set = set_state(database, decision); !set) return fail(set.error());
   const AuditEntry entry{
       decision.time, decision.who, fmt::format("program.{}", to_string(decision.step)),
@@ -138,11 +137,11 @@ Result<Revision> take_step(sqlite::Database& database, const Decision& decision,
   return find_revision(database, decision.program, decision.revision);
 }
 
-Result<void> read_pins(sqlite::Database& database, Decision& decision) {
+Result<void> read_pins(sql::Database& database, Decision& decision) {
   if (!decision.closure) return {};
-  auto pins = sqlite::all_rows(
+  auto pins = sql::all_rows(
       database, "SELECT name, revision, sha256 FROM revision_pin WHERE step = ?1 ORDER BY position",
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return Pin{row.text(0), row.number(1), read_digest(row, 2)};
       },
       decision.id);
@@ -159,7 +158,7 @@ Result<Revision> ReleaseRepository::decide(const Decision& decision, RevisionSta
 }
 
 Result<Revision> ReleaseRepository::decide_all(const std::vector<DecisionFrom>& decisions) {
-  return connections_.write([&](sqlite::Database& database) -> Result<Revision> {
+  return connections_.write([&](sql::Database& database) -> Result<Revision> {
     Result<Revision> last = fail(Errc::Syntax, "no decision");
     for (const auto& [decision, from] : decisions) {
       last = take_step(database, decision, from);
@@ -175,8 +174,8 @@ Result<std::vector<Revision>> ReleaseRepository::pinned(std::uint64_t decision) 
       "JOIN revision_pin ON revision_pin.program = revision.program "
       "AND revision_pin.revision = revision.number WHERE revision_pin.step = ?1 "
       "ORDER BY revision_pin.position";
-  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<Revision>> {
-    auto revisions = sqlite::all_rows(database, kSql, read_bound, decision);
+  return connections_.read([&](sql::Database& database) -> Result<std::vector<Revision>> {
+    auto revisions = sql::all_rows(database, kSql, read_bound, decision);
     if (!revisions) return fail(revisions.error());
     std::vector<Revision> found;
     for (auto& [revision, named] : *revisions) {
@@ -189,9 +188,9 @@ Result<std::vector<Revision>> ReleaseRepository::pinned(std::uint64_t decision) 
 
 Result<std::vector<Decision>> ReleaseRepository::decisions(const std::string& program,
                                                            std::uint64_t revision) {
-  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<Decision>> {
+  return connections_.read([&](sql::Database& database) -> Result<std::vector<Decision>> {
     if (auto known = find_revision(database, program, revision); !known) return fail(known.error());
-    auto decisions = sqlite::all_rows(
+    auto decisions = sql::all_rows(
         database,
         "SELECT revision_step.id, revision_step.name, revision, sha256, step, time_us, who, "
         "credential, address, comment, policy, signature, closure FROM revision_step "
@@ -207,10 +206,10 @@ Result<std::vector<Decision>> ReleaseRepository::decisions(const std::string& pr
 }
 
 Result<std::set<std::string>> ReleaseRepository::authors(const Digest& content) {
-  const auto names = connections_.read([&](sqlite::Database& database) {
-    return sqlite::all_rows(
+  const auto names = connections_.read([&](sql::Database& database) {
+    return sql::all_rows(
         database, "SELECT DISTINCT author FROM revision WHERE sha256 = ?1",
-        [](const sqlite::Statement& row) { return row.text(0); },
+        [](const sql::Statement& row) { return row.text(0); },
         std::span<const std::byte>(content.bytes));
   });
   if (!names) return fail(names.error());

@@ -18,7 +18,7 @@ const std::string kRevisionTables =
 const std::string kRevisionVisible =
     "revision.number > program.removed_through AND revision.standing <> 'rejected' ";
 
-Revision read_revision(const sqlite::Statement& row) {
+Revision read_revision(const sql::Statement& row) {
   Revision revision;
   revision.program = row.text(0);
   revision.number = row.number(1);
@@ -38,7 +38,7 @@ Revision read_revision(const sqlite::Statement& row) {
   return revision;
 }
 
-BoundRevision read_bound(const sqlite::Statement& row) {
+BoundRevision read_bound(const sql::Statement& row) {
   return {read_revision(row), read_digest(row, 10)};
 }
 
@@ -66,15 +66,15 @@ Result<std::optional<Revision>> checked(Result<std::optional<BoundRevision>> fou
   return std::optional(std::move((*found)->revision));
 }
 
-Result<std::optional<BoundRevision>> newest(sqlite::Database& database, const std::string& program,
+Result<std::optional<BoundRevision>> newest(sql::Database& database, const std::string& program,
                                             std::string_view decision) {
   static const std::string kSql =
       select_visible("AND revision.standing = ?2 ORDER BY revision.number DESC LIMIT 1");
-  return sqlite::first_row(database, kSql, read_bound, program, decision);
+  return sql::first_row(database, kSql, read_bound, program, decision);
 }
 
 /// Why there is no latest revision.
-Result<Revision> no_latest(sqlite::Database& database, const std::string& program) {
+Result<Revision> no_latest(sql::Database& database, const std::string& program) {
   const auto held = newest(database, program, "held");
   if (!held) return fail(held.error());
   if (*held) {
@@ -92,15 +92,15 @@ struct ProgramRow {
 };
 
 /// Makes the program when it is new.
-Result<ProgramRow> program_row(sqlite::Database& database, const std::string& name) {
-  const auto made = sqlite::run(
+Result<ProgramRow> program_row(sql::Database& database, const std::string& name) {
+  const auto made = sql::run(
       database, "INSERT INTO program (name) VALUES (?1) ON CONFLICT (name) DO NOTHING", name);
   if (!made) return fail(made.error());
-  const auto row = sqlite::first_row(
+  const auto row = sql::first_row(
       database,
       "SELECT id, coalesce((SELECT max(number) FROM revision WHERE program = id), 0) "
       "FROM program WHERE name = ?1",
-      [](const sqlite::Statement& s) {
+      [](const sql::Statement& s) {
         return ProgramRow{s.integer(0), s.number(1)};
       },
       name);
@@ -109,7 +109,7 @@ Result<ProgramRow> program_row(sqlite::Database& database, const std::string& na
 }
 
 /// The revision that the upload would only repeat.
-Result<std::optional<Revision>> find_same(sqlite::Database& database, const Upload& upload,
+Result<std::optional<Revision>> find_same(sql::Database& database, const Upload& upload,
                                           std::int64_t content) {
   for (const std::string_view decision : {"accepted", "held"}) {
     if (decision == "held" && !upload.is_held) break;
@@ -128,15 +128,15 @@ Result<std::optional<Revision>> find_same(sqlite::Database& database, const Uplo
   return std::nullopt;
 }
 
-Result<void> set_standing(sqlite::Database& database, const Judgment& judgment,
+Result<void> set_standing(sql::Database& database, const Judgment& judgment,
                           std::string_view decision, std::optional<UtcTime> accepted) {
-  return sqlite::run(database,
-                     "UPDATE revision SET standing = ?3, accepted_us = ?4 WHERE number = ?2 AND "
-                     "program = (SELECT id FROM program WHERE name = ?1)",
-                     judgment.program, judgment.number, decision, accepted);
+  return sql::run(database,
+                  "UPDATE revision SET standing = ?3, accepted_us = ?4 WHERE number = ?2 AND "
+                  "program = (SELECT id FROM program WHERE name = ?1)",
+                  judgment.program, judgment.number, decision, accepted);
 }
 
-Result<void> write_down(sqlite::Database& database, const Judgment& judgment,
+Result<void> write_down(sql::Database& database, const Judgment& judgment,
                         const std::string& action, const Digest& content) {
   std::string detail = fmt::format("revision {} sha256 {}", judgment.number, content.hex());
   if (!judgment.target.empty())
@@ -151,16 +151,14 @@ std::string sender_of(const std::string& author) {
   return author.starts_with(kMachine) ? author.substr(kMachine.size()) : author;
 }
 
-Result<void> begin_import(sqlite::Database& database, std::int64_t program, std::uint64_t number,
+Result<void> begin_import(sql::Database& database, std::int64_t program, std::uint64_t number,
                           const Upload& upload) {
-  return sqlite::run(database,
-                     "INSERT INTO import (program, revision, machine) VALUES (?1, ?2, ?3)", program,
-                     number, sender_of(upload.author));
+  return sql::run(database, "INSERT INTO import (program, revision, machine) VALUES (?1, ?2, ?3)",
+                  program, number, sender_of(upload.author));
 }
 
-Result<void> end_import(sqlite::Database& database, const Judgment& judgment,
-                        std::string_view state) {
-  return sqlite::run(
+Result<void> end_import(sql::Database& database, const Judgment& judgment, std::string_view state) {
+  return sql::run(
       database,
       "UPDATE import SET state = ?3, decided_us = ?4, who = ?5, reason = ?6, "
       "is_at_once = ?7, target = ?8, target_revision = nullif(?9, 0) WHERE revision = ?2 AND "
@@ -171,10 +169,10 @@ Result<void> end_import(sqlite::Database& database, const Judgment& judgment,
 
 }  // namespace
 
-Result<Revision> find_revision(sqlite::Database& database, const std::string& program,
+Result<Revision> find_revision(sql::Database& database, const std::string& program,
                                std::optional<std::uint64_t> number) {
   static const std::string kNumbered = select_visible("AND revision.number = ?2");
-  auto found = checked(number ? sqlite::first_row(database, kNumbered, read_bound, program, *number)
+  auto found = checked(number ? sql::first_row(database, kNumbered, read_bound, program, *number)
                               : newest(database, program, "accepted"));
   if (!found) return fail(found.error());
   if (*found) return std::move(**found);
@@ -185,7 +183,7 @@ Result<Revision> find_revision(sqlite::Database& database, const std::string& pr
 namespace {
 
 /// What was stated with the upload is in force, whether or not it made a new revision.
-Result<Revision> described(sqlite::Database& database, const Upload& upload, std::uint64_t number,
+Result<Revision> described(sql::Database& database, const Upload& upload, std::uint64_t number,
                            UtcTime now) {
   Revision revision;
   revision.program = upload.program;
@@ -197,14 +195,14 @@ Result<Revision> described(sqlite::Database& database, const Upload& upload, std
 
 }  // namespace
 
-Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
+Result<Revision> publish_revision(sql::Database& database, const Upload& upload,
                                   std::int64_t content, UtcTime now) {
   auto same = find_same(database, upload, content);
   if (!same) return fail(same.error());
   if (*same) return described(database, upload, (*same)->number, now);
   const auto program = program_row(database, upload.program);
   if (!program) return fail(program.error());
-  const auto inserted = sqlite::run(
+  const auto inserted = sql::run(
       database,
       "INSERT INTO revision (program, number, content, control, comment, author, created_us, "
       "standing, sha256) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, "
@@ -219,7 +217,7 @@ Result<Revision> publish_revision(sqlite::Database& database, const Upload& uplo
   return described(database, upload, program->highest + 1, now);
 }
 
-Result<Revision> accept_revision(sqlite::Database& database, const Judgment& judgment) {
+Result<Revision> accept_revision(sql::Database& database, const Judgment& judgment) {
   auto revision = find_revision(database, judgment.program, judgment.number);
   if (!revision || !revision->is_held) return revision;
   if (auto set = set_standing(database, judgment, "accepted", judgment.time); !set) {
@@ -233,7 +231,7 @@ Result<Revision> accept_revision(sqlite::Database& database, const Judgment& jud
   return find_revision(database, judgment.program, judgment.number);
 }
 
-Result<void> reject_revision(sqlite::Database& database, const Judgment& judgment) {
+Result<void> reject_revision(sql::Database& database, const Judgment& judgment) {
   const auto revision = find_revision(database, judgment.program, judgment.number);
   if (!revision) return fail(revision.error());
   if (!revision->is_held) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 #include "storage/upload_store.hpp"
 
 /// Rows of revision, as they are found, made and judged. Everything runs inside the caller's
@@ -17,12 +17,12 @@ inline constexpr int kAfterRevision = 15;  ///< the first column past them
 extern const std::string kRevisionTables;
 /// A condition: not removed, not rejected.
 extern const std::string kRevisionVisible;
-Revision read_revision(const sqlite::Statement& row);
+Revision read_revision(const sql::Statement& row);
 struct BoundRevision {
   Revision revision;
   Digest named;  ///< the content that the row names
 };
-BoundRevision read_bound(const sqlite::Statement& row);
+BoundRevision read_bound(const sql::Statement& row);
 /// `named`: the digest of the content that the revision's row names; the revision has the one that
 /// it was stored with.
 /// Errors: Corrupt.
@@ -30,12 +30,12 @@ Result<void> check_content(const Revision& revision, const Digest& named);
 
 /// `number` absent: the latest that is not held. Errors: NotFound, Conflict (nothing but held
 /// ones), Corrupt (its row names another content than it was stored with).
-Result<Revision> find_revision(sqlite::Database& database, const std::string& program,
+Result<Revision> find_revision(sql::Database& database, const std::string& program,
                                std::optional<std::uint64_t> number);
 
 /// Makes `content` a new revision of the upload's program, or returns the latest one when that has
 /// this very content and was not withdrawn (the newest held one, if the upload is held).
-Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
+Result<Revision> publish_revision(sql::Database& database, const Upload& upload,
                                   std::int64_t content, UtcTime now);
 
 struct Judgment {
@@ -50,7 +50,7 @@ struct Judgment {
   std::uint64_t target_revision = 0;
 };
 /// Promises of both: storage/program_store.hpp. The import queue follows.
-Result<Revision> accept_revision(sqlite::Database& database, const Judgment& judgment);
-Result<void> reject_revision(sqlite::Database& database, const Judgment& judgment);
+Result<Revision> accept_revision(sql::Database& database, const Judgment& judgment);
+Result<void> reject_revision(sql::Database& database, const Judgment& judgment);
 
 }  // namespace dripline::storage

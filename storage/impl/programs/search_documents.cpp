@@ -7,6 +7,7 @@
 
 #include "protocol/base/digest.hpp"
 #include "storage/impl/programs/content.hpp"
+#include "storage/impl/programs/text_index.hpp"
 #include "storage/search_store.hpp"
 #include "storage/search_words.hpp"
 
@@ -37,12 +38,12 @@ void add_field(std::set<std::string>& words, char kind, const std::string& value
   words.insert(facet(kind, value));
 }
 
-Result<std::optional<ProgramCard>> program_card(sqlite::Database& database, std::int64_t program) {
-  return sqlite::first_row(
+Result<std::optional<ProgramCard>> program_card(sql::Database& database, std::int64_t program) {
+  return sql::first_row(
       database,
       "SELECT name, part, operation, material, machine_group, coalesce(latest, 0), "
       "coalesce(released, 0) FROM program WHERE id = ?1",
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         ProgramCard card;
         add_search_words(row.text(0), WordsOf::Card, card.words);
         add_field(card.words, 'p', row.text(1));
@@ -56,14 +57,14 @@ Result<std::optional<ProgramCard>> program_card(sqlite::Database& database, std:
       program);
 }
 
-Result<std::vector<RevisionCard>> revision_cards(sqlite::Database& database, std::int64_t program,
+Result<std::vector<RevisionCard>> revision_cards(sql::Database& database, std::int64_t program,
                                                  const ProgramCard& shared) {
-  return sqlite::all_rows(
+  return sql::all_rows(
       database,
       "SELECT number, sha256, control, state, author, comment, cam_file, standing FROM revision "
       "JOIN program ON program.id = revision.program WHERE program = ?1 "
       "AND number > removed_through AND standing <> 'rejected' ORDER BY number DESC",
-      [&](const sqlite::Statement& row) {
+      [&](const sql::Statement& row) {
         RevisionCard card{row.number(0), read_digest(row, 1), shared.words};
         const std::string state = row.text(3);
         if (!row.text(2).empty()) card.words.insert(facet('c', row.text(2)));
@@ -79,14 +80,12 @@ Result<std::vector<RevisionCard>> revision_cards(sqlite::Database& database, std
       program);
 }
 
-Result<void> add_attachments(sqlite::Database& database, std::int64_t program,
+Result<void> add_attachments(sql::Database& database, std::int64_t program,
                              std::vector<RevisionCard>& cards) {
   using Row = std::pair<std::uint64_t, std::string>;
-  const auto rows = sqlite::all_rows(
+  const auto rows = sql::all_rows(
       database, "SELECT coalesce(revision, 0), name, comment FROM attachment WHERE program = ?1",
-      [](const sqlite::Statement& row) {
-        return Row(row.number(0), row.text(1) + " " + row.text(2));
-      },
+      [](const sql::Statement& row) { return Row(row.number(0), row.text(1) + " " + row.text(2)); },
       program);
   if (!rows) return fail(rows.error());
   for (const auto& [revision, text] : *rows) {
@@ -104,12 +103,12 @@ struct StoredDocument {
   std::uint64_t text_bytes = 0;
 };
 
-Result<std::map<std::uint64_t, StoredDocument>> stored_documents(sqlite::Database& database,
+Result<std::map<std::uint64_t, StoredDocument>> stored_documents(sql::Database& database,
                                                                  std::int64_t program) {
   using Row = std::pair<std::uint64_t, StoredDocument>;
-  auto rows = sqlite::all_rows(
+  auto rows = sql::all_rows(
       database, "SELECT revision, id, words, text FROM search_document WHERE program = ?1",
-      [](const sqlite::Statement& row) {
+      [](const sql::Statement& row) {
         return Row(row.number(0), {row.integer(1), row.text(2), row.number(3)});
       },
       program);
@@ -124,7 +123,7 @@ struct TextWords {
 
 /// The words of the first `bytes` of a content; none where it cannot be read: reading the program
 /// reports that.
-TextWords text_words(sqlite::Database& database, const Digest& content, std::uint64_t bytes) {
+TextWords text_words(sql::Database& database, const Digest& content, std::uint64_t bytes) {
   const auto row = find_content(database, content);
   if (!row || !*row || bytes == 0) return {};
   const auto text = load_range(database, **row, 0, bytes, "search");
@@ -135,19 +134,17 @@ TextWords text_words(sqlite::Database& database, const Digest& content, std::uin
   return {fmt::format("{}", fmt::join(words, " ")), text->size()};
 }
 
-Result<Digest> content_of(sqlite::Database& database, std::int64_t program,
-                          std::uint64_t revision) {
-  const auto found = sqlite::first_row(
+Result<Digest> content_of(sql::Database& database, std::int64_t program, std::uint64_t revision) {
+  const auto found = sql::first_row(
       database, "SELECT sha256 FROM revision WHERE program = ?1 AND number = ?2",
-      [](const sqlite::Statement& row) { return read_digest(row, 0); }, program, revision);
+      [](const sql::Statement& row) { return read_digest(row, 0); }, program, revision);
   if (!found) return fail(found.error());
   return found->value_or(Digest{});
 }
 
 }  // namespace
 
-Result<DueChanges> changes_of(sqlite::Database& database, std::int64_t program,
-                              std::uint64_t& bytes) {
+Result<DueChanges> changes_of(sql::Database& database, std::int64_t program, std::uint64_t& bytes) {
   const auto shared = program_card(database, program);
   if (!shared) return fail(shared.error());
   auto cards = revision_cards(database, program, shared->value_or(ProgramCard{}));
@@ -199,14 +196,14 @@ Result<DueChanges> changes_of(sqlite::Database& database, std::int64_t program,
 namespace {
 
 /// Those of letters, separated by blanks: what `rou*` may stand for.
-Result<void> add_words(sqlite::Database& database, std::string_view words) {
+Result<void> add_words(sql::Database& database, std::string_view words) {
   for (std::size_t at = 0; at < words.size();) {
     const std::size_t end = std::min(words.find(' ', at), words.size());
     const std::string_view word = words.substr(at, end - at);
     at = end + 1;
     if (!is_word_of_letters(word)) continue;
-    auto added =
-        sqlite::run(database, "INSERT OR IGNORE INTO search_word (word) VALUES (?1)", word);
+    auto added = sql::run(
+        database, "INSERT INTO search_word (word) VALUES (?1) ON CONFLICT (word) DO NOTHING", word);
     if (!added) return added;
   }
   return {};
@@ -214,26 +211,22 @@ Result<void> add_words(sqlite::Database& database, std::string_view words) {
 
 }  // namespace
 
-Result<void> apply(sqlite::Database& database, const DocumentChange& change) {
+Result<void> apply(sql::Database& database, const DocumentChange& change) {
   if (change.old_id) {
-    // The index has no text of its own: what is taken out is named by its words.
-    auto gone = sqlite::run(database,
-                            "INSERT INTO search_index (search_index, rowid, words) VALUES "
-                            "('delete', ?1, ?2)",
-                            *change.old_id, change.old_words + " " + change.old_text);
+    auto gone =
+        take_from_index(database, {*change.old_id, change.old_words + " " + change.old_text});
     if (!gone) return gone;
-    gone = sqlite::run(database, "DELETE FROM search_document WHERE id = ?1", *change.old_id);
+    gone = sql::run(database, "DELETE FROM search_document WHERE id = ?1", *change.old_id);
     if (!gone) return gone;
   }
   if (change.is_removed) return {};
-  auto made = sqlite::run(database,
-                          "INSERT INTO search_document (program, revision, words, text) VALUES "
-                          "(?1, ?2, ?3, ?4)",
-                          change.program, change.revision, change.words, change.text_bytes);
-  if (!made) return made;
+  const auto id = sql::insert(database,
+                              "INSERT INTO search_document (program, revision, words, text) "
+                              "VALUES (?1, ?2, ?3, ?4) RETURNING id",
+                              change.program, change.revision, change.words, change.text_bytes);
+  if (!id) return fail(id.error());
   const std::string words = change.words + " " + change.text;
-  made = sqlite::run(database, "INSERT INTO search_index (rowid, words) VALUES (?1, ?2)",
-                     database.last_insert_id(), words);
+  auto made = add_to_index(database, {*id, words});
   return made ? add_words(database, words) : made;
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "storage/sqlite/query.hpp"
+#include "storage/sql/query.hpp"
 
 /// Documents of the full-text index: what they should be, and how they get there.
 namespace dripline::storage {
@@ -39,10 +39,9 @@ struct DueChanges {
   std::vector<DocumentChange> changes;
   bool is_whole = true;
 };
-Result<DueChanges> changes_of(sqlite::Database& database, std::int64_t program,
-                              std::uint64_t& bytes);
+Result<DueChanges> changes_of(sql::Database& database, std::int64_t program, std::uint64_t& bytes);
 
 /// Inside the caller's transaction.
-Result<void> apply(sqlite::Database& database, const DocumentChange& change);
+Result<void> apply(sql::Database& database, const DocumentChange& change);
 
 }  // namespace dripline::storage

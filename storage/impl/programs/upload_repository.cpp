@@ -22,7 +22,7 @@ struct UploadRow {
   ContentRow content;
 };
 
-UploadRow read_upload_row(const sqlite::Statement& row) {
+UploadRow read_upload_row(const sql::Statement& row) {
   UploadRow found;
   found.upload = {row.text(0), row.text(1),   row.text(2), row.text(3),
                   row.text(4), row.number(6), row.time(7), row.integer(8) != 0};
@@ -38,8 +38,8 @@ UploadRow read_upload_row(const sqlite::Statement& row) {
 }
 
 /// Errors: NotFound.
-Result<UploadRow> find_row(sqlite::Database& database, const std::string& id) {
-  auto row = sqlite::first_row(
+Result<UploadRow> find_row(sql::Database& database, const std::string& id) {
+  auto row = sql::first_row(
       database,
       "SELECT upload.id, program, control, comment, author, content, size, created_us, held, part, "
       "operation, material, machine_group, cam_file, attachment, attachment_revision, folder_file "
@@ -60,14 +60,14 @@ std::string new_upload_id() {
   return random_hex(kBytes);
 }
 
-Result<void> drop_upload(sqlite::Database& database, const std::string& id, std::int64_t content) {
-  if (auto done = sqlite::run(database, "DELETE FROM upload WHERE id = ?1", id); !done) return done;
+Result<void> drop_upload(sql::Database& database, const std::string& id, std::int64_t content) {
+  if (auto done = sql::run(database, "DELETE FROM upload WHERE id = ?1", id); !done) return done;
   return drop_content(database, content);
 }
 
 /// The upload's content gets its digest, or is replaced by the same content stored before. Returns
 /// the content that is kept.
-Result<std::int64_t> name_content(sqlite::Database& database, const ContentRow& content,
+Result<std::int64_t> name_content(sql::Database& database, const ContentRow& content,
                                   const Digest& digest) {
   const auto known = find_content(database, digest);
   if (!known) return fail(known.error());
@@ -81,8 +81,8 @@ Result<std::int64_t> name_content(sqlite::Database& database, const ContentRow& 
     if (!done) return fail(done.error());
     if (is_sound) return (*known)->id;
   } else {
-    const auto named = sqlite::run(database, "UPDATE content SET sha256 = ?2 WHERE id = ?1",
-                                   content.id, std::span<const std::byte>(digest.bytes));
+    const auto named = sql::run(database, "UPDATE content SET sha256 = ?2 WHERE id = ?1",
+                                content.id, std::span<const std::byte>(digest.bytes));
     if (!named) return fail(named.error());
   }
   const ContentRow kept{*known ? (*known)->id : content.id, content.size};
@@ -103,7 +103,7 @@ Result<Upload> UploadRepository::begin(const Upload& upload) {
   begun.received = 0;
   if (begun.id.empty()) begun.id = new_upload_id();
   if (begun.created == UtcTime{}) begun.created = clock_.now();
-  return connections_.write([&](sqlite::Database& database) -> Result<Upload> {
+  return connections_.write([&](sql::Database& database) -> Result<Upload> {
     if (find_row(database, begun.id)) {
       return fail(Errc::Conflict, "upload {} exists already", begun.id);
     }
@@ -114,7 +114,7 @@ Result<Upload> UploadRepository::begin(const Upload& upload) {
     }
     const auto content = create_content(database);
     if (!content) return fail(content.error());
-    const auto inserted = sqlite::run(
+    const auto inserted = sql::run(
         database,
         "INSERT INTO upload (id, program, control, comment, author, content, created_us, "
         "touched_us, held, part, operation, material, machine_group, cam_file, attachment, "
@@ -130,7 +130,7 @@ Result<Upload> UploadRepository::begin(const Upload& upload) {
 }
 
 Result<Upload> UploadRepository::find(const std::string& id) {
-  return connections_.read([&](sqlite::Database& database) -> Result<Upload> {
+  return connections_.read([&](sql::Database& database) -> Result<Upload> {
     auto row = find_row(database, id);
     if (!row) return fail(row.error());
     return std::move(row->upload);
@@ -140,7 +140,7 @@ Result<Upload> UploadRepository::find(const std::string& id) {
 Result<std::shared_ptr<UploadProgress>> UploadRepository::progress_of(const std::string& id) {
   using Found = Result<std::shared_ptr<UploadProgress>>;
   if (auto kept = table_.find(id)) return kept;
-  auto loaded = connections_.read([&](sqlite::Database& database) -> Found {
+  auto loaded = connections_.read([&](sql::Database& database) -> Found {
     const auto row = find_row(database, id);
     if (!row) return fail(row.error());
     auto progress = std::make_shared<UploadProgress>();
@@ -194,7 +194,7 @@ Result<Upload> UploadRepository::append(const std::string& id, std::uint64_t off
 Result<Upload> UploadRepository::store_piece(const std::string& id, UploadProgress& progress,
                                              std::span<const std::byte> bytes) {
   const auto chunks = encode_chunks(progress.tail, bytes);
-  auto stored = connections_.write([&](sqlite::Database& database) -> Result<Upload> {
+  auto stored = connections_.write([&](sql::Database& database) -> Result<Upload> {
     auto row = find_row(database, id);
     if (!row) return fail(row.error());
     if (auto same = check_unchanged(*row, progress); !same) return fail(same.error());
@@ -203,8 +203,8 @@ Result<Upload> UploadRepository::store_piece(const std::string& id, UploadProgre
         put_chunks(database, progress.content, progress.received / kChunkBytes, chunks);
     if (!put) return fail(put.error());
     const auto updated =
-        sqlite::run(database, "UPDATE upload SET touched_us = ?2, idle_seconds = 0 WHERE id = ?1",
-                    id, clock_.now());
+        sql::run(database, "UPDATE upload SET touched_us = ?2, idle_seconds = 0 WHERE id = ?1", id,
+                 clock_.now());
     if (!updated) return fail(updated.error());
     row->upload.received += bytes.size();
     return std::move(row->upload);
@@ -221,7 +221,7 @@ Result<Upload> UploadRepository::check_resent(const std::string& id, const Uploa
                 "upload {}: bytes {} to {} overlap what was received: continue at {}", id, offset,
                 offset + bytes.size(), progress.received);
   }
-  return connections_.read([&](sqlite::Database& database) -> Result<Upload> {
+  return connections_.read([&](sql::Database& database) -> Result<Upload> {
     auto row = find_row(database, id);
     if (!row) return fail(row.error());
     const auto known = load_range(database, row->content, offset, bytes.size(), label_of(id));
@@ -235,7 +235,7 @@ Result<Upload> UploadRepository::check_resent(const std::string& id, const Uploa
 
 Result<std::vector<std::byte>> UploadRepository::read(const std::string& id, std::uint64_t offset,
                                                       std::uint64_t length) {
-  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<std::byte>> {
+  return connections_.read([&](sql::Database& database) -> Result<std::vector<std::byte>> {
     const auto row = find_row(database, id);
     if (!row) return fail(row.error());
     return load_range(database, row->content, offset, length, label_of(id));
@@ -243,9 +243,9 @@ Result<std::vector<std::byte>> UploadRepository::read(const std::string& id, std
 }
 
 Result<void> UploadRepository::set_control(const std::string& id, const std::string& control) {
-  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
     const auto set =
-        sqlite::run(database, "UPDATE upload SET control = ?2 WHERE id = ?1", id, control);
+        sql::run(database, "UPDATE upload SET control = ?2 WHERE id = ?1", id, control);
     if (!set) return set;
     if (database.changes() == 0) return fail(Errc::NotFound, "upload {} is not known", id);
     return {};
@@ -267,10 +267,9 @@ Result<Digest> UploadRepository::digest_of(const std::string& id, const UploadPr
 template <class Publish>
 auto UploadRepository::finish(const std::string& id, const std::optional<Digest>& expected,
                               Publish publish)
-    -> std::invoke_result_t<Publish, sqlite::Database&, const Upload&, std::int64_t,
-                            const Digest&> {
+    -> std::invoke_result_t<Publish, sql::Database&, const Upload&, std::int64_t, const Digest&> {
   using Published =
-      std::invoke_result_t<Publish, sqlite::Database&, const Upload&, std::int64_t, const Digest&>;
+      std::invoke_result_t<Publish, sql::Database&, const Upload&, std::int64_t, const Digest&>;
   const auto progress = progress_of(id);
   if (!progress) return fail(progress.error());
   const std::lock_guard lock((*progress)->mutex);
@@ -281,11 +280,11 @@ auto UploadRepository::finish(const std::string& id, const std::optional<Digest>
     return fail(Errc::Corrupt, "upload {}: SHA-256 of the {} bytes received is {}, expected {}", id,
                 (*progress)->received, digest->hex(), expected->hex());
   }
-  auto published = connections_.write([&](sqlite::Database& database) -> Published {
+  auto published = connections_.write([&](sql::Database& database) -> Published {
     const auto row = find_row(database, id);
     if (!row) return fail(row.error());
     if (auto same = check_unchanged(*row, **progress); !same) return fail(same.error());
-    if (auto done = sqlite::run(database, "DELETE FROM upload WHERE id = ?1", id); !done) {
+    if (auto done = sql::run(database, "DELETE FROM upload WHERE id = ?1", id); !done) {
       return fail(done.error());
     }
     const auto content = name_content(database, row->content, *digest);
@@ -299,7 +298,7 @@ auto UploadRepository::finish(const std::string& id, const std::optional<Digest>
 Result<Revision> UploadRepository::commit(const std::string& id,
                                           const std::optional<Digest>& expected) {
   return finish(id, expected,
-                [&](sqlite::Database& database, const Upload& upload, std::int64_t content,
+                [&](sql::Database& database, const Upload& upload, std::int64_t content,
                     const Digest&) -> Result<Revision> {
                   if (upload.attachment) {
                     return fail(Errc::Conflict, "upload {} is of attachment '{}'", id,
@@ -317,7 +316,7 @@ Result<Attachment> UploadRepository::commit_attachment(const std::string& id,
                                                        const std::optional<Digest>& expected,
                                                        const Actor& who) {
   return finish(id, expected,
-                [&](sqlite::Database& database, const Upload& upload, std::int64_t content,
+                [&](sql::Database& database, const Upload& upload, std::int64_t content,
                     const Digest& digest) -> Result<Attachment> {
                   if (!upload.attachment)
                     return fail(Errc::Conflict, "upload {} is of a program's text", id);
@@ -326,7 +325,7 @@ Result<Attachment> UploadRepository::commit_attachment(const std::string& id,
 }
 
 Result<void> UploadRepository::abandon(const std::string& id) {
-  auto abandoned = connections_.write([&](sqlite::Database& database) -> Result<void> {
+  auto abandoned = connections_.write([&](sql::Database& database) -> Result<void> {
     const auto row = find_row(database, id);
     if (!row) return fail(row.error());
     return drop_upload(database, id, row->content.id);
@@ -337,15 +336,14 @@ Result<void> UploadRepository::abandon(const std::string& id) {
 
 Result<std::uint64_t> UploadRepository::drop_idle(std::chrono::seconds passed,
                                                   std::chrono::seconds life) {
-  auto dropped = connections_.write([&](sqlite::Database& database) -> Result<std::uint64_t> {
+  auto dropped = connections_.write([&](sql::Database& database) -> Result<std::uint64_t> {
     using Old = std::pair<std::string, std::int64_t>;
     const auto aged =
-        sqlite::run(database, "UPDATE upload SET idle_seconds = idle_seconds + ?1", passed.count());
+        sql::run(database, "UPDATE upload SET idle_seconds = idle_seconds + ?1", passed.count());
     if (!aged) return fail(aged.error());
-    const auto old = sqlite::all_rows(
+    const auto old = sql::all_rows(
         database, "SELECT id, content FROM upload WHERE idle_seconds > ?1",
-        [](const sqlite::Statement& row) { return Old(row.text(0), row.integer(1)); },
-        life.count());
+        [](const sql::Statement& row) { return Old(row.text(0), row.integer(1)); }, life.count());
     if (!old) return fail(old.error());
     for (const auto& [id, content] : *old) {
       if (auto done = drop_upload(database, id, content); !done) return fail(done.error());

@@ -75,8 +75,7 @@ class UploadRepository final : public UploadStore {
                               std::uint64_t offset, std::span<const std::byte> bytes);
   template <class Publish>
   auto finish(const std::string& id, const std::optional<Digest>& expected, Publish publish)
-      -> std::invoke_result_t<Publish, sqlite::Database&, const Upload&, std::int64_t,
-                              const Digest&>;
+      -> std::invoke_result_t<Publish, sql::Database&, const Upload&, std::int64_t, const Digest&>;
   Result<void> check_attachment_size(const std::string& id);
   Result<Digest> digest_of(const std::string& id, const UploadProgress& progress);
 

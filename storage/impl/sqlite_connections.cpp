@@ -1,4 +1,4 @@
-#include "storage/impl/connections.hpp"
+#include "storage/impl/sqlite_connections.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -29,26 +29,37 @@ sqlite::OpenOptions connection_options(const SqliteStoreOptions& options, sqlite
 
 }  // namespace
 
-Result<sqlite::Database> ConnectionPool::take() {
-  std::unique_lock lock(mutex_);
-  const auto deadline = std::chrono::steady_clock::now() + wait_;
-  if (!freed_.wait_until(lock, deadline, [this] { return !free_.empty(); })) {
-    return fail(Errc::Busy, "no database connection came free within {} ms", wait_.count());
-  }
-  sqlite::Database connection = std::move(free_.back());
-  free_.pop_back();
-  return connection;
+Result<void> SqliteConnections::write_with(const Work& work, Durability durability) {
+  return writer_.with([&](sqlite::Database& database) -> Result<void> {
+    if (auto there = check_file(); !there) return there;
+    const auto synchronous =
+        durability == Durability::Full ? sqlite::Synchronous::Full : sqlite::Synchronous::Normal;
+    if (auto set = database.set_synchronous(synchronous); !set) return set;
+    auto transaction = sqlite::Transaction::begin(database);
+    if (!transaction) return fail(transaction.error());
+    if (auto done = work(database); !done) return done;
+    return transaction->commit();
+  });
 }
 
-void ConnectionPool::give_back(sqlite::Database connection) {
-  {
-    const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(connection));
-  }
-  freed_.notify_one();
+Result<void> SqliteConnections::read_with(const Work& work) {
+  return readers_.with([&](sqlite::Database& database) -> Result<void> {
+    auto snapshot = sqlite::Snapshot::begin(database);
+    if (!snapshot) return fail(snapshot.error());
+    return work(database);
+  });
 }
 
-void Connections::note_file() {
+Result<bool> SqliteConnections::read_file(
+    const std::function<Result<bool>(sqlite::Database&)>& action) {
+  return readers_.with([&](sqlite::Database& database) -> Result<bool> {
+    auto snapshot = sqlite::Snapshot::begin(database);
+    if (!snapshot) return fail(snapshot.error());
+    return action(database);
+  });
+}
+
+void SqliteConnections::note_file() {
   struct stat facts {};
   if (::stat(file_.c_str(), &facts) != 0) return;
   device_ = facts.st_dev;
@@ -57,7 +68,7 @@ void Connections::note_file() {
 
 /// A file that was removed or replaced accepts what is written until it is closed, and then all of
 /// it is lost: nothing may be acknowledged there. Errors: Io.
-Result<void> Connections::check_file() const {
+Result<void> SqliteConnections::check_file() const {
   struct stat facts {};
   if (::stat(file_.c_str(), &facts) == 0 && facts.st_dev == device_ && facts.st_ino == inode_)
     return {};
@@ -67,10 +78,11 @@ Result<void> Connections::check_file() const {
               file_.string());
 }
 
-Result<std::unique_ptr<Connections>> Connections::open(const SqliteStoreOptions& options) {
+Result<std::unique_ptr<SqliteConnections>> SqliteConnections::open(
+    const SqliteStoreOptions& options) {
   auto lock = FileLock::acquire(options.file.string() + ".lock", options.file.string());
   if (!lock) return fail(lock.error());
-  std::unique_ptr<Connections> connections(new Connections(std::move(*lock), options));
+  std::unique_ptr<SqliteConnections> connections(new SqliteConnections(std::move(*lock), options));
 
   auto writer =
       sqlite::Database::open(options.file, connection_options(options, sqlite::Access::ReadWrite));

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include "storage/store.hpp"
+
+namespace dripline::storage {
+
+/// A store with what whoever opened it asks besides, whatever engine keeps it.
+class OpenedStore : public Store {
+ public:
+  OpenedStore(const OpenedStore&) = delete;
+  OpenedStore& operator=(const OpenedStore&) = delete;
+  virtual ~OpenedStore() = default;
+
+  /// Searches for damage of the database's structure (not of program content, which is checked
+  /// whenever it is read), for at most `limit` or until `stop`. False: the time was not enough, and
+  /// no damage was found so far. Reads and writes continue beside it. Errors: Corrupt.
+  virtual Result<bool> check(std::chrono::milliseconds limit, const std::stop_token& stop) = 0;
+  Result<bool> check() { return check(std::chrono::hours(24), {}); }
+  Result<bool> check(std::chrono::milliseconds limit) { return check(limit, {}); }
+
+  /// Writes something small onto the disk, and reads it. Errors: Io (a full disk), Corrupt, Busy.
+  virtual Result<void> probe() = 0;
+
+  /// A copy in a SQLite file, as everything is now, while everything works. False: `proceed(done,
+  /// total)`, in bytes, ended it. Errors: also Unsupported (the engine has backups of its own).
+  virtual Result<bool> copy_to(
+      const std::filesystem::path& file,
+      const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) = 0;
+
+  /// Made together with the database and never changed: 32 hexadecimal digits.
+  virtual Result<std::string> identity() = 0;
+
+ protected:
+  explicit OpenedStore(const Store& store) : Store(store) {}
+};
+
+}  // namespace dripline::storage
