@@ -16,6 +16,7 @@ protocol/serial: protocol/base protocol/wire protocol/serial
 protocol/dds: protocol/base protocol/pki protocol/dds
 storage/sql: protocol/base storage/sql
 storage/sqlite: protocol/base storage/sql storage/sqlite
+storage/postgresql: protocol/base storage/sql storage/postgresql
 storage/backup: protocol/base storage
 storage: protocol/base protocol/audit protocol/measurement storage
 gateway/interpreter/core: protocol/base gateway/interpreter/core
@@ -97,6 +98,7 @@ only() {  # pattern, folder (or several: a|b)
 only 'dds/' protocol/dds
 only 'cairo' clients/tools/chart_images
 only 'SQLiteCpp|sqlite3' storage/sqlite
+only 'libpq-fe' storage/postgresql
 only 'boost/(asio|beast|system)' server/api
 only 'boost/math' clients/tools/statistics
 only 'httplib' 'clients/lib|server/webhooks'  # the server is a client where it delivers events

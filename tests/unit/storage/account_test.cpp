@@ -3,7 +3,7 @@
 namespace dripline::storage {
 namespace {
 
-class AccountTest : public StoreTest {
+class AccountTest : public ContractTest {
  protected:
   User user(const std::string& name) {
     User made;
@@ -29,7 +29,7 @@ class AccountTest : public StoreTest {
   AccountStore& accounts() { return store_->accounts; }
 };
 
-TEST_F(AccountTest, KeepsUsersWithTheirGroups) {
+TEST_P(AccountTest, KeepsUsersWithTheirGroups) {
   ASSERT_TRUE(accounts().save_group({"lathes", {"lathe-1", "lathe-2"}}));
   User anna = user("anna");
   anna.groups = {"lathes", kAllMachines};
@@ -50,7 +50,7 @@ TEST_F(AccountTest, KeepsUsersWithTheirGroups) {
   EXPECT_EQ(data.groups[1].machines, (std::set<std::string>{"lathe-1", "lathe-2"}));
 }
 
-TEST_F(AccountTest, ARemovedUserStaysAndLosesEveryCredential) {
+TEST_P(AccountTest, ARemovedUserStaysAndLosesEveryCredential) {
   User anna = user("anna");
   ASSERT_TRUE(accounts().save_user(anna, {}));
   ASSERT_TRUE(accounts().save_credential(credential("anna", "one"), {}));
@@ -62,7 +62,7 @@ TEST_F(AccountTest, ARemovedUserStaysAndLosesEveryCredential) {
   EXPECT_TRUE(data.credentials.empty());
 }
 
-TEST_F(AccountTest, KeepsCredentials) {
+TEST_P(AccountTest, KeepsCredentials) {
   ASSERT_TRUE(accounts().save_group({"mills", {}}));
   ASSERT_TRUE(accounts().save_user(user("anna"), {}));
   Credential token = credential("anna", "mes");
@@ -91,7 +91,7 @@ TEST_F(AccountTest, KeepsCredentials) {
   EXPECT_EQ(data.credentials[0].name, "third");
 }
 
-TEST_F(AccountTest, RefusesWhatRefersToNothing) {
+TEST_P(AccountTest, RefusesWhatRefersToNothing) {
   EXPECT_EQ(accounts().save_credential(credential("nobody", "x"), {}).error().code, Errc::Conflict);
   User anna = user("anna");
   anna.groups = {"absent"};
@@ -106,7 +106,7 @@ TEST_F(AccountTest, RefusesWhatRefersToNothing) {
   EXPECT_EQ(accounts().save_credential(same, {}).error().code, Errc::Conflict);
 }
 
-TEST_F(AccountTest, AGroupChangesItsMachines) {
+TEST_P(AccountTest, AGroupChangesItsMachines) {
   ASSERT_TRUE(accounts().save_group({"mills", {"mill-1", "mill-2"}}));
   ASSERT_TRUE(accounts().save_group({"mills", {"mill-3"}}));
   EXPECT_EQ(load().groups.at(1).machines, std::set<std::string>{"mill-3"});
@@ -114,7 +114,7 @@ TEST_F(AccountTest, AGroupChangesItsMachines) {
   EXPECT_EQ(load().groups.size(), 1u);
 }
 
-TEST_F(AccountTest, AuditEntriesNameCredentialAndAddress) {
+TEST_P(AccountTest, AuditEntriesNameCredentialAndAddress) {
   ASSERT_TRUE(store_->audit.add(
       {clock_.now(), {"anna", "page-1", "192.0.2.1"}, "run.start", "r1", "detail"}));
   const auto entry = store_->audit.list({})->at(0);
@@ -125,11 +125,16 @@ TEST_F(AccountTest, AuditEntriesNameCredentialAndAddress) {
 }
 
 /// A row that no program of ours wrote is never taken for a right.
-TEST_F(AccountTest, AnUnknownRoleIsCorrupt) {
+TEST_P(AccountTest, AnUnknownRoleIsCorrupt) {
   ASSERT_TRUE(accounts().save_user(user("anna"), {}));
-  damage("PRAGMA ignore_check_constraints = 1; UPDATE user SET role = 'root'");
+  damage(engine_ == sql::Engine::Sqlite
+             ? "PRAGMA ignore_check_constraints = 1; UPDATE user SET role = 'root'"
+             : "ALTER TABLE \"user\" DROP CONSTRAINT user_role_check; "
+               "UPDATE \"user\" SET role = 'root'");
   EXPECT_EQ(store_->accounts.load().error().code, Errc::Corrupt);
 }
+
+ON_BOTH_ENGINES(AccountTest);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -3,7 +3,7 @@
 namespace dripline::storage {
 namespace {
 
-class AttachmentTest : public StoreTest {
+class AttachmentTest : public ContractTest {
  protected:
   std::string begin_attachment(const std::string& program, const std::string& name,
                                std::optional<std::uint64_t> revision = {}) {
@@ -36,7 +36,7 @@ class AttachmentTest : public StoreTest {
 
 constexpr std::string_view kPdf{"%PDF-1.7\n\0\xff\x01", 12};
 
-TEST_F(AttachmentTest, KeepsAnyBytesAndWhoseTheyAre) {
+TEST_P(AttachmentTest, KeepsAnyBytesAndWhoseTheyAre) {
   ASSERT_TRUE(push("p.nc", "M30\n"));
   const auto sheet = attach("p.nc", "setup.pdf", kPdf);
   ASSERT_TRUE(sheet) << sheet.error().what;
@@ -52,7 +52,7 @@ TEST_F(AttachmentTest, KeepsAnyBytesAndWhoseTheyAre) {
   EXPECT_EQ(store_->programs.revisions("p.nc")->size(), 1u) << "it is no revision";
 }
 
-TEST_F(AttachmentTest, BelongsToAProgramOrToOneRevision) {
+TEST_P(AttachmentTest, BelongsToAProgramOrToOneRevision) {
   ASSERT_TRUE(push("p.nc", "M30\n"));
   ASSERT_TRUE(push("p.nc", "M31\n"));
   ASSERT_TRUE(attach("p.nc", "setup.pdf", "a"));
@@ -71,7 +71,7 @@ TEST_F(AttachmentTest, BelongsToAProgramOrToOneRevision) {
   EXPECT_FALSE(store_->programs.revisions("q.nc")) << "nothing was made by asking";
 }
 
-TEST_F(AttachmentTest, IsNotReplacedByOtherBytes) {
+TEST_P(AttachmentTest, IsNotReplacedByOtherBytes) {
   ASSERT_TRUE(push("p.nc", "M30\n"));
   ASSERT_TRUE(attach("p.nc", "setup.pdf", "a"));
   EXPECT_TRUE(attach("p.nc", "setup.pdf", "a")) << "the same again";
@@ -81,7 +81,7 @@ TEST_F(AttachmentTest, IsNotReplacedByOtherBytes) {
   EXPECT_EQ(names(), Names{"setup.pdf"});
 }
 
-TEST_F(AttachmentTest, RemovalTakesItsBytesUnlessOthersHaveThem) {
+TEST_P(AttachmentTest, RemovalTakesItsBytesUnlessOthersHaveThem) {
   const auto revision = push("p.nc", "M30\n");
   ASSERT_TRUE(attach("p.nc", "a.pdf", kPdf));
   ASSERT_TRUE(attach("p.nc", "b.pdf", kPdf));
@@ -98,7 +98,7 @@ TEST_F(AttachmentTest, RemovalTakesItsBytesUnlessOthersHaveThem) {
   EXPECT_EQ(store_->audit.list({.limit = 1, .offset = 0})->front().action, "program.detach");
 }
 
-TEST_F(AttachmentTest, UploadsAreOfOneKind) {
+TEST_P(AttachmentTest, UploadsAreOfOneKind) {
   ASSERT_TRUE(push("p.nc", "M30\n"));
   const std::string attachment = begin_attachment("p.nc", "a.pdf");
   ASSERT_TRUE(store_->uploads.append(attachment, 0, bytes_of("M30\n")));
@@ -112,7 +112,7 @@ TEST_F(AttachmentTest, UploadsAreOfOneKind) {
   EXPECT_EQ(store_->attachments.commit(attachment, {}, {}).error().code, Errc::NotFound);
 }
 
-TEST_F(AttachmentTest, HasLimits) {
+TEST_P(AttachmentTest, HasLimits) {
   ASSERT_TRUE(push("p.nc", "M30\n"));
   const std::string id = begin_attachment("p.nc", "big.step");
   damage("UPDATE content SET size = " + std::to_string(AttachmentStore::kMaxAttachmentBytes) +
@@ -126,7 +126,7 @@ TEST_F(AttachmentTest, HasLimits) {
   EXPECT_EQ(attach("p.nc", "one-more", "x").error().code, Errc::LimitExceeded);
 }
 
-TEST_F(AttachmentTest, GoesWithItsProgram) {
+TEST_P(AttachmentTest, GoesWithItsProgram) {
   ASSERT_TRUE(push("p.nc", "M30\n"));
   ASSERT_TRUE(attach("p.nc", "a.pdf", "a"));
   ASSERT_TRUE(attach("p.nc", "b.pdf", "b", 1));
@@ -137,6 +137,8 @@ TEST_F(AttachmentTest, GoesWithItsProgram) {
   ASSERT_TRUE(push("q.nc", "M99\n"));
   EXPECT_TRUE(store_->attachments.list("q.nc", {})->empty()) << "another program";
 }
+
+ON_BOTH_ENGINES(AttachmentTest);
 
 }  // namespace
 }  // namespace dripline::storage

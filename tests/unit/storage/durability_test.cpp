@@ -191,9 +191,9 @@ TEST_F(LostFileTest, StoresNothingInAFileThatWasMovedOrReplaced) {
   EXPECT_TRUE(store_->probe());
 }
 
-using ThreadsTest = StoreTest;
+class ThreadsTest : public ContractTest {};
 
-TEST_F(ThreadsTest, ManyUseOneStoreAtOnce) {
+TEST_P(ThreadsTest, ManyUseOneStoreAtOnce) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   const std::string text = nc_text(700'000);
   const Digest content = push("q.nc", text)->content;
@@ -227,6 +227,8 @@ TEST_F(ThreadsTest, ManyUseOneStoreAtOnce) {
   EXPECT_EQ(store_->runs.find("r1")->counters.executed, 200u);
   EXPECT_EQ(store_->programs.list({})->size(), 4u);
 }
+
+ON_BOTH_ENGINES(ThreadsTest);
 
 }  // namespace
 }  // namespace dripline::storage

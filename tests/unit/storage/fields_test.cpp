@@ -4,7 +4,7 @@
 namespace dripline::storage {
 namespace {
 
-class FieldsTest : public StoreTest {
+class FieldsTest : public ContractTest {
  protected:
   Result<void> describe(const std::string& program, const FieldChange& change,
                         std::optional<std::uint64_t> revision = {}) {
@@ -20,7 +20,7 @@ class FieldsTest : public StoreTest {
   }
 };
 
-TEST_F(FieldsTest, BelongToTheProgramAndTheCamFileToTheRevision) {
+TEST_P(FieldsTest, BelongToTheProgramAndTheCamFileToTheRevision) {
   ASSERT_TRUE(push("p.nc", "M30\n"));
   ASSERT_TRUE(push("p.nc", "M31\n"));
   ASSERT_TRUE(describe("p.nc", {.part = "4711", .material = "1.4301", .cam_file = "p.f3d"}));
@@ -39,7 +39,7 @@ TEST_F(FieldsTest, BelongToTheProgramAndTheCamFileToTheRevision) {
       << "no change, no entry";
 }
 
-TEST_F(FieldsTest, AreRefusedForWhatIsNotThere) {
+TEST_P(FieldsTest, AreRefusedForWhatIsNotThere) {
   ASSERT_TRUE(push("p.nc", "M30\n"));
   EXPECT_EQ(describe("q.nc", {.part = "1"}).error().code, Errc::NotFound);
   EXPECT_EQ(describe("p.nc", {.cam_file = "1"}, 2).error().code, Errc::NotFound);
@@ -48,7 +48,7 @@ TEST_F(FieldsTest, AreRefusedForWhatIsNotThere) {
   EXPECT_TRUE(describe("p.nc", {.machine_group = kAllMachines}));
 }
 
-TEST_F(FieldsTest, ComeWithAnUploadAlsoWhenTheTextIsTheSame) {
+TEST_P(FieldsTest, ComeWithAnUploadAlsoWhenTheTextIsTheSame) {
   const auto push_with = [&](const std::string& text, const FieldChange& change) {
     Upload upload;
     upload.program = "p.nc";
@@ -71,7 +71,7 @@ TEST_F(FieldsTest, ComeWithAnUploadAlsoWhenTheTextIsTheSame) {
   EXPECT_EQ(store_->uploads.begin(upload).error().code, Errc::Conflict);
 }
 
-TEST_F(FieldsTest, GoWithACopyAndEndWithARemoval) {
+TEST_P(FieldsTest, GoWithACopyAndEndWithARemoval) {
   ASSERT_TRUE(push("p.nc", "M30\n"));
   ASSERT_TRUE(describe("p.nc", {.part = "4711", .cam_file = "p.f3d"}));
   ASSERT_TRUE(store_->programs.copy({.from = "p.nc", .to = "q.nc", .who = {}}, {}));
@@ -83,7 +83,7 @@ TEST_F(FieldsTest, GoWithACopyAndEndWithARemoval) {
   EXPECT_EQ(store_->programs.fields("p.nc")->part, "") << "another program";
 }
 
-TEST_F(FieldsTest, ListingsChooseByThemAndByTheLatestRevision) {
+TEST_P(FieldsTest, ListingsChooseByThemAndByTheLatestRevision) {
   for (const char* name : {"a", "b", "c", "d"}) ASSERT_TRUE(push(name, std::string(name) + "\n"));
   ASSERT_TRUE(describe("a", {.part = "1", .operation = "10"}));
   ASSERT_TRUE(describe("b", {.part = "1", .operation = "20"}));
@@ -105,7 +105,7 @@ TEST_F(FieldsTest, ListingsChooseByThemAndByTheLatestRevision) {
 }
 
 /// The columns that listings use follow whatever changes a revision.
-TEST_F(FieldsTest, WhatIsListedIsWhatTheRevisionsAre) {
+TEST_P(FieldsTest, WhatIsListedIsWhatTheRevisionsAre) {
   ASSERT_TRUE(push("a", "M30\n"));
   Upload upload;
   upload.program = "a";
@@ -127,6 +127,8 @@ TEST_F(FieldsTest, WhatIsListedIsWhatTheRevisionsAre) {
                   "WHERE program = program.id)"),
             0);
 }
+
+ON_BOTH_ENGINES(FieldsTest);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -4,7 +4,7 @@ namespace dripline::storage {
 namespace {
 
 /// The files of hot folders.
-class FolderFiles : public StoreTest {
+class FolderFiles : public ContractTest {
  protected:
   FolderFile file_of(std::string_view text, FolderFileState state = FolderFileState::Taken,
                      const std::string& name = "1.nc") {
@@ -32,7 +32,7 @@ class FolderFiles : public StoreTest {
   FolderFile newest() { return store_->folders.list("cam", {.limit = 1})->at(0); }
 };
 
-TEST_F(FolderFiles, AreStoredInTheTransactionOfTheirRevision) {
+TEST_P(FolderFiles, AreStoredInTheTransactionOfTheirRevision) {
   const auto file = store_->folders.begin(file_of("G00 X1.\n"));
   ASSERT_TRUE(file) << file.error().what;
   EXPECT_EQ(newest().state, FolderFileState::Taken);
@@ -45,7 +45,7 @@ TEST_F(FolderFiles, AreStoredInTheTransactionOfTheirRevision) {
   EXPECT_EQ(store_->folders.unfinished("cam")->size(), 1u);
 }
 
-TEST_F(FolderFiles, MakeNoRevisionOnceTheyAreNotTakenAnyMore) {
+TEST_P(FolderFiles, MakeNoRevisionOnceTheyAreNotTakenAnyMore) {
   const auto file = store_->folders.begin(file_of("G00 X1.\n"));
   ASSERT_TRUE(store(file->id, "G00 X1.\n"));
   const auto twice = store(file->id, "G00 X2.\n");
@@ -57,7 +57,7 @@ TEST_F(FolderFiles, MakeNoRevisionOnceTheyAreNotTakenAnyMore) {
   EXPECT_EQ(store_->programs.revisions("p.nc")->size(), 1u);
 }
 
-TEST_F(FolderFiles, OnlyOneOfANameIsUnfinished) {
+TEST_P(FolderFiles, OnlyOneOfANameIsUnfinished) {
   const auto first = store_->folders.begin(file_of("G00 X1.\n"));
   const auto again = store_->folders.begin(file_of("G00 X1.\n"));
   ASSERT_TRUE(again) << "it was never stored";
@@ -77,7 +77,7 @@ TEST_F(FolderFiles, OnlyOneOfANameIsUnfinished) {
   EXPECT_TRUE(store_->folders.begin(file_of("G00 X2.\n")));
 }
 
-TEST_F(FolderFiles, AreCountedAndListedByFolder) {
+TEST_P(FolderFiles, AreCountedAndListedByFolder) {
   ASSERT_TRUE(store(store_->folders.begin(file_of("G00 X1.\n"))->id, "G00 X1.\n"));
   ASSERT_TRUE(store_->folders.begin(file_of("?", FolderFileState::Failed, "2.nc")));
   FolderFile other = file_of("?", FolderFileState::Failed, "3.nc");
@@ -89,6 +89,8 @@ TEST_F(FolderFiles, AreCountedAndListedByFolder) {
   EXPECT_EQ(store_->folders.list(std::nullopt, {})->size(), 3u);
   EXPECT_EQ(store_->folders.list("lathes", {})->at(0).name, "3.nc");
 }
+
+ON_BOTH_ENGINES(FolderFiles);
 
 }  // namespace
 }  // namespace dripline::storage

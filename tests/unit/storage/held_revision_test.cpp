@@ -4,7 +4,7 @@ namespace dripline::storage {
 namespace {
 
 /// What an operator punched out at a control.
-class HeldRevision : public StoreTest {
+class HeldRevision : public ContractTest {
  protected:
   Result<Revision> receive(const std::string& program, std::string_view text) {
     Upload upload;
@@ -20,7 +20,7 @@ class HeldRevision : public StoreTest {
   }
 };
 
-TEST_F(HeldRevision, IsListedAndReadableButNeverTheLatest) {
+TEST_P(HeldRevision, IsListedAndReadableButNeverTheLatest) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   const auto held = receive("p.nc", "G00 X1.1\n");
   ASSERT_TRUE(held) << held.error().what;
@@ -36,7 +36,7 @@ TEST_F(HeldRevision, IsListedAndReadableButNeverTheLatest) {
   EXPECT_EQ(listed.held, 1u);
 }
 
-TEST_F(HeldRevision, AloneInItsProgramIsListedWithWhatToDo) {
+TEST_P(HeldRevision, AloneInItsProgramIsListedWithWhatToDo) {
   ASSERT_TRUE(receive("O0012", "G00 X1.\n"));
   const auto listed = store_->programs.list({});
   ASSERT_EQ(listed->size(), 1u);
@@ -51,7 +51,7 @@ TEST_F(HeldRevision, AloneInItsProgramIsListedWithWhatToDo) {
   EXPECT_TRUE(store_->programs.list({})->empty());
 }
 
-TEST_F(HeldRevision, DoesNotRunBeforeItIsAccepted) {
+TEST_P(HeldRevision, DoesNotRunBeforeItIsAccepted) {
   auto run = make_run("r1");
   const auto held = receive("p.nc", "G00 X9.\n");
   run.revision = held->number;
@@ -66,7 +66,7 @@ TEST_F(HeldRevision, DoesNotRunBeforeItIsAccepted) {
   EXPECT_TRUE(store_->runs.create(run));
 }
 
-TEST_F(HeldRevision, AcceptedIsInForceFromThenOnAndWrittenDown) {
+TEST_P(HeldRevision, AcceptedIsInForceFromThenOnAndWrittenDown) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   ASSERT_TRUE(receive("p.nc", "G00 X1.1\n"));
   const UtcTime received = clock_.now();
@@ -88,14 +88,14 @@ TEST_F(HeldRevision, AcceptedIsInForceFromThenOnAndWrittenDown) {
   EXPECT_EQ(store_->programs.accept("p.nc", 7, "boss").error().code, Errc::NotFound);
 }
 
-TEST_F(HeldRevision, AcceptedLateDoesNotOvertakeANewerOne) {
+TEST_P(HeldRevision, AcceptedLateDoesNotOvertakeANewerOne) {
   ASSERT_TRUE(receive("p.nc", "G00 X1.1\n"));
   ASSERT_TRUE(push("p.nc", "G00 X2.\n"));
   ASSERT_TRUE(store_->programs.accept("p.nc", 1, "boss"));
   EXPECT_EQ(store_->programs.revision("p.nc", std::nullopt)->number, 2u);
 }
 
-TEST_F(HeldRevision, RejectedIsHiddenForEverAndItsNumberIsNotUsedAgain) {
+TEST_P(HeldRevision, RejectedIsHiddenForEverAndItsNumberIsNotUsedAgain) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   ASSERT_TRUE(receive("p.nc", "G00 X1.1\n"));
   const auto rejected = store_->programs.reject("p.nc", 2, "boss");
@@ -110,7 +110,7 @@ TEST_F(HeldRevision, RejectedIsHiddenForEverAndItsNumberIsNotUsedAgain) {
   EXPECT_TRUE(store_->programs.revision("p.nc", 1));
 }
 
-TEST_F(HeldRevision, WhatIsThereAlreadyIsNotReceivedTwice) {
+TEST_P(HeldRevision, WhatIsThereAlreadyIsNotReceivedTwice) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   const auto same_as_latest = receive("p.nc", "G00 X1.\n");
   EXPECT_EQ(same_as_latest->number, 1u);
@@ -122,7 +122,7 @@ TEST_F(HeldRevision, WhatIsThereAlreadyIsNotReceivedTwice) {
   EXPECT_FALSE(pushed->is_held);
 }
 
-TEST_F(HeldRevision, SurvivesARestartOfTheServerInTheMiddle) {
+TEST_P(HeldRevision, SurvivesARestartOfTheServerInTheMiddle) {
   Upload upload;
   upload.program = "p.nc";
   upload.is_held = true;
@@ -134,6 +134,8 @@ TEST_F(HeldRevision, SurvivesARestartOfTheServerInTheMiddle) {
   reopen();
   EXPECT_TRUE(store_->programs.revision("p.nc", 1)->is_held);
 }
+
+ON_BOTH_ENGINES(HeldRevision);
 
 }  // namespace
 }  // namespace dripline::storage

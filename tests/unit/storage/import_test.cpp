@@ -4,7 +4,7 @@ namespace dripline::storage {
 namespace {
 
 /// The queue of what operators punched out at controls.
-class ImportQueue : public StoreTest {
+class ImportQueue : public ContractTest {
  protected:
   Revision receive(const std::string& program, std::string_view text) {
     Upload upload;
@@ -33,7 +33,7 @@ class ImportQueue : public StoreTest {
   }
 };
 
-TEST_F(ImportQueue, HasWhatCameOldestFirst) {
+TEST_P(ImportQueue, HasWhatCameOldestFirst) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   EXPECT_TRUE(store_->imports.list(true, {})->empty()) << "a person pushed it";
   receive("p.nc", "G00 X1.1\n");
@@ -52,7 +52,7 @@ TEST_F(ImportQueue, HasWhatCameOldestFirst) {
   EXPECT_EQ(store_->imports.uncompared(10)->size(), 1u);
 }
 
-TEST_F(ImportQueue, KeepsTheClassOverARestart) {
+TEST_P(ImportQueue, KeepsTheClassOverARestart) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   receive("p.nc", "G00 X1.1\n");
   ASSERT_TRUE(store_->imports.set_class(
@@ -66,7 +66,7 @@ TEST_F(ImportQueue, KeepsTheClassOverARestart) {
   EXPECT_TRUE(store_->imports.uncompared(10)->empty());
 }
 
-TEST_F(ImportQueue, AcceptedIsInForceWithWhoAndWhy) {
+TEST_P(ImportQueue, AcceptedIsInForceWithWhoAndWhy) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   receive("p.nc", "G00 X1.1\n");
   const auto accepted = store_->imports.decide(decision(ImportState::Accepted, "measured"));
@@ -87,7 +87,7 @@ TEST_F(ImportQueue, AcceptedIsInForceWithWhoAndWhy) {
   EXPECT_EQ(again.error().code, Errc::Conflict);
 }
 
-TEST_F(ImportQueue, RejectedIsHiddenButItsDecisionStays) {
+TEST_P(ImportQueue, RejectedIsHiddenButItsDecisionStays) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   receive("p.nc", "G00 X1.1\n");
   ASSERT_TRUE(store_->imports.decide(decision(ImportState::Rejected, "too fast")));
@@ -98,7 +98,7 @@ TEST_F(ImportQueue, RejectedIsHiddenButItsDecisionStays) {
   EXPECT_EQ(store_->audit.list({})->front().action, "program.reject");
 }
 
-TEST_F(ImportQueue, AcceptedAsIsARevisionOfTheOtherProgramAlone) {
+TEST_P(ImportQueue, AcceptedAsIsARevisionOfTheOtherProgramAlone) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   receive("p.nc", "G00 X1.1\n");
   auto wanted = decision(ImportState::AcceptedAs);
@@ -123,7 +123,7 @@ TEST_F(ImportQueue, AcceptedAsIsARevisionOfTheOtherProgramAlone) {
   EXPECT_NE(entry.detail.find("as q.nc revision 1"), std::string::npos) << entry.detail;
 }
 
-TEST_F(ImportQueue, ThePolicyAcceptsOnlyAgainstWhatIsStillTheNewest) {
+TEST_P(ImportQueue, ThePolicyAcceptsOnlyAgainstWhatIsStillTheNewest) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   receive("p.nc", "G00 X1. (a)\n");
   auto at_once = decision(ImportState::Accepted, "policy");
@@ -143,7 +143,7 @@ TEST_F(ImportQueue, ThePolicyAcceptsOnlyAgainstWhatIsStillTheNewest) {
       << entry.detail;
 }
 
-TEST_F(ImportQueue, AcceptingAtTheProgramIsTheSame) {
+TEST_P(ImportQueue, AcceptingAtTheProgramIsTheSame) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   receive("p.nc", "G00 X1.1\n");
   ASSERT_TRUE(store_->programs.accept("p.nc", 2, "boss"));
@@ -153,6 +153,8 @@ TEST_F(ImportQueue, AcceptingAtTheProgramIsTheSame) {
   EXPECT_EQ(import(3).state, ImportState::Rejected);
   EXPECT_EQ(store_->imports.find("p.nc", 1).error().code, Errc::NotFound);
 }
+
+ON_BOTH_ENGINES(ImportQueue);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -6,7 +6,7 @@ namespace dripline::storage {
 namespace {
 
 /// The job queue of machine m1.
-class JobQueueTest : public StoreTest {
+class JobQueueTest : public ContractTest {
  protected:
   void SetUp() override {
     run_ = make_run("r0");  // the machine and the program
@@ -42,7 +42,7 @@ class JobQueueTest : public StoreTest {
   Run run_;
 };
 
-TEST_F(JobQueueTest, KeepsItsOrderOverMovesAndARestart) {
+TEST_P(JobQueueTest, KeepsItsOrderOverMovesAndARestart) {
   const auto a = add().id, b = add().id, c = add("q.nc", 1, 1).id, d = add().id;
   EXPECT_EQ(order(), (std::vector{c, a, b, d}));
   ASSERT_TRUE(store_->jobs.move(d, 2, "anna", clock_.now()));
@@ -56,7 +56,7 @@ TEST_F(JobQueueTest, KeepsItsOrderOverMovesAndARestart) {
   EXPECT_EQ(store_->audit.list({.limit = 1})->at(0).action, "job.remove");
 }
 
-TEST_F(JobQueueTest, CountsPartsOfCompletedRunsOnly) {
+TEST_P(JobQueueTest, CountsPartsOfCompletedRunsOnly) {
   const auto job = add("p.nc", 2).id;
   ASSERT_TRUE(start("r1", job));
   EXPECT_EQ(store_->jobs.find(job)->state, JobState::Active);
@@ -142,7 +142,7 @@ class MeasuredJob : public JobQueueTest {
 };
 using enum measurement::Verdict;
 
-TEST_F(MeasuredJob, ShowsWhatWasMadeByVerdictAndCountsAllOfIt) {
+TEST_P(MeasuredJob, ShowsWhatWasMadeByVerdictAndCountsAllOfIt) {
   const auto job = add("p.nc", 4).id;
   make("r1", job, {Good});
   make("r2", job, {Rework});
@@ -153,7 +153,7 @@ TEST_F(MeasuredJob, ShowsWhatWasMadeByVerdictAndCountsAllOfIt) {
   EXPECT_EQ(store_->jobs.find(job)->state, JobState::Done);
 }
 
-TEST_F(MeasuredJob, ThatCountsGoodPartsIsDoneWithThem) {
+TEST_P(MeasuredJob, ThatCountsGoodPartsIsDoneWithThem) {
   const auto job = add_good(2).id;
   EXPECT_EQ(store_->audit.list({.limit = 1})->at(0).detail, "job 1: p.nc, 2 good parts");
   make("r1", job, {Good});
@@ -172,7 +172,7 @@ TEST_F(MeasuredJob, ThatCountsGoodPartsIsDoneWithThem) {
 }
 
 /// Held for scrap, then aborted: no part was made, and the scrap is not hidden.
-TEST_F(MeasuredJob, ScrapOfARunThatWasCutOffIsShown) {
+TEST_P(MeasuredJob, ScrapOfARunThatWasCutOffIsShown) {
   const auto job = add_good(1).id;
   make("r1", job, {Scrap}, RunState::Aborted);
   EXPECT_EQ(counts(job), "0 made: 0 good 0 unknown, 0 rework 1 scrap, 0 counted");
@@ -180,7 +180,7 @@ TEST_F(MeasuredJob, ScrapOfARunThatWasCutOffIsShown) {
   EXPECT_EQ(counts(job), "0 made: 0 good 0 unknown, 0 rework 1 scrap, 0 counted");
 }
 
-TEST_F(MeasuredJob, APartThatTwoTemplatesMeasureIsOneAndGoodForBoth) {
+TEST_P(MeasuredJob, APartThatTwoTemplatesMeasureIsOneAndGoodForBoth) {
   const auto job = add_good(3).id;
   make("r1", job, {Good});
   part("r1", Good, "gauge");
@@ -190,7 +190,7 @@ TEST_F(MeasuredJob, APartThatTwoTemplatesMeasureIsOneAndGoodForBoth) {
   EXPECT_EQ(counts(job), "2 made: 1 good 0 unknown, 0 rework 1 scrap, 1 counted");
 }
 
-TEST_F(MeasuredJob, ARunMakesNoMoreGoodPartsThanItMakes) {
+TEST_P(MeasuredJob, ARunMakesNoMoreGoodPartsThanItMakes) {
   const auto job = add_good(8, 2).id;
   make("r1", job, {Good, Good, Good});
   EXPECT_EQ(counts(job), "2 made: 2 good 0 unknown, 0 rework 0 scrap, 2 counted");
@@ -199,7 +199,7 @@ TEST_F(MeasuredJob, ARunMakesNoMoreGoodPartsThanItMakes) {
 }
 
 /// Which of the parts that it reports is the workpiece is not known: in doubt one more is made.
-TEST_F(MeasuredJob, ARunThatReportsMoreThanItMakesHasFewerGoodOnes) {
+TEST_P(MeasuredJob, ARunThatReportsMoreThanItMakesHasFewerGoodOnes) {
   const auto job = add_good(8).id;
   make("r1", job, {Good, Scrap});
   make("r2", job, {Rework, Good});
@@ -209,7 +209,7 @@ TEST_F(MeasuredJob, ARunThatReportsMoreThanItMakesHasFewerGoodOnes) {
   EXPECT_EQ(store_->jobs.find(job)->counted, 1u);
 }
 
-TEST_F(MeasuredJob, ArchivedPartsStillCount) {
+TEST_P(MeasuredJob, ArchivedPartsStillCount) {
   const auto job = add_good(3).id;
   make("r1", job, {Good});
   make("r2", job, {Scrap});
@@ -226,7 +226,7 @@ TEST_F(MeasuredJob, ArchivedPartsStillCount) {
 }
 
 /// The end of a run counts once, however often its record is sent.
-TEST_F(JobQueueTest, CountsAnEndingOnce) {
+TEST_P(JobQueueTest, CountsAnEndingOnce) {
   const auto job = add("p.nc", 5).id;
   ASSERT_TRUE(start("r1", job));
   auto batch = make_batch(1, 2);
@@ -241,7 +241,7 @@ TEST_F(JobQueueTest, CountsAnEndingOnce) {
   EXPECT_EQ(store_->jobs.find(job)->completed, 1u);
 }
 
-TEST_F(JobQueueTest, SeveralPartsPerRun) {
+TEST_P(JobQueueTest, SeveralPartsPerRun) {
   Job job;
   job.machine = "m1";
   job.program = "p.nc";
@@ -256,7 +256,7 @@ TEST_F(JobQueueTest, SeveralPartsPerRun) {
   EXPECT_EQ(store_->jobs.find(id)->state, JobState::Done);
 }
 
-TEST_F(JobQueueTest, AHeldQueueStartsNothing) {
+TEST_P(JobQueueTest, AHeldQueueStartsNothing) {
   const auto job = add("p.nc", 2).id;
   ASSERT_TRUE(store_->jobs.hold({"m1", "quality", "bore is wide", clock_.now()}, "quality"));
   reopen();
@@ -275,7 +275,7 @@ TEST_F(JobQueueTest, AHeldQueueStartsNothing) {
   EXPECT_EQ(store_->jobs.hold({"m9", "a", "b", clock_.now()}, "a").error().code, Errc::NotFound);
 }
 
-TEST_F(JobQueueTest, ARunIsOfItsOwnJob) {
+TEST_P(JobQueueTest, ARunIsOfItsOwnJob) {
   const auto other = add("q.nc").id;
   EXPECT_EQ(start("r1", other).error().code, Errc::Conflict);
   EXPECT_EQ(start("r1", 99).error().code, Errc::NotFound);
@@ -292,11 +292,14 @@ TEST_F(JobQueueTest, ARunIsOfItsOwnJob) {
 }
 
 /// A rename takes the jobs of the program with it.
-TEST_F(JobQueueTest, FollowsARename) {
+TEST_P(JobQueueTest, FollowsARename) {
   const auto job = add("q.nc").id;
   ASSERT_TRUE(store_->programs.rename({"q.nc", "z.nc", "anna"}));
   EXPECT_EQ(store_->jobs.find(job)->program, "z.nc");
 }
+
+ON_BOTH_ENGINES(JobQueueTest);
+ON_BOTH_ENGINES(MeasuredJob);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -6,7 +6,7 @@ namespace {
 using measurement::Measurement;
 using measurement::Verdict;
 
-class Measurements : public StoreTest {
+class Measurements : public ContractTest {
  protected:
   Measurements() { assign(); }
 
@@ -69,7 +69,7 @@ class Measurements : public StoreTest {
   static inline const std::uint64_t kEpoch = make_batch(1, 1).epoch;
 };
 
-TEST_F(Measurements, AreStoredWithTheirCursor) {
+TEST_P(Measurements, AreStoredWithTheirCursor) {
   make_run("r1");
   add_records(1, 3);
   ASSERT_EQ(store_->measurements.underived()->size(), 1u);
@@ -91,7 +91,7 @@ TEST_F(Measurements, AreStoredWithTheirCursor) {
   EXPECT_EQ(query("SELECT count(*) FROM characteristic"), 1);
 }
 
-TEST_F(Measurements, AreDerivedOnce) {
+TEST_P(Measurements, AreDerivedOnce) {
   make_run("r1");
   add_records(1, 4);
   ASSERT_TRUE(store_->measurements.commit(values(0, 3)));
@@ -104,7 +104,7 @@ TEST_F(Measurements, AreDerivedOnce) {
   EXPECT_EQ(store_->measurements.state("m1"), "after 3") << "nothing of it stays";
 }
 
-TEST_F(Measurements, PassOverWhatWasThereBeforeTheFirstAssignment) {
+TEST_P(Measurements, PassOverWhatWasThereBeforeTheFirstAssignment) {
   make_run("r1");
   add_records(1, 3);
   const TemplateAssignment for_p{
@@ -119,7 +119,7 @@ TEST_F(Measurements, PassOverWhatWasThereBeforeTheFirstAssignment) {
   EXPECT_EQ(store_->measurements.underived()->front().derived, 3u);
 }
 
-TEST_F(Measurements, AreFoundByMachineCharacteristicAndTime) {
+TEST_P(Measurements, AreFoundByMachineCharacteristicAndTime) {
   make_run("r1");
   add_records(1, 20);
   DerivedBatch some = values(0, 10);
@@ -142,7 +142,7 @@ TEST_F(Measurements, AreFoundByMachineCharacteristicAndTime) {
   EXPECT_EQ(store_->measurements.characteristics("m2")->size(), 0u);
 }
 
-TEST_F(Measurements, AreListedInPagesBothWays) {
+TEST_P(Measurements, AreListedInPagesBothWays) {
   make_run("r1");
   add_records(1, 25);
   ASSERT_TRUE(store_->measurements.commit(values(0, 25)));
@@ -170,7 +170,7 @@ TEST_F(Measurements, AreListedInPagesBothWays) {
   }
 }
 
-TEST_F(Measurements, StayWhenARunIsDerivedAgain) {
+TEST_P(Measurements, StayWhenARunIsDerivedAgain) {
   make_run("r1");
   add_records(1, 3);
   DerivedBatch first = values(0, 3);
@@ -200,7 +200,7 @@ TEST_F(Measurements, StayWhenARunIsDerivedAgain) {
   EXPECT_EQ(counts[static_cast<std::size_t>(Verdict::Good)], 0u);
 }
 
-TEST_F(Measurements, UpdateTheirPart) {
+TEST_P(Measurements, UpdateTheirPart) {
   make_run("r1");
   add_records(1, 4);
   ASSERT_TRUE(store_->measurements.commit(values(0, 2)));
@@ -220,7 +220,7 @@ TEST_F(Measurements, UpdateTheirPart) {
             0u);
 }
 
-TEST_F(Measurements, KeepVersionsOfTemplates) {
+TEST_P(Measurements, KeepVersionsOfTemplates) {
   auto& templates = store_->report_templates;
   const auto push = [&](const std::string& text) {
     return templates
@@ -248,7 +248,7 @@ TEST_F(Measurements, KeepVersionsOfTemplates) {
 }
 
 /// A report of any length is read from where the last piece ended.
-TEST_F(Measurements, LeaveRecordsToBeReadInPieces) {
+TEST_P(Measurements, LeaveRecordsToBeReadInPieces) {
   make_run("r1");
   add_records(1, 30);
   std::vector<std::uint64_t> numbers;
@@ -265,6 +265,8 @@ TEST_F(Measurements, LeaveRecordsToBeReadInPieces) {
   EXPECT_EQ(store_->records.of_machine_after("m1", {kEpoch, 28}, 10)->size(), 2u);
   EXPECT_EQ(store_->records.of_machine_after("m2", {kEpoch, 0}, 10)->size(), 0u);
 }
+
+ON_BOTH_ENGINES(Measurements);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -15,9 +15,9 @@ Port make_port(const std::string& name, const std::string& address) {
   return port;
 }
 
-class PortTest : public StoreTest {};
+class PortTest : public ContractTest {};
 
-TEST_F(PortTest, IsKeptAsItWasGiven) {
+TEST_P(PortTest, IsKeptAsItWasGiven) {
   ASSERT_TRUE(store_->ports.save(make_port("line-2", "/dev/ttyUSB1")));
   ASSERT_TRUE(store_->ports.save(make_port("line-1", "tcp://10.0.0.9:4001")));
   reopen();
@@ -35,7 +35,7 @@ TEST_F(PortTest, IsKeptAsItWasGiven) {
   EXPECT_FALSE(port.is_enabled);
 }
 
-TEST_F(PortTest, SavedAgainReplacesEverything) {
+TEST_P(PortTest, SavedAgainReplacesEverything) {
   ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0")));
   Port changed;
   changed.name = "line-1";
@@ -50,7 +50,7 @@ TEST_F(PortTest, SavedAgainReplacesEverything) {
   EXPECT_TRUE(port.is_enabled);
 }
 
-TEST_F(PortTest, TwoDoNotShareALine) {
+TEST_P(PortTest, TwoDoNotShareALine) {
   ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0")));
   const auto refused = store_->ports.save(make_port("line-2", "/dev/ttyS0"));
   ASSERT_FALSE(refused);
@@ -60,7 +60,7 @@ TEST_F(PortTest, TwoDoNotShareALine) {
   EXPECT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0"))) << "its own";
 }
 
-TEST_F(PortTest, RemovedIsGoneWithItsSettings) {
+TEST_P(PortTest, RemovedIsGoneWithItsSettings) {
   ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0")));
   ASSERT_TRUE(store_->ports.remove("line-1"));
   EXPECT_TRUE(store_->ports.list()->empty());
@@ -77,31 +77,31 @@ struct BadPort {
   const char* says;
   friend void PrintTo(const BadPort& c, std::ostream* out) { *out << c.name; }
 };
-class BadPortTest : public StoreTest, public testing::WithParamInterface<BadPort> {};
+class BadPortTest : public ContractTestOf<BadPort> {};
 
 TEST_P(BadPortTest, IsRefusedAndChangesNothing) {
   Port port = make_port("line-1", "/dev/ttyS0");
-  GetParam().spoil(port);
+  given().spoil(port);
   const auto refused = store_->ports.save(port);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, GetParam().code);
-  EXPECT_NE(refused.error().what.find(GetParam().says), std::string::npos) << refused.error().what;
+  EXPECT_EQ(refused.error().code, given().code);
+  EXPECT_NE(refused.error().what.find(given().says), std::string::npos) << refused.error().what;
   EXPECT_TRUE(store_->ports.list()->empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , BadPortTest,
-    testing::Values(
-        BadPort{"Name", [](Port& p) { p.name = "Line 1"; }, Errc::Syntax, "port name 'Line 1'"},
-        BadPort{"Machine", [](Port& p) { p.machine = ""; }, Errc::Syntax, "machine name"},
-        BadPort{"Address", [](Port& p) { p.address = ""; }, Errc::Syntax, "address is empty"},
-        BadPort{"Twice", [](Port& p) { p.settings.emplace_back("baud", "9600"); }, Errc::Syntax,
-                "'baud' is given twice"},
-        BadPort{"Settings", [](Port& p) { p.settings.resize(kMaxPortSettings + 1); },
-                Errc::LimitExceeded, "65 settings, at most 64"},
-        BadPort{"Rules", [](Port& p) { p.rules.resize(kMaxPortRules + 1); }, Errc::LimitExceeded,
-                "32769 bytes, at most 32768"}),
-    [](const auto& i) { return i.param.name; });
+ON_BOTH_ENGINES_WITH(
+    BadPortTest,
+    BadPort{"Name", [](Port& p) { p.name = "Line 1"; }, Errc::Syntax, "port name 'Line 1'"},
+    BadPort{"Machine", [](Port& p) { p.machine = ""; }, Errc::Syntax, "machine name"},
+    BadPort{"Address", [](Port& p) { p.address = ""; }, Errc::Syntax, "address is empty"},
+    BadPort{"Twice", [](Port& p) { p.settings.emplace_back("baud", "9600"); }, Errc::Syntax,
+            "'baud' is given twice"},
+    BadPort{"Settings", [](Port& p) { p.settings.resize(kMaxPortSettings + 1); },
+            Errc::LimitExceeded, "65 settings, at most 64"},
+    BadPort{"Rules", [](Port& p) { p.rules.resize(kMaxPortRules + 1); }, Errc::LimitExceeded,
+            "32769 bytes, at most 32768"});
+
+ON_BOTH_ENGINES(PortTest);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -4,7 +4,7 @@ namespace dripline::storage {
 namespace {
 
 /// CEN-211: programs copied and renamed.
-class ProgramMoveTest : public StoreTest {
+class ProgramMoveTest : public ContractTest {
  protected:
   Result<Revision> copy(const std::string& from, const std::string& to,
                         std::optional<std::uint64_t> number = std::nullopt) {
@@ -31,7 +31,7 @@ void expect_refused(const Result<T>& result, Errc code, const std::string& words
   EXPECT_NE(result.error().what.find(words), std::string::npos) << result.error().what;
 }
 
-TEST_F(ProgramMoveTest, ACopyBeginsWithTheLatestRevision) {
+TEST_P(ProgramMoveTest, ACopyBeginsWithTheLatestRevision) {
   ASSERT_TRUE(push("O1", "G0 X1\n"));
   ASSERT_TRUE(push("O1", "G0 X2\n"));
   const auto made = copy("O1", "O2");
@@ -54,7 +54,7 @@ TEST_F(ProgramMoveTest, ACopyBeginsWithTheLatestRevision) {
   EXPECT_EQ(pull(store_->programs.revision("O2", std::nullopt)->content), "G0 X2\n");
 }
 
-TEST_F(ProgramMoveTest, ARenameKeepsRevisionsAndRuns) {
+TEST_P(ProgramMoveTest, ARenameKeepsRevisionsAndRuns) {
   const auto run = make_run("r1");
   ASSERT_TRUE(store_->runs.create(run));
   ASSERT_TRUE(store_->runs.set_state("r1", RunState::Completed, ""));
@@ -74,7 +74,7 @@ TEST_F(ProgramMoveTest, ARenameKeepsRevisionsAndRuns) {
   EXPECT_EQ(push(run.program, "G0 X4\n")->number, 1u) << "the old name is free";
 }
 
-TEST_F(ProgramMoveTest, RefusesANameThatExists) {
+TEST_P(ProgramMoveTest, RefusesANameThatExists) {
   ASSERT_TRUE(push("O1", "G0 X1\n"));
   ASSERT_TRUE(push("O2", "G0 X2\n"));
   expect_refused(copy("O1", "O2"), Errc::Conflict, "program O2 exists already, with 1 revision");
@@ -90,14 +90,14 @@ TEST_F(ProgramMoveTest, RefusesANameThatExists) {
   EXPECT_TRUE(store_->audit.list({})->empty());
 }
 
-TEST_F(ProgramMoveTest, RefusesToRenameWhatARunUses) {
+TEST_P(ProgramMoveTest, RefusesToRenameWhatARunUses) {
   const auto run = make_run("r1");
   ASSERT_TRUE(store_->runs.create(run));
   expect_refused(rename(run.program, "O2"), Errc::Busy, "run r1 on m1");
   EXPECT_TRUE(copy(run.program, "O2")) << "a copy touches no run";
 }
 
-TEST_F(ProgramMoveTest, RefusesWhatWaitsForAcceptance) {
+TEST_P(ProgramMoveTest, RefusesWhatWaitsForAcceptance) {
   ASSERT_TRUE(receive("O1", "G0 X1\n"));
   expect_refused(copy("O1", "O2"), Errc::Conflict, "waits for acceptance");
   expect_refused(copy("O1", "O2", 1), Errc::Conflict, "revision 1 waits for acceptance");
@@ -107,7 +107,7 @@ TEST_F(ProgramMoveTest, RefusesWhatWaitsForAcceptance) {
   EXPECT_TRUE(rename("O1", "O3"));
 }
 
-TEST_F(ProgramMoveTest, LeavesTheNameOfARemovedProgramToItsRuns) {
+TEST_P(ProgramMoveTest, LeavesTheNameOfARemovedProgramToItsRuns) {
   ASSERT_TRUE(push("O1", "G0 X1\n"));
   ASSERT_TRUE(push("O2", "G0 X2\n"));
   ASSERT_TRUE(store_->programs.remove("O2"));
@@ -116,6 +116,8 @@ TEST_F(ProgramMoveTest, LeavesTheNameOfARemovedProgramToItsRuns) {
   ASSERT_TRUE(made) << made.error().what;
   EXPECT_EQ(made->number, 2u) << "as a program that is pushed again";
 }
+
+ON_BOTH_ENGINES(ProgramMoveTest);
 
 }  // namespace
 }  // namespace dripline::storage

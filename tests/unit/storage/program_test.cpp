@@ -1,12 +1,11 @@
-#include "storage/sqlite/database.hpp"
 #include "tests/unit/storage/store_fixture.hpp"
 
 namespace dripline::storage {
 namespace {
 
-using ProgramTest = StoreTest;
+class ProgramTest : public ContractTest {};
 
-TEST_F(ProgramTest, EveryPushIsANewRevisionAndTheOldOnesStay) {
+TEST_P(ProgramTest, EveryPushIsANewRevisionAndTheOldOnesStay) {
   const auto first = push("p.nc", "G00 X1.\n");
   clock_.advance(std::chrono::seconds(1));
   const auto second = push("p.nc", "G00 X2.\n");
@@ -24,7 +23,7 @@ TEST_F(ProgramTest, EveryPushIsANewRevisionAndTheOldOnesStay) {
   EXPECT_EQ(pull(first->content), "G00 X1.\n");
 }
 
-TEST_F(ProgramTest, SameContentAgainIsTheLatestRevision) {
+TEST_P(ProgramTest, SameContentAgainIsTheLatestRevision) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   EXPECT_EQ(push("p.nc", "G00 X1.\n")->number, 1u);
   ASSERT_TRUE(push("p.nc", "G00 X2.\n"));
@@ -33,7 +32,7 @@ TEST_F(ProgramTest, SameContentAgainIsTheLatestRevision) {
   EXPECT_EQ(query("SELECT count(*) FROM upload"), 0);
 }
 
-TEST_F(ProgramTest, ListingIsByNameAndPaged) {
+TEST_P(ProgramTest, ListingIsByNameAndPaged) {
   for (const char* name : {"c.nc", "a.nc", "b.nc"}) ASSERT_TRUE(push(name, "M30\n"));
   ASSERT_TRUE(push("a.nc", "M2\n"));
   EXPECT_EQ(store_->programs.count().value_or(0), store_->programs.list({})->size());
@@ -47,7 +46,7 @@ TEST_F(ProgramTest, ListingIsByNameAndPaged) {
   EXPECT_EQ(store_->programs.list({.limit = 2, .offset = 2})->at(0).latest.program, "c.nc");
 }
 
-TEST_F(ProgramTest, RemovedOneIsGoneButItsBytesStay) {
+TEST_P(ProgramTest, RemovedOneIsGoneButItsBytesStay) {
   const auto revision = push("p.nc", "G00 X1.\n");
   ASSERT_TRUE(store_->programs.remove("p.nc"));
   EXPECT_EQ(store_->programs.revision("p.nc", std::nullopt).error().code, Errc::NotFound);
@@ -59,7 +58,7 @@ TEST_F(ProgramTest, RemovedOneIsGoneButItsBytesStay) {
   EXPECT_EQ(pull(revision->content), "G00 X1.\n");
 }
 
-TEST_F(ProgramTest, PushedAgainAfterRemovalContinuesItsNumbers) {
+TEST_P(ProgramTest, PushedAgainAfterRemovalContinuesItsNumbers) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   ASSERT_TRUE(store_->programs.remove("p.nc"));
   EXPECT_EQ(push("p.nc", "G00 X1.\n")->number, 2u);
@@ -68,7 +67,7 @@ TEST_F(ProgramTest, PushedAgainAfterRemovalContinuesItsNumbers) {
   EXPECT_FALSE(store_->programs.revision("p.nc", 1));
 }
 
-TEST_F(ProgramTest, CannotBeRemovedUnderARun) {
+TEST_P(ProgramTest, CannotBeRemovedUnderARun) {
   const Run run = make_run("r1");
   ASSERT_TRUE(store_->runs.create(run));
   const auto refused = store_->programs.remove("p.nc");
@@ -80,7 +79,7 @@ TEST_F(ProgramTest, CannotBeRemovedUnderARun) {
   EXPECT_EQ(store_->runs.find("r1")->program, "p.nc") << "runs keep their revision";
 }
 
-TEST_F(ProgramTest, AnyRangeOfContentIsRead) {
+TEST_P(ProgramTest, AnyRangeOfContentIsRead) {
   const std::string text = nc_text(1'000'000);
   const Digest content = push("p.nc", text)->content;
   for (const auto& [offset, length] :
@@ -103,12 +102,12 @@ struct DamageCase {
   const char* sql;
   friend void PrintTo(const DamageCase& c, std::ostream* out) { *out << c.name; }
 };
-class Damage : public StoreTest, public testing::WithParamInterface<DamageCase> {};
+class Damage : public ContractTestOf<DamageCase> {};
 
 TEST_P(Damage, IsRefusedByNameAndHealedByPushingAgain) {
   const std::string text = nc_text(800'000);
   const Digest content = push("p.nc", text)->content;
-  damage(GetParam().sql);
+  damage(given().sql);
   EXPECT_EQ(text_of(store_->programs.read_content(content, 0, 1000).value()), text.substr(0, 1000))
       << "the chunks before are sound";
   const auto refused = store_->programs.read_content(content, 300'000, 10);
@@ -121,43 +120,41 @@ TEST_P(Damage, IsRefusedByNameAndHealedByPushingAgain) {
   EXPECT_EQ(pull(content), text);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , Damage,
-    testing::Values(
-        DamageCase{"one_byte_of_the_frame",
-                   "UPDATE chunk SET data = CAST(substr(data, 1, 50000) || x'00' || "
-                   "substr(data, 50002) AS BLOB) WHERE id = (SELECT chunk FROM content_chunk WHERE "
-                   "position = 1)"},
-        DamageCase{"another_chunks_frame",
-                   "UPDATE chunk SET data = (SELECT data FROM chunk WHERE id = (SELECT chunk FROM "
-                   "content_chunk WHERE position = 0)) WHERE id = (SELECT chunk FROM content_chunk "
-                   "WHERE position = 1)"},
-        DamageCase{"cut_off",
-                   "UPDATE chunk SET data = substr(data, 1, 100) WHERE id = (SELECT "
-                   "chunk FROM content_chunk WHERE position = 1)"},
-        DamageCase{"no_frame_at_all",
-                   "UPDATE chunk SET data = x'' WHERE id = (SELECT chunk FROM "
-                   "content_chunk WHERE position = 1)"},
-        DamageCase{"wrong_size",
-                   "UPDATE chunk SET size = 17 WHERE id = (SELECT chunk FROM "
-                   "content_chunk WHERE position = 1)"}),
-    [](const auto& i) { return std::string{i.param.name}; });
+ON_BOTH_ENGINES_WITH(
+    Damage,
+    DamageCase{"one_byte_of_the_frame",
+               "UPDATE chunk SET data = CAST(substr(data, 1, 50000) || x'00' || "
+               "substr(data, 50002) AS BLOB) WHERE id = (SELECT chunk FROM content_chunk WHERE "
+               "position = 1)"},
+    DamageCase{"another_chunks_frame",
+               "UPDATE chunk SET data = (SELECT data FROM chunk WHERE id = (SELECT chunk FROM "
+               "content_chunk WHERE position = 0)) WHERE id = (SELECT chunk FROM content_chunk "
+               "WHERE position = 1)"},
+    DamageCase{"cut_off",
+               "UPDATE chunk SET data = substr(data, 1, 100) WHERE id = (SELECT "
+               "chunk FROM content_chunk WHERE position = 1)"},
+    DamageCase{"no_frame_at_all",
+               "UPDATE chunk SET data = x'' WHERE id = (SELECT chunk FROM "
+               "content_chunk WHERE position = 1)"},
+    DamageCase{"wrong_size",
+               "UPDATE chunk SET size = 17 WHERE id = (SELECT chunk FROM "
+               "content_chunk WHERE position = 1)"});
 
 /// Rows that are well-formed and name sound chunks, but not the ones that were stored there. Each
 /// chunk passes the check of its own bytes.
-class WrongList : public StoreTest, public testing::WithParamInterface<DamageCase> {};
+class WrongList : public ContractTestOf<DamageCase> {};
 
 TEST_P(WrongList, IsRefusedBeforeAByteIsReadAndHealedByPushingAgain) {
   const std::string text = nc_text(800'000);
   const Digest content = push("p.nc", text)->content;
   ASSERT_TRUE(push("other.nc", nc_text(800'000, 7)));
   EXPECT_TRUE(store_->programs.verify_content(content));
-  damage(GetParam().sql);
+  damage(given().sql);
   const auto refused = store_->programs.verify_content(content);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Corrupt);
   EXPECT_NE(refused.error().what.find(content.hex()), std::string::npos) << refused.error().what;
-  const bool is_named = std::string_view(GetParam().name) != "both_rows_swapped";
+  const bool is_named = std::string_view(given().name) != "both_rows_swapped";
   if (is_named) {
     EXPECT_NE(refused.error().what.find("chunk 2 (bytes from 524288)"), std::string::npos)
         << refused.error().what;
@@ -169,33 +166,31 @@ TEST_P(WrongList, IsRefusedBeforeAByteIsReadAndHealedByPushingAgain) {
   EXPECT_EQ(pull(content), text);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , WrongList,
-    testing::Values(
-        DamageCase{"another_programs_chunk",
-                   "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE "
-                   "content = (SELECT max(id) FROM content) AND position = 2) "
-                   "WHERE content = (SELECT min(id) FROM content) AND position = 2"},
-        DamageCase{"a_chunk_of_another_place",
-                   "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE "
-                   "content = (SELECT min(id) FROM content) AND position = 0) "
-                   "WHERE content = (SELECT min(id) FROM content) AND position = 2"},
-        DamageCase{"its_own_digest_too",
-                   "UPDATE content_chunk SET sha256 = (SELECT sha256 FROM content_chunk WHERE "
-                   "content = (SELECT max(id) FROM content) AND position = 2) "
-                   "WHERE content = (SELECT min(id) FROM content) AND position = 2"},
-        DamageCase{"both_rows_swapped",
-                   "UPDATE content_chunk SET position = 100 + 2 - position "
-                   "WHERE content = (SELECT min(id) FROM content) AND position < 3;"
-                   "UPDATE content_chunk SET position = position - 100 "
-                   "WHERE content = (SELECT min(id) FROM content) AND position >= 100"},
-        DamageCase{"a_row_is_gone",
-                   "DELETE FROM content_chunk WHERE position = 2 AND "
-                   "content = (SELECT min(id) FROM content)"}),
-    [](const auto& i) { return std::string{i.param.name}; });
+ON_BOTH_ENGINES_WITH(
+    WrongList,
+    DamageCase{"another_programs_chunk",
+               "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE "
+               "content = (SELECT max(id) FROM content) AND position = 2) "
+               "WHERE content = (SELECT min(id) FROM content) AND position = 2"},
+    DamageCase{"a_chunk_of_another_place",
+               "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE "
+               "content = (SELECT min(id) FROM content) AND position = 0) "
+               "WHERE content = (SELECT min(id) FROM content) AND position = 2"},
+    DamageCase{"its_own_digest_too",
+               "UPDATE content_chunk SET sha256 = (SELECT sha256 FROM content_chunk WHERE "
+               "content = (SELECT max(id) FROM content) AND position = 2) "
+               "WHERE content = (SELECT min(id) FROM content) AND position = 2"},
+    DamageCase{"both_rows_swapped",
+               "UPDATE content_chunk SET position = 100 + 2 - position "
+               "WHERE content = (SELECT min(id) FROM content) AND position < 3;"
+               "UPDATE content_chunk SET position = position - 100 "
+               "WHERE content = (SELECT min(id) FROM content) AND position >= 100"},
+    DamageCase{"a_row_is_gone",
+               "DELETE FROM content_chunk WHERE position = 2 AND "
+               "content = (SELECT min(id) FROM content)"});
 
 /// A revision's row names another content, and both contents are sound.
-TEST_F(ProgramTest, ARevisionWhoseRowNamesAnotherContentIsRefused) {
+TEST_P(ProgramTest, ARevisionWhoseRowNamesAnotherContentIsRefused) {
   const auto first = push("p.nc", "G1 X1.\n");
   const auto other = push("other.nc", "G1 X999.\n");
   Run run = make_run("r2");  // p.nc of its own text
@@ -219,14 +214,14 @@ TEST_F(ProgramTest, ARevisionWhoseRowNamesAnotherContentIsRefused) {
   EXPECT_EQ(store_->programs.revision("p.nc", std::nullopt)->content, first->content);
 }
 
-TEST_F(ProgramTest, ARevisionWhoseOwnDigestIsDamagedIsRefused) {
+TEST_P(ProgramTest, ARevisionWhoseOwnDigestIsDamagedIsRefused) {
   ASSERT_TRUE(push("p.nc", "G1 X1.\n"));
   damage("UPDATE revision SET sha256 = CAST(x'00' || substr(sha256, 2) AS BLOB)");
   EXPECT_EQ(store_->programs.revision("p.nc", 1).error().code, Errc::Corrupt);
 }
 
 /// A run keeps the content it was created with, whatever happens to the rows of its revision.
-TEST_F(ProgramTest, ARunKeepsItsContentWhenItsRevisionNamesAnother) {
+TEST_P(ProgramTest, ARunKeepsItsContentWhenItsRevisionNamesAnother) {
   const auto run = make_run("r1");
   ASSERT_TRUE(store_->runs.create(run));
   ASSERT_TRUE(push("other.nc", "G1 X999.\n"));
@@ -237,7 +232,7 @@ TEST_F(ProgramTest, ARunKeepsItsContentWhenItsRevisionNamesAnother) {
   EXPECT_EQ(pull(stored->content).size(), run.size);
 }
 
-TEST_F(ProgramTest, ARunWhoseRowNamesAnotherRevisionWasNotVerified) {
+TEST_P(ProgramTest, ARunWhoseRowNamesAnotherRevisionWasNotVerified) {
   ASSERT_TRUE(push("p.nc", "G1 X999.\n"));
   auto run = make_run("r1");
   run.content_verified = true;
@@ -249,21 +244,20 @@ TEST_F(ProgramTest, ARunWhoseRowNamesAnotherRevisionWasNotVerified) {
   EXPECT_EQ(store_->runs.list({}, {})->at(0).content_verified, false);
 }
 
-TEST_F(ProgramTest, AChunkExchangedWhileItIsReadIsRefused) {
+TEST_P(ProgramTest, AChunkExchangedWhileItIsReadIsRefused) {
   const std::string text = nc_text(800'000);
   const Digest content = push("p.nc", text)->content;
   ASSERT_TRUE(store_->programs.read_content(content, 0, 10));
-  auto other = sqlite::Database::open(options_.file);
-  ASSERT_TRUE(other->execute(
+  change(
       "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE position = 0), "
-      "sha256 = (SELECT sha256 FROM content_chunk WHERE position = 0) WHERE position = 1"));
+      "sha256 = (SELECT sha256 FROM content_chunk WHERE position = 0) WHERE position = 1");
   const auto refused = store_->programs.read_content(content, 300'000, 10);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("chunk 1"), std::string::npos) << refused.error().what;
 }
 
 /// As a version before 4 left it.
-TEST_F(ProgramTest, ContentOfAnOlderVersionIsComparedAsAWholeOnce) {
+TEST_P(ProgramTest, ContentOfAnOlderVersionIsComparedAsAWholeOnce) {
   const std::string text = nc_text(800'000);
   const Digest content = push("p.nc", text)->content;
   damage("UPDATE content SET seal = NULL; UPDATE content_chunk SET sha256 = NULL");
@@ -274,7 +268,7 @@ TEST_F(ProgramTest, ContentOfAnOlderVersionIsComparedAsAWholeOnce) {
   EXPECT_TRUE(store_->programs.verify_content(content));
 }
 
-TEST_F(ProgramTest, ContentOfAnOlderVersionWithAnotherListIsRefused) {
+TEST_P(ProgramTest, ContentOfAnOlderVersionWithAnotherListIsRefused) {
   const Digest content = push("p.nc", nc_text(800'000))->content;
   damage(
       "UPDATE content SET seal = NULL; UPDATE content_chunk SET sha256 = NULL;"
@@ -287,15 +281,16 @@ TEST_F(ProgramTest, ContentOfAnOlderVersionWithAnotherListIsRefused) {
   EXPECT_EQ(query("SELECT count(*) FROM content WHERE seal IS NOT NULL"), 0);
 }
 
-TEST_F(ProgramTest, SequentialReadingDecompressesEveryChunkOnce) {
+TEST_P(ProgramTest, SequentialReadingDecompressesEveryChunkOnce) {
   const std::string text = nc_text(600'000);
   const Digest content = push("p.nc", text)->content;
   ASSERT_TRUE(store_->programs.read_content(content, 0, 10));
-  auto other = sqlite::Database::open(options_.file);
-  ASSERT_TRUE(other->execute("UPDATE chunk SET data = x''"));
+  change("UPDATE chunk SET data = x''");
   EXPECT_TRUE(store_->programs.read_content(content, 10, 10)) << "from the cache";
   EXPECT_FALSE(store_->programs.read_content(content, 262'144, 10)) << "from the file";
 }
+
+ON_BOTH_ENGINES(ProgramTest);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -3,7 +3,7 @@
 namespace dripline::storage {
 namespace {
 
-class RecordReaderTest : public StoreTest {
+class RecordReaderTest : public ContractTest {
  protected:
   void store(const std::string& machine, std::uint64_t epoch, std::uint64_t first,
              std::uint64_t last) {
@@ -27,7 +27,7 @@ class RecordReaderTest : public StoreTest {
   }
 };
 
-TEST_F(RecordReaderTest, BeginsAfterWhatIsStored) {
+TEST_P(RecordReaderTest, BeginsAfterWhatIsStored) {
   store("m1", 7, 1, 3);
   EXPECT_EQ(unread(), "") << "it has not begun";
   ASSERT_TRUE(store_->record_readers.begin("mqtt", clock_.now()));
@@ -37,7 +37,7 @@ TEST_F(RecordReaderTest, BeginsAfterWhatIsStored) {
   EXPECT_EQ(unread(), "m1/7:3<5 m2/1:0<1 ");
 }
 
-TEST_F(RecordReaderTest, ContinuesWhereItWas) {
+TEST_P(RecordReaderTest, ContinuesWhereItWas) {
   ASSERT_TRUE(store_->record_readers.begin("mqtt", clock_.now()));
   store("m1", 7, 1, 5);
   ASSERT_TRUE(store_->record_readers.advance("mqtt", {{"m1", 7, 2}}));
@@ -50,7 +50,7 @@ TEST_F(RecordReaderTest, ContinuesWhereItWas) {
   EXPECT_EQ(unread(), "");
 }
 
-TEST_F(RecordReaderTest, HasTheGrowingJournalOfAMachineLast) {
+TEST_P(RecordReaderTest, HasTheGrowingJournalOfAMachineLast) {
   ASSERT_TRUE(store_->record_readers.begin("mqtt", clock_.now()));
   store("m1", 9, 1, 1);
   store("m1", 4, 1, 2);
@@ -60,7 +60,7 @@ TEST_F(RecordReaderTest, HasTheGrowingJournalOfAMachineLast) {
   EXPECT_EQ(unread(), "m1/9:0<1 m1/4:0<2 ");
 }
 
-TEST_F(RecordReaderTest, KnowsItsReadersAndMachines) {
+TEST_P(RecordReaderTest, KnowsItsReadersAndMachines) {
   EXPECT_EQ(store_->record_readers.advance("mqtt", {{"m1", 7, 1}}).error().code, Errc::NotFound);
   ASSERT_TRUE(store_->record_readers.begin("mqtt", clock_.now()));
   EXPECT_EQ(store_->record_readers.advance("mqtt", {{"ghost", 7, 1}}).error().code, Errc::NotFound);
@@ -70,6 +70,8 @@ TEST_F(RecordReaderTest, KnowsItsReadersAndMachines) {
   EXPECT_EQ(unread(), "m1/7:0<2 ");
   EXPECT_EQ(unread("other"), "m1/7:1<2 ");
 }
+
+ON_BOTH_ENGINES(RecordReaderTest);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -5,7 +5,7 @@
 namespace dripline::storage {
 namespace {
 
-class RecordTest : public StoreTest {
+class RecordTest : public ContractTest {
  protected:
   std::string numbers(const std::string& run = "r1", const std::string& kind = "", Page page = {}) {
     std::string text;
@@ -30,7 +30,7 @@ class RecordTest : public StoreTest {
   }
 };
 
-TEST_F(RecordTest, ComesBackAsItWasReported) {
+TEST_P(RecordTest, ComesBackAsItWasReported) {
   RecordBatch batch = make_batch(1, 1);
   batch.records[0].text = "DPRNT \"quoted\", \xff and\ttabs";
   ASSERT_EQ(store_->records.store(batch), 1u);
@@ -52,7 +52,7 @@ TEST_F(RecordTest, ComesBackAsItWasReported) {
   EXPECT_EQ(record.text, batch.records[0].text);
 }
 
-TEST_F(RecordTest, OfManyMachinesAreStoredTogether) {
+TEST_P(RecordTest, OfManyMachinesAreStoredTogether) {
   RecordBatch first = make_batch(1, 3), second = make_batch(1, 2);
   second.machine = "m2";
   for (auto& one : second.records) one.machine = "m2";
@@ -65,7 +65,7 @@ TEST_F(RecordTest, OfManyMachinesAreStoredTogether) {
   EXPECT_EQ(store_->records.of_machine_after("m2", {7, 0}, 100)->size(), 2U);
 }
 
-TEST_F(RecordTest, ThatCannotBeStoredDoNotKeepOthersFromTheDisk) {
+TEST_P(RecordTest, ThatCannotBeStoredDoNotKeepOthersFromTheDisk) {
   RecordBatch good = make_batch(1, 3), bad = make_batch(1, 2);
   bad.machine = "m2";  // and its records another's
   const auto stored = store_->records.store_all({good, bad});
@@ -75,7 +75,7 @@ TEST_F(RecordTest, ThatCannotBeStoredDoNotKeepOthersFromTheDisk) {
   EXPECT_EQ(store_->records.of_machine_after("m1", {7, 0}, 100)->size(), 3U);
 }
 
-TEST_F(RecordTest, OutsideAnyRunAreTheMachinesReport) {
+TEST_P(RecordTest, OutsideAnyRunAreTheMachinesReport) {
   RecordBatch batch = make_batch(1, 5);
   for (const std::size_t i : {0u, 1u, 2u, 3u}) batch.records[i].run.clear();
   batch.records[1].kind = "probe";
@@ -107,7 +107,7 @@ TEST_F(RecordTest, OutsideAnyRunAreTheMachinesReport) {
 
 /// Runs that the server knows and runs that were begun at the machine; the journal of a gateway
 /// that lost its own has any epoch.
-TEST_F(RecordTest, OfTheControlsMemoryAreFoundByMachineNewestFirst) {
+TEST_P(RecordTest, OfTheControlsMemoryAreFoundByMachineNewestFirst) {
   const auto memory = [](RecordBatch batch, std::initializer_list<std::size_t> places) {
     for (const std::size_t i : places) {
       batch.records[i].kind = "message";
@@ -143,7 +143,7 @@ TEST_F(RecordTest, OfTheControlsMemoryAreFoundByMachineNewestFirst) {
   EXPECT_TRUE(store_->records.memory_reports("unknown", std::nullopt, {})->empty());
 }
 
-TEST_F(RecordTest, SentAgainAreStoredOnce) {
+TEST_P(RecordTest, SentAgainAreStoredOnce) {
   EXPECT_EQ(store_->records.store(make_batch(1, 5)), 5u);
   EXPECT_EQ(store_->records.store(make_batch(1, 5)), 5u);
   EXPECT_EQ(store_->records.store(make_batch(3, 8)), 8u);
@@ -151,7 +151,7 @@ TEST_F(RecordTest, SentAgainAreStoredOnce) {
   EXPECT_EQ(numbers(), "1 2 3 4 5 6 7 8 ");
 }
 
-TEST_F(RecordTest, AfterAGapAreLeftOut) {
+TEST_P(RecordTest, AfterAGapAreLeftOut) {
   EXPECT_EQ(store_->records.store(make_batch(2, 4)), 0u) << "number 1 is missing";
   EXPECT_EQ(numbers(), "");
   RecordBatch batch = make_batch(1, 6);
@@ -162,7 +162,7 @@ TEST_F(RecordTest, AfterAGapAreLeftOut) {
   EXPECT_EQ(numbers(), "1 2 3 4 5 6 ");
 }
 
-TEST_F(RecordTest, EpochsHaveNumbersOfTheirOwnAndComeInOrder) {
+TEST_P(RecordTest, EpochsHaveNumbersOfTheirOwnAndComeInOrder) {
   ASSERT_TRUE(store_->records.store(make_batch(1, 2)));
   RecordBatch later = make_batch(1, 2);
   later.epoch = 8;
@@ -172,7 +172,7 @@ TEST_F(RecordTest, EpochsHaveNumbersOfTheirOwnAndComeInOrder) {
   EXPECT_EQ(store_->records.of_run("r1", "", {})->back().epoch, 8u);
 }
 
-TEST_F(RecordTest, AreFilteredByKindAndPaged) {
+TEST_P(RecordTest, AreFilteredByKindAndPaged) {
   RecordBatch batch = make_batch(1, 6);
   batch.records[1].kind = batch.records[4].kind = "probe";
   batch.records[5].run = "";
@@ -184,13 +184,13 @@ TEST_F(RecordTest, AreFilteredByKindAndPaged) {
   EXPECT_EQ(numbers("unknown"), "");
 }
 
-TEST_F(RecordTest, OfAnUnknownMachineOrRunAreKept) {
+TEST_P(RecordTest, OfAnUnknownMachineOrRunAreKept) {
   EXPECT_EQ(store_->records.store(make_batch(1, 2, "never-heard-of")), 2u);
   EXPECT_EQ(numbers("never-heard-of"), "1 2 ");
   EXPECT_EQ(store_->machines.find("m1")->last_record, 2u);
 }
 
-TEST_F(RecordTest, OutputsAreCountedOnceForTheRun) {
+TEST_P(RecordTest, OutputsAreCountedOnceForTheRun) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   RecordBatch batch = make_batch(1, 5);
   batch.records[0].kind = "run_started";
@@ -199,7 +199,7 @@ TEST_F(RecordTest, OutputsAreCountedOnceForTheRun) {
   EXPECT_EQ(store_->runs.find("r1")->outputs, 4u);
 }
 
-TEST_F(RecordTest, BeginAndEndTheRunTheySpeakOf) {
+TEST_P(RecordTest, BeginAndEndTheRunTheySpeakOf) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   RecordBatch batch = make_batch(1, 1);
   batch.records[0].kind = "run_started";
@@ -230,7 +230,7 @@ TEST_F(RecordTest, BeginAndEndTheRunTheySpeakOf) {
 }
 
 /// A gateway's clock may be anywhere.
-TEST_F(RecordTest, NeverEndARunBeforeItBegan) {
+TEST_P(RecordTest, NeverEndARunBeforeItBegan) {
   const Run made = make_run("r1");
   ASSERT_TRUE(store_->runs.create(made));
   RecordBatch batch = make_batch(1, 2);
@@ -247,7 +247,7 @@ TEST_F(RecordTest, NeverEndARunBeforeItBegan) {
 }
 
 /// A mixed-up or stolen gateway: what it says of another machine's run is kept, and that is all.
-TEST_F(RecordTest, OfAnotherMachinesRunChangeNothingOfIt) {
+TEST_P(RecordTest, OfAnotherMachinesRunChangeNothingOfIt) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   RecordBatch stray = make_batch(1, 3);
   stray.machine = "m2";
@@ -266,7 +266,7 @@ TEST_F(RecordTest, OfAnotherMachinesRunChangeNothingOfIt) {
   EXPECT_EQ(store_->runs.find("r1")->outputs, 2u);
 }
 
-TEST_F(RecordTest, EndARunThatWasNeverSeenActive) {
+TEST_P(RecordTest, EndARunThatWasNeverSeenActive) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   RecordBatch batch = make_batch(1, 1);
   batch.endings.push_back(ending(RunState::Alarmed));
@@ -274,7 +274,7 @@ TEST_F(RecordTest, EndARunThatWasNeverSeenActive) {
   EXPECT_EQ(store_->runs.find("r1")->state, RunState::Alarmed);
 }
 
-TEST_F(RecordTest, DoNotChangeARunThatHasEnded) {
+TEST_P(RecordTest, DoNotChangeARunThatHasEnded) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   ASSERT_TRUE(store_->runs.set_state("r1", RunState::Refused, "no answer in time"));
   RecordBatch batch = make_batch(1, 1);
@@ -285,7 +285,7 @@ TEST_F(RecordTest, DoNotChangeARunThatHasEnded) {
   EXPECT_EQ(store_->runs.find("r1")->reason, "no answer in time");
 }
 
-TEST_F(RecordTest, EndingAfterAGapWaitsForItsRecord) {
+TEST_P(RecordTest, EndingAfterAGapWaitsForItsRecord) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   RecordBatch batch = make_batch(2, 3);
   batch.records[1].kind = "run_ended";
@@ -297,7 +297,7 @@ TEST_F(RecordTest, EndingAfterAGapWaitsForItsRecord) {
   EXPECT_EQ(store_->runs.find("r1")->state, RunState::Completed);
 }
 
-TEST_F(RecordTest, BatchesThatContradictThemselvesAreRefused) {
+TEST_P(RecordTest, BatchesThatContradictThemselvesAreRefused) {
   RecordBatch batch = make_batch(1, 2);
   batch.records[1].machine = "m2";
   EXPECT_EQ(store_->records.store(batch).error().code, Errc::Syntax);
@@ -313,7 +313,7 @@ TEST_F(RecordTest, BatchesThatContradictThemselvesAreRefused) {
   EXPECT_EQ(query("SELECT count(*) FROM record"), 0);
 }
 
-TEST_F(RecordTest, NumbersOfAnySizeComeBack) {
+TEST_P(RecordTest, NumbersOfAnySizeComeBack) {
   RecordBatch batch = make_batch(1, 1);
   batch.records[0].block = batch.records[0].line = std::numeric_limits<std::uint64_t>::max();
   batch.records[0].sequence = std::numeric_limits<std::int64_t>::min();
@@ -323,6 +323,8 @@ TEST_F(RecordTest, NumbersOfAnySizeComeBack) {
   EXPECT_EQ(store_->records.of_run("r1", "", {})->front().sequence,
             std::numeric_limits<std::int64_t>::min());
 }
+
+ON_BOTH_ENGINES(RecordTest);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -3,7 +3,7 @@
 namespace dripline::storage {
 namespace {
 
-class ReleaseTest : public StoreTest {
+class ReleaseTest : public ContractTest {
  protected:
   Decision decision(const Revision& revision, RevisionStep step, const std::string& who = "anna") {
     Decision made;
@@ -31,7 +31,7 @@ class ReleaseTest : public StoreTest {
   }
 };
 
-TEST_F(ReleaseTest, ANewRevisionIsADraft) {
+TEST_P(ReleaseTest, ANewRevisionIsADraft) {
   const auto revision = push("p.nc", "M2\n");
   EXPECT_EQ(revision->state, RevisionState::Draft);
   EXPECT_FALSE(revision->released);
@@ -39,7 +39,7 @@ TEST_F(ReleaseTest, ANewRevisionIsADraft) {
   EXPECT_EQ(store_->releases.decisions("p.nc", 2).error().code, Errc::NotFound);
 }
 
-TEST_F(ReleaseTest, KeepsEveryDecisionAndTheState) {
+TEST_P(ReleaseTest, KeepsEveryDecisionAndTheState) {
   const auto revision = push("p.nc", "M2\n");
   using enum RevisionStep;
   const auto released = take(*revision, {Submit, Approve, Release});
@@ -70,7 +70,7 @@ TEST_F(ReleaseTest, KeepsEveryDecisionAndTheState) {
 }
 
 /// Two who decide at once: the second one decided about what is not there any more.
-TEST_F(ReleaseTest, RefusesADecisionAboutAnotherState) {
+TEST_P(ReleaseTest, RefusesADecisionAboutAnotherState) {
   const auto revision = push("p.nc", "M2\n");
   take(*revision, {RevisionStep::Submit});
   const auto again =
@@ -82,7 +82,7 @@ TEST_F(ReleaseTest, RefusesADecisionAboutAnotherState) {
   EXPECT_EQ(store_->releases.decisions("p.nc", 1)->size(), 1u);
 }
 
-TEST_F(ReleaseTest, KnowsWhoPushedTheSameBytesUnderAnotherName) {
+TEST_P(ReleaseTest, KnowsWhoPushedTheSameBytesUnderAnotherName) {
   const auto revision = push("p.nc", "M2\n");
   ASSERT_TRUE(store_->programs.copy({.from = "p.nc", .to = "q", .who = "bert"}, std::nullopt));
   const auto authors = store_->releases.authors(revision->content);
@@ -90,7 +90,7 @@ TEST_F(ReleaseTest, KnowsWhoPushedTheSameBytesUnderAnotherName) {
   EXPECT_TRUE(store_->releases.authors(sha256("absent"))->empty());
 }
 
-TEST_F(ReleaseTest, ARunNamesWhatReleasedItsRevision) {
+TEST_P(ReleaseTest, ARunNamesWhatReleasedItsRevision) {
   Run run = make_run("r1");
   const auto revision = store_->programs.revision("p.nc", 1);
   run.allowed_as = RunAllowance::Released;
@@ -104,7 +104,7 @@ TEST_F(ReleaseTest, ARunNamesWhatReleasedItsRevision) {
 }
 
 /// The judgment before and the run are two transactions.
-TEST_F(ReleaseTest, NoRunBeginsOfWhatWasWithdrawnJustNow) {
+TEST_P(ReleaseTest, NoRunBeginsOfWhatWasWithdrawnJustNow) {
   Run run = make_run("r1");
   take(*store_->programs.revision("p.nc", 1), {RevisionStep::Withdraw});
   for (const auto allowance :
@@ -114,7 +114,7 @@ TEST_F(ReleaseTest, NoRunBeginsOfWhatWasWithdrawnJustNow) {
   }
 }
 
-TEST_F(ReleaseTest, TheSameTextAfterAWithdrawalIsANewDraft) {
+TEST_P(ReleaseTest, TheSameTextAfterAWithdrawalIsANewDraft) {
   const auto revision = push("p.nc", "M2\n");
   EXPECT_EQ(push("p.nc", "M2\n")->number, 1u);
   take(*revision, {RevisionStep::Withdraw});
@@ -122,6 +122,8 @@ TEST_F(ReleaseTest, TheSameTextAfterAWithdrawalIsANewDraft) {
   EXPECT_EQ(again->number, 2u);
   EXPECT_EQ(again->state, RevisionState::Draft);
 }
+
+ON_BOTH_ENGINES(ReleaseTest);
 
 }  // namespace
 }  // namespace dripline::storage

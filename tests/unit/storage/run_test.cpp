@@ -3,7 +3,7 @@
 namespace dripline::storage {
 namespace {
 
-class RunTest : public StoreTest {
+class RunTest : public ContractTest {
  protected:
   void SetUp() override {
     run_ = make_run("r1");
@@ -13,7 +13,7 @@ class RunTest : public StoreTest {
   Run run_;
 };
 
-TEST_F(RunTest, ComesBackAsItWasCreated) {
+TEST_P(RunTest, ComesBackAsItWasCreated) {
   const auto found = store_->runs.find("r1");
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_EQ(found->machine, "m1");
@@ -30,7 +30,7 @@ TEST_F(RunTest, ComesBackAsItWasCreated) {
                found->content_verified);
 }
 
-TEST_F(RunTest, OneUnfinishedRunPerMachine) {
+TEST_P(RunTest, OneUnfinishedRunPerMachine) {
   Run second = run_;
   second.id = "r2";
   const auto refused = store_->runs.create(second);
@@ -41,7 +41,7 @@ TEST_F(RunTest, OneUnfinishedRunPerMachine) {
   EXPECT_TRUE(store_->runs.create(second));
 }
 
-TEST_F(RunTest, NeedsAKnownMachineRevisionAndItsVeryContent) {
+TEST_P(RunTest, NeedsAKnownMachineRevisionAndItsVeryContent) {
   ASSERT_TRUE(store_->runs.set_state("r1", RunState::Refused, ""));
   Run run = run_;
   run.id = "r2";
@@ -59,13 +59,13 @@ TEST_F(RunTest, NeedsAKnownMachineRevisionAndItsVeryContent) {
   EXPECT_EQ(store_->runs.list({}, {})->size(), 1u);
 }
 
-TEST_F(RunTest, KeepsItsRevisionWhenTheProgramIsReplaced) {
+TEST_P(RunTest, KeepsItsRevisionWhenTheProgramIsReplaced) {
   ASSERT_TRUE(push("p.nc", "G00 X99.\n"));
   EXPECT_EQ(store_->runs.find("r1")->revision, 1u);
   EXPECT_EQ(pull(store_->runs.find("r1")->content), "G00 X1.\nM30\n");
 }
 
-TEST_F(RunTest, GoesFromOrderedToActiveToAnEnd) {
+TEST_P(RunTest, GoesFromOrderedToActiveToAnEnd) {
   clock_.advance(std::chrono::seconds(1));
   ASSERT_TRUE(store_->runs.set_state("r1", RunState::Active, ""));
   EXPECT_EQ(store_->runs.find("r1")->started, clock_.now());
@@ -77,7 +77,7 @@ TEST_F(RunTest, GoesFromOrderedToActiveToAnEnd) {
   EXPECT_EQ(store_->runs.find("r1")->reason, "power");
 }
 
-TEST_F(RunTest, NeverLeavesAFinalState) {
+TEST_P(RunTest, NeverLeavesAFinalState) {
   for (const RunState end : {RunState::Completed, RunState::Aborted, RunState::Alarmed,
                              RunState::Interrupted, RunState::Refused}) {
     if (end != RunState::Completed) {
@@ -98,13 +98,13 @@ TEST_F(RunTest, NeverLeavesAFinalState) {
   }
 }
 
-TEST_F(RunTest, UnknownOnesAreNotFound) {
+TEST_P(RunTest, UnknownOnesAreNotFound) {
   EXPECT_EQ(store_->runs.find("x").error().code, Errc::NotFound);
   EXPECT_EQ(store_->runs.set_state("x", RunState::Active, "").error().code, Errc::NotFound);
   EXPECT_EQ(store_->runs.update_counters({"m1", "x", {}, 0, 0}).error().code, Errc::NotFound);
 }
 
-TEST_F(RunTest, HasTheProgramsThatItCalled) {
+TEST_P(RunTest, HasTheProgramsThatItCalled) {
   const auto second = push("O0002", "M99\n");
   const RunCall call{"2", "O0002", 1, second->content};
   ASSERT_TRUE(store_->runs.add_call("r1", call));
@@ -123,7 +123,7 @@ TEST_F(RunTest, HasTheProgramsThatItCalled) {
   EXPECT_TRUE(store_->runs.calls("x").value().empty());
 }
 
-TEST_F(RunTest, CallsAtMost128Programs) {
+TEST_P(RunTest, CallsAtMost128Programs) {
   const auto called = push("O0002", "M99\n");
   for (std::size_t i = 0; i < RunCall::kMax; ++i)
     ASSERT_TRUE(store_->runs.add_call("r1", {fmt::format("{}", i), "O0002", 1, called->content}));
@@ -131,7 +131,7 @@ TEST_F(RunTest, CallsAtMost128Programs) {
   EXPECT_EQ(refused.error().code, Errc::LimitExceeded);
 }
 
-TEST_F(RunTest, CountersOnlyGoForward) {
+TEST_P(RunTest, CountersOnlyGoForward) {
   ASSERT_TRUE(store_->runs.update_counters({"m1", "r1", {1000, 50, 40}, 41, 400}));
   ASSERT_TRUE(store_->runs.update_counters({"m1", "r1", {900, 60, 30}, 31, 300}));
   const auto run = store_->runs.find("r1");
@@ -143,7 +143,7 @@ TEST_F(RunTest, CountersOnlyGoForward) {
   EXPECT_EQ(run->state, RunState::Ordered);
 }
 
-TEST_F(RunTest, CountersOfManyAreUpdatedAtOnce) {
+TEST_P(RunTest, CountersOfManyAreUpdatedAtOnce) {
   const auto updated = store_->runs.update_all_counters(
       {{"m1", "unknown", {}, 0, 0}, {"m2", "r1", {1, 1, 1}, 1, 1}, {"m1", "r1", {9, 8, 7}, 6, 5}});
   ASSERT_EQ(updated.size(), 3U);
@@ -153,13 +153,13 @@ TEST_F(RunTest, CountersOfManyAreUpdatedAtOnce) {
   EXPECT_EQ(store_->runs.find("r1")->counters.sent, 9U);
 }
 
-TEST_F(RunTest, CountersOfAnEndedRunStay) {
+TEST_P(RunTest, CountersOfAnEndedRunStay) {
   ASSERT_TRUE(store_->runs.set_state("r1", RunState::Aborted, ""));
   ASSERT_TRUE(store_->runs.update_counters({"m1", "r1", {1000, 50, 40}, 41, 400}));
   EXPECT_EQ(store_->runs.find("r1")->counters.sent, 0u);
 }
 
-TEST_F(RunTest, CountersOfAnotherMachineAreRefused) {
+TEST_P(RunTest, CountersOfAnotherMachineAreRefused) {
   const auto refused = store_->runs.update_counters({"m2", "r1", {1000, 50, 40}, 41, 400});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Conflict);
@@ -167,7 +167,7 @@ TEST_F(RunTest, CountersOfAnotherMachineAreRefused) {
   EXPECT_EQ(store_->runs.find("r1")->counters.sent, 0u);
 }
 
-TEST_F(RunTest, ListingIsNewestFirstAndFiltered) {
+TEST_P(RunTest, ListingIsNewestFirstAndFiltered) {
   ASSERT_TRUE(store_->runs.set_state("r1", RunState::Completed, ""));
   Machine other{"m2", "tnc155", "", "", 1, 0, clock_.now(), clock_.now()};
   ASSERT_TRUE(store_->machines.save(other));
@@ -198,7 +198,7 @@ TEST_F(RunTest, ListingIsNewestFirstAndFiltered) {
   EXPECT_EQ(ids({.machine = {}, .program = {}, .state = {}, .with_outputs = true}), "r1 ");
 }
 
-TEST_F(RunTest, EveryStateHasAWordOfItsOwn) {
+TEST_P(RunTest, EveryStateHasAWordOfItsOwn) {
   for (int i = 0; i <= static_cast<int>(RunState::Refused); ++i) {
     const auto state = static_cast<RunState>(i);
     EXPECT_EQ(parse_run_state(to_string(state)), state);
@@ -206,9 +206,9 @@ TEST_F(RunTest, EveryStateHasAWordOfItsOwn) {
   EXPECT_EQ(parse_run_state("dreaming").error().code, Errc::Syntax);
 }
 
-using MachineTest = StoreTest;
+class MachineTest : public ContractTest {};
 
-TEST_F(MachineTest, IsAddedOnceAndThenUpdated) {
+TEST_P(MachineTest, IsAddedOnceAndThenUpdated) {
   Machine machine{"m1", "centurion", "lathe", "0.1", 7, 99, clock_.now(), clock_.now()};
   ASSERT_TRUE(store_->machines.save(machine));
   const auto first_seen = clock_.now();
@@ -225,7 +225,7 @@ TEST_F(MachineTest, IsAddedOnceAndThenUpdated) {
   EXPECT_EQ(store_->machines.list()->size(), 1u);
 }
 
-TEST_F(MachineTest, KnowsTheLastRecordOfEachEpoch) {
+TEST_P(MachineTest, KnowsTheLastRecordOfEachEpoch) {
   Machine machine{"m1", "centurion", "", "", 7, 0, clock_.now(), clock_.now()};
   ASSERT_TRUE(store_->machines.save(machine));
   ASSERT_TRUE(store_->records.store(make_batch(1, 5)));
@@ -238,14 +238,14 @@ TEST_F(MachineTest, KnowsTheLastRecordOfEachEpoch) {
   EXPECT_EQ(store_->machines.find("m1")->last_record, 5u);
 }
 
-TEST_F(MachineTest, BadNamesAndUnknownOnesAreRefused) {
+TEST_P(MachineTest, BadNamesAndUnknownOnesAreRefused) {
   EXPECT_EQ(store_->machines.save({"../m", "", "", "", 0, 0, {}, {}}).error().code, Errc::Syntax);
   EXPECT_EQ(store_->machines.find("m9").error().code, Errc::NotFound);
 }
 
-using AuditTest = StoreTest;
+class AuditTest : public ContractTest {};
 
-TEST_F(AuditTest, EntriesComeNewestFirst) {
+TEST_P(AuditTest, EntriesComeNewestFirst) {
   for (const char* what : {"push", "start", "abort"}) {
     ASSERT_TRUE(store_->audit.add({clock_.now(), "cam", what, "p.nc", "{}"}));
   }
@@ -258,6 +258,10 @@ TEST_F(AuditTest, EntriesComeNewestFirst) {
   EXPECT_EQ(page->at(0).time, clock_.now());
   EXPECT_EQ(page->at(0).who.name, "cam");
 }
+
+ON_BOTH_ENGINES(RunTest);
+ON_BOTH_ENGINES(MachineTest);
+ON_BOTH_ENGINES(AuditTest);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -53,7 +53,7 @@ TEST(SearchWords, FindTheLineWithMostOfThem) {
   EXPECT_LE(find_line("T12 " + std::string(500, 'x'), terms)->text.size(), kMaxFoundText);
 }
 
-class SearchTest : public StoreTest {
+class SearchTest : public ContractTest {
  protected:
   std::uint64_t index() {
     std::uint64_t documents = 0;
@@ -80,7 +80,7 @@ class SearchTest : public StoreTest {
   }
 };
 
-TEST_F(SearchTest, FindsWordsOfTextNamesFieldsAndComments) {
+TEST_P(SearchTest, FindsWordsOfTextNamesFieldsAndComments) {
   ASSERT_TRUE(push("O0200", "O0200 (SHAFT)\nT12 M6\nG1 X10.\n"));
   ASSERT_TRUE(push("O0300", "O0300 (FLANGE)\nT12 M6\n"));
   EXPECT_EQ(store_->search.count_due(), 2u);
@@ -103,7 +103,7 @@ TEST_F(SearchTest, FindsWordsOfTextNamesFieldsAndComments) {
   EXPECT_EQ(found("brass"), "O0200@1 ");
 }
 
-TEST_F(SearchTest, FindsWhatBeginsWithSomeLettersAmongFewWordsAndAmongMany) {
+TEST_P(SearchTest, FindsWhatBeginsWithSomeLettersAmongFewWordsAndAmongMany) {
   ASSERT_TRUE(push("p.nc", "(ROUGH)\n"));
   ASSERT_TRUE(push("q.nc", "(ROUGHING GR\xC3\x96SSE)\n"));
   ASSERT_TRUE(push("r.nc", "(ROTOR)\n"));
@@ -121,7 +121,7 @@ TEST_F(SearchTest, FindsWhatBeginsWithSomeLettersAmongFewWordsAndAmongMany) {
   EXPECT_EQ(found("rouz*"), "s.nc@1 ");
 }
 
-TEST_F(SearchTest, FindsWhatIsInForceAndOnRequestWhatWasReplaced) {
+TEST_P(SearchTest, FindsWhatIsInForceAndOnRequestWhatWasReplaced) {
   ASSERT_TRUE(push("p.nc", "(ONE)\nT1\n"));
   index();
   ASSERT_TRUE(push("p.nc", "(TWO)\nT1\n"));
@@ -142,7 +142,7 @@ TEST_F(SearchTest, FindsWhatIsInForceAndOnRequestWhatWasReplaced) {
   EXPECT_EQ(query("SELECT count(*) FROM search_document"), 0);
 }
 
-TEST_F(SearchTest, Filters) {
+TEST_P(SearchTest, Filters) {
   ASSERT_TRUE(push("a", "T1\n"));
   ASSERT_TRUE(push("b", "T1\n(B)\n"));
   damage(
@@ -162,7 +162,7 @@ TEST_F(SearchTest, Filters) {
   EXPECT_EQ(found("t1", {.machine_group = "mills"}), "a@1 ");
 }
 
-TEST_F(SearchTest, Pages) {
+TEST_P(SearchTest, Pages) {
   for (int i = 0; i < 5; ++i)
     ASSERT_TRUE(push(fmt::format("p{}", i), fmt::format("T1\n({})\n", i)));
   index();
@@ -171,7 +171,7 @@ TEST_F(SearchTest, Pages) {
   EXPECT_EQ(found("t1", {}, page.back().document, 2), "p2@1 p1@1 ");
 }
 
-TEST_F(SearchTest, IndexesTheBeginningOfALongText) {
+TEST_P(SearchTest, IndexesTheBeginningOfALongText) {
   std::string text = "(BEGINNING)\n";
   while (text.size() < SearchStore::kIndexedBytes) text += "G1 X1.234 Y5.678\n";
   text += "(ENDING)\n";
@@ -183,7 +183,7 @@ TEST_F(SearchTest, IndexesTheBeginningOfALongText) {
             static_cast<std::int64_t>(SearchStore::kIndexedBytes));
 }
 
-TEST_F(SearchTest, WorksInPartsAndContinuesAfterARestart) {
+TEST_P(SearchTest, WorksInPartsAndContinuesAfterARestart) {
   std::string text;
   while (text.size() < SearchStore::kIndexedBytes) text += "G1 X1.234 Y5.678\n";
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(push("long", fmt::format("(T7{})\n", i) + text, 1 << 20));
@@ -198,7 +198,7 @@ TEST_F(SearchTest, WorksInPartsAndContinuesAfterARestart) {
   EXPECT_EQ(found("t1"), "next@1 ");
 }
 
-TEST_F(SearchTest, ADamagedTextIsFoundByItsFieldsAlone) {
+TEST_P(SearchTest, ADamagedTextIsFoundByItsFieldsAlone) {
   ASSERT_TRUE(push("p.nc", "T1\n"));
   damage("UPDATE chunk SET data = x'00'");
   index();
@@ -206,13 +206,15 @@ TEST_F(SearchTest, ADamagedTextIsFoundByItsFieldsAlone) {
   EXPECT_EQ(found("cam"), "p.nc@1 ");
 }
 
-TEST_F(SearchTest, WordsOfTheIndexsOwnLanguageAreOnlyWords) {
+TEST_P(SearchTest, WordsOfTheIndexsOwnLanguageAreOnlyWords) {
   ASSERT_TRUE(push("p.nc", "(NEAR OR NOT)\n"));
   index();
   EXPECT_EQ(found("NEAR"), "p.nc@1 ");
   EXPECT_EQ(found("not or"), "p.nc@1 ");
   EXPECT_EQ(found("words:near\" OR \"t1"), "") << "a word `words` is not there";
 }
+
+ON_BOTH_ENGINES(SearchTest);
 
 }  // namespace
 }  // namespace dripline::storage

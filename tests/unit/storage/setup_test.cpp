@@ -3,7 +3,7 @@
 namespace dripline::storage {
 namespace {
 
-class SetupTest : public StoreTest {
+class SetupTest : public ContractTest {
  protected:
   Result<SetupRevision> save(const std::string& text, const std::string& machine = "mill-3",
                              std::optional<std::uint64_t> base = std::nullopt) {
@@ -16,7 +16,7 @@ class SetupTest : public StoreTest {
   }
 };
 
-TEST_F(SetupTest, IsKeptInVersions) {
+TEST_P(SetupTest, IsKeptInVersions) {
   EXPECT_EQ(save("[[tool]]\nnumber = 1\n")->number, 1u);
   EXPECT_EQ(save("[[tool]]\nnumber = 2\n")->number, 2u);
   EXPECT_EQ(save("other", "mill-4")->number, 1u) << "each machine counts for itself";
@@ -37,14 +37,14 @@ TEST_F(SetupTest, IsKeptInVersions) {
   EXPECT_EQ(store_->setups.list("mill-3", {.limit = 1, .offset = 1})->at(0).number, 1u);
 }
 
-TEST_F(SetupTest, TheSameTextAgainIsTheSameRevision) {
+TEST_P(SetupTest, TheSameTextAgainIsTheSameRevision) {
   ASSERT_TRUE(save("a = 1"));
   EXPECT_EQ(save("a = 1")->number, 1u);
   ASSERT_EQ(save("a = 2")->number, 2u);
   EXPECT_EQ(save("a = 1")->number, 3u) << "going back is a new revision";
 }
 
-TEST_F(SetupTest, DoesNotGoOverANewerOne) {
+TEST_P(SetupTest, DoesNotGoOverANewerOne) {
   ASSERT_EQ(save("a = 1", "mill-3", 0)->number, 1u);
   ASSERT_EQ(save("a = 2", "mill-3", 1)->number, 2u);
   const auto late = save("a = 3", "mill-3", 1);
@@ -62,12 +62,12 @@ TEST_F(SetupTest, DoesNotGoOverANewerOne) {
   EXPECT_EQ(save("a = 2", "mill-3", 1)->number, 2u) << "an answer that was lost is asked for again";
 }
 
-TEST_F(SetupTest, SizesCountBytes) {
+TEST_P(SetupTest, SizesCountBytes) {
   EXPECT_EQ(save("# Fräser")->size, 9u);
   EXPECT_EQ(store_->setups.list("mill-3", {})->at(0).size, 9u);
 }
 
-TEST_F(SetupTest, RefusesWhatIsTooLongAndUnknownMachines) {
+TEST_P(SetupTest, RefusesWhatIsTooLongAndUnknownMachines) {
   EXPECT_TRUE(save(std::string(kMaxSetup, ' ')));
   EXPECT_EQ(save(std::string(kMaxSetup + 1, ' ')).error().code, Errc::LimitExceeded);
   EXPECT_EQ(save("a = 1", "no/machine").error().code, Errc::Syntax);
@@ -75,7 +75,7 @@ TEST_F(SetupTest, RefusesWhatIsTooLongAndUnknownMachines) {
   EXPECT_EQ(store_->setups.find("mill-3", 7).error().code, Errc::NotFound);
 }
 
-TEST_F(SetupTest, ARunRemembersItsSetup) {
+TEST_P(SetupTest, ARunRemembersItsSetup) {
   ASSERT_TRUE(save("a = 1"));
   Run run = make_run("r1");
   run.setup = 1;
@@ -83,7 +83,7 @@ TEST_F(SetupTest, ARunRemembersItsSetup) {
   EXPECT_EQ(store_->runs.find("r1")->setup, 1u);
 }
 
-TEST_F(SetupTest, WhichIsInTheControlIsKeptWithWhoSaidSo) {
+TEST_P(SetupTest, WhichIsInTheControlIsKeptWithWhoSaidSo) {
   ASSERT_TRUE(save("[[tool]]\nnumber = 1\n"));
   ASSERT_TRUE(save("[[tool]]\nnumber = 2\n"));
   EXPECT_FALSE(store_->setups.loaded("mill-3")->has_value()) << "never stated";
@@ -104,7 +104,7 @@ TEST_F(SetupTest, WhichIsInTheControlIsKeptWithWhoSaidSo) {
   EXPECT_EQ(audit->at(0).who.name, "olga");
 }
 
-TEST_F(SetupTest, WhichIsInTheControlCanBeUnknownAgain) {
+TEST_P(SetupTest, WhichIsInTheControlCanBeUnknownAgain) {
   ASSERT_TRUE(save("[[tool]]\nnumber = 1\n"));
   ASSERT_TRUE(store_->setups.note_loaded("mill-3", 1, "olga"));
   ASSERT_TRUE(store_->setups.note_loaded("mill-3", std::nullopt, "olga"));
@@ -113,13 +113,13 @@ TEST_F(SetupTest, WhichIsInTheControlCanBeUnknownAgain) {
   EXPECT_EQ((*loaded)->number, std::nullopt);
 }
 
-TEST_F(SetupTest, NothingIsSaidOfAMachineWithoutAny) {
+TEST_P(SetupTest, NothingIsSaidOfAMachineWithoutAny) {
   const auto noted = store_->setups.note_loaded("mill-3", std::nullopt, "olga");
   ASSERT_FALSE(noted);
   EXPECT_EQ(noted.error().what, "machine mill-3 has no setup on the server");
 }
 
-TEST_F(SetupTest, OneThatIsNotThereIsNotInTheControl) {
+TEST_P(SetupTest, OneThatIsNotThereIsNotInTheControl) {
   ASSERT_TRUE(save("[[tool]]\nnumber = 1\n"));
   ASSERT_TRUE(store_->setups.note_loaded("mill-3", 1, "olga"));
   const auto noted = store_->setups.note_loaded("mill-3", 2, "olga");
@@ -128,6 +128,8 @@ TEST_F(SetupTest, OneThatIsNotThereIsNotInTheControl) {
   EXPECT_EQ(noted.error().what, "machine mill-3 has no setup 2");
   EXPECT_EQ((*store_->setups.loaded("mill-3"))->number, 1u) << "nothing has changed";
 }
+
+ON_BOTH_ENGINES(SetupTest);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -1,5 +1,8 @@
 #include "tests/unit/storage/store_fixture.hpp"
 
+#include <regex>
+
+#include "storage/postgresql/database.hpp"
 #include "storage/sqlite/database.hpp"
 
 namespace dripline::storage {
@@ -39,8 +42,40 @@ RecordBatch make_batch(std::uint64_t first, std::uint64_t last, const std::strin
   return batch;
 }
 
+namespace {
+
+void skip(const char* why) {
+  GTEST_SKIP() << why;
+}
+
+/// What damages a SQLite file, as PostgreSQL writes it.
+std::string in_postgresql(const std::string& sql) {
+  std::string text =
+      std::regex_replace(sql, std::regex("\\bx'([0-9a-f]*)'"), "decode('$1', 'hex')");
+  text = std::regex_replace(text, std::regex("AS BLOB\\)"), "AS bytea)");
+  return std::regex_replace(text, std::regex("zeroblob\\((\\d+)\\)"),
+                            "decode(repeat('00', $1), 'hex')");
+}
+
+}  // namespace
+
+StoreTest::StoreTest(sql::Engine engine) : engine_(engine) {
+  options_.file = directory_ / "store.sqlite";
+  if (engine_ == sql::Engine::Postgresql) {
+    database_ = test::TestDatabase::make();
+    if (!database_) skip("PostgreSQL is not installed");
+  }
+  if (!IsSkipped()) reopen();
+}
+
 void StoreTest::reopen() {
   store_.reset();
+  if (engine_ == sql::Engine::Postgresql) {
+    auto opened = PostgresqlStore::open({.url = database_->url()}, clock_);
+    ASSERT_TRUE(opened) << opened.error().what;
+    store_ = std::move(*opened);
+    return;
+  }
   auto opened = SqliteStore::open(options_, clock_);
   ASSERT_TRUE(opened) << opened.error().what;
   store_ = std::move(*opened);
@@ -97,21 +132,31 @@ storage::Run StoreTest::make_run(const std::string& id) {
 }
 
 std::int64_t StoreTest::query(const std::string& sql) {
-  auto database = sqlite::Database::open(options_.file, {.access = sqlite::Access::ReadOnly});
-  EXPECT_TRUE(database) << database.error().what;
-  const auto value = database->integer(sql);
-  EXPECT_TRUE(value) << value.error().what;
-  return value.value_or(-1);
+  const auto read = [&](auto database) {
+    EXPECT_TRUE(database) << database.error().what;
+    const auto value = database->integer(sql);
+    EXPECT_TRUE(value) << value.error().what;
+    return value.value_or(-1);
+  };
+  if (engine_ == sql::Engine::Postgresql)
+    return read(postgresql::Database::connect({.url = database_->url()}));
+  return read(sqlite::Database::open(options_.file, {.access = sqlite::Access::ReadOnly}));
+}
+
+void StoreTest::change(const std::string& sql) {
+  const auto write = [](auto database, const std::string& text) {
+    ASSERT_TRUE(database) << database.error().what;
+    const auto done = database->execute(text);
+    ASSERT_TRUE(done) << done.error().what;
+  };
+  if (engine_ == sql::Engine::Postgresql)
+    return write(postgresql::Database::connect({.url = database_->url()}), in_postgresql(sql));
+  write(sqlite::Database::open(options_.file), sql);
 }
 
 void StoreTest::damage(const std::string& sql) {
   store_.reset();
-  {
-    auto database = sqlite::Database::open(options_.file);
-    ASSERT_TRUE(database) << database.error().what;
-    const auto done = database->execute(sql);
-    ASSERT_TRUE(done) << done.error().what;
-  }
+  change(sql);
   reopen();
 }
 

@@ -2,11 +2,16 @@
 
 #include <stdlib.h>
 #include <filesystem>
+#include <memory>
 #include <string_view>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "storage/postgresql_store.hpp"
+#include "storage/sql/database.hpp"
 #include "storage/sqlite_store.hpp"
+#include "tests/support/postgresql/test_database.hpp"
 
 namespace dripline::storage {
 
@@ -57,10 +62,8 @@ class StoreTest : public testing::Test {
  protected:
   using Run = storage::Run;  // and not Google Test's function
 
-  StoreTest() {
-    options_.file = directory_ / "store.sqlite";
-    reopen();
-  }
+  /// Skipped where the engine is not installed.
+  explicit StoreTest(sql::Engine engine = sql::Engine::Sqlite);
 
   /// As after a restart of the server.
   void reopen();
@@ -72,15 +75,54 @@ class StoreTest : public testing::Test {
   std::string pull(const Digest& content);
   /// A machine m1, a program p.nc and a run of it.
   Run make_run(const std::string& id);
-  /// Reads one number straight from the file.
+  /// Reads one number straight from the database.
   std::int64_t query(const std::string& sql);
-  /// Changes the file after the store's back; the store is closed while that happens.
+  /// Changes the database after the store's back; the store is closed while that happens. What
+  /// SQLite writes otherwise than PostgreSQL (x'00', CAST AS BLOB, zeroblob) is translated.
   void damage(const std::string& sql);
+  /// The same while the store is open.
+  void change(const std::string& sql);
 
+  const sql::Engine engine_;
   TemporaryDirectory directory_;
   SqliteStoreOptions options_;
+  std::unique_ptr<test::TestDatabase> database_;  ///< of PostgreSQL
   ManualClock clock_;
-  std::unique_ptr<SqliteStore> store_;
+  std::unique_ptr<OpenedStore> store_;
 };
+
+/// What every engine promises: each test runs on both.
+class ContractTest : public StoreTest, public testing::WithParamInterface<sql::Engine> {
+ protected:
+  ContractTest() : StoreTest(GetParam()) {}
+};
+
+/// The same with a row of a table.
+template <class Row>
+class ContractTestOf : public StoreTest,
+                       public testing::WithParamInterface<std::tuple<sql::Engine, Row>> {
+ protected:
+  ContractTestOf() : StoreTest(std::get<0>(this->GetParam())) {}
+  const Row& given() const { return std::get<1>(this->GetParam()); }
+};
+
+inline std::string name_of(sql::Engine engine) {
+  return engine == sql::Engine::Sqlite ? "Sqlite" : "Postgresql";
+}
+
+// The names: "RunTest.NeverLeavesAFinalState/Postgresql", with a row
+// "BadPortTest.Is.../Name_Sqlite".
+#define ON_BOTH_ENGINES(Fixture)                                                          \
+  INSTANTIATE_TEST_SUITE_P(, Fixture,                                                     \
+                           testing::Values(sql::Engine::Sqlite, sql::Engine::Postgresql), \
+                           [](const auto& i) { return name_of(i.param); })
+#define ON_BOTH_ENGINES_WITH(Fixture, ...)                                            \
+  INSTANTIATE_TEST_SUITE_P(                                                           \
+      , Fixture,                                                                      \
+      testing::Combine(testing::Values(sql::Engine::Sqlite, sql::Engine::Postgresql), \
+                       testing::Values(__VA_ARGS__)),                                 \
+      [](const auto& i) {                                                             \
+        return std::get<1>(i.param).name + ("_" + name_of(std::get<0>(i.param)));     \
+      })
 
 }  // namespace dripline::storage

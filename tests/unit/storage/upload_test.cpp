@@ -3,18 +3,18 @@
 namespace dripline::storage {
 namespace {
 
-using UploadTest = StoreTest;
+class UploadTest : public ContractTest {};
 
 struct PieceCase {
   const char* name;
   std::size_t size, piece;
   friend void PrintTo(const PieceCase& c, std::ostream* out) { *out << c.name; }
 };
-class AnyPieces : public StoreTest, public testing::WithParamInterface<PieceCase> {};
+class AnyPieces : public ContractTestOf<PieceCase> {};
 
 TEST_P(AnyPieces, GiveBackTheVeryBytes) {
-  const std::string text = nc_text(GetParam().size);
-  const auto revision = push("p.nc", text, GetParam().piece);
+  const std::string text = nc_text(given().size);
+  const auto revision = push("p.nc", text, given().piece);
   ASSERT_TRUE(revision) << revision.error().what;
   EXPECT_EQ(revision->content, sha256(text));
   EXPECT_EQ(revision->size, text.size());
@@ -22,24 +22,22 @@ TEST_P(AnyPieces, GiveBackTheVeryBytes) {
 }
 
 TEST_P(AnyPieces, GiveTheSameChunksAsOnePiece) {
-  const std::string text = nc_text(GetParam().size);
-  ASSERT_TRUE(push("p.nc", text, GetParam().piece));
+  const std::string text = nc_text(given().size);
+  ASSERT_TRUE(push("p.nc", text, given().piece));
   const auto chunks = query("SELECT count(*) FROM chunk");
   ASSERT_TRUE(push("q.nc", text, text.size()));
   EXPECT_EQ(query("SELECT count(*) FROM chunk"), chunks);
   EXPECT_EQ(query("SELECT count(*) FROM content"), 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(, AnyPieces,
-                         testing::Values(PieceCase{"one_byte", 1, 1},
-                                         PieceCase{"one_chunk_exactly", 262144, 262144},
-                                         PieceCase{"two_chunks_in_odd_pieces", 524288, 100'003},
-                                         PieceCase{"one_byte_over_a_chunk", 262145, 262144},
-                                         PieceCase{"many_small", 300'000, 4'099},
-                                         PieceCase{"bigger_than_chunks", 3'000'001, 1'000'000}),
-                         [](const auto& i) { return std::string{i.param.name}; });
+ON_BOTH_ENGINES_WITH(AnyPieces, PieceCase{"one_byte", 1, 1},
+                     PieceCase{"one_chunk_exactly", 262144, 262144},
+                     PieceCase{"two_chunks_in_odd_pieces", 524288, 100'003},
+                     PieceCase{"one_byte_over_a_chunk", 262145, 262144},
+                     PieceCase{"many_small", 300'000, 4'099},
+                     PieceCase{"bigger_than_chunks", 3'000'001, 1'000'000});
 
-TEST_F(UploadTest, ContinuesAfterARestartWhereItStopped) {
+TEST_P(UploadTest, ContinuesAfterARestartWhereItStopped) {
   const std::string text = nc_text(1'000'000);
   const std::string id = begin("p.nc");
   ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text).first(400'000)));
@@ -57,7 +55,7 @@ TEST_F(UploadTest, ContinuesAfterARestartWhereItStopped) {
   EXPECT_EQ(pull(revision->content), text);
 }
 
-TEST_F(UploadTest, CanBeCommittedAfterARestart) {
+TEST_P(UploadTest, CanBeCommittedAfterARestart) {
   const std::string text = nc_text(600'000);
   const std::string id = begin("p.nc");
   ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text)));
@@ -65,7 +63,7 @@ TEST_F(UploadTest, CanBeCommittedAfterARestart) {
   EXPECT_TRUE(store_->uploads.commit(id, sha256(text)));
 }
 
-TEST_F(UploadTest, PieceSentAgainIsNoError) {
+TEST_P(UploadTest, PieceSentAgainIsNoError) {
   const std::string text = nc_text(700'000);
   const std::string id = begin("p.nc");
   ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text).first(500'000)));
@@ -76,7 +74,7 @@ TEST_F(UploadTest, PieceSentAgainIsNoError) {
   EXPECT_TRUE(store_->uploads.commit(id, sha256(text)));
 }
 
-TEST_F(UploadTest, RefusesGapsOverlapsAndOtherBytes) {
+TEST_P(UploadTest, RefusesGapsOverlapsAndOtherBytes) {
   const std::string text = nc_text(1000);
   const std::string id = begin("p.nc");
   ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text).first(500)));
@@ -91,7 +89,7 @@ TEST_F(UploadTest, RefusesGapsOverlapsAndOtherBytes) {
   EXPECT_EQ(store_->uploads.find(id)->received, 500u);
 }
 
-TEST_F(UploadTest, WrongExpectedDigestIsCorruptAndChangesNothing) {
+TEST_P(UploadTest, WrongExpectedDigestIsCorruptAndChangesNothing) {
   const std::string text = nc_text(1000);
   const std::string id = begin("p.nc");
   ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text)));
@@ -103,11 +101,11 @@ TEST_F(UploadTest, WrongExpectedDigestIsCorruptAndChangesNothing) {
   EXPECT_TRUE(store_->uploads.commit(id, sha256(text)));
 }
 
-TEST_F(UploadTest, EmptyUploadIsRefused) {
+TEST_P(UploadTest, EmptyUploadIsRefused) {
   EXPECT_EQ(store_->uploads.commit(begin("p.nc"), std::nullopt).error().code, Errc::Syntax);
 }
 
-TEST_F(UploadTest, NamesThatLeaveTheirFolderAreRefused) {
+TEST_P(UploadTest, NamesThatLeaveTheirFolderAreRefused) {
   for (const char* name : {"../etc/passwd", "..", "a/b", "", ".hidden", "a\nb"}) {
     Upload upload;
     upload.program = name;
@@ -119,7 +117,7 @@ TEST_F(UploadTest, NamesThatLeaveTheirFolderAreRefused) {
   EXPECT_EQ(query("SELECT count(*) FROM upload"), 0);
 }
 
-TEST_F(UploadTest, UnknownOnesAreNotFound) {
+TEST_P(UploadTest, UnknownOnesAreNotFound) {
   EXPECT_EQ(store_->uploads.find("x").error().code, Errc::NotFound);
   EXPECT_EQ(store_->uploads.append("x", 0, bytes_of("a")).error().code, Errc::NotFound);
   EXPECT_EQ(store_->uploads.read("x", 0, 1).error().code, Errc::NotFound);
@@ -128,12 +126,12 @@ TEST_F(UploadTest, UnknownOnesAreNotFound) {
   EXPECT_EQ(store_->uploads.abandon("x").error().code, Errc::NotFound);
 }
 
-TEST_F(UploadTest, TooBigAPieceIsRefused) {
+TEST_P(UploadTest, TooBigAPieceIsRefused) {
   const std::vector<std::byte> huge((16 << 20) + 1);
   EXPECT_EQ(store_->uploads.append(begin("p.nc"), 0, huge).error().code, Errc::LimitExceeded);
 }
 
-TEST_F(UploadTest, CanBeReadAndGivenAControlBeforeItIsCommitted) {
+TEST_P(UploadTest, CanBeReadAndGivenAControlBeforeItIsCommitted) {
   const std::string text = nc_text(300'000);
   const std::string id = begin("p.nc");
   ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text)));
@@ -144,7 +142,7 @@ TEST_F(UploadTest, CanBeReadAndGivenAControlBeforeItIsCommitted) {
   EXPECT_EQ(store_->uploads.commit(id, std::nullopt)->control, "tnc155");
 }
 
-TEST_F(UploadTest, AbandonedOneLeavesNoChunkButThoseOthersHold) {
+TEST_P(UploadTest, AbandonedOneLeavesNoChunkButThoseOthersHold) {
   const std::string shared = nc_text(262'144, 1);
   const auto kept = push("kept.nc", shared);
   const std::string id = begin("p.nc");
@@ -157,7 +155,7 @@ TEST_F(UploadTest, AbandonedOneLeavesNoChunkButThoseOthersHold) {
   EXPECT_EQ(store_->uploads.append(id, 0, bytes_of("a")).error().code, Errc::NotFound);
 }
 
-TEST_F(UploadTest, ForgottenOnesAreDroppedByTheirLastPiece) {
+TEST_P(UploadTest, ForgottenOnesAreDroppedByTheirLastPiece) {
   using std::chrono::hours;
   const std::string forgotten = begin("a.nc");
   ASSERT_TRUE(store_->uploads.append(forgotten, 0, bytes_of("G0 X1\n")));
@@ -172,12 +170,14 @@ TEST_F(UploadTest, ForgottenOnesAreDroppedByTheirLastPiece) {
   EXPECT_EQ(query("SELECT count(*) FROM chunk"), 1);
 }
 
-TEST_F(UploadTest, RepeatedBytesAreStoredOnce) {
+TEST_P(UploadTest, RepeatedBytesAreStoredOnce) {
   const auto revision = push("nul.nc", std::string(8 << 20, '\0'), 4 << 20);
   ASSERT_TRUE(revision);
   EXPECT_EQ(query("SELECT count(*) FROM chunk"), 1);
   EXPECT_EQ(pull(revision->content), std::string(8 << 20, '\0'));
 }
+
+ON_BOTH_ENGINES(UploadTest);
 
 }  // namespace
 }  // namespace dripline::storage

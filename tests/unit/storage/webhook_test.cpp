@@ -6,7 +6,7 @@ namespace dripline::storage {
 namespace {
 
 /// Events come to be in the transaction of the change.
-class WebhookEvents : public StoreTest {
+class WebhookEvents : public ContractTest {
  protected:
   Webhook add(const std::string& name, std::vector<std::string> kinds = {}) {
     Webhook webhook;
@@ -30,14 +30,14 @@ class WebhookEvents : public StoreTest {
   }
 };
 
-TEST_F(WebhookEvents, AreNoneWithoutAWebhook) {
+TEST_P(WebhookEvents, AreNoneWithoutAWebhook) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   EXPECT_TRUE(events().empty());
   EXPECT_EQ(add("erp").delivered, 0u);
   EXPECT_TRUE(events().empty()) << "it gets what happens from now on";
 }
 
-TEST_F(WebhookEvents, AreWrittenByEveryKindOfChange) {
+TEST_P(WebhookEvents, AreWrittenByEveryKindOfChange) {
   add("erp");
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   auto batch = make_batch(1, 2);
@@ -68,7 +68,7 @@ TEST_F(WebhookEvents, AreWrittenByEveryKindOfChange) {
   EXPECT_EQ(events().size(), all.size());
 }
 
-TEST_F(WebhookEvents, OfAJobCountItsParts) {
+TEST_P(WebhookEvents, OfAJobCountItsParts) {
   add("erp", {"job"});
   auto run = make_run("r1");
   Job job;
@@ -86,7 +86,7 @@ TEST_F(WebhookEvents, OfAJobCountItsParts) {
 }
 
 /// A job that counts good parts is done when the last of them is known: after its run.
-TEST_F(WebhookEvents, OfAJobThatCountsGoodPartsWaitForTheVerdict) {
+TEST_P(WebhookEvents, OfAJobThatCountsGoodPartsWaitForTheVerdict) {
   ASSERT_TRUE(store_->report_templates.push(
       {.name = "bore", .version = 0, .text = "x", .author = "anna", .created = clock_.now()},
       "anna"));
@@ -135,7 +135,7 @@ TEST_F(WebhookEvents, OfAJobThatCountsGoodPartsWaitForTheVerdict) {
   EXPECT_EQ(changes(), "progress done done ") << "a part that is over at once";
 }
 
-TEST_F(WebhookEvents, OfAPartComeAtItsVerdictOrItsEnd) {
+TEST_P(WebhookEvents, OfAPartComeAtItsVerdictOrItsEnd) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   ASSERT_TRUE(store_->report_templates.push(
       {.name = "bore", .version = 0, .text = "x", .author = "anna", .created = clock_.now()},
@@ -175,7 +175,7 @@ TEST_F(WebhookEvents, OfAPartComeAtItsVerdictOrItsEnd) {
   EXPECT_NE(events().at(0).data.find(R"("serial":"S7","verdict":"rework")"), std::string::npos);
 }
 
-TEST_F(WebhookEvents, OfRevisionsAndImportsFollowTheirStates) {
+TEST_P(WebhookEvents, OfRevisionsAndImportsFollowTheirStates) {
   add("erp");
   Upload upload;
   upload.program = "p.nc";
@@ -190,7 +190,7 @@ TEST_F(WebhookEvents, OfRevisionsAndImportsFollowTheirStates) {
   EXPECT_NE(events().at(2).data.find(R"("state":"accepted")"), std::string::npos);
 }
 
-TEST_F(WebhookEvents, AreKeptUntilEveryWebhookHasThem) {
+TEST_P(WebhookEvents, AreKeptUntilEveryWebhookHasThem) {
   const auto one = add("one"), two = add("two", {"run"});
   make_run("r1");
   ASSERT_TRUE(push("q.nc", "G0\n"));
@@ -209,7 +209,7 @@ TEST_F(WebhookEvents, AreKeptUntilEveryWebhookHasThem) {
   EXPECT_EQ(add("three").delivered, all.back().id) << "numbers are never used twice";
 }
 
-TEST_F(WebhookEvents, OfAFailingWebhookSayHowItFails) {
+TEST_P(WebhookEvents, OfAFailingWebhookSayHowItFails) {
   const auto hook = add("erp");
   const UtcTime since = clock_.now();
   ASSERT_TRUE(store_->webhooks.set_failing(hook.id, "status 500", clock_.now()));
@@ -225,19 +225,19 @@ TEST_F(WebhookEvents, OfAFailingWebhookSayHowItFails) {
   EXPECT_FALSE(found->failing_since);
 }
 
-TEST_F(WebhookEvents, AreBoundedAndWhatWasDroppedIsCounted) {
+TEST_P(WebhookEvents, AreBoundedAndWhatWasDroppedIsCounted) {
   add("erp");
   make_run("r1");
   damage(
-      "UPDATE event SET id = 150000; UPDATE sqlite_sequence SET seq = 150000 WHERE name = "
-      "'event'; INSERT INTO event (id, time_us, kind, data) VALUES (7, 1, 'run', '{}')");
+      "UPDATE event SET id = 150000; INSERT INTO event (id, time_us, kind, data) VALUES (7, 1, "
+      "'run', '{}')");
   ASSERT_TRUE(store_->webhooks.trim());
   EXPECT_EQ(events().size(), 1u);
   EXPECT_EQ(store_->webhooks.find("erp")->lost, 1u);
   EXPECT_EQ(store_->webhooks.find("erp")->delivered, 150000u - WebhookStore::kMaxEvents);
 }
 
-TEST_F(WebhookEvents, WebhooksHaveNamesOfTheirOwnAndALimit) {
+TEST_P(WebhookEvents, WebhooksHaveNamesOfTheirOwnAndALimit) {
   add("erp");
   Webhook again;
   again.name = "erp";
@@ -248,6 +248,8 @@ TEST_F(WebhookEvents, WebhooksHaveNamesOfTheirOwnAndALimit) {
   EXPECT_EQ(store_->webhooks.list()->front().name, "erp");
   EXPECT_EQ(store_->webhooks.remove("none", "admin", clock_.now()).error().code, Errc::NotFound);
 }
+
+ON_BOTH_ENGINES(WebhookEvents);
 
 }  // namespace
 }  // namespace dripline::storage

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "storage/impl/connection_pool.hpp"
+#include "storage/impl/connections.hpp"
+#include "storage/postgresql/database.hpp"
+#include "storage/postgresql_store.hpp"
+
+namespace dripline::storage {
+
+/// One connection that writes and some that read; a lost one is opened again by whoever needs it.
+/// The database has one holder (schema, store_holder): every transaction that writes locks the
+/// holder's row and looks who it is, so a server that lost its place stores nothing any more.
+/// Thread-safe.
+class PostgresqlConnections final : public Connections {
+ public:
+  /// Creates or migrates the schema, and takes the holder's place. Errors: see
+  /// PostgresqlStore::open.
+  static Result<std::unique_ptr<PostgresqlConnections>> open(const PostgresqlStoreOptions& options);
+  /// Gives the place back.
+  ~PostgresqlConnections() override;
+
+  const std::string& label() const { return label_; }
+  /// Extends the place, in a transaction that is on disk when it returns.
+  Result<void> renew();
+
+ private:
+  using Database = postgresql::Database;
+  using Slot = std::optional<Database>;  ///< nullopt: to be opened
+
+  explicit PostgresqlConnections(const PostgresqlStoreOptions& options);
+  Result<void> write_with(const Work& work, Durability durability) override;
+  Result<void> read_with(const Work& work) override;
+  Result<void> take_place(Database& database);
+  Result<bool> try_place(Database& database, std::string& other);
+  Result<void> begin_write(Database& database, Durability durability);
+  /// Opens it when it is not. Errors: Io, after trying for a moment.
+  Result<void> connect(Slot& slot);
+  void keep_place(const std::stop_token& stop);
+
+  const PostgresqlStoreOptions options_;
+  std::string label_;
+  std::string holder_;
+  ConnectionPool<Slot> writer_;
+  ConnectionPool<Slot> readers_;
+  std::jthread keeper_;  // last: it uses the others
+};
+
+}  // namespace dripline::storage

@@ -1,0 +1,150 @@
+#include "storage/postgresql/link.hpp"
+
+#include <libpq-fe.h>
+#include <charconv>
+#include <optional>
+
+#include "storage/postgresql/errors.hpp"
+#include "storage/postgresql/sql_text.hpp"
+
+namespace dripline::storage::postgresql {
+namespace {
+
+/// Answers that nobody reads fill the server's buffer, and then it reads no more either: far less
+/// than that is under way.
+constexpr std::size_t kUnderWay = 256;
+
+std::uint64_t changes_in(pg_result* result) {
+  const std::string_view digits = PQcmdTuples(result);
+  std::uint64_t changes = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), changes);
+  return changes;
+}
+
+bool is_error(pg_result* result) {
+  const auto status = PQresultStatus(result);
+  return status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK && status != PGRES_EMPTY_QUERY;
+}
+
+}  // namespace
+
+void ResultDeleter::operator()(pg_result* result) const {
+  PQclear(result);
+}
+
+Link::Link(pg_conn* connection) : connection_(connection) {}
+
+Link::~Link() {
+  PQfinish(connection_);
+}
+
+bool Link::is_alive() const {
+  return !has_failed_ && PQstatus(connection_) == CONNECTION_OK;
+}
+
+Error Link::refused(pg_result* result) {
+  last_state_ = state_of(result);
+  return error_of(connection_, result, sent_.empty() ? "" : sent_.front());
+}
+
+void Link::begin_pipeline() {
+  collect_left();
+  if (PQpipelineStatus(connection_) == PQ_PIPELINE_OFF) PQenterPipelineMode(connection_);
+}
+
+void Link::note_sent(int is_sent, std::string_view sql) {
+  if (is_sent == 0) has_failed_ = true;
+  sent_.push_back(sql);
+}
+
+void Link::send(const char* sql) {
+  begin_pipeline();
+  note_sent(PQsendQueryParams(connection_, sql, 0, nullptr, nullptr, nullptr, nullptr, 1), sql);
+}
+
+void Link::send(const std::string& sql, const Parameters& parameters) {
+  begin_pipeline();
+  std::string key = sql + parameters.kinds();
+  auto known = prepared_.find(key);
+  if (known == prepared_.end()) {
+    known = prepared_.emplace(key, fmt::format("s{}", ++names_)).first;
+    fresh_.push_back(std::move(key));
+    const std::string_view text = std::string_view(known->first).substr(0, sql.size());
+    const auto types = parameters.types();
+    note_sent(PQsendPrepare(connection_, known->second.c_str(), spelled(sql).c_str(),
+                            parameters.count(), types.data()),
+              text);
+  }
+  const auto arrays = parameters.arrays();
+  note_sent(
+      PQsendQueryPrepared(connection_, known->second.c_str(), parameters.count(),
+                          arrays.values.data(), arrays.lengths.data(), arrays.formats.data(), 1),
+      std::string_view(known->first).substr(0, sql.size()));
+}
+
+Result<ResultPointer> Link::answer() {
+  if (!has_left_ && (has_failed_ || PQpipelineSync(connection_) == 0)) {
+    has_failed_ = true;
+    return fail(refused(nullptr));
+  }
+  has_left_ = false;
+  ResultPointer last;
+  std::optional<Error> error;
+  while (!sent_.empty()) {
+    ResultPointer result(PQgetResult(connection_));
+    if (result == nullptr || PQstatus(connection_) != CONNECTION_OK) {
+      if (!error) error = refused(nullptr);
+      has_failed_ = true;
+      return fail(*error);
+    }
+    // What follows an error up to the Sync is passed over, each with a result of its own.
+    if (!error && is_error(result.get())) error = refused(result.get());
+    sent_.pop_front();
+    PQgetResult(connection_);  // null: the end of this answer
+    last = std::move(result);
+  }
+  const ResultPointer sync(PQgetResult(connection_));
+  if (sync == nullptr || PQresultStatus(sync.get()) != PGRES_PIPELINE_SYNC) has_failed_ = true;
+  if (error) {
+    for (const auto& key : fresh_) prepared_.erase(key);
+    fresh_.clear();
+    return fail(*error);
+  }
+  fresh_.clear();
+  changes_ = last == nullptr ? 0 : changes_in(last.get());
+  return last;
+}
+
+void Link::leave() {
+  if (sent_.empty() || has_left_) return;
+  if (has_failed_ || PQpipelineSync(connection_) == 0) has_failed_ = true;
+  has_left_ = true;
+}
+
+void Link::collect_left() {
+  if (has_left_ && !has_failed_) static_cast<void>(answer());  // see `leave`
+}
+
+Result<void> Link::leave_some() {
+  if (sent_.size() < kUnderWay) return {};
+  if (auto answered = answer(); !answered) return fail(answered.error());
+  return {};
+}
+
+Result<ResultPointer> Link::execute(const std::string& sql) {
+  if (!sent_.empty()) {
+    auto answered = answer();
+    if (!answered && !has_failed_) return fail(answered.error());
+  }
+  if (PQpipelineStatus(connection_) != PQ_PIPELINE_OFF) PQexitPipelineMode(connection_);
+  ResultPointer result(PQexec(connection_, sql.c_str()));
+  if (result != nullptr && !is_error(result.get())) {
+    changes_ = changes_in(result.get());
+    return result;
+  }
+  last_state_ = state_of(result.get());
+  if (last_state_.empty()) has_failed_ = true;
+  return fail(error_of(connection_, result.get(), sql));
+}
+
+}  // namespace dripline::storage::postgresql

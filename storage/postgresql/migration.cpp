@@ -1,0 +1,62 @@
+#include "storage/postgresql/migration.hpp"
+
+#include "protocol/base/invariant.hpp"
+#include "storage/sql/query.hpp"
+
+namespace dripline::storage::postgresql {
+namespace {
+
+/// 0: it has no tables.
+Result<std::int64_t> version_of(Database& database, std::uint64_t newest) {
+  const auto has_version = database.integer(
+      "SELECT count(*) FROM information_schema.tables WHERE table_schema = current_schema() AND "
+      "table_name = 'schema_version'");
+  if (!has_version) return has_version;
+  if (*has_version > 0) {
+    const auto version = database.integer("SELECT version FROM schema_version");
+    if (!version) return version;
+    if (*version >= 1 && static_cast<std::uint64_t>(*version) <= newest) return version;
+    return fail(Errc::Unsupported,
+                "database {} has schema version {}, this program knows versions up to {}: use a "
+                "newer program",
+                database.label(), *version, newest);
+  }
+  const auto tables = database.integer(
+      "SELECT count(*) FROM information_schema.tables WHERE table_schema = current_schema()");
+  if (!tables || *tables == 0) return tables;
+  return fail(Errc::Unsupported, "database {} holds tables but no schema version: not ours",
+              database.label());
+}
+
+Result<void> apply(Database& database, std::span<const Migration> migrations) {
+  const auto version = version_of(database, migrations.size());
+  if (!version) return fail(version.error());
+  if (*version == static_cast<std::int64_t>(migrations.size())) return {};
+  if (*version == 0) {
+    auto made = database.execute(
+        "CREATE TABLE schema_version (version bigint NOT NULL); INSERT INTO schema_version VALUES "
+        "(0)");
+    if (!made) return made;
+  }
+  for (std::size_t i = 0; i < migrations.size(); ++i) {
+    invariant(migrations[i].version == i + 1, "migrations are numbered without gaps");
+    if (static_cast<std::int64_t>(migrations[i].version) <= *version) continue;
+    if (auto done = database.execute(std::string(migrations[i].sql)); !done) {
+      return fail(done.error().code, "migration {} of {}: {}", migrations[i].name, database.label(),
+                  done.error().what);
+    }
+  }
+  return sql::run(database, "UPDATE schema_version SET version = ?1", migrations.size());
+}
+
+}  // namespace
+
+Result<void> migrate(Database& database, std::span<const Migration> migrations) {
+  if (auto begun = database.begin(); !begun) return begun;
+  auto done = apply(database, migrations);
+  if (done) done = database.commit();
+  if (!done) database.roll_back();
+  return done;
+}
+
+}  // namespace dripline::storage::postgresql

@@ -1,0 +1,53 @@
+#include "storage/postgresql_store.hpp"
+
+#include "storage/impl/all_repositories.hpp"
+#include "storage/impl/postgresql_connections.hpp"
+
+namespace dripline::storage {
+
+struct PostgresqlStore::Parts {
+  Parts(std::unique_ptr<PostgresqlConnections> opened, const Clock& clock,
+        std::uint64_t cache_bytes)
+      : connections(std::move(opened)), repositories(*connections, clock, cache_bytes) {}
+
+  std::unique_ptr<PostgresqlConnections> connections;
+  Repositories repositories;
+};
+
+Result<std::unique_ptr<PostgresqlStore>> PostgresqlStore::open(
+    const PostgresqlStoreOptions& options, const Clock& clock) {
+  auto connections = PostgresqlConnections::open(options);
+  if (!connections) return fail(connections.error());
+  return std::unique_ptr<PostgresqlStore>(new PostgresqlStore(
+      std::make_unique<Parts>(std::move(*connections), clock, options.cache_bytes)));
+}
+
+PostgresqlStore::PostgresqlStore(std::unique_ptr<Parts> parts)
+    : OpenedStore(parts->repositories.store()), parts_(std::move(parts)) {}
+PostgresqlStore::~PostgresqlStore() = default;
+
+Result<bool> PostgresqlStore::check(std::chrono::milliseconds, const std::stop_token&) {
+  if (const auto known = identity(); !known) return fail(known.error());
+  return true;
+}
+
+Result<void> PostgresqlStore::probe() {
+  if (auto written = parts_->connections->renew(); !written) return written;
+  const auto read = identity();
+  return read ? Result<void>() : fail(read.error());
+}
+
+Result<bool> PostgresqlStore::copy_to(const std::filesystem::path&,
+                                      const std::function<bool(std::uint64_t, std::uint64_t)>&) {
+  return fail(Errc::Unsupported,
+              "database {}: a PostgreSQL database is backed up by its own tools (pg_basebackup, "
+              "pg_dump)",
+              parts_->connections->label());
+}
+
+Result<std::string> PostgresqlStore::identity() {
+  return parts_->connections->read(
+      [](sql::Database& database) { return database.text("SELECT id FROM identity"); });
+}
+
+}  // namespace dripline::storage

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "protocol/base/clock.hpp"
+#include "storage/opened_store.hpp"
+
+namespace dripline::storage {
+
+struct PostgresqlStoreOptions {
+  std::string url;          ///< postgresql://...; the database must exist
+  std::string holder{};     ///< what only one process at a time calls itself; empty: a random name
+  std::string described{};  ///< which server this is, for whoever is refused
+  std::chrono::milliseconds wait_for_holder{12000};  ///< that another one's place ends, then Busy
+  std::size_t readers = 4;                           ///< connections that read at the same time
+  std::uint64_t cache_bytes = 8 << 20;    ///< of program chunks kept checked and decompressed
+  std::chrono::milliseconds wait{10000};  ///< at most for a connection or a lock, then Errc::Busy
+};
+
+/// The second Store: one PostgreSQL database, 15 or newer. What was stored is durable as PostgreSQL
+/// promises it (synchronous_commit, and with a synchronous standby there too). One server at a time
+/// uses a database, which is said in it (store_holder): who lost the place stores nothing more.
+/// A lost connection is opened again by the next call; what was not at its commit yet is done
+/// again, and so is what another transaction was in the way of. Errors besides those of Store:
+/// Timeout (the connection was lost at the commit, and nobody knows whether it was stored).
+class PostgresqlStore final : public OpenedStore {
+ public:
+  /// Creates or migrates the tables. `clock` must outlive the store. Errors: Syntax (the URL), Io,
+  /// Denied, Busy (another server uses the database), Unsupported (an older PostgreSQL, another
+  /// encoding, a newer version's tables or somebody else's).
+  static Result<std::unique_ptr<PostgresqlStore>> open(const PostgresqlStoreOptions& options,
+                                                       const Clock& clock);
+  ~PostgresqlStore() override;
+
+  using OpenedStore::check;
+  /// PostgreSQL finds damage itself (checksums of its pages, pg_amcheck): here it is only asked for
+  /// its answer. Errors: Io.
+  Result<bool> check(std::chrono::milliseconds limit, const std::stop_token& stop) override;
+  Result<void> probe() override;
+  /// Unsupported: pg_basebackup and pg_dump are PostgreSQL's own.
+  Result<bool> copy_to(const std::filesystem::path& file,
+                       const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) override;
+  Result<std::string> identity() override;
+
+ private:
+  struct Parts;
+  explicit PostgresqlStore(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace dripline::storage

@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "storage/postgresql/database.hpp"
+#include "storage/postgresql/migration.hpp"
+#include "storage/sql/query.hpp"
+#include "tests/support/postgresql/test_database.hpp"
+
+namespace dripline::storage::postgresql {
+namespace {
+
+class PostgresqlDatabase : public testing::Test {
+ protected:
+  void SetUp() override {
+    made_ = test::TestDatabase::make_empty();
+    if (made_ == nullptr) GTEST_SKIP() << "PostgreSQL is not installed";
+    database_ = std::make_unique<Database>(connected());
+  }
+  Database connected() { return std::move(Database::connect({.url = made_->url()}).value()); }
+  void make_table() {
+    const auto made = database_->execute(
+        "CREATE TABLE kept (number bigint PRIMARY KEY, word text, bytes bytea, part double "
+        "precision)");
+    ASSERT_TRUE(made) << made.error().what;
+  }
+  std::int64_t count() { return database_->integer("SELECT count(*) FROM kept").value_or(-1); }
+
+  std::unique_ptr<test::TestDatabase> made_;
+  std::unique_ptr<Database> database_;
+};
+
+TEST_F(PostgresqlDatabase, ValuesComeBackAsTheyWere) {
+  make_table();
+  const std::array bytes{std::byte{0}, std::byte{0xFF}};
+  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min();
+  const auto kept = sql::run(*database_, "INSERT INTO kept VALUES (?1, ?2, ?3, ?4)", kLeast,
+                             std::string("\xFF'"), std::span<const std::byte>(bytes), -0.1);
+  ASSERT_TRUE(kept) << kept.error().what;
+  const auto read = sql::first_row(
+      *database_, "SELECT number, word, bytes, part FROM kept", [&](const sql::Statement& row) {
+        return row.integer(0) == kLeast && row.text(1) == "\xFF'" && row.real(3) == -0.1 &&
+               std::ranges::equal(row.blob(2), bytes);
+      });
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(*read, true);
+}
+
+TEST_F(PostgresqlDatabase, NullIsNothingOfAnyType) {
+  make_table();
+  std::optional<std::string> word;
+  std::optional<double> part;
+  const auto kept =
+      sql::run(*database_, "INSERT INTO kept VALUES (1, ?1, ?2, ?3)", word, std::nullopt, part);
+  ASSERT_TRUE(kept) << kept.error().what;
+  const auto read = sql::first_row(
+      *database_, "SELECT word, bytes, part FROM kept WHERE ?1 IS NULL AND word IS NULL",
+      [](const sql::Statement& row) {
+        return row.is_null(0) && row.is_null(1) && !row.optional_real(2);
+      },
+      word);
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(*read, true);
+}
+
+TEST_F(PostgresqlDatabase, SumsAndClaimsAreNumbers) {
+  EXPECT_EQ(
+      database_->integer("SELECT sum(n) FROM (VALUES (1234567890123456789::bigint), (1)) AS v (n)"),
+      1234567890123456790);
+  EXPECT_EQ(database_->integer("SELECT sum(n) FROM (VALUES (-20000::bigint), (-3)) AS v (n)"),
+            -20003);
+  EXPECT_EQ(database_->integer("SELECT 100000000::numeric"), 100000000);
+  EXPECT_EQ(database_->integer("SELECT 0::numeric"), 0);
+  EXPECT_EQ(database_->integer("SELECT 2 > 1"), 1);
+  EXPECT_EQ(database_->integer("SELECT CAST(-3 AS integer)"), -3);
+}
+
+TEST_F(PostgresqlDatabase, NothingOfATransactionStaysUnlessItIsCommitted) {
+  make_table();
+  ASSERT_TRUE(database_->begin());
+  ASSERT_TRUE(sql::run(*database_, "INSERT INTO kept (number) VALUES (?1)", 1));
+  database_->roll_back();
+  EXPECT_EQ(count(), 0);
+  ASSERT_TRUE(database_->begin());
+  ASSERT_TRUE(sql::run(*database_, "INSERT INTO kept (number) VALUES (?1)", 1));
+  ASSERT_TRUE(database_->commit());
+  EXPECT_EQ(count(), 1);
+}
+
+/// Far more than may be under way at once.
+TEST_F(PostgresqlDatabase, WhatIsPostedIsThereAfterTheCommit) {
+  make_table();
+  ASSERT_TRUE(database_->begin());
+  {
+    auto add = database_->prepare("INSERT INTO kept (number, word) VALUES (?1, ?2)");
+    for (int n = 0; n < 5000; ++n) ASSERT_TRUE(add->bind(n, "a word").post());
+  }
+  ASSERT_TRUE(database_->commit());
+  EXPECT_EQ(count(), 5000);
+}
+
+TEST_F(PostgresqlDatabase, AnErrorOfWhatIsPostedKeepsAllFromTheDisk) {
+  make_table();
+  ASSERT_TRUE(database_->begin());
+  {
+    auto add = database_->prepare("INSERT INTO kept (number) VALUES (?1)");
+    for (const int n : {1, 2, 1, 3}) ASSERT_TRUE(add->bind(n).post());
+  }
+  const auto refused = database_->commit();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Conflict);
+  EXPECT_NE(refused.error().what.find("23505"), std::string::npos) << refused.error().what;
+  EXPECT_NE(refused.error().what.find("INSERT INTO kept"), std::string::npos);
+  database_->roll_back();
+  EXPECT_EQ(count(), 0);
+}
+
+TEST_F(PostgresqlDatabase, AFailedStatementIsPreparedAgain) {
+  const std::string sql = "SELECT count(*) FROM later WHERE number = ?1";
+  const auto ask = [&] {
+    return sql::first_row(
+        *database_, sql, [](const sql::Statement& row) { return row.integer(0); }, 1);
+  };
+  EXPECT_FALSE(ask());
+  ASSERT_TRUE(database_->execute("CREATE TABLE later (number bigint)"));
+  const auto found = ask();
+  ASSERT_TRUE(found) << found.error().what;
+  EXPECT_EQ(*found, 0);
+}
+
+TEST_F(PostgresqlDatabase, ASnapshotIsOnePicture) {
+  make_table();
+  Database other = connected();
+  database_->begin_snapshot();
+  EXPECT_EQ(count(), 0);
+  ASSERT_TRUE(sql::run(other, "INSERT INTO kept (number) VALUES (1)"));
+  EXPECT_EQ(count(), 0);
+  database_->end_snapshot();
+  EXPECT_EQ(count(), 1);
+}
+
+TEST_F(PostgresqlDatabase, ALostConnectionSaysSo) {
+  Database other = connected();
+  ASSERT_TRUE(database_->is_alive());
+  ASSERT_TRUE(
+      other.execute("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = "
+                    "current_database() AND pid <> pg_backend_pid()"));
+  const auto lost = database_->integer("SELECT 1");
+  ASSERT_FALSE(lost);
+  EXPECT_EQ(lost.error().code, Errc::Io);
+  EXPECT_FALSE(database_->is_alive());
+}
+
+TEST_F(PostgresqlDatabase, TheSchemaIsMadeOnceAndForeignTablesAreRefused) {
+  const auto made = migrate(*database_, schema());
+  ASSERT_TRUE(made) << made.error().what;
+  const auto identity = database_->text("SELECT id FROM identity");
+  EXPECT_EQ(identity->size(), 32u);
+  ASSERT_TRUE(migrate(*database_, schema()));
+  EXPECT_EQ(database_->text("SELECT id FROM identity"), *identity);
+  ASSERT_TRUE(database_->execute("UPDATE schema_version SET version = 1000"));
+  EXPECT_EQ(migrate(*database_, schema()).error().code, Errc::Unsupported);
+  ASSERT_TRUE(database_->execute("DROP TABLE schema_version"));
+  const auto foreign = migrate(*database_, schema());
+  EXPECT_EQ(foreign.error().code, Errc::Unsupported);
+  EXPECT_NE(foreign.error().what.find("not ours"), std::string::npos) << foreign.error().what;
+}
+
+TEST(PostgresqlConnection, IsRefusedWithoutRepeatingAPassword) {
+  const auto nobody = Database::connect({.url = "postgresql://anna:secret@127.0.0.1:1/shop"});
+  ASSERT_FALSE(nobody);
+  EXPECT_EQ(nobody.error().code, Errc::Io);
+  EXPECT_NE(nobody.error().what.find("127.0.0.1:1/shop"), std::string::npos) << nobody.error().what;
+  EXPECT_EQ(nobody.error().what.find("secret"), std::string::npos) << nobody.error().what;
+  const auto unreadable = Database::connect({.url = "postgresql://anna:secret@host:port:1/x"});
+  ASSERT_FALSE(unreadable);
+  EXPECT_EQ(unreadable.error().what.find("secret"), std::string::npos) << unreadable.error().what;
+}
+
+}  // namespace
+}  // namespace dripline::storage::postgresql

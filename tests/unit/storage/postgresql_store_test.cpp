@@ -1,0 +1,143 @@
+// What only the store in PostgreSQL has: its one holder, lost connections, transactions that are
+// begun again.
+#include "storage/postgresql/database.hpp"
+#include "tests/unit/storage/store_fixture.hpp"
+
+namespace dripline::storage {
+namespace {
+
+class PostgresqlStoreTest : public StoreTest {
+ protected:
+  PostgresqlStoreTest() : StoreTest(sql::Engine::Postgresql) {}
+
+  Result<std::unique_ptr<PostgresqlStore>> open_another(const std::string& holder = "") {
+    return PostgresqlStore::open({.url = database_->url(),
+                                  .holder = holder,
+                                  .described = "dncd 7 on srv-2",
+                                  .wait_for_holder = std::chrono::milliseconds(0)},
+                                 clock_);
+  }
+  void lose_connections() {
+    change(
+        "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = "
+        "current_database() AND pid <> pg_backend_pid()");
+  }
+};
+
+TEST_F(PostgresqlStoreTest, OneServerUsesADatabase) {
+  const auto second = open_another();
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::Busy);
+  store_.reset();
+  const auto third = open_another();
+  ASSERT_TRUE(third) << third.error().what;
+  const auto fourth = open_another();
+  ASSERT_FALSE(fourth);
+  EXPECT_NE(fourth.error().what.find("dncd 7 on srv-2"), std::string::npos) << fourth.error().what;
+}
+
+TEST_F(PostgresqlStoreTest, APlaceThatIsNotRenewedEnds) {
+  change("UPDATE store_holder SET until = now() - interval '1 second'");
+  const auto second = open_another();
+  EXPECT_TRUE(second) << second.error().what;
+}
+
+TEST_F(PostgresqlStoreTest, TheSameServerHasItsPlaceAgainAtOnce) {
+  store_.reset();
+  auto first = open_another("srv-2");
+  ASSERT_TRUE(first) << first.error().what;
+  const auto again = open_another("srv-2");  // the first is as one that was killed
+  EXPECT_TRUE(again) << again.error().what;
+}
+
+/// A server that was frozen and wakes up after another has taken its place.
+TEST_F(PostgresqlStoreTest, WhoLostThePlaceStoresNothing) {
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
+  change("UPDATE store_holder SET until = now() - interval '1 second'");
+  const auto second = open_another();
+  ASSERT_TRUE(second) << second.error().what;
+  const auto refused = store_->records.store(make_batch(1, 3));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Io);
+  EXPECT_NE(refused.error().what.find("taken over"), std::string::npos) << refused.error().what;
+  EXPECT_FALSE(store_->probe()) << "and the server's health says so";
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 0);
+  EXPECT_EQ((*second)->records.store(make_batch(1, 3)), 3u);
+}
+
+TEST_F(PostgresqlStoreTest, ALostConnectionIsOpenedAgain) {
+  const Run run = make_run("r1");
+  ASSERT_TRUE(store_->runs.create(run));
+  lose_connections();
+  EXPECT_TRUE(store_->runs.find("r1"));
+  EXPECT_EQ(store_->records.store(make_batch(1, 300)), 300u);
+  lose_connections();
+  EXPECT_EQ(store_->records.store(make_batch(301, 600)), 600u);
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 600);
+}
+
+/// A sequence is not undone, so the trigger fails only the first `times` transactions.
+std::string failing_first(int times, const char* state) {
+  return fmt::format(
+      "CREATE SEQUENCE tries; CREATE FUNCTION fail_first() RETURNS trigger LANGUAGE plpgsql AS $$ "
+      "BEGIN IF NEW.number = 3 AND nextval('tries') <= {} THEN RAISE EXCEPTION 'in the way' USING "
+      "ERRCODE = '{}'; END IF; RETURN NEW; END $$; "
+      "CREATE TRIGGER fail_first BEFORE INSERT ON record FOR EACH ROW EXECUTE FUNCTION "
+      "fail_first()",
+      times, state);
+}
+
+TEST_F(PostgresqlStoreTest, ATransactionThatWasInTheWayIsBegunAgain) {
+  for (const char* state : {"40001", "40P01"}) {
+    make_run("r1");
+    damage(failing_first(3, state));
+    const auto stored = store_->records.store_all({make_batch(1, 5)});
+    ASSERT_EQ(stored.size(), 1u) << "and nothing of the tries before is left";
+    EXPECT_EQ(stored.front(), 5u);
+    EXPECT_EQ(query("SELECT last_value FROM tries"), 4);
+    damage(
+        "DELETE FROM record; DELETE FROM record_epoch; DROP FUNCTION fail_first() CASCADE; DROP "
+        "SEQUENCE tries");
+  }
+}
+
+TEST_F(PostgresqlStoreTest, AnotherErrorIsNotTriedAgain) {
+  make_run("r1");
+  damage(failing_first(1, "53100"));
+  const auto refused = store_->records.store(make_batch(1, 5));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Io);
+  EXPECT_EQ(refused.error().what.rfind("disk full", 0), 0u) << refused.error().what;
+  EXPECT_EQ(query("SELECT last_value FROM tries"), 1);
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 0);
+}
+
+TEST_F(PostgresqlStoreTest, AnyBytesOfATextGiveTheSameDigestInTheAuditTrail) {
+  for (const std::string& text :
+       {std::string("R\xF6hm"), std::string("a\0b", 3), std::string("\uF7F6"), std::string("ok")}) {
+    std::string digits;
+    for (const char c : text) digits += fmt::format("{:02X}", static_cast<unsigned char>(c));
+    auto database = postgresql::Database::connect({.url = database_->url()});
+    auto statement = database->prepare("SELECT hex(?1)");
+    ASSERT_TRUE(statement->bind(text).step().value());
+    EXPECT_EQ(statement->text(0), digits);
+  }
+}
+
+TEST_F(PostgresqlStoreTest, HasBackupsOfItsOwn) {
+  const auto refused = store_->copy_to(directory_ / "copy", [](auto, auto) { return true; });
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Unsupported);
+  EXPECT_NE(refused.error().what.find("pg_basebackup"), std::string::npos) << refused.error().what;
+}
+
+TEST_F(PostgresqlStoreTest, IsProbedAndChecked) {
+  EXPECT_TRUE(store_->probe());
+  EXPECT_EQ(store_->check(), true);
+  const auto identity = store_->identity();
+  reopen();
+  EXPECT_EQ(store_->identity(), *identity);
+}
+
+}  // namespace
+}  // namespace dripline::storage
