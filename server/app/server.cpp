@@ -4,6 +4,7 @@
 
 #include "protocol/process/log.hpp"
 #include "server/app/impl/server_parts.hpp"
+#include "server/app/open_store.hpp"
 
 namespace dripline::app {
 namespace {
@@ -72,24 +73,20 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   warn_of_authors(*policy, settings.folders);
   auto folder = StateFolder::open(settings.state);
   if (!folder) return fail(folder.error());
-  if (auto is_there = folder->expect_database(settings.begin_empty); !is_there)
-    return fail(is_there.error());
   if (!settings.archives.empty()) {
     std::error_code ec;
     std::filesystem::create_directories(settings.archives, ec);
     if (!std::filesystem::is_directory(settings.archives, ec))
       return fail(Errc::Io, "archives: {} is no folder and cannot be made", settings.archives);
   }
-  auto store = storage::SqliteStore::open({.file = folder->database()}, clock);
-  if (!store) return fail(store.error());
-  const auto identity = (*store)->identity();
-  if (!identity) return fail(identity.error());
-  if (auto known = folder->remember_database(*identity); !known) return fail(known.error());
-  const auto is_checked = (*store)->check(kCheckBeforeStart);
+  auto kept = open_store(*folder, settings, clock);
+  if (!kept) return fail(kept.error());
+  const std::string identity = kept->identity;
+  const auto is_checked = kept->store->check(kCheckBeforeStart);
   if (!is_checked) return fail(is_checked.error());
   const auto token = folder->token();
   if (!token) return fail(token.error());
-  const auto users = (*store)->accounts.load();
+  const auto users = kept->store->accounts.load();
   if (!users) return fail(users.error());
   const auto seed = folder->signing_seed();
   if (!seed) return fail(seed.error());
@@ -101,9 +98,9 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
     if (!opened) return fail(opened.error());
     backups = *std::move(opened);
   }
-  const Loaded loaded{*users, *policy, *key, *identity};
+  const Loaded loaded{*users, *policy, *key, identity};
   std::unique_ptr<Server> server(new Server(std::make_unique<ServerParts>(
-      *folder, *std::move(store), std::move(backups), settings, clock, loaded, *network)));
+      *folder, *std::move(kept), std::move(backups), settings, clock, loaded, *network)));
   ServerParts& parts = *server->parts_;
   if (auto used = parts.accounts.use_local_secret(*token, settings.recover_admin); !used)
     return fail(used.error());

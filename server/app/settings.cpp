@@ -143,6 +143,10 @@ constexpr std::uint64_t kMaxConnections = 800;  ///< DDS waits with select(): be
 constexpr std::array kRows{
     Row{"state", "DIR", "", "", "Folder of the database, the token and dncd.json",
         text_value<&Settings::state>()},
+    Row{"store", "URL", "", "a SQLite file in the state folder",
+        "PostgreSQL database that everything is kept in: postgresql://HOST:PORT/NAME; its password "
+        "belongs in ~/.pgpass",
+        text_value<&Settings::store>()},
     Row{"http", "HOST:PORT", "", "", "Address of the REST API; port 0 takes a free one",
         text_value<&Settings::http>()},
     Row{"tls-certificate", "FILE", "", "",

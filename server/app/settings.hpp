@@ -16,6 +16,7 @@ namespace dripline::app {
 /// settings.cpp, from which command line, configuration file and help are made.
 struct Settings {
   std::string state;  ///< default: default_state_folder (protocol/base/private_folder.hpp)
+  std::string store;  ///< postgresql://...; empty: a SQLite file in `state`
   std::string http = "127.0.0.1:8430";
   std::string tls_certificate, tls_key;
   std::string tls_client_ca, tls_client_revoked;  ///< files; empty: none

@@ -107,7 +107,16 @@ Result<void> StateFolder::expect_database(bool begin_empty) const {
               database().string(), size == 0 ? "empty" : "missing");
 }
 
-Result<void> StateFolder::remember_database(const std::string& identity) const {
+Result<FileLock> StateFolder::lock() const {
+  return FileLock::acquire(path_ / "server.lock", path_.string());
+}
+
+Result<std::string> StateFolder::server_id() const {
+  return secret_in(path_ / kServer, "");
+}
+
+Result<void> StateFolder::remember_database(const std::string& identity,
+                                            const std::string& name) const {
   std::error_code ec;
   if (!std::filesystem::exists(identity_file(), ec))
     return replace_private_file(identity_file(), identity + "\n");
@@ -118,7 +127,7 @@ Result<void> StateFolder::remember_database(const std::string& identity) const {
   return fail(Errc::Corrupt,
               "{} is not the database this folder has had ({}, expected {}): put the right one "
               "back, or remove {} to continue with this one",
-              database().string(), identity, known, identity_file().string());
+              name, identity, known, identity_file().string());
 }
 
 Result<void> StateFolder::announce(const Announcement& announcement) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/base/descriptor.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::app {
@@ -29,8 +30,14 @@ class StateFolder {
   /// is known to be lost, and a new one is wanted. Errors: Corrupt (missing or empty), Busy
   /// (wanted, but it is there), Io.
   Result<void> expect_database(bool begin_empty) const;
-  /// After it was opened. Errors: Corrupt (it is not the one this folder has had), Io.
-  Result<void> remember_database(const std::string& identity) const;
+  /// After it was opened; `name`: for people. Errors: Corrupt (it is not the one this folder has
+  /// had), Io.
+  Result<void> remember_database(const std::string& identity, const std::string& name) const;
+
+  /// One process uses a database elsewhere with this folder. Errors: Busy, Io.
+  Result<FileLock> lock() const;
+  /// What this folder's server calls itself in a database elsewhere; made like the token.
+  Result<std::string> server_id() const;
 
   struct Announcement {
     std::string url;
@@ -49,6 +56,8 @@ class StateFolder {
   /// What passed over serial lines last.
   std::filesystem::path recordings() const { return path_ / "recordings"; }
   std::filesystem::path token_file() const { return path_ / kToken; }
+  /// The identity of the database that belongs here.
+  std::filesystem::path identity_file() const { return path_ / kIdentity; }
   /// Whoever has it can sign as this server.
   std::filesystem::path signing_file() const { return path_ / kSigningKey; }
   const std::filesystem::path& path() const { return path_; }
@@ -56,10 +65,9 @@ class StateFolder {
  private:
   static constexpr const char* kToken = "token";
   static constexpr const char* kIdentity = "database.id";
+  static constexpr const char* kServer = "server.id";
   static constexpr const char* kSigningKey = "signing.key";
   explicit StateFolder(std::filesystem::path path) : path_(std::move(path)) {}
-  /// The identity of the database that belongs here.
-  std::filesystem::path identity_file() const { return path_ / kIdentity; }
   std::filesystem::path announcement_file() const { return path_ / "dncd.json"; }
 
   std::filesystem::path path_;

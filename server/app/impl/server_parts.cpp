@@ -26,7 +26,7 @@ api::HttpHandlers mtconnect_handlers(mtconnect::Agent& agent) {
 
 }  // namespace
 
-ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
+ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
                          std::optional<backup::BackupFolder> backup_folder,
                          const Settings& settings, const Clock& system_clock, const Loaded& loaded,
                          const DdsNetwork& setup)
@@ -35,7 +35,8 @@ ServerParts::ServerParts(StateFolder state_folder, std::unique_ptr<storage::Sqli
       certificate_expires(https_certificate_expiry(settings)),
       revoked_file(settings.tls_client_revoked),
       folder(std::move(state_folder)),
-      store(std::move(opened)),
+      folder_lock(std::move(opened.folder_lock)),
+      store(std::move(opened.store)),
       health(clock),
       certificates(health, clock),
       audit(store->audit, clock),

@@ -10,6 +10,7 @@
 #include "server/api/api.hpp"
 #include "server/api/http_server.hpp"
 #include "server/app/networks.hpp"
+#include "server/app/open_store.hpp"
 #include "server/app/settings.hpp"
 #include "server/app/state_folder.hpp"
 #include "server/folders/folders.hpp"
@@ -40,7 +41,7 @@
 #include "server/ports/port_service.hpp"
 #include "server/web/page.hpp"
 #include "server/webhooks/webhooks.hpp"
-#include "storage/sqlite_store.hpp"
+#include "storage/opened_store.hpp"
 
 namespace dripline::app {
 
@@ -57,7 +58,7 @@ using FaultWatch = std::function<void(const std::string& name, const std::string
 
 /// In the order of their making; each may use those above it.
 struct ServerParts {
-  ServerParts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
+  ServerParts(StateFolder state_folder, KeptStore opened,
               std::optional<backup::BackupFolder> backup_folder, const Settings& settings,
               const Clock& system_clock, const Loaded& loaded, const DdsNetwork& setup);
 
@@ -109,7 +110,8 @@ struct ServerParts {
   std::optional<UtcTime> certificate_expires;      ///< nullopt: without TLS
   std::string revoked_file;                        ///< of clients' certificates; empty: none
   StateFolder folder;
-  std::unique_ptr<storage::SqliteStore> store;
+  std::optional<FileLock> folder_lock;  ///< of a database elsewhere; let go after the store
+  std::unique_ptr<storage::OpenedStore> store;
   library::Health health;
   library::CertificateWatch certificates;
   library::DialectCatalog catalog;

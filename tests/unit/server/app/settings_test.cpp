@@ -205,17 +205,17 @@ TEST(StateFolder, KnowsItsDatabase) {
   const auto folder = StateFolder::open(place.path() / "state").value();
   EXPECT_TRUE(folder.expect_database(false)) << "a new folder";
   std::ofstream(folder.database()) << "database";
-  EXPECT_TRUE(folder.remember_database("1234"));
+  EXPECT_TRUE(folder.remember_database("1234", "db"));
   EXPECT_TRUE(folder.expect_database(false));
-  EXPECT_TRUE(folder.remember_database("1234"));
-  EXPECT_EQ(folder.remember_database("5678").error().code, Errc::Corrupt);
+  EXPECT_TRUE(folder.remember_database("1234", "db"));
+  EXPECT_EQ(folder.remember_database("5678", "db").error().code, Errc::Corrupt);
   EXPECT_EQ(folder.expect_database(true).error().code, Errc::Busy);
   std::filesystem::remove(folder.database());
   std::ofstream(folder.database().string() + "-wal") << "left over";
   EXPECT_EQ(folder.expect_database(false).error().code, Errc::Corrupt);
   EXPECT_TRUE(folder.expect_database(true));
   EXPECT_FALSE(std::filesystem::exists(folder.database().string() + "-wal"));
-  EXPECT_TRUE(folder.remember_database("5678"));
+  EXPECT_TRUE(folder.remember_database("5678", "db"));
 }
 
 }  // namespace

@@ -1,0 +1,78 @@
+#include "server/app/open_store.hpp"
+
+#include <unistd.h>
+#include <array>
+
+#include "storage/postgresql_store.hpp"
+#include "storage/sqlite_store.hpp"
+
+namespace dripline::app {
+namespace {
+
+bool is_postgresql(const std::string& url) {
+  return url.starts_with("postgresql://") || url.starts_with("postgres://");
+}
+
+/// "dncd 812 on srv-1, /var/lib/dripline".
+std::string description(const StateFolder& folder) {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("dncd {} on {}, {}", ::getpid(), host.data(), folder.path().string());
+}
+
+Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& settings,
+                                  const Clock& clock) {
+  if (!settings.backups.empty()) {
+    return fail(Errc::Unsupported,
+                "backups: {} is a folder for backups of a SQLite file; a PostgreSQL database is "
+                "backed up by its own tools (deploy/docs/operations.md): start without it",
+                settings.backups);
+  }
+  if (settings.begin_empty) {
+    return fail(Errc::Unsupported,
+                "--begin-empty is for a SQLite file: to begin anew in PostgreSQL, make a database, "
+                "name it with --store, and remove {}",
+                folder.identity_file().string());
+  }
+  auto lock = folder.lock();
+  if (!lock) return fail(lock.error());
+  const auto holder = folder.server_id();
+  if (!holder) return fail(holder.error());
+  auto store = storage::PostgresqlStore::open(
+      {.url = settings.store, .holder = *holder, .described = description(folder)}, clock);
+  if (!store) return fail(store.error());
+  return KeptStore{*std::move(lock), *std::move(store), ""};
+}
+
+Result<KeptStore> open_sqlite(const StateFolder& folder, const Settings& settings,
+                              const Clock& clock) {
+  if (auto is_there = folder.expect_database(settings.begin_empty); !is_there)
+    return fail(is_there.error());
+  auto store = storage::SqliteStore::open({.file = folder.database()}, clock);
+  if (!store) return fail(store.error());
+  return KeptStore{std::nullopt, *std::move(store), ""};
+}
+
+}  // namespace
+
+Result<KeptStore> open_store(const StateFolder& folder, const Settings& settings,
+                             const Clock& clock) {
+  if (!settings.store.empty() && !is_postgresql(settings.store)) {
+    // Not repeated: it may hold a password.
+    return fail(Errc::Unsupported,
+                "store: the URL begins with postgresql://, or is empty for a SQLite file in the "
+                "state folder");
+  }
+  auto kept = settings.store.empty() ? open_sqlite(folder, settings, clock)
+                                     : open_postgresql(folder, settings, clock);
+  if (!kept) return kept;
+  auto identity = kept->store->identity();
+  if (!identity) return fail(identity.error());
+  const std::string name =
+      settings.store.empty() ? folder.database().string() : "the one that --store names";
+  if (auto known = folder.remember_database(*identity, name); !known) return fail(known.error());
+  kept->identity = *std::move(identity);
+  return kept;
+}
+
+}  // namespace dripline::app
