@@ -1,10 +1,14 @@
 // The store on a real disk: committed records per second and bytes of programs in and out.
-// The folder is that of TMPDIR: a tmpfs there makes commits look cheaper than they are.
+// The folder is that of TMPDIR: a tmpfs there makes commits look cheaper than they are. With
+// DRIPLINE_BENCH_POSTGRESQL (the URL of an empty database, with fsync on) the same runs in
+// PostgreSQL, for a comparison in one run.
 #include <benchmark/benchmark.h>
 #include <stdlib.h>
 #include <filesystem>
 
 #include "protocol/base/invariant.hpp"
+#include "storage/postgresql/database.hpp"
+#include "storage/postgresql_store.hpp"
 #include "storage/sqlite_store.hpp"
 
 namespace dripline::storage {
@@ -13,17 +17,23 @@ namespace {
 constexpr std::size_t kPiece = 4 << 20;           // as a client sends them
 constexpr std::size_t kProgramBytes = 256 << 20;  // of NC text
 
-/// A store in a folder of its own.
+enum class Engine : std::int64_t { Sqlite, Postgresql };
+
+const char* postgresql_url() {
+  return ::getenv("DRIPLINE_BENCH_POSTGRESQL");  // NOLINT(concurrency-mt-unsafe)
+}
+
+/// A store of its own, in a folder or in the database that is emptied first.
 class Place {
  public:
-  Place() {
+  explicit Place(Engine engine) {
     std::string pattern = (std::filesystem::temp_directory_path() / "dripline-XXXXXX").string();
     folder_ = ::mkdtemp(pattern.data());
-    SqliteStoreOptions options;
-    options.file = folder_ / "bench.sqlite";
-    auto opened = SqliteStore::open(options, clock_);
-    invariant(opened.has_value(), "the store opens");
-    store_ = std::move(*opened);
+    if (engine == Engine::Postgresql) {
+      open_postgresql();
+    } else {
+      open_sqlite();
+    }
   }
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
@@ -31,13 +41,45 @@ class Place {
     store_.reset();
     std::filesystem::remove_all(folder_);
   }
-  SqliteStore& store() { return *store_; }
+  OpenedStore& store() { return *store_; }
 
  private:
+  void open_sqlite() {
+    SqliteStoreOptions options;
+    options.file = folder_ / "bench.sqlite";
+    auto opened = SqliteStore::open(options, clock_);
+    invariant(opened.has_value(), "the store opens");
+    store_ = std::move(*opened);
+  }
+  void open_postgresql() {
+    auto database = postgresql::Database::connect({.url = postgresql_url()});
+    invariant(database.has_value(), "the database is there");
+    const auto emptied =
+        database->execute("DROP SCHEMA public CASCADE; CREATE SCHEMA public; CHECKPOINT");
+    invariant(emptied.has_value(), "the database is emptied");
+    auto opened = PostgresqlStore::open({.url = postgresql_url()}, clock_);
+    invariant(opened.has_value(), "the store opens");
+    store_ = std::move(*opened);
+  }
+
   SystemClock clock_;
   std::filesystem::path folder_;
-  std::unique_ptr<SqliteStore> store_;
+  std::unique_ptr<OpenedStore> store_;
 };
+
+Engine engine_of(const benchmark::State& state) {
+  return static_cast<Engine>(state.range(0));
+}
+
+/// SQLite, and PostgreSQL where there is one; then what else is varied.
+void both_engines(benchmark::internal::Benchmark* bench, const std::vector<std::int64_t>& values) {
+  bench->ArgNames({"postgresql", "of"});
+  for (const std::int64_t value : values) {
+    bench->Args({static_cast<std::int64_t>(Engine::Sqlite), value});
+    if (postgresql_url() != nullptr)
+      bench->Args({static_cast<std::int64_t>(Engine::Postgresql), value});
+  }
+}
 
 /// `kPiece` bytes of contour, no two pieces alike.
 std::string nc_piece(unsigned piece) {
@@ -60,7 +102,7 @@ std::vector<std::string> nc_program() {
   return pieces;
 }
 
-Digest push(SqliteStore& store, const std::vector<std::string>& pieces) {
+Digest push(OpenedStore& store, const std::vector<std::string>& pieces) {
   Upload upload;
   upload.program = "big.nc";
   const auto begun = store.uploads.begin(upload);
@@ -77,9 +119,9 @@ Digest push(SqliteStore& store, const std::vector<std::string>& pieces) {
 }
 
 void store_records(benchmark::State& state) {
-  Place place;
+  Place place(engine_of(state));
   RecordBatch batch{"m1", 1, {}, {}, {}};
-  batch.records.resize(static_cast<std::size_t>(state.range(0)));
+  batch.records.resize(static_cast<std::size_t>(state.range(1)));
   std::uint64_t number = 0;
   for (auto _ : state) {
     for (Record& record : batch.records) {
@@ -95,11 +137,13 @@ void store_records(benchmark::State& state) {
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(number));
 }
-BENCHMARK(store_records)->Arg(1)->Arg(64)->Arg(256)->UseRealTime();
+BENCHMARK(store_records)->Apply([](auto* bench) {
+                          both_engines(bench, {1, 64, 256, 1000});
+                        }) -> UseRealTime();
 
 void update_counters(benchmark::State& state) {
-  Place place;
-  SqliteStore& store = place.store();
+  Place place(engine_of(state));
+  OpenedStore& store = place.store();
   const Digest content = push(store, {"M30\n"});
   invariant(store.machines.save({"m1", "", "", "", 1, 0, {}, {}}).has_value(), "a machine");
   Run run;
@@ -117,13 +161,13 @@ void update_counters(benchmark::State& state) {
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(n));
 }
-BENCHMARK(update_counters)->UseRealTime();
+BENCHMARK(update_counters)->Apply([](auto* bench) { both_engines(bench, {1}); }) -> UseRealTime();
 
 void push_program(benchmark::State& state) {
   const auto pieces = nc_program();
   for (auto _ : state) {
     state.PauseTiming();
-    auto place = std::make_unique<Place>();
+    auto place = std::make_unique<Place>(engine_of(state));
     state.ResumeTiming();
     benchmark::DoNotOptimize(push(place->store(), pieces));
     state.PauseTiming();
@@ -132,12 +176,14 @@ void push_program(benchmark::State& state) {
   }
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(kProgramBytes));
 }
-BENCHMARK(push_program)->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(2);
+BENCHMARK(push_program)->Apply([](auto* bench) {
+                         both_engines(bench, {1});
+                       }) -> UseRealTime() -> Unit(benchmark::kMillisecond) -> Iterations(2);
 
 void read_program(benchmark::State& state) {
-  Place place;
+  Place place(engine_of(state));
   const Digest content = push(place.store(), nc_program());
-  const auto piece = static_cast<std::uint64_t>(state.range(0));
+  const auto piece = static_cast<std::uint64_t>(state.range(1));
   for (auto _ : state) {
     for (std::uint64_t offset = 0; offset < kProgramBytes; offset += piece) {
       const auto bytes = place.store().programs.read_content(content, offset, piece);
@@ -146,12 +192,9 @@ void read_program(benchmark::State& state) {
   }
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(kProgramBytes));
 }
-BENCHMARK(read_program)
-    ->Arg(16 << 10)
-    ->Arg(1 << 20)
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(2);
+BENCHMARK(read_program)->Apply([](auto* bench) {
+                         both_engines(bench, {16 << 10, 1 << 20});
+                       }) -> UseRealTime() -> Unit(benchmark::kMillisecond) -> Iterations(2);
 
 }  // namespace
 }  // namespace dripline::storage
