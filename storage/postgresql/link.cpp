@@ -3,6 +3,7 @@
 #include <libpq-fe.h>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 #include "storage/postgresql/errors.hpp"
 #include "storage/postgresql/sql_text.hpp"
@@ -47,7 +48,17 @@ Error Link::refused(pg_result* result) {
   return error_of(connection_, result, sent_.empty() ? "" : sent_.front());
 }
 
+void Link::set_hoarder(Hoarder* hoarder) {
+  if (hoarder != nullptr) send_rows();
+  hoarder_ = hoarder;
+}
+
+void Link::send_rows() {
+  if (hoarder_ != nullptr) std::exchange(hoarder_, nullptr)->send_rows();
+}
+
 void Link::begin_pipeline() {
+  send_rows();
   collect_left();
   if (PQpipelineStatus(connection_) == PQ_PIPELINE_OFF) PQenterPipelineMode(connection_);
 }
@@ -83,6 +94,7 @@ void Link::send(const std::string& sql, const Parameters& parameters) {
 }
 
 Result<ResultPointer> Link::answer() {
+  send_rows();
   if (!has_left_ && (has_failed_ || PQpipelineSync(connection_) == 0)) {
     has_failed_ = true;
     return fail(refused(nullptr));
@@ -116,6 +128,7 @@ Result<ResultPointer> Link::answer() {
 }
 
 void Link::leave() {
+  send_rows();
   if (sent_.empty() || has_left_) return;
   if (has_failed_ || PQpipelineSync(connection_) == 0) has_failed_ = true;
   has_left_ = true;
@@ -132,6 +145,7 @@ Result<void> Link::leave_some() {
 }
 
 Result<ResultPointer> Link::execute(const std::string& sql) {
+  send_rows();
   if (!sent_.empty()) {
     auto answered = answer();
     if (!answered && !has_failed_) return fail(answered.error());

@@ -26,6 +26,16 @@ using ResultPointer = std::unique_ptr<pg_result, ResultDeleter>;
 /// One thread at a time.
 class Link {
  public:
+  /// Who keeps rows back, to send them together: it is asked for them before anything else is sent.
+  class Hoarder {
+   public:
+    virtual ~Hoarder() = default;
+    virtual void send_rows() = 0;
+  };
+  /// Null: nobody any more.
+  void set_hoarder(Hoarder* hoarder);
+  Hoarder* hoarder() const { return hoarder_; }
+
   explicit Link(pg_conn* connection);  ///< takes it
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
@@ -53,11 +63,13 @@ class Link {
 
  private:
   void begin_pipeline();
+  void send_rows();
   void note_sent(int is_sent, std::string_view sql);
   Error refused(pg_result* result);
   void collect_left();
 
   pg_conn* connection_;
+  Hoarder* hoarder_ = nullptr;
   std::unordered_map<std::string, std::string> prepared_;  ///< SQL and kinds: name
   std::vector<std::string> fresh_;     ///< of those: prepared since the last answer
   std::deque<std::string_view> sent_;  ///< SQL that is not answered yet

@@ -1,6 +1,7 @@
 #include "storage/postgresql/sql_text.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 namespace dripline::storage::postgresql {
 namespace {
@@ -23,7 +24,45 @@ std::size_t hint_length(std::string_view sql) {
   return std::min(end + 1, sql.size());
 }
 
+/// The row of values at the end: "(?1, ?2)"; empty: there is none, or something follows it.
+std::string_view values_of(std::string_view sql) {
+  constexpr std::string_view kValues = " VALUES ";
+  const std::size_t at = sql.find(kValues);
+  if (!sql.starts_with("INSERT INTO ") || at == std::string_view::npos) return {};
+  const std::string_view row = sql.substr(at + kValues.size());
+  const bool is_plain = row.size() > 2 && row.front() == '(' && row.find(')') == row.size() - 1 &&
+                        row.find_first_not_of("(?0123456789, )") == std::string_view::npos;
+  return is_plain ? row : std::string_view();
+}
+
+void append_row(std::string& text, std::string_view row, int from) {
+  while (!row.empty()) {
+    int number = 0;
+    const bool is_parameter = row.front() == '?';
+    row.remove_prefix(is_parameter ? 1 : 0);
+    const auto end = std::from_chars(row.data(), row.data() + row.size(), number).ptr;
+    if (is_parameter) {
+      text += '?' + std::to_string(number + from);
+      row.remove_prefix(static_cast<std::size_t>(end - row.data()));
+    } else {
+      text += row.front();
+      row.remove_prefix(1);
+    }
+  }
+}
+
 }  // namespace
+
+std::string for_many_rows(std::string_view sql, int parameters, int rows) {
+  const std::string_view row = values_of(sql);
+  if (row.empty()) return {};
+  std::string text(sql.substr(0, sql.size() - row.size()));
+  for (int i = 0; i < rows; ++i) {
+    if (i > 0) text += ", ";
+    append_row(text, row, i * parameters);
+  }
+  return text;
+}
 
 std::string spelled(std::string_view sql) {
   std::string text;

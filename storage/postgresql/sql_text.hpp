@@ -10,4 +10,8 @@ namespace dripline::storage::postgresql {
 /// marks stay as they are.
 std::string spelled(std::string_view sql);
 
+/// `INSERT INTO t (...) VALUES (?1, ?2)` for `rows` rows of `parameters` values each, numbered on;
+/// empty: it is another kind of statement.
+std::string for_many_rows(std::string_view sql, int parameters, int rows);
+
 }  // namespace dripline::storage::postgresql

@@ -1,7 +1,8 @@
 #include "storage/postgresql/values.hpp"
 
 #include <libpq-fe.h>
-#include <cmath>
+#include <algorithm>
+#include <iterator>
 
 #include "protocol/base/invariant.hpp"
 #include "storage/postgresql/text_bytes.hpp"
@@ -67,6 +68,17 @@ void Parameters::set_blob(int position, std::span<const std::byte> value) {
 
 void Parameters::set_null(int position, sql::Kind kind) {
   at(position) = {kind, true, {}, {}};
+}
+
+void Parameters::append(Parameters&& other) {
+  values_.insert(values_.end(), std::make_move_iterator(other.values_.begin()),
+                 std::make_move_iterator(other.values_.end()));
+  other.values_.clear();
+}
+
+bool Parameters::has_blobs() const {
+  return std::ranges::any_of(
+      values_, [](const Value& value) { return value.kind == sql::Kind::Blob && !value.is_null; });
 }
 
 std::string Parameters::kinds() const {

@@ -23,6 +23,10 @@ class Parameters {
   void set_blob(int position, std::span<const std::byte> value);
   void set_null(int position, sql::Kind kind);
 
+  /// Those of another execution, after these.
+  void append(Parameters&& other);
+  bool has_blobs() const;
+
   /// A letter for the kind of each: what a statement is prepared for.
   std::string kinds() const;
   int count() const { return static_cast<int>(values_.size()); }

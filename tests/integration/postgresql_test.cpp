@@ -64,7 +64,7 @@ TEST_F(Postgresql, AMachineIsFedAndReportsEveryLineOnce) {
   begin();
   expect_whole(system_->start_run("O0300"));
   EXPECT_FALSE(std::filesystem::exists(system_->server_state() / "dripline.sqlite"));
-  const auto health = system_->rest().get("/health");
+  const auto health = system_->rest().get("/api/v1/health");
   EXPECT_EQ(health.status, 200) << health.body;
 }
 
@@ -111,9 +111,8 @@ TEST_F(Postgresql, AFolderKeepsToItsDatabase) {
   begin();
   system_->server().signal(SIGTERM);
   EXPECT_TRUE(test_support::eventually([&] { return !system_->server().is_running(); }));
-  const auto other = test::TestDatabase::make_empty();
-  system_->add_server_argument("--store");
-  system_->add_server_argument(other->url());
+  auto database = storage::postgresql::Database::connect({.url = database_->url()});
+  ASSERT_TRUE(database->execute("UPDATE identity SET id = repeat('0', 32)"));  // as of another one
   system_->launch_server();
   EXPECT_TRUE(test_support::eventually([&] { return !system_->server().is_running(); }));
   EXPECT_NE(system_->server().output().find("is not the database this folder has had"),

@@ -119,30 +119,76 @@ Result<void> replace_content(sql::Database& database, std::int64_t content,
   return sql::run(database, "DELETE FROM content WHERE id = ?1", replacement);
 }
 
+namespace {
+
+std::string place_of(std::string_view label, std::uint64_t position) {
+  return fmt::format("{}: chunk {} (bytes from {})", label, position, position * kChunkBytes);
+}
+
+/// The row's columns from `first` on: digest, size and data of the chunk, and the digest that is
+/// listed at its place.
+Result<std::vector<std::byte>> read_chunk(const sql::Statement& row, int first,
+                                          const Digest* expected) {
+  const Digest digest = read_digest(row, first);
+  const bool is_listed = row.is_null(first + 3) || read_digest(row, first + 3) == digest;
+  if (!is_listed || (expected != nullptr && *expected != digest)) {
+    return fail(Errc::Corrupt, "it is not the one that was stored there");
+  }
+  return decode_chunk(digest, row.number(first + 1), row.blob(first + 2));
+}
+
+}  // namespace
+
 Result<std::vector<std::byte>> load_chunk(sql::Database& database, std::int64_t content,
                                           std::uint64_t position, std::string_view label,
                                           const Digest* expected) {
-  const auto place = [&] {
-    return fmt::format("{}: chunk {} (bytes from {})", label, position, position * kChunkBytes);
-  };
   auto plain = sql::first_row(
       database,
       "SELECT chunk.sha256, chunk.size, chunk.data, content_chunk.sha256 FROM content_chunk "
       "JOIN chunk ON chunk.id = content_chunk.chunk "
       "WHERE content_chunk.content = ?1 AND content_chunk.position = ?2",
-      [expected](const sql::Statement& row) -> Result<std::vector<std::byte>> {
-        const Digest digest = read_digest(row, 0);
-        const bool is_listed = row.is_null(3) || read_digest(row, 3) == digest;
-        if (!is_listed || (expected != nullptr && *expected != digest)) {
-          return fail(Errc::Corrupt, "it is not the one that was stored there");
-        }
-        return decode_chunk(digest, row.number(1), row.blob(2));
-      },
-      content, position);
-  if (!plain) return fail(plain.error().code, "{}: {}", place(), plain.error().what);
-  if (!*plain) return fail(Errc::Corrupt, "{} is missing in the database", place());
-  if (!**plain) return fail(Errc::Corrupt, "{} is damaged: {}", place(), (**plain).error().what);
+      [expected](const sql::Statement& row) { return read_chunk(row, 0, expected); }, content,
+      position);
+  const std::string place = place_of(label, position);
+  if (!plain) return fail(plain.error().code, "{}: {}", place, plain.error().what);
+  if (!*plain) return fail(Errc::Corrupt, "{} is missing in the database", place);
+  if (!**plain) return fail(Errc::Corrupt, "{} is damaged: {}", place, (**plain).error().what);
   return std::move(**plain);
+}
+
+Result<CommittedChunk> load_committed_chunk(sql::Database& database, const Digest& content,
+                                            std::uint64_t position, const ChunkDigests& expected) {
+  using Loaded = Result<CommittedChunk>;
+  const auto label = fmt::format("content {}", content.hex());
+  const auto loaded = sql::first_row(
+      database,
+      "SELECT content.size, chunk.sha256, chunk.size, chunk.data, content_chunk.sha256 "
+      "FROM content LEFT JOIN content_chunk ON content_chunk.content = content.id AND "
+      "content_chunk.position = ?2 LEFT JOIN chunk ON chunk.id = content_chunk.chunk "
+      "WHERE content.sha256 = ?1",
+      [&](const sql::Statement& row) -> Loaded {
+        CommittedChunk chunk{row.number(0), {}};
+        if (position * kChunkBytes >= chunk.content_size) return chunk;
+        if (position >= expected.size()) {
+          return fail(Errc::Corrupt, "{}: chunk {} is more than it was stored with", label,
+                      position);
+        }
+        const std::string place = place_of(label, position);
+        if (row.is_null(1)) return fail(Errc::Corrupt, "{} is missing in the database", place);
+        auto bytes = read_chunk(row, 1, &expected[position]);
+        if (!bytes) return fail(Errc::Corrupt, "{} is damaged: {}", place, bytes.error().what);
+        const auto due = std::min(kChunkBytes, chunk.content_size - position * kChunkBytes);
+        if (bytes->size() != due) {
+          return fail(Errc::Corrupt, "{}: chunk {} has {} bytes instead of {}", label, position,
+                      bytes->size(), due);
+        }
+        chunk.bytes = *std::move(bytes);
+        return chunk;
+      },
+      std::span<const std::byte>(content.bytes), position);
+  if (!loaded) return fail(loaded.error().code, "{}: {}", label, loaded.error().what);
+  if (!*loaded) return fail(Errc::NotFound, "{} is not in the library", label);
+  return std::move(**loaded);
 }
 
 Result<std::vector<std::byte>> load_range(sql::Database& database, const ContentRow& content,

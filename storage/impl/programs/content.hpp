@@ -21,6 +21,9 @@
 
 namespace dripline::storage {
 
+/// Of the chunks of a content, in their order.
+using ChunkDigests = std::vector<Digest>;
+
 struct ContentRow {
   std::int64_t id = 0;
   std::uint64_t size = 0;
@@ -50,6 +53,15 @@ Result<void> replace_content(sql::Database& database, std::int64_t content,
 Result<std::vector<std::byte>> load_chunk(sql::Database& database, std::int64_t content,
                                           std::uint64_t position, std::string_view label,
                                           const Digest* expected = nullptr);
+
+/// The same of a committed content, found by its digest, in one statement. Past its end: no bytes.
+/// Errors: also NotFound (there is no such content).
+struct CommittedChunk {
+  std::uint64_t content_size = 0;
+  std::vector<std::byte> bytes;
+};
+Result<CommittedChunk> load_committed_chunk(sql::Database& database, const Digest& content,
+                                            std::uint64_t position, const ChunkDigests& expected);
 
 /// A range of bytes, checked chunk by chunk; ends at the content's end.
 Result<std::vector<std::byte>> load_range(sql::Database& database, const ContentRow& content,

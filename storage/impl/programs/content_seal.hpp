@@ -15,9 +15,6 @@
 /// begins at once and is still refused when one row names another chunk.
 namespace dripline::storage {
 
-/// The digests of a content's chunks, in order, as sealed.
-using ChunkDigests = std::vector<Digest>;
-
 /// Seals a content whose bytes were compared with `digest` in this transaction or before it.
 /// Errors: Corrupt (rows are missing).
 Result<void> seal_content(sql::Database& database, const ContentRow& content, const Digest& digest);

@@ -343,7 +343,6 @@ Result<void> ProgramRepository::verify_content(const Digest& content) {
 
 Result<std::shared_ptr<const CachedChunk>> ProgramRepository::chunk(const Digest& content,
                                                                     std::uint64_t position) {
-  using Loaded = Result<std::shared_ptr<const CachedChunk>>;
   if (auto cached = cache_.find({content, position})) return cached;
   auto digests = sealed_.find(content);
   if (!digests) {
@@ -351,28 +350,13 @@ Result<std::shared_ptr<const CachedChunk>> ProgramRepository::chunk(const Digest
     if (!found) return fail(found.error());
     digests = found->chunks;
   }
-  auto loaded = connections_.read([&](sql::Database& database) -> Loaded {
-    const auto row = find_content(database, content);
-    if (!row) return fail(row.error());
-    if (!*row) return fail(Errc::NotFound, "content {} is not in the library", content.hex());
-    auto chunk = std::make_shared<CachedChunk>();
-    chunk->content_size = (*row)->size;
-    if (position * kChunkBytes >= chunk->content_size) return chunk;  // past the end
-    const auto label = fmt::format("content {}", content.hex());
-    if (position >= digests->size()) {
-      return fail(Errc::Corrupt, "{}: chunk {} is more than it was stored with", label, position);
-    }
-    auto bytes = load_chunk(database, (*row)->id, position, label, &(*digests)[position]);
-    if (!bytes) return fail(bytes.error());
-    const auto due = std::min(kChunkBytes, chunk->content_size - position * kChunkBytes);
-    if (bytes->size() != due) {
-      return fail(Errc::Corrupt, "content {}: chunk {} has {} bytes instead of {}", content.hex(),
-                  position, bytes->size(), due);
-    }
-    chunk->bytes = std::move(*bytes);
-    return chunk;
+  auto read = connections_.read([&](sql::Database& database) {
+    return load_committed_chunk(database, content, position, *digests);
   });
-  if (loaded && !(*loaded)->bytes.empty()) cache_.insert({content, position}, *loaded);
+  if (!read) return fail(read.error());
+  auto loaded =
+      std::make_shared<const CachedChunk>(CachedChunk{read->content_size, std::move(read->bytes)});
+  if (!loaded->bytes.empty()) cache_.insert({content, position}, loaded);
   return loaded;
 }
 

@@ -98,6 +98,26 @@ TEST_F(PostgresqlDatabase, WhatIsPostedIsThereAfterTheCommit) {
   EXPECT_EQ(count(), 5000);
 }
 
+/// Rows are kept back to be sent together; what else is asked meanwhile comes after them.
+TEST_F(PostgresqlDatabase, WhatIsPostedIsThereForWhateverIsAskedNext) {
+  make_table();
+  ASSERT_TRUE(database_->begin());
+  auto add = database_->prepare("INSERT INTO kept (number, word) VALUES (?1, ?2)");
+  auto other = database_->prepare("INSERT INTO kept (number, part) VALUES (?1, ?2)");
+  for (int n = 0; n < 100; ++n) ASSERT_TRUE(add->bind(n, std::optional<std::string>()).post());
+  EXPECT_EQ(count(), 100);
+  for (int n = 100; n < 130; ++n) {
+    ASSERT_TRUE(add->bind(n, "a word").post());
+    ASSERT_TRUE(other->bind(n + 1000, 0.5).post());
+  }
+  ASSERT_TRUE(sql::run(*database_, "DELETE FROM kept WHERE number = ?1", 129));
+  EXPECT_EQ(database_->changes(), 1u);
+  ASSERT_TRUE(add->bind(129, 7).post()) << "of another kind";
+  EXPECT_EQ(count(), 160);
+  ASSERT_TRUE(database_->commit());
+  EXPECT_EQ(database_->integer("SELECT count(*) FROM kept WHERE word = 'a word'"), 29);
+}
+
 TEST_F(PostgresqlDatabase, AnErrorOfWhatIsPostedKeepsAllFromTheDisk) {
   make_table();
   ASSERT_TRUE(database_->begin());

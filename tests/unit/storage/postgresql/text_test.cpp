@@ -32,6 +32,17 @@ INSTANTIATE_TEST_SUITE_P(
                     SqlCase{"AnOpenText", "a = '?1", "a = '?1"}),
     [](const auto& i) { return std::string{i.param.name}; });
 
+TEST(SqlOfManyRows, IsMadeOfAPlainInsert) {
+  EXPECT_EQ(for_many_rows("INSERT INTO t (a, b) VALUES (?1, ?2)", 2, 3),
+            "INSERT INTO t (a, b) VALUES (?1, ?2), (?3, ?4), (?5, ?6)");
+  for (const char* other :
+       {"INSERT INTO t (a) VALUES (?1) RETURNING id", "INSERT INTO t (a) VALUES (lower(?1))",
+        "INSERT INTO t (a) VALUES (?1) ON CONFLICT (a) DO NOTHING", "UPDATE t SET a = ?1",
+        "INSERT INTO t SELECT ?1"}) {
+    EXPECT_EQ(for_many_rows(other, 1, 3), "") << other;
+  }
+}
+
 struct BytesCase {
   const char* name;
   std::string text;
