@@ -68,7 +68,8 @@ CredentialMembership read_credential_membership(const sql::Statement& row) {
 
 Result<std::vector<User>> load_users(sql::Database& database) {
   const auto rows = sql::all_rows(
-      database, "SELECT name, role, password, state, created_us, signed_in_us FROM \"user\" ORDER BY name",
+      database,
+      "SELECT name, role, password, state, created_us, signed_in_us FROM \"user\" ORDER BY name",
       read_user);
   if (!rows) return fail(rows.error());
   const auto groups =

@@ -20,7 +20,7 @@ constexpr std::size_t kProgramBytes = 256 << 20;  // of NC text
 enum class Engine : std::int64_t { Sqlite, Postgresql };
 
 const char* postgresql_url() {
-  return ::getenv("DRIPLINE_BENCH_POSTGRESQL");  // NOLINT(concurrency-mt-unsafe)
+  return ::getenv("DRIPLINE_BENCH_POSTGRESQL");  // NOLINT(concurrency-mt-unsafe): no threads yet
 }
 
 /// A store of its own, in a folder or in the database that is emptied first.
