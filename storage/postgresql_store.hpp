@@ -25,7 +25,8 @@ struct PostgresqlStoreOptions {
 
 /// The second Store: one PostgreSQL database, 15 or newer. What was stored is durable as PostgreSQL
 /// promises it (synchronous_commit, and with a synchronous standby there too). One server at a time
-/// uses a database, which is said in it (store_holder): who lost the place stores nothing more.
+/// uses a database, which is said in it (store_holder): who lost the place stores nothing more, and
+/// reads nothing from when it knows (3 s at most).
 /// A lost connection is opened again by the next call; what was not at its commit yet is done
 /// again, and so is what another transaction was in the way of. Errors besides those of Store:
 /// Timeout (the connection was lost at the commit, and nobody knows whether it was stored).

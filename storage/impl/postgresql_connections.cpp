@@ -122,14 +122,20 @@ Result<void> PostgresqlConnections::begin_write(Database& database, Durability d
       sql::first_row(database, "SELECT holder FROM store_holder WHERE id = 1 FOR UPDATE",
                      [](const sql::Statement& row) { return row.text(0); });
   if (!holder) return fail(holder.error());
-  if (*holder && **holder == holder_) return {};
+  if (!*holder || **holder != holder_) is_lost_ = true;
+  return check_place();
+}
+
+Result<void> PostgresqlConnections::check_place() const {
+  if (!is_lost_) return {};
   return fail(Errc::Io,
-              "database {} was taken over by another server: nothing is stored by this one any "
-              "more; end it",
+              "database {} was taken over by another server: nothing is stored or read by this one "
+              "any more; end it",
               label_);
 }
 
 Result<void> PostgresqlConnections::write_with(const Work& work, Durability durability) {
+  if (auto ours = check_place(); !ours) return ours;
   return writer_.with([&](Slot& slot) -> Result<void> {
     const auto deadline = SteadyClock::now() + options_.wait;
     for (;;) {
@@ -155,6 +161,7 @@ Result<void> PostgresqlConnections::write_with(const Work& work, Durability dura
 }
 
 Result<void> PostgresqlConnections::read_with(const Work& work) {
+  if (auto ours = check_place(); !ours) return ours;
   return readers_.with([&](Slot& slot) -> Result<void> {
     const auto deadline = SteadyClock::now() + options_.wait;
     for (;;) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,8 +15,8 @@ namespace dripline::storage {
 
 /// One connection that writes and some that read; a lost one is opened again by whoever needs it.
 /// The database has one holder (schema, store_holder): every transaction that writes locks the
-/// holder's row and looks who it is, so a server that lost its place stores nothing any more.
-/// Thread-safe.
+/// holder's row and looks who it is, so a server that lost its place stores nothing any more, and
+/// once it knows that it reads nothing either: what it would do is another one's now. Thread-safe.
 class PostgresqlConnections final : public Connections {
  public:
   /// Creates or migrates the schema, and takes the holder's place. Errors: see
@@ -41,10 +42,12 @@ class PostgresqlConnections final : public Connections {
   /// Opens it when it is not. Errors: Io, after trying for a moment.
   Result<void> connect(Slot& slot);
   void keep_place(const std::stop_token& stop);
+  Result<void> check_place() const;
 
   const PostgresqlStoreOptions options_;
   std::string label_;
   std::string holder_;
+  std::atomic<bool> is_lost_ = false;  ///< the place; for good
   ConnectionPool<Slot> writer_;
   ConnectionPool<Slot> readers_;
   std::jthread keeper_;  // last: it uses the others

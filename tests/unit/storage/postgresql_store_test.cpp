@@ -61,6 +61,7 @@ TEST_F(PostgresqlStoreTest, WhoLostThePlaceStoresNothing) {
   EXPECT_EQ(refused.error().code, Errc::Io);
   EXPECT_NE(refused.error().what.find("taken over"), std::string::npos) << refused.error().what;
   EXPECT_FALSE(store_->probe()) << "and the server's health says so";
+  EXPECT_FALSE(store_->runs.find("r1")) << "what it would do with it is another server's now";
   EXPECT_EQ(query("SELECT count(*) FROM record"), 0);
   EXPECT_EQ((*second)->records.store(make_batch(1, 3)), 3u);
 }

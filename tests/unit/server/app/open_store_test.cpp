@@ -1,0 +1,71 @@
+#include "server/app/open_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace dripline::app {
+namespace {
+
+class OpenStore : public testing::Test {
+ protected:
+  Result<KeptStore> open(const Settings& settings) {
+    auto folder = StateFolder::open(folder_.path().string());
+    EXPECT_TRUE(folder) << folder.error().what;
+    return open_store(*folder, settings, clock_);
+  }
+  void expect_refused(const Settings& settings, const std::string& says) {
+    const auto refused = open(settings);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, Errc::Unsupported);
+    EXPECT_NE(refused.error().what.find(says), std::string::npos) << refused.error().what;
+    EXPECT_EQ(refused.error().what.find("secret"), std::string::npos) << refused.error().what;
+  }
+
+  test_support::TemporaryFolder folder_;
+  SystemClock clock_;
+};
+
+TEST_F(OpenStore, IsAFileInTheFolderByDefault) {
+  const auto kept = open({});
+  ASSERT_TRUE(kept) << kept.error().what;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / StateFolder::kDatabase));
+  EXPECT_EQ(kept->identity, kept->store->identity().value());
+  EXPECT_FALSE(kept->folder_lock);
+}
+
+TEST_F(OpenStore, OtherDatabasesAreRefusedWithoutRepeatingAPassword) {
+  Settings settings;
+  settings.store = "mysql://anna:secret@db-1/shop";
+  expect_refused(settings, "begins with postgresql://");
+}
+
+TEST_F(OpenStore, BackupsOfAFileAreNoneOfPostgresql) {
+  Settings settings;
+  settings.store = "postgresql://anna:secret@db-1/shop";
+  settings.backups = "/var/lib/dripline-backups";
+  expect_refused(settings, "/var/lib/dripline-backups");
+}
+
+TEST_F(OpenStore, PostgresqlIsNotBegunEmpty) {
+  Settings settings;
+  settings.store = "postgresql://anna:secret@db-1/shop";
+  settings.begin_empty = true;
+  expect_refused(settings, "database.id");
+}
+
+TEST_F(OpenStore, OneProcessUsesAFolderWithADatabaseElsewhere) {
+  const auto folder = StateFolder::open(folder_.path().string());
+  const auto lock = folder->lock();
+  ASSERT_TRUE(lock) << lock.error().what;
+  Settings settings;
+  settings.store = "postgresql://127.0.0.1:1/shop";
+  const auto refused = open(settings);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Busy);
+  EXPECT_EQ(folder->server_id().value(), folder->server_id().value())
+      << "it is the same at the next start";
+}
+
+}  // namespace
+}  // namespace dripline::app
