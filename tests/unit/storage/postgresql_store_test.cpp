@@ -1,6 +1,8 @@
 // What only the store in PostgreSQL has: its one holder, lost connections, transactions that are
 // begun again.
 #include "storage/postgresql/database.hpp"
+#include "storage/sql/query.hpp"
+#include "storage/sqlite/database.hpp"
 #include "tests/unit/storage/store_fixture.hpp"
 
 namespace dripline::storage {
@@ -123,6 +125,30 @@ TEST_F(PostgresqlStoreTest, AnyBytesOfATextGiveTheSameDigestInTheAuditTrail) {
     ASSERT_TRUE(statement->bind(text).step().value());
     EXPECT_EQ(statement->text(0), digits);
   }
+}
+
+/// One SQL reads both: a column that one schema gets and the other does not is found here.
+TEST_F(PostgresqlStoreTest, HasTheColumnsOfTheSqliteSchema) {
+  const auto columns_in = [](sql::Database& database, const std::string& sql) {
+    auto rows = sql::all_rows(database, sql, [](const sql::Statement& row) { return row.text(0); });
+    EXPECT_TRUE(rows) << rows.error().what;
+    return rows.value_or(std::vector<std::string>{});
+  };
+  ASSERT_TRUE(SqliteStore::open(options_, clock_));
+  auto file = sqlite::Database::open(options_.file);
+  auto database = postgresql::Database::connect({.url = database_->url()});
+  const auto of_file = columns_in(
+      *file,
+      "SELECT t.name || '.' || c.name AS named FROM sqlite_schema AS t JOIN "
+      "pragma_table_info(t.name) AS c WHERE t.type IN ('table', 'view') AND t.name NOT LIKE "
+      "'sqlite_%' AND t.name NOT LIKE 'search_index%' ORDER BY named");
+  const auto of_database = columns_in(
+      *database,
+      "SELECT CAST(table_name || '.' || column_name AS text) COLLATE \"C\" AS named FROM "
+      "information_schema.columns WHERE table_schema = current_schema() AND table_name NOT IN "
+      "('store_holder', 'schema_version', 'search_index') ORDER BY named");
+  EXPECT_GT(of_file.size(), 300u);
+  EXPECT_EQ(of_database, of_file);
 }
 
 TEST_F(PostgresqlStoreTest, HasBackupsOfItsOwn) {
