@@ -244,8 +244,7 @@ struct MemoryPlace {
 
 /// Without the named index SQLite reads all records of the machine. Epochs of a gateway that lost
 /// its journal have no order, so the time of the server decides.
-Result<std::vector<MemoryPlace>> memory_places(sql::Database& database,
-                                               const std::string& machine,
+Result<std::vector<MemoryPlace>> memory_places(sql::Database& database, const std::string& machine,
                                                const std::optional<std::string>& run,
                                                const std::string& prefix, Page page) {
   static const std::string kSelect =
