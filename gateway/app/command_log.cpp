@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 
 namespace dripline::gateway {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "gateway/app/execution_probe.hpp"
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 #include "gateway/machine/execution_sink.hpp"
 #include "gateway/report/motion_journal.hpp"
 #include "gateway/report/outbox.hpp"

@@ -9,9 +9,9 @@
 #include "gateway/app/inbox.hpp"
 #include "gateway/app/line_operator.hpp"
 #include "gateway/app/machine_gateway.hpp"
+#include "gateway/app/memory/position_setter.hpp"
 #include "gateway/app/panel/panel_controller.hpp"
-#include "gateway/app/position_setter.hpp"
-#include "gateway/app/run_loop.hpp"
+#include "gateway/app/run/run_loop.hpp"
 #include "gateway/app/server_link.hpp"
 #include "gateway/app/status_builder.hpp"
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "gateway/app/control_values.hpp"
 #include "gateway/app/gateway.hpp"
-#include "gateway/app/start_checks.hpp"
+#include "gateway/app/memory/control_values.hpp"
+#include "gateway/app/run/start_checks.hpp"
 #include "gateway/feed/pull_feed.hpp"
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/process/log.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/app/run_session.hpp"
+#include "gateway/app/run/run_session.hpp"
 #include "gateway/feed/control_line.hpp"
 #include "gateway/feed/line_feed.hpp"
 

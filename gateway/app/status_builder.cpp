@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "gateway/app/block_texts.hpp"
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/block_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 #include "protocol/base/utf8.hpp"
 
 namespace dripline::gateway {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "gateway/app/panel/consent.hpp"
-#include "gateway/app/run_session.hpp"
+#include "gateway/app/run/run_session.hpp"
 
 namespace dripline::gateway {
 

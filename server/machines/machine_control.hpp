@@ -152,8 +152,8 @@ class MachineControl {
   /// gateway's reason), Timeout (not connected, or no answer in time: the outcome is unknown).
   virtual Result<void> command(const CommandRequest& request) = 0;
   /// What its control's variables, offsets and outputs are now, as the gateway's JSON
-  /// (gateway/app/control_values.hpp); changes nothing. Errors: NotFound, Unsupported (a control at
-  /// the end of a line, an older gateway), Timeout (not connected, no answer in time).
+  /// (gateway/app/memory/control_values.hpp); changes nothing. Errors: NotFound, Unsupported (a
+  /// control at the end of a line, an older gateway), Timeout (not connected, no answer in time).
   virtual Result<std::string> values(const ValueQuery& query) = 0;
   /// Sets a datum or a tool's length in the control's memory, or asks for a position; nothing
   /// moves. Errors: as for values, Busy (refused, with the gateway's reason).

@@ -5,7 +5,7 @@
 
 #include "gateway/app/command_log.hpp"
 #include "gateway/app/panel/consent.hpp"
-#include "gateway/app/run_session.hpp"
+#include "gateway/app/run/run_session.hpp"
 #include "gateway/interpreter/core/dialect.hpp"
 
 namespace dripline::gateway {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 #include "gateway/interpreter/core/event.hpp"
 #include "protocol/dds/message.hpp"
 

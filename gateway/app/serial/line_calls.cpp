@@ -1,6 +1,6 @@
 #include "gateway/app/serial/line_calls.hpp"
 
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 
 namespace dripline::gateway {
 

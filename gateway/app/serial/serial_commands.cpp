@@ -1,7 +1,7 @@
 #include "gateway/app/panel/panel_controller.hpp"
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
+#include "gateway/app/run/start_checks.hpp"
 #include "gateway/app/serial/serial_gateway.hpp"
-#include "gateway/app/start_checks.hpp"
 #include "gateway/app/status_builder.hpp"
 #include "protocol/process/log.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 #include "protocol/process/log.hpp"
 
 namespace dripline::gateway {

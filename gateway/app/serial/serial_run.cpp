@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 #include "gateway/line/inbound/program_head.hpp"
 #include "gateway/line/line_words.hpp"
 #include "gateway/line/port_transfer.hpp"

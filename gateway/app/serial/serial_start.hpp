@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "gateway/app/start_argument.hpp"
+#include "gateway/app/run/start_argument.hpp"
 #include "gateway/line/heads/head_scan.hpp"
 #include "gateway/line/text_source.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 #include "gateway/line/heads/head_scan.hpp"
 #include "gateway/line/line_words.hpp"
 

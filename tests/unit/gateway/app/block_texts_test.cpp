@@ -1,4 +1,4 @@
-#include "gateway/app/block_texts.hpp"
+#include "gateway/app/run/block_texts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "gateway/app/control_values.hpp"
+#include "gateway/app/memory/control_values.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "gateway/app/restart/approach.hpp"
 #include "gateway/app/restart/restart_argument.hpp"
-#include "gateway/app/start_argument.hpp"
+#include "gateway/app/run/start_argument.hpp"
 #include "gateway/interpreter/core/language/state_archive.hpp"
 #include "gateway/report/outbox.hpp"
 #include "tests/support/temporary_folder.hpp"

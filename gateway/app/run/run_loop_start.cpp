@@ -1,7 +1,7 @@
 #include <cmath>
 #include <utility>
 
-#include "gateway/app/run_loop.hpp"
+#include "gateway/app/run/run_loop.hpp"
 #include "protocol/process/log.hpp"
 
 /// How a run begins.

@@ -5,11 +5,11 @@
 #include <string>
 
 #include "gateway/app/command_log.hpp"
-#include "gateway/app/control_memory.hpp"
+#include "gateway/app/memory/control_memory.hpp"
 #include "gateway/app/options.hpp"
 #include "gateway/app/panel/consent.hpp"
-#include "gateway/app/run_session.hpp"
-#include "gateway/app/start_argument.hpp"
+#include "gateway/app/run/run_session.hpp"
+#include "gateway/app/run/start_argument.hpp"
 
 namespace dripline::gateway {
 

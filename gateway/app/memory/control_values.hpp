@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "gateway/app/control_memory.hpp"
 #include "gateway/app/execution_recorder.hpp"
+#include "gateway/app/memory/control_memory.hpp"
 #include "gateway/machine/motion_backend.hpp"
 
 namespace dripline::gateway {

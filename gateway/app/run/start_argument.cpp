@@ -1,4 +1,4 @@
-#include "gateway/app/start_argument.hpp"
+#include "gateway/app/run/start_argument.hpp"
 
 #include <charconv>
 

@@ -1,4 +1,4 @@
-#include "gateway/app/control_memory.hpp"
+#include "gateway/app/memory/control_memory.hpp"
 
 #include <fmt/format.h>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gateway/app/start_checks.hpp"
+#include "gateway/app/run/start_checks.hpp"
 
 #include <fmt/format.h>
 

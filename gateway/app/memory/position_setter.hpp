@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/app/control_memory.hpp"
-#include "gateway/app/run_session.hpp"
+#include "gateway/app/memory/control_memory.hpp"
+#include "gateway/app/run/run_session.hpp"
 #include "gateway/interpreter/position_rules.hpp"
 #include "gateway/machine/motion_backend.hpp"
 

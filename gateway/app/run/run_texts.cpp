@@ -1,4 +1,4 @@
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 
 #include <fmt/format.h>
 #include <array>

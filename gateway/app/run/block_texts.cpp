@@ -1,8 +1,8 @@
-#include "gateway/app/block_texts.hpp"
+#include "gateway/app/run/block_texts.hpp"
 
 #include <algorithm>
 
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 #include "protocol/dds/message.hpp"
 
 namespace dripline::gateway {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "gateway/app/control_memory.hpp"
 #include "gateway/app/execution_recorder.hpp"
-#include "gateway/app/program_check.hpp"
+#include "gateway/app/memory/control_memory.hpp"
 #include "gateway/app/restart/checkpoint_keeper.hpp"
 #include "gateway/app/restart/rebuild.hpp"
+#include "gateway/app/run/program_check.hpp"
 #include "gateway/feed/line_feed.hpp"
 #include "gateway/interpreter/core/live_values.hpp"
 #include "gateway/interpreter/registry.hpp"

@@ -1,4 +1,4 @@
-#include "gateway/app/run_loop.hpp"
+#include "gateway/app/run/run_loop.hpp"
 
 #include <thread>
 #include <utility>

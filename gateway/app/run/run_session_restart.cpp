@@ -1,4 +1,4 @@
-#include "gateway/app/run_session.hpp"
+#include "gateway/app/run/run_session.hpp"
 
 #include <algorithm>
 

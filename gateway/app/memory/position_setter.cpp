@@ -1,10 +1,10 @@
-#include "gateway/app/position_setter.hpp"
+#include "gateway/app/memory/position_setter.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "gateway/app/run_texts.hpp"
+#include "gateway/app/run/run_texts.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
 
 namespace dripline::gateway {

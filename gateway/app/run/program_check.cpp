@@ -1,4 +1,4 @@
-#include "gateway/app/program_check.hpp"
+#include "gateway/app/run/program_check.hpp"
 
 #include <fmt/format.h>
 
