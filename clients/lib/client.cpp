@@ -167,6 +167,11 @@ template Reply<std::vector<FolderFile>> Client::fetch_list(const std::string&, c
 template Reply<AuditState> Client::fetch(HttpRequest, std::string_view);
 template Reply<Backups> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<MachineGroup>> Client::fetch_list(const std::string&, const char*);
+template Reply<Machine> Client::fetch(HttpRequest, std::string_view);
+template Reply<std::vector<Machine>> Client::fetch_list(const std::string&, const char*);
+template Reply<std::vector<Memory>> Client::fetch_list(const std::string&, const char*);
+template Reply<PositionSet> Client::fetch(HttpRequest, std::string_view);
+template Reply<PlaybackBlock> Client::fetch(HttpRequest, std::string_view);
 template Reply<ControlValues> Client::fetch(HttpRequest, std::string_view);
 template Reply<Run> Client::fetch(HttpRequest, std::string_view);
 template Reply<ShownRun> Client::fetch(HttpRequest, std::string_view);
@@ -296,20 +301,6 @@ Reply<void> Client::drop_upload(std::string_view id) {
   return perform(with_method("DELETE", path_of("uploads", id)));
 }
 
-Reply<std::vector<Machine>> Client::machines() {
-  return fetch_list<Machine>(path_of("machines"), "machines");
-}
-
-Reply<Machine> Client::machine(std::string_view name) {
-  return fetch<Machine>(get(path_of("machines", name)));
-}
-
-Reply<std::vector<Memory>> Client::memories(std::string_view machine, std::string_view run,
-                                            Page page) {
-  const std::string path = with_query(path_of("machines", machine) + "/memory", "run", run);
-  return fetch_list<Memory>(with_page(path, page), "memories");
-}
-
 Reply<Run> Client::start_run(const RunRequest& request) {
   Json json{{"machine", request.machine}, {"program", request.program}};
   if (request.revision) json["revision"] = *request.revision;
@@ -318,25 +309,6 @@ Reply<Run> Client::start_run(const RunRequest& request) {
   if (!request.memory.empty()) json["memory"] = request.memory;
   if (request.pass) json["pass"] = *request.pass;
   return fetch<Run>(with_method("POST", path_of("runs")), dumped(json));
-}
-
-Reply<PositionSet> Client::set_position(std::string_view machine, const PositionToSet& setting) {
-  Json body{{"axis", setting.axis}, {"value", setting.value}};
-  if (!setting.unit.empty()) body["unit"] = setting.unit;
-  if (!setting.offset.empty()) body["offset"] = setting.offset;
-  if (setting.tool) body["tool"] = *setting.tool;
-  const char* const what = setting.tool ? "/touch-off" : "/datum";
-  return fetch<PositionSet>(with_method("POST", path_of("machines", machine) + what), dumped(body));
-}
-
-Reply<PlaybackBlock> Client::play_back(std::string_view machine, std::string_view axes) {
-  return fetch<PlaybackBlock>(
-      get(with_query(path_of("machines", machine) + "/playback", "axes", axes)));
-}
-
-Reply<Run> Client::key_in(std::string_view machine, std::string_view text) {
-  return fetch<Run>(with_method("POST", path_of("machines", machine) + "/mdi"),
-                    dumped(Json{{"text", text}}));
 }
 
 Reply<Run> Client::restart_run(std::string_view run, std::string_view at) {
@@ -362,10 +334,6 @@ Reply<ShownRun> Client::shown_run(std::string_view id) {
 
 Reply<void> Client::command(std::string_view run, const CommandRequest& request) {
   return send_command(path_of("runs", run), request);
-}
-
-Reply<void> Client::command_machine(std::string_view machine, const CommandRequest& request) {
-  return send_command(path_of("machines", machine), request);
 }
 
 Reply<void> Client::send_command(const std::string& path, const CommandRequest& request) {

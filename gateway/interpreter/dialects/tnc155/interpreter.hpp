@@ -2,6 +2,7 @@
 
 #include "gateway/interpreter/core/live_values.hpp"
 #include "gateway/interpreter/core/retained_memory.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/ahead_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/run.hpp"

@@ -1,0 +1,54 @@
+// The calls of Client for machines: what is known of them, their panels, and what is keyed in.
+#include <nlohmann/json.hpp>
+
+#include "clients/lib/client.hpp"
+#include "clients/lib/impl/request.hpp"
+
+namespace dripline::client {
+
+using impl::dumped;
+using impl::get;
+using impl::path_of;
+using impl::with_method;
+using impl::with_page;
+using impl::with_query;
+using Json = nlohmann::json;
+
+Reply<std::vector<Machine>> Client::machines() {
+  return fetch_list<Machine>(path_of("machines"), "machines");
+}
+
+Reply<Machine> Client::machine(std::string_view name) {
+  return fetch<Machine>(get(path_of("machines", name)));
+}
+
+Reply<std::vector<Memory>> Client::memories(std::string_view machine, std::string_view run,
+                                            Page page) {
+  const std::string path = with_query(path_of("machines", machine) + "/memory", "run", run);
+  return fetch_list<Memory>(with_page(path, page), "memories");
+}
+
+Reply<PositionSet> Client::set_position(std::string_view machine, const PositionToSet& setting) {
+  Json body{{"axis", setting.axis}, {"value", setting.value}};
+  if (!setting.unit.empty()) body["unit"] = setting.unit;
+  if (!setting.offset.empty()) body["offset"] = setting.offset;
+  if (setting.tool) body["tool"] = *setting.tool;
+  const char* const what = setting.tool ? "/touch-off" : "/datum";
+  return fetch<PositionSet>(with_method("POST", path_of("machines", machine) + what), dumped(body));
+}
+
+Reply<PlaybackBlock> Client::play_back(std::string_view machine, std::string_view axes) {
+  return fetch<PlaybackBlock>(
+      get(with_query(path_of("machines", machine) + "/playback", "axes", axes)));
+}
+
+Reply<Run> Client::key_in(std::string_view machine, std::string_view text) {
+  return fetch<Run>(with_method("POST", path_of("machines", machine) + "/mdi"),
+                    dumped(Json{{"text", text}}));
+}
+
+Reply<void> Client::command_machine(std::string_view machine, const CommandRequest& request) {
+  return send_command(path_of("machines", machine), request);
+}
+
+}  // namespace dripline::client
