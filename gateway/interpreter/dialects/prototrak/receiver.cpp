@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace dripline::interpreter::prototrak {
 namespace {
@@ -25,6 +26,19 @@ bool names_event(const std::vector<Word>& words) {
     const double code = word.number.digits;
     return word.address == Address::G && (code <= 3 || (code >= 100 && code <= 109));
   });
+}
+
+/// G20 and G21, also with blanks: lost in a title they would change every length.
+bool has_units(std::string_view text) {
+  std::string bare;
+  std::ranges::copy_if(text, std::back_inserter(bare), [](char c) { return c != ' '; });
+  for (const std::string_view code : {"G20", "G21"}) {
+    const std::size_t at = bare.find(code);
+    if (at != std::string::npos &&
+        (at + 3 == bare.size() || bare[at + 3] < '0' || bare[at + 3] > '9'))
+      return true;
+  }
+  return false;
 }
 
 char upper(char c) {
@@ -87,8 +101,10 @@ bool Receiver::take_character(char c) {
                 fmt::format("more than {} characters without ';'; {}", kMaxBlock, kFanucHint));
   }
   // What begins on another line is no title, unless it is marked as one: units may be in it.
-  if (part_ == Part::Title && block_.empty() && c != ' ' && c != ':' && line_ != title_line_)
-    part_ = Part::Blocks;
+  if (part_ == Part::Title && block_.empty()) {
+    if (c == ' ') return true;
+    if (c != ':' && line_ != title_line_) part_ = Part::Blocks;
+  }
   if (part_ == Part::Title) {
     if (c != ';') {
       block_ += c;
@@ -96,6 +112,10 @@ bool Receiver::take_character(char c) {
     }
     part_ = Part::Blocks;
     const bool is_header = block_.starts_with("PN");
+    if (!is_header && has_units(block_)) {
+      return fail(Fault::NoBlockEnd,
+                  fmt::format("the title '{}' has units in it; {}", block_, kFanucHint));
+    }
     const bool done = !is_header || end_block();
     block_.clear();
     return done;
@@ -128,6 +148,10 @@ bool Receiver::end_block() {
   ReadWords read = read_words(block_, program_.events.empty(), skipped);
   // A title may be passed over. In the block of the first event it would be a coordinate.
   if (skipped > 0 && names_event(read.words)) read = read_words(block_, false, skipped = 0);
+  // "G 21" among them are the units of all that follows.
+  if (skipped > 0 && block_.starts_with("PN") && has_units(block_) &&
+      std::ranges::none_of(read.words, [](const Word& word) { return word.address == Address::G; }))
+    return fail(Fault::UnknownWord, block_);
   if (skipped > 0) notice(Fault::Ignored, fmt::format("{} words before the first event", skipped));
   switch (read.fault) {
     case WordFault::None:

@@ -153,6 +153,7 @@ bool change_compensation(Run& run, const Block& block, const PlaneMove& move) {
     return refuse_start(run, "G27 is followed by the block with G40 that leaves the contour");
   }
   if (side != state.compensation) {
+    if (run.options.is_later) return refuse_start(run, "between RL and RR comes a block with R0");
     if (state.joins) {
       run.blender.turn_on(cutter_of(state, side));
     } else {

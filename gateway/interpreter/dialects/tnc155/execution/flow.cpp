@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/ahead_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
@@ -261,14 +262,26 @@ bool jump_to_label(Run& run, std::int32_t label) {
   return true;
 }
 
+namespace {
+
+/// A later control cancels the compensation at the call (iTNC 530, User's Manual, tool
+/// compensation): where the tool would leave the contour is not known here.
+bool refuse_in_contour(Run& run) {
+  if (!run.options.is_later || !run.state.is_compensating()) return true;
+  return run.fail(ErrorCode::PathOffsetWronglyStarted,
+                  "CALL PGM with RL or RR in force: R0 comes before it");
+}
+
+}  // namespace
+
 bool call_program(Run& run, std::int32_t number) {
-  if (!refuse_in_transfer(run, "CALL PGM")) return false;
+  if (!refuse_in_transfer(run, "CALL PGM") || !refuse_in_contour(run)) return false;
   request(run, JumpKind::Program, number);
   return true;
 }
 
 bool call_cycle_program(Run& run, std::int32_t number) {
-  if (!refuse_in_transfer(run, "CALL PGM")) return false;
+  if (!refuse_in_transfer(run, "CALL PGM") || !refuse_in_contour(run)) return false;
   request(run, JumpKind::CycleProgram, number);
   return true;
 }

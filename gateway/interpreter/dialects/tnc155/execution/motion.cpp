@@ -282,6 +282,10 @@ bool run_polar_arc(Run& run, const Block& block) {
   if (radius == 0) return run.fail(ErrorCode::AngleReferenceMissing, "the tool is on CC");
   const double from = turn_between({1, 0}, start) * (180 / Angle::kPi);
   const double angle = run.number(block.angle);
+  const bool is_left = arc.turn == Turn::Counterclockwise;
+  if (run.options.is_later && block.is_angle_incremental && angle != 0 && (angle > 0) != is_left)
+    return run.fail(ErrorCode::WrongSign,
+                    fmt::format("IPA {} with DR{}", angle, is_left ? '+' : '-'));
   const double to = block.is_angle_incremental ? from + angle : angle;
   arc.sweep =
       block.is_angle_incremental ? sweep_by(angle, from, arc.turn) : sweep_of(from, to, arc.turn);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/ahead_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"

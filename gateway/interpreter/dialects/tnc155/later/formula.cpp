@@ -56,7 +56,7 @@ Computed apply(FormulaFunction function, double a) {
     case FormulaFunction::Frac:
       return {a - std::trunc(a)};
     default:
-      return {a > 0 ? 1.0 : a < 0 ? -1.0 : 0.0};
+      return {a < 0 ? -1.0 : 1.0};  // of 0: 1
   }
 }
 

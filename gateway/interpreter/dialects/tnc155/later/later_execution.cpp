@@ -86,7 +86,12 @@ bool call_by_m(Run& run, const Extras& extras, bool moves) {
 /// The cycle, then the end of the program.
 bool finish(Run& run, const Extras& extras, bool moves = false) {
   if (!end_codes(run, extras) || !call_by_m(run, extras, moves)) return false;
-  if (extras.ends) end_program(run, true);
+  if (!extras.ends) return true;
+  // A later control takes neither M2 nor M30 in a called program; as a return the rest would be
+  // cut.
+  if (!run.state.programs.empty())
+    return run.fail(ErrorCode::ProgramUnavailable, "M2 or M30 in a called program");
+  end_program(run, true);
   return true;
 }
 

@@ -168,8 +168,28 @@ void TextSearch::note_label(Index& index, const BlockHead& head, const LabelSet&
   if (index.numbers.size() + index.names.size() == kLargeIndex + 1) make_room(index);
 }
 
+namespace {
+
+/// "/LBL 5", "10 /LBL 5", "/10 LBL 5": with the switch off the control has it.
+bool is_label_behind_slash(std::string_view text) {
+  const std::size_t word = text.find_first_not_of(" \t0123456789/");
+  if (word == std::string_view::npos || text.size() - word < 3) return false;
+  const auto is_letter = [&](std::size_t i, char c) {
+    return (text[word + i] & ~('a' - 'A')) == c;
+  };
+  return text.substr(0, word).find('/') != std::string_view::npos && is_letter(0, 'L') &&
+         is_letter(1, 'B') && is_letter(2, 'L');
+}
+
+}  // namespace
+
 void TextSearch::note(Index& index, std::string_view text) {
   ++index.blocks;
+  if (is_later_ && is_label_behind_slash(text)) {
+    index.doubled = fmt::format("a label behind a slash: {}", text);
+    index.second = {reader_.block_place(), -1};
+    return;
+  }
   const BlockHead head = read_head(text, index.progress.state.program.form);
   index.is_complete = head.is_end;
   const std::int32_t last = is_later_ ? kLastLaterLabel : kLastLabel;
