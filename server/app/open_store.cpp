@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 #include <array>
+#include <filesystem>
 
 #include "storage/postgresql_store.hpp"
 #include "storage/sqlite_store.hpp"
@@ -18,6 +19,21 @@ std::string description(const StateFolder& folder) {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
   return fmt::format("dncd {} on {}, {}", ::getpid(), host.data(), folder.path().string());
+}
+
+/// A folder that has had no database does not take one that another folder's server has signed:
+/// its audit trail would never verify again.
+Result<void> check_trail(const StateFolder& folder, storage::OpenedStore& store) {
+  std::error_code ec;
+  if (std::filesystem::exists(folder.identity_file(), ec)) return {};
+  const auto first = store.audit.chained(0, 1);
+  if (!first) return fail(first.error());
+  if (first->empty()) return {};
+  return fail(Errc::Conflict,
+              "the database that --store names has an audit trail, and this state folder has never "
+              "had it: {} has not the key that it is signed with. Start with the state folder of "
+              "the server that wrote it (or a copy), or name a new database",
+              folder.path().string());
 }
 
 Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& settings,
@@ -41,6 +57,7 @@ Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& set
   auto store = storage::PostgresqlStore::open(
       {.url = settings.store, .holder = *holder, .described = description(folder)}, clock);
   if (!store) return fail(store.error());
+  if (auto own = check_trail(folder, **store); !own) return fail(own.error());
   return KeptStore{*std::move(lock), *std::move(store), ""};
 }
 

@@ -107,6 +107,22 @@ TEST_F(Postgresql, ASecondServerIsRefusedWhileTheFirstWorks) {
   expect_whole(system_->start_run("O0300"));
 }
 
+// Its audit trail is signed with the key of the folder that wrote it.
+TEST_F(Postgresql, AFolderThatIsNewTakesNoDatabaseOfAnother) {
+  begin();
+  expect_whole(system_->start_run("O0300"));
+  system_->server().signal(SIGTERM);
+  ASSERT_TRUE(test_support::eventually([&] { return !system_->server().is_running(); }));
+  System other(System::Options{
+      .speed = "max", .server_arguments = {"--store", database_->url()}, .gateway_arguments = {}});
+  other.launch_server();
+  EXPECT_TRUE(test_support::eventually([&] { return !other.server().is_running(); }));
+  EXPECT_NE(other.server().output().find("this state folder has never had it"), std::string::npos)
+      << other.server().output();
+  begin();
+  expect_whole(system_->start_run("O0300"));
+}
+
 TEST_F(Postgresql, AFolderKeepsToItsDatabase) {
   begin();
   system_->server().signal(SIGTERM);
