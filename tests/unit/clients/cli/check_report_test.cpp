@@ -107,12 +107,13 @@ TEST(CheckJson, HasTheDocumentedMembers) {
   CheckReport report = lathe_report();
   report.summary.warnings = {{{}, Diagnostic{"CEN0001", "odd", 3, 7}}};
   report.summary.warning_count = 1;
-  EXPECT_EQ(check_json(report).dump(),
-            R"({"file":"shaft.nc","control":"centurion","program":"O0200","ended":true,)"
-            R"("blocks":100,"moves":90,"units":"in","x":"diameter","rapid_length":2.0,)"
-            R"("feed_length":10.5,"seconds":65.0,"extents":{"X":{"min":1.0,"max":2.0}},)"
-            R"("warnings":[{"code":"CEN0001","text":"odd","line":3,"column":7,"file":"shaft.nc"}],)"
-            R"("warning_count":1,"alarm":null,"elapsed_seconds":0.5,"blocks_per_second":200.0})");
+  EXPECT_EQ(
+      check_json(report).dump(),
+      R"({"file":"shaft.nc","control":"centurion","program":"O0200","ended":true,)"
+      R"("programs":0,"blocks":100,"moves":90,"units":"in","x":"diameter","rapid_length":2.0,)"
+      R"("feed_length":10.5,"seconds":65.0,"has_acceleration":false,"extents":{"X":{"min":1.0,"max":2.0}},)"
+      R"("warnings":[{"code":"CEN0001","text":"odd","line":3,"column":7,"file":"shaft.nc"}],)"
+      R"("warning_count":1,"alarm":null,"elapsed_seconds":0.5,"blocks_per_second":200.0})");
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ TEST(ApiJson, GivesBackWhatItRead) {
                                  {"next_block", "N3 X3"},     {"further_block", nullptr}};
   machine["display"] = nullptr;  // from a server before it
   machine["starts"] = nullptr;
+  machine["positions"] = nullptr;
   machine["held"] = nullptr;
   machine["queue_hold"] = nullptr;
   EXPECT_EQ(nlohmann::json(to_json_value(*from_json<client::Machine>(machine))), machine);
