@@ -121,6 +121,23 @@ Result<void> PositionSetter::check_frames(const Control& control,
   return {};
 }
 
+/// A program that begins after the memory was changed begins without a tool, while the axes are
+/// where the one before left them, its length included; and a lathe's T offsets are in no modes.
+Result<void> PositionSetter::check_length_known() const {
+  if (changed_at_ && *changed_at_ != parts_.run.times_left) {
+    return fail(Errc::Conflict,
+                "a datum or a tool was set and something has run since: which length is in the "
+                "position is not certain. Set tools before, or start the gateway anew and touch "
+                "off without a tool in force");
+  }
+  if (parts_.dialect.name == "fanuc-t" && parts_.run.left) {
+    return fail(Errc::Unsupported,
+                "something has run since power on: which T offset is in the position is not known "
+                "at this control. Enter the length by MDI (G10)");
+  }
+  return {};
+}
+
 interpreter::RestingPlace PositionSetter::place(const interpreter::Setup& setup) const {
   interpreter::RestingPlace place;
   const interpreter::Position at = parts_.machine.status().position;
@@ -177,6 +194,9 @@ Result<PositionSetter::Change> PositionSetter::set(const std::string& argument,
   if (is_diameter && !setup->control.flag("x_is_diameter", true).value_or(true)) {
     return fail(Errc::Unsupported,
                 "X of this control is a radius ([control] x_is_diameter): set it by MDI (G10)");
+  }
+  if (setting->tool > 0) {
+    if (auto known = check_length_known(); !known) return fail(known.error());
   }
   const interpreter::RestingPlace place = this->place(*setup);
   const bool has_length = !is_off(place.length_x) || !is_off(place.length_z);
@@ -238,6 +258,7 @@ Result<PositionSetter::Change> PositionSetter::set(const std::string& argument,
                         {"by", who},
                         {"at", place.at[axis] * (is_diameter ? 2 : 1)},
                         {"cells", std::move(numbers)}};
+  if (!changed_at_) changed_at_ = parts_.run.times_left;
   return Change{std::move(text), record.dump()};
 }
 

@@ -42,11 +42,13 @@ class PositionSetter {
   Result<interpreter::Setup> setup_of(const std::string& setup) const;
   Result<Control> control_with(const interpreter::Setup& setup) const;
   Result<void> check_rest() const;
+  Result<void> check_length_known() const;
   Result<void> check_axis(interpreter::Axis axis) const;
   Result<void> check_frames(const Control& control, const interpreter::Setup& setup) const;
   interpreter::RestingPlace place(const interpreter::Setup& setup) const;
 
   Parts parts_;
+  std::optional<std::uint64_t> changed_at_ = {};  ///< times_left at the last change
 };
 
 }  // namespace dripline::gateway

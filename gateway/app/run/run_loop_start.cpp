@@ -212,6 +212,7 @@ void RunLoop::keep_tape() {
 void RunLoop::note_left() {
   const std::uint64_t block = parts_.machine.status().origin.block;
   const interpreter::ActiveModes& modes = parts_.run.session->modes_at(block);
+  ++parts_.run.times_left;
   parts_.run.left = {modes.tool_length_x, modes.tool_length_z, parts_.run.session->frame_at(block)};
 }
 

@@ -209,6 +209,7 @@ struct CurrentRun {
     std::optional<interpreter::CoordinateFrame> frame;
   };
   std::optional<Left> left = {};
+  std::uint64_t times_left = 0;  ///< how often `left` was noted
 
   /// Commands and motion apply to it.
   bool is_active() const { return session && !is_ending; }

@@ -168,9 +168,6 @@ INSTANTIATE_TEST_SUITE_P(
         TouchCase{"fanuc_with_a_length_in_force", interpreter::kFanucDialect,
                   "[[tool]]\nnumber = 3\nlength = 10.0\n", "G21 G43 H3 G91 G1 Z-180. F9000\n",
                   "tool 3 Z -179.5 mm G54", "tool.3.length is 9.5, it was 10"},
-        TouchCase{"fanuc_lathe_x", interpreter::kFanucLatheDialect,
-                  "[[tool]]\nnumber = 3\nX = 1.0\nwear = { X = 0.2 }\n", "G98 G1 U80. F5000\n",
-                  "tool 3 X 30 mm G54", "tool.3.x is 25, it was 1; tool.3.x_wear is 0, it was 0.2"},
         TouchCase{"centurion_x", interpreter::kCenturionDialect, "units = \"mm\"\n",
                   "G21 G91 G98 G1 X80 F5000\n", "tool 2 X 30 mm G54",
                   "P611 is 25, it was 0; P615 is 0, it was 0"},
@@ -178,6 +175,22 @@ INSTANTIATE_TEST_SUITE_P(
                   "units = \"in\"\n[[tool]]\nnumber = 4\nlength = 1.0\n", "G20 G91 G1 Z-2 F500\n",
                   "tool 4 Z -3 in G54", "tool.4.Z is 25.4, it was 25.4"}),
     [](const auto& i) { return i.param.name; });
+
+// Which T offset is in the position is in no modes of a lathe.
+TEST(TouchOffByFanuc, IsRefusedOnALatheOnceSomethingHasRun) {
+  Shop shop(interpreter::kFanucLatheDialect, "[[tool]]\nnumber = 3\nX = 1.0\n");
+  ASSERT_EQ(shop.mdi("G98 G1 U80. F5000\n"), "completed");
+  EXPECT_THAT(shop.set("tool 3 X 30 mm G54"), StartsWith("refused: "));
+}
+
+// What runs after a change begins without a tool, wherever the axes are.
+TEST(TouchOffByFanuc, IsRefusedWhenSomethingHasRunSinceAChange) {
+  Shop shop(interpreter::kFanucDialect, "[[tool]]\nnumber = 3\nlength = 10.0\n");
+  ASSERT_EQ(shop.mdi("G21 G43 H3 G91 G1 Z-180. F9000\n"), "completed");
+  ASSERT_THAT(shop.set("datum G54 X 5 mm"), HasSubstr("is"));
+  ASSERT_EQ(shop.mdi("G21 G91 G1 X1. F9000\n"), "completed");
+  EXPECT_THAT(shop.set("tool 3 Z -179.5 mm G54"), StartsWith("refused: "));
+}
 
 // The control's own arithmetic with the length that was set comes to the coordinate.
 TEST(TouchOffByFanuc, IsTheLengthOfG43) {
