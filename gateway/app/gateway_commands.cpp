@@ -201,6 +201,7 @@ Reply Gateway::set_position(const dds::Command& command) {
     return refuse(fmt::format("what was set cannot be kept: {}", done.error().what));
   }
   (void)memory_.take_change();  // it is reported
+  run_.was_set = true;
   server_.want_status();
   return reply;
 }

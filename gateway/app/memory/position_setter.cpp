@@ -121,14 +121,14 @@ Result<void> PositionSetter::check_frames(const Control& control,
   return {};
 }
 
-/// A program that begins after the memory was changed begins without a tool, while the axes are
-/// where the one before left them, its length included; and a lathe's T offsets are in no modes.
+/// MDI that cannot go on from the modes of the program before begins without a tool, while the axes
+/// are where that one left them, its length included; and a lathe's T offsets are in no modes.
 Result<void> PositionSetter::check_length_known() const {
-  if (changed_at_ && *changed_at_ != parts_.run.times_left) {
+  if (!parts_.run.is_length_known) {
     return fail(Errc::Conflict,
-                "a datum or a tool was set and something has run since: which length is in the "
-                "position is not certain. Set tools before, or start the gateway anew and touch "
-                "off without a tool in force");
+                "something has run after a datum or a tool was set, or MDI has begun without the "
+                "tool in force: which length is in the position is not certain. Set tools before, "
+                "or start the gateway anew and touch off without a tool in force");
   }
   if (parts_.dialect.name == "fanuc-t" && parts_.run.left) {
     return fail(Errc::Unsupported,
@@ -258,7 +258,6 @@ Result<PositionSetter::Change> PositionSetter::set(const std::string& argument,
                         {"by", who},
                         {"at", place.at[axis] * (is_diameter ? 2 : 1)},
                         {"cells", std::move(numbers)}};
-  if (!changed_at_) changed_at_ = parts_.run.times_left;
   return Change{std::move(text), record.dump()};
 }
 

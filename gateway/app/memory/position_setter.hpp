@@ -48,7 +48,6 @@ class PositionSetter {
   interpreter::RestingPlace place(const interpreter::Setup& setup) const;
 
   Parts parts_;
-  std::optional<std::uint64_t> changed_at_ = {};  ///< times_left at the last change
 };
 
 }  // namespace dripline::gateway

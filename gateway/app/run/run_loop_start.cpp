@@ -212,7 +212,6 @@ void RunLoop::keep_tape() {
 void RunLoop::note_left() {
   const std::uint64_t block = parts_.machine.status().origin.block;
   const interpreter::ActiveModes& modes = parts_.run.session->modes_at(block);
-  ++parts_.run.times_left;
   parts_.run.left = {modes.tool_length_x, modes.tool_length_z, parts_.run.session->frame_at(block)};
 }
 
@@ -230,6 +229,10 @@ void RunLoop::take_modes() {
 }
 
 void RunLoop::note_beginning(const StartOrigin& origin, bool has_modes) {
+  const auto& left = parts_.run.left;
+  const bool has_length = left && (left->tool_length_x.mm() != 0 || left->tool_length_z.mm() != 0);
+  if (parts_.run.was_set || (origin.from.is_mdi && !has_modes && has_length))
+    parts_.run.is_length_known = false;
   const machine::OperatorPanel& panel = parts_.machine.panel();
   if (panel.machine_lock) parts_.recorder.note({}, "machine lock: the axes do not move");
   if (panel.dry_run && !panel.machine_lock) parts_.recorder.note({}, "dry run");

@@ -209,7 +209,9 @@ struct CurrentRun {
     std::optional<interpreter::CoordinateFrame> frame;
   };
   std::optional<Left> left = {};
-  std::uint64_t times_left = 0;  ///< how often `left` was noted
+  bool was_set = false;  ///< an operator has set a datum or a tool since the gateway began
+  /// False: MDI has begun without the tool whose length is in the position, or after what was set.
+  bool is_length_known = true;
 
   /// Commands and motion apply to it.
   bool is_active() const { return session && !is_ending; }

@@ -192,6 +192,14 @@ TEST(TouchOffByFanuc, IsRefusedWhenSomethingHasRunSinceAChange) {
   EXPECT_THAT(shop.set("tool 3 Z -179.5 mm G54"), StartsWith("refused: "));
 }
 
+// A program that was cut off leaves its tool's length in the position, and MDI begins without it.
+TEST(TouchOffByFanuc, IsRefusedWhenMdiHasBegunWithoutTheToolInForce) {
+  Shop shop(interpreter::kFanucDialect, "[[tool]]\nnumber = 3\nlength = 10.0\n");
+  ASSERT_NE(shop.mdi("G21 G43 H3 G91 G1 Z-180. F9000\nG1 Z-1. H999\n"), "completed");
+  ASSERT_EQ(shop.mdi("G21 G91 G1 X1. F9000\n"), "completed");
+  EXPECT_THAT(shop.set("tool 3 Z -179.5 mm G54"), StartsWith("refused: "));
+}
+
 // The control's own arithmetic with the length that was set comes to the coordinate.
 TEST(TouchOffByFanuc, IsTheLengthOfG43) {
   Shop shop(interpreter::kFanucDialect, "[[offset]]\nname = \"G54\"\nZ = -300.0\n");
