@@ -178,6 +178,15 @@ Result<MachineView> MachineService::connected_machine(const std::string& name) c
               to_iso8601(view->machine.last_seen));
 }
 
+Result<MachineView> MachineService::machine_for_work(const std::string& name) const {
+  auto view = connected_machine(name);
+  if (!view) return view;
+  if (view->is_contested)
+    return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them", name);
+  if (auto same = check_protocol(*view); !same) return fail(same.error());
+  return view;
+}
+
 /// A gateway of another version keeps its run and its reports, and can only be stopped.
 void MachineService::refuse_stranger(const dds::Announce& announce) {
   const std::string notice = protocol_notice(announce.protocol);
@@ -267,12 +276,8 @@ Result<std::string> MachineService::values(const ValueQuery& query) {
 Result<PositionAnswer> MachineService::position(const PositionRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
-  const auto view = connected_machine(request.machine);
+  const auto view = machine_for_work(request.machine);
   if (!view) return fail(view.error());
-  if (view->is_contested) {
-    return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them",
-                request.machine);
-  }
   if (view->has_serial_line()) {
     return fail(Errc::Unsupported,
                 "machine {}: its control is at the end of a line: set it there, where the "

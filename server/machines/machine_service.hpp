@@ -86,6 +86,8 @@ class MachineService final : public MachineControl {
   void log_rejected();
   void announce_run(const std::string& run);
   Result<MachineView> connected_machine(const std::string& name) const;
+  /// Connected, by one gateway of this protocol: it takes more than a stop.
+  Result<MachineView> machine_for_work(const std::string& name) const;
   Result<storage::Run> make_run(const StartRequest& request, const MachineView& view);
   Result<std::optional<storage::SetupRevision>> setup_of(const MachineView& view);
   Result<void> check_restart(const StartRequest& request, const storage::Run& run);

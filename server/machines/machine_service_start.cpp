@@ -83,13 +83,8 @@ Result<void> MachineService::check_restart(const StartRequest& request, const st
 Result<storage::Run> MachineService::start(const StartRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
-  const auto view = connected_machine(request.machine);
+  const auto view = machine_for_work(request.machine);
   if (!view) return fail(view.error());
-  if (view->is_contested) {
-    return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them",
-                request.machine);
-  }
-  if (auto same = check_protocol(*view); !same) return fail(same.error());
   auto run = make_run(request, *view);
   if (!run) return run;
   if (auto fits = check_control_memory(sources_, *run); !fits) return fail(fits.error());
