@@ -50,6 +50,10 @@ TEST_F(MachineRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsNotified) {
   EXPECT_EQ(run.error().code, Errc::Unsupported);
   EXPECT_NE(run.error().what.find("protocol 4711, this server 2"), std::string::npos);
   EXPECT_TRUE(store_->runs.list({}, {})->empty());
+  const auto set = service_->position(
+      {.machine = "lathe-1", .argument = "datum G54 Z 0 mm", .who = "anna", .is_playback = false});
+  ASSERT_FALSE(set);
+  EXPECT_NE(set.error().what.find("protocol 4711, this server 2"), std::string::npos);
   answer_commands(true);
   machines::CommandRequest stop;
   stop.machine = "lathe-1";
