@@ -4,6 +4,7 @@
 
 #include "clients/tools/conversational/impl/form_reader.hpp"
 #include "clients/tools/conversational/reader.hpp"
+#include "protocol/base/lines.hpp"
 
 namespace dripline::conversational {
 namespace {
@@ -28,17 +29,6 @@ struct CutFile {
     return joined;
   }
 };
-
-std::vector<std::string_view> lines_with_ends(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
-    lines.push_back(text.substr(0, size));
-    text.remove_prefix(size);
-  }
-  return lines;
-}
 
 /// The first of the comment lines directly above the header of event `line`.
 std::size_t section_start(const CutFile& cut, std::size_t line) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "clients/tools/program_editing/tnc155/whole_program.hpp"
+#include "protocol/base/lines.hpp"
 
 namespace dripline::program_editing {
 
@@ -110,18 +111,6 @@ tl::unexpected<Error> no_block(std::span<const std::int64_t> numbers, std::int64
               *lowest, *highest);
 }
 
-/// Lines with their ends.
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
-    lines.push_back(text.substr(0, size));
-    text.remove_prefix(size);
-  }
-  return lines;
-}
-
 std::string without_end(std::string_view line) {
   return std::string(line.substr(0, line.find_last_not_of("\r\n") + 1));
 }
@@ -147,7 +136,7 @@ Result<std::vector<EditStep>> plan_edit(std::span<const std::int64_t> numbers,
 }
 
 Result<EditedProgram> edit_lines(std::string_view text, std::span<const BlockChange> changes) {
-  const auto lines = lines_of(text);
+  const auto lines = lines_with_ends(text);
   std::vector<std::int64_t> numbers;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     numbers.push_back(static_cast<std::int64_t>(i) + 1);

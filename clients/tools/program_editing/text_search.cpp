@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "protocol/base/lines.hpp"
+
 namespace dripline::program_editing {
 namespace {
 
@@ -62,13 +64,11 @@ Result<void> check_pattern(const TextPattern& pattern, std::size_t lines) {
 
 /// Without their ends.
 std::vector<std::string_view> bare_lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    lines.push_back(line);
-    text.remove_prefix(std::min(end + 1, text.size()));
+  std::vector<std::string_view> lines = lines_with_ends(text);
+  for (std::string_view& line : lines) {
+    for (const char end : {'\n', '\r'}) {
+      if (line.ends_with(end)) line.remove_suffix(1);
+    }
   }
   return lines;
 }
