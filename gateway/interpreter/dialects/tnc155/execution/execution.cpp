@@ -17,10 +17,13 @@ namespace dripline::interpreter::tnc155 {
 namespace {
 
 bool begin_program(Run& run, const Block& block) {
-  if (run.options.is_later) return later::begin_program(run, block);
   State& state = run.state;
   if (!state.has_header && state.programs.empty()) {
-    state.program_number = block.target;
+    if (run.options.is_later) {
+      state.program_name = run.parts.later.name;
+    } else {
+      state.program_number = block.target;
+    }
     state.units = block.units;
     return true;
   }

@@ -168,19 +168,6 @@ bool retract(Run& run, const Block& block) {
 
 }  // namespace
 
-bool begin_program(Run& run, const Block& block) {
-  State& state = run.state;
-  if (!state.has_header && state.programs.empty()) {
-    state.program_name = run.parts.later.name;
-    state.units = block.units;
-    return true;
-  }
-  if (state.units == block.units) return true;
-  state.units = block.units;
-  run.events().on_units({run.origin, state.units});
-  return true;
-}
-
 bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   const LaterWords& words = run.parts.later;
   if (words.is_auto_feed && !use_tool_feed(run)) return false;

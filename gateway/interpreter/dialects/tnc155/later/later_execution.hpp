@@ -6,8 +6,6 @@
 /// when the run cannot continue (`Run::pause`).
 namespace dripline::interpreter::tnc155::later {
 
-/// BEGIN PGM: a program with a name.
-bool begin_program(Run& run, const Block& block);
 /// Positioning with several M functions and F AUTO; `move` makes the motion.
 bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&));
 /// CC, which may name the tool axis: circles then lie in a plane across the working plane.

@@ -84,12 +84,14 @@ BlockHead read_head(std::string_view block, Form form) {
     head.label = label_of_iso(block);
     return head;
   }
+  head.is_skipped = text.take('/');
   head.number = text.number();
+  head.is_skipped = head.is_skipped || text.take('/');
   if (text.take("LBL")) {
     head.label = static_cast<std::int32_t>(text.number());
     if (text.peek() == '"') head.name = quoted(text.rest());
   } else {
-    head.is_end = text.take("ENDPGM");
+    head.is_end = !head.is_skipped && text.take("ENDPGM");
   }
   return head;
 }
@@ -168,30 +170,16 @@ void TextSearch::note_label(Index& index, const BlockHead& head, const LabelSet&
   if (index.numbers.size() + index.names.size() == kLargeIndex + 1) make_room(index);
 }
 
-namespace {
-
-/// "/LBL 5", "10 /LBL 5", "/10 LBL 5": with the switch off the control has it.
-bool is_label_behind_slash(std::string_view text) {
-  const std::size_t word = text.find_first_not_of(" \t0123456789/");
-  if (word == std::string_view::npos || text.size() - word < 3) return false;
-  const auto is_letter = [&](std::size_t i, char c) {
-    return (text[word + i] & ~('a' - 'A')) == c;
-  };
-  return text.substr(0, word).find('/') != std::string_view::npos && is_letter(0, 'L') &&
-         is_letter(1, 'B') && is_letter(2, 'L');
-}
-
-}  // namespace
-
 void TextSearch::note(Index& index, std::string_view text) {
   ++index.blocks;
-  if (is_later_ && is_label_behind_slash(text)) {
-    index.doubled = fmt::format("a label behind a slash: {}", text);
-    index.second = {reader_.block_place(), -1};
-    return;
-  }
   const BlockHead head = read_head(text, index.progress.state.program.form);
   index.is_complete = head.is_end;
+  if (head.is_skipped) {
+    if (!is_later_ || (head.label < 0 && head.name.empty())) return;
+    index.doubled = fmt::format("a label behind a slash: {}", text);
+    index.second = {reader_.block_place(), head.number};
+    return;
+  }
   const std::int32_t last = is_later_ ? kLastLaterLabel : kLastLabel;
   const bool is_name = is_later_ && !head.name.empty();
   if (!is_name && (head.label <= 0 || head.label > last)) return;

@@ -16,6 +16,8 @@ struct BlockHead {
   std::int64_t number = -1;  ///< the block number, N in ISO; -1: none
   std::int32_t label = -1;   ///< LBL, G98 L; -1: none
   bool is_end = false;       ///< END PGM: of plain language
+  /// A slash before the words or the number: block skip. With its switch off the control has them.
+  bool is_skipped = false;
   /// Of a later control: what follows LBL, where that is a name in quotes.
   std::string_view name = {};
 };
