@@ -18,7 +18,7 @@ const figure = (name: string, value: number, unit: string) => console.log(JSON.s
 const pause = (ms: number) => new Promise((done) => setTimeout(done, ms));
 
 /// DDS of a large shop (deploy/docs/operations.md): cells, ms between two announcements, and of silence after which an end is lost.
-const [kCells, kDiscovery, kLease] = kMachines > 300 ? ['32', process.env.DISCOVERY ?? '2000', process.env.LEASE ?? '5000'] : ['8', '250', '2000'];
+const [kCells, kDiscovery, kLease] = kMachines > 300 ? ['32', process.env.DISCOVERY ?? '4000', process.env.LEASE ?? '10000'] : ['8', '250', '2000'];
 
 /// As many machines as one process of the fleet has.
 const kPerProcess = 100;
