@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "gateway/machine/linuxcnc/linuxcnc_machine.hpp"
-#include "tests/support/linuxcnc.hpp"
+#include "tests/support/linuxcnc/linuxcnc.hpp"
 #include "tests/unit/gateway/machine/test_machine.hpp"
 
 namespace dripline::integration {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "tests/integration/motion_system.hpp"
-#include "tests/support/linuxcnc.hpp"
+#include "tests/support/linuxcnc/linuxcnc.hpp"
 
 namespace dripline::integration {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/support/linuxcnc.hpp"
+#include "tests/support/linuxcnc/linuxcnc.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
