@@ -11,7 +11,7 @@
 
 namespace dripline::storage {
 
-/// A store with what whoever opened it asks besides, whatever engine keeps it.
+/// A store with what its owner asks besides, whatever engine keeps it.
 class OpenedStore : public Store {
  public:
   OpenedStore(const OpenedStore&) = delete;

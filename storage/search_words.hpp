@@ -18,7 +18,7 @@ namespace dripline::storage {
 enum class WordsOf : std::uint8_t {
   Card,  ///< names, comments, fields: all words
   /// A program: without coordinates (X Y Z A B C U V W I J K Q R), N numbers and the number that
-  /// begins a line: nobody searches for them, and they would be most of the index. Of a comment,
+  /// begins a line: no one searches for them, and they would be most of the index. Of a comment,
   /// `(...)` or from `;` to the end of the line, all words.
   Text,
 };

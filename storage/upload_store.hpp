@@ -49,8 +49,8 @@ class UploadStore {
   virtual Result<void> set_control(const std::string& id, const std::string& control) = 0;
   /// Makes the upload a new revision of its program, or returns the latest one when it has the very
   /// same content; for a held upload also the newest held one with that content. Its `change` is in
-  /// force either way. Errors: NotFound, Corrupt (the content's SHA-256 is not `expected`), Syntax
-  /// (empty), Conflict (it is an upload of an attachment, or its machine group was removed),
+  /// force in both cases. Errors: NotFound, Corrupt (the content's SHA-256 is not `expected`),
+  /// Syntax (empty), Conflict (it is an upload of an attachment, or its machine group was removed),
   /// NotFound (also its folder's file, which is not Taken any more).
   virtual Result<Revision> commit(const std::string& id, const std::optional<Digest>& expected) = 0;
   virtual Result<void> abandon(const std::string& id) = 0;

@@ -36,7 +36,7 @@ struct AttachmentPull {
   std::function<bool(std::uint64_t done, std::uint64_t total)> on_progress;
 };
 
-/// Writes an attachment to a file in the same way.
+/// Writes an attachment to a file likewise.
 Reply<void> pull_attachment_to_file(Client& client, const Attachment& attachment,
                                     const AttachmentPull& options);
 

@@ -28,7 +28,7 @@ struct AttachOptions {
   std::function<bool(std::uint64_t done, std::uint64_t total)> on_progress;
 };
 
-/// Sends `source` as an attachment, in the same way.
+/// Sends `source` as an attachment, likewise.
 Reply<Attachment> push_attachment(Client& client, ByteSource& source, const AttachOptions& options);
 
 }  // namespace dripline::client

@@ -22,7 +22,7 @@ struct OperatorPanel {
   /// Moves at feed, threads included, run at `dry_run_speed` (mm per second at 100 %) instead.
   bool dry_run = false;
   double dry_run_speed = 0;
-  bool dry_run_spindle = true;  ///< the spindle turns in a dry run
+  bool dry_run_spindle = true;  ///< the spindle runs in a dry run
   bool machine_lock = false;    ///< programs run, and the axes end where they were; kept here only
 
   static constexpr double kMaxFeedOverride = 2, kMaxRapidOverride = 1, kMaxSpindleOverride = 2.55;

@@ -9,7 +9,7 @@
 
 namespace dripline::pki {
 
-/// What a certificate (X.509) states of its holder. The texts are printable: whoever made it may
+/// What a certificate (X.509) states of its holder. The texts are printable: anyone who made it may
 /// have written anything into it.
 struct Certificate {
   std::string common_name;      ///< empty: none, several, or not plain text

@@ -7,8 +7,8 @@
 namespace dripline::pki {
 
 inline constexpr const char* kIdentityAuthorityFile = "identity_ca.pem";  ///< signs certificates
-/// Signs permissions and governance. Another key than the first: whoever holds a certificate of the
-/// first could otherwise sign permissions for himself (Cyclone DDS accepts a chain of signers).
+/// Signs permissions and governance. Another key than the first: anyone who holds a certificate of
+/// the first could otherwise sign permissions for himself (Cyclone DDS accepts a chain of signers).
 inline constexpr const char* kPermissionsAuthorityFile = "permissions_ca.pem";
 inline constexpr const char* kCertificateFile = "certificate.pem";
 inline constexpr const char* kKeyFile = "key.pem";  ///< the only secret

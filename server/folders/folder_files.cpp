@@ -60,7 +60,7 @@ Entry entry_of(const std::string& name, const struct stat& facts) {
 }
 
 /// A lease for reading is refused while the file is open for writing. It needs the file's owner or
-/// a privilege, and a file system that has leases; where it is not given nothing can be told.
+/// a privilege, and a file system that has leases; where it is not given nothing is known.
 bool is_open_for_writing(int file) {
   // Who opens the file within the lease's short life would make the kernel send SIGIO, which ends
   // the process; SIGURG does nothing.
@@ -252,7 +252,7 @@ Result<void> FolderFiles::move(const std::string& name, const std::string& targe
   const Place to = place_of(target);
   if (::renameat2(folder_.get(), name.c_str(), to.folder, to.name.c_str(), RENAME_NOREPLACE) == 0)
     return {};
-  // Network shares may not know that flag: nobody else makes files there.
+  // Network shares may not know that flag: no one else makes files there.
   const bool is_flag_unknown = errno == EINVAL || errno == ENOSYS;
   if (is_flag_unknown && !has(target) &&
       ::renameat(folder_.get(), name.c_str(), to.folder, to.name.c_str()) == 0) {

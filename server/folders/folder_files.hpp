@@ -27,7 +27,7 @@ struct Entry {
   }
 };
 
-/// Our own copy of a file's bytes: nobody else can change or cut it off while it is read. It has no
+/// Our own copy of a file's bytes: no one else can change or cut it off while it is read. It has no
 /// name and is gone with the object.
 class FileCopy {
  public:

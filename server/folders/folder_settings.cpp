@@ -148,7 +148,7 @@ constexpr std::array kFolderKeys{
     KeyRow<FolderSettings>{"author", take_text<FolderSettings, &FolderSettings::author>},
     KeyRow<FolderSettings>{"comment", take_text<FolderSettings, &FolderSettings::comment>},
     KeyRow<FolderSettings>{"check", take_check},
-    KeyRow<FolderSettings>{"settle_seconds", take_seconds<&FolderSettings::settle, 0>},
+    KeyRow<FolderSettings>{"unchanged_seconds", take_seconds<&FolderSettings::unchanged_time, 0>},
     KeyRow<FolderSettings>{"poll_seconds", take_seconds<&FolderSettings::poll, 1>},
     KeyRow<FolderSettings>{"max_mb", take_size},
     KeyRow<FolderSettings>{"done", take_subfolder<&FolderSettings::done>},

@@ -34,7 +34,7 @@ struct FolderSettings {
   std::string author;   ///< of the revisions, may hold {owner}; empty: "folder NAME"
   std::string comment = "{name}";
   bool is_checked = true;  ///< a program with an alarm is not taken
-  std::chrono::milliseconds settle{
+  std::chrono::milliseconds unchanged_time{
       2000};                             ///< a file is complete when it did not change for so long
   std::chrono::milliseconds poll{5000};  ///< two looks at the folder are at most so far apart
   std::uint64_t max_bytes = 256ull << 20;        ///< of a file

@@ -73,7 +73,7 @@ Result<void> HotFolder::look_through(const Arrivals& arrivals, const std::stop_t
   if (!entries) return fail(entries.error());
   std::map<std::string_view, const Entry*> by_name;
   for (const Entry& entry : *entries) by_name.emplace(entry.name, &entry);
-  if (auto settled = settle_unfinished(by_name); !settled) return settled;
+  if (auto done = finish_interrupted(by_name); !done) return done;
   std::erase_if(watched_, [&](const auto& watched) { return !by_name.contains(watched.first); });
   Result<void> first;
   for (const Entry& entry : *entries) {
@@ -94,7 +94,8 @@ Result<void> HotFolder::look_through(const Arrivals& arrivals, const std::stop_t
     Watched& watched = watched_.at(entry.name);
     watched.unchanged_since = parts_.sources.clock.steady_now();
     const bool is_changing = taken.error().code == Errc::Busy;
-    watched.not_before = watched.unchanged_since + (is_changing ? settings_.settle : kRetry);
+    watched.not_before =
+        watched.unchanged_since + (is_changing ? settings_.unchanged_time : kRetry);
     next_ = std::min(next_, watched.not_before);
     if (!is_changing && first) first = fail(taken.error().code, "{}", taken.error().what);
   }
@@ -102,7 +103,8 @@ Result<void> HotFolder::look_through(const Arrivals& arrivals, const std::stop_t
 }
 
 /// Rows of files that were moved, and the server was killed before it wrote that down.
-Result<void> HotFolder::settle_unfinished(const std::map<std::string_view, const Entry*>& entries) {
+Result<void> HotFolder::finish_interrupted(
+    const std::map<std::string_view, const Entry*>& entries) {
   auto& store = parts_.sources.store.folders;
   const auto unfinished = store.unfinished(settings_.name);
   if (!unfinished) return fail(unfinished.error());
@@ -128,18 +130,19 @@ bool HotFolder::is_complete(const Entry& entry, const Arrivals& arrivals) {
     watched.entry = entry;
     watched.unchanged_since = now;
   }
-  if (arrivals.whole.contains(entry.name)) watched.unchanged_since = now - settings_.settle;
+  if (arrivals.whole.contains(entry.name)) watched.unchanged_since = now - settings_.unchanged_time;
   if (arrivals.written.contains(entry.name)) {
     watched.unchanged_since = now;
     return false;  // closing it wakes us
   }
-  const SteadyTime due = std::max(watched.unchanged_since + settings_.settle, watched.not_before);
+  const SteadyTime due =
+      std::max(watched.unchanged_since + settings_.unchanged_time, watched.not_before);
   if (due <= now) return true;
   next_ = std::min(next_, due);
   return false;
 }
 
-/// It stays: whoever made it may be in it.
+/// It stays: its maker may be in it.
 void HotFolder::refuse_folder(const Entry& entry) {
   if (!refused_folders_.insert(entry.name).second) return;
   const std::string shown = printable_name(entry.name);
@@ -325,7 +328,7 @@ Result<void> HotFolder::move_away(const FolderFile& file) {
     if (auto written = files_->write_reason(*target, line); !written) return written;
   }
   if (auto moved = files_->move(file.name, *target); !moved) {
-    if (moved.error().code == Errc::NotFound)  // somebody took it away: the same as moved
+    if (moved.error().code == Errc::NotFound)  // someone took it away: the same as moved
       return store.set_moved(file.id, parts_.sources.clock.now());
     return fail(moved.error().code, "{}: {}", printable_name(file.name), moved.error().what);
   }

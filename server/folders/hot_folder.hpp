@@ -75,7 +75,7 @@ class HotFolder {
   };
 
   Result<void> look_through(const Arrivals& arrivals, const std::stop_token& stop);
-  Result<void> settle_unfinished(const std::map<std::string_view, const Entry*>& entries);
+  Result<void> finish_interrupted(const std::map<std::string_view, const Entry*>& entries);
   bool is_complete(const Entry& entry, const Arrivals& arrivals);
   void refuse_folder(const Entry& entry);
   Result<void> take(const Entry& entry, const std::stop_token& stop);

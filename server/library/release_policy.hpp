@@ -12,7 +12,7 @@
 namespace dripline::library {
 
 /// What a policy may accept from a machine unseen (clients/tools/comparison, "The class of an
-/// edit"). A path that changed, and what cannot be told, is for a person.
+/// edit"). A path that changed, and what is not known, is for a person.
 inline constexpr std::array<std::string_view, 4> kAtOnceClasses{"comment", "same_motion",
                                                                 "feed_and_speed", "offsets"};
 

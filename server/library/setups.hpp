@@ -40,8 +40,8 @@ class Setups {
                                          const Keep& keep);
   /// Called after a new revision was kept, by who saved it. One listener, set before any save.
   void on_saved(
-      std::function<void(const storage::SetupRevision&, const std::string& control)> told) {
-    on_saved_ = std::move(told);
+      std::function<void(const storage::SetupRevision&, const std::string& control)> notify) {
+    on_saved_ = std::move(notify);
   }
   /// Newest first, without their texts.
   Result<std::vector<storage::SetupRevision>> list(const std::string& machine,

@@ -77,7 +77,7 @@ void HoldReasons::release(const std::string& machine) {
     const std::lock_guard lock(mutex_);
     if (entries_.erase(machine) == 0) return;
   }
-  forget_stored(machine);
+  drop_stored(machine);
   changed(machine);
 }
 
@@ -101,7 +101,7 @@ void HoldReasons::note(const storage::Run& run) {
     if (known == entries_.end() || known->second.hold.run != run.id) return;
     entries_.erase(known);
   }
-  forget_stored(run.machine);
+  drop_stored(run.machine);
   changed(run.machine);
 }
 
@@ -131,10 +131,10 @@ void HoldReasons::add_to(MachineView& view) {
     if (known != entries_.end() && (!view.status || shows(*view.status, known->second.hold)))
       view.held = known->second.hold;
   }
-  if (is_over) forget_stored(machine);
+  if (is_over) drop_stored(machine);
 }
 
-void HoldReasons::forget_stored(const std::string& machine) {
+void HoldReasons::drop_stored(const std::string& machine) {
   log_failure(parts_.store.machines.release(machine), machine);
 }
 

@@ -54,7 +54,7 @@ class HoldReasons {
   };
   /// True: the machine continues, and its entry is gone. Hold the mutex.
   bool drop_if_over(const MachineView& view);
-  void forget_stored(const std::string& machine);
+  void drop_stored(const std::string& machine);
   void changed(const std::string& machine) const;
 
   const Parts parts_;

@@ -287,12 +287,13 @@ std::optional<microseconds> GatewayClocks::time_ahead() const {
 }
 
 bool is_news(const dds::Status& before, const dds::Status& now) {
-  const auto said = [](const dds::Status& s) {
+  const auto compared = [](const dds::Status& s) {
     return std::tie(s.execution, s.mode, s.run, s.program, s.message, s.single_block,
                     s.emergency_stop, s.remote_enable, s.waits_for, s.feed_override,
                     s.rapid_override, s.spindle_override, s.session, s.axes, s.switches);
   };
-  return said(before) != said(now) || before.serial_line.has_value() != now.serial_line.has_value();
+  return compared(before) != compared(now) ||
+         before.serial_line.has_value() != now.serial_line.has_value();
 }
 
 std::string protocol_notice(std::uint32_t protocol) {

@@ -55,7 +55,7 @@ Result<void> Measurements::wait(std::chrono::milliseconds limit) {
   std::unique_lock lock(mutex_);
   is_woken_ = true;
   changed_.notify_all();
-  // A round that is under way may have passed what was stored just now: the next one has not.
+  // A round that is in progress may have passed what was stored just now: the next one has not.
   const std::uint64_t round = begun_ + 1;
   if (changed_.wait_until(lock, deadline, [&] { return done_ >= round; })) return {};
   return fail(Errc::Timeout, "records are not derived within {} ms", limit.count());

@@ -236,7 +236,7 @@ Result<void> Publisher::check_answers() {
               std::chrono::duration_cast<std::chrono::seconds>(options_.answer_limit).count());
 }
 
-/// Ends what is under way, says that the server is gone, and notes how far it has got.
+/// Ends what is in progress, says that the server is gone, and notes how far it has got.
 void Publisher::take_leave() {
   if (!broker_.view().is_connected) return;
   const auto gone = parts_.link.publish(online_message(false));

@@ -28,13 +28,13 @@ namespace dripline::mqtt {
 class Publisher {
  public:
   struct Options {
-    std::size_t window = 100;                     ///< messages of each sort under way
+    std::size_t window = 100;                     ///< messages of each sort in progress
     std::chrono::milliseconds look{1000};         ///< for records, besides when notified
     std::chrono::milliseconds gather{20};         ///< between two looks
     std::chrono::milliseconds commit_after{200};  ///< of acknowledgments, so that they are few
     std::chrono::milliseconds connect_limit{10'000};
     std::chrono::milliseconds answer_limit{30'000};  ///< for an acknowledgment
-    std::chrono::milliseconds farewell{1000};        ///< at the end, for what is under way
+    std::chrono::milliseconds farewell{1000};        ///< at the end, for what is in progress
     BrokerState::Options state = {};
   };
   struct Parts {
@@ -105,7 +105,7 @@ class Publisher {
 
   // Of the thread.
   RecordFeed feed_;
-  std::map<std::uint64_t, std::string> states_;  ///< under way: message, what it is
+  std::map<std::uint64_t, std::string> states_;  ///< in progress: message, what it is
   bool is_more_ = false;                         ///< records wait that fit the window
   SteadyTime looked_{};
   SteadyTime committed_{};

@@ -18,7 +18,7 @@ namespace dripline::mqtt {
 class RecordFeed {
  public:
   struct Options {
-    std::size_t window = 100;             ///< records at most under way
+    std::size_t window = 100;             ///< records at most in progress
     std::vector<std::string> kinds = {};  ///< empty: all
   };
   RecordFeed(const storage::Store& store, std::string reader, Options options)
@@ -27,7 +27,7 @@ class RecordFeed {
   /// Hands a record to the connection and returns the message's number there.
   using Publish = std::function<Result<std::uint64_t>(const storage::Record&)>;
 
-  /// A new connection: what is under way is to be published again.
+  /// A new connection: what is in progress is to be published again.
   void restart();
   /// Publishes what the window has room for. True: there may be more. Errors: those of the store
   /// and of `publish`, after which it is to be restarted.
@@ -54,7 +54,7 @@ class RecordFeed {
 
   bool wants(const storage::Record& record) const;
   Result<bool> fill_from(const storage::UnreadRecords& journal, const Publish& publish);
-  /// Up to which number the journal's records are under way or beyond.
+  /// Up to which number the journal's records are in progress or beyond.
   std::uint64_t position(const storage::RecordCursor& read) const;
   void add(Entry entry);
   void pass();
@@ -63,7 +63,7 @@ class RecordFeed {
   const std::string reader_;
   const Options options_;
   std::deque<Entry> under_way_;
-  std::map<Journal, std::uint64_t> sent_;    ///< of journals with something under way
+  std::map<Journal, std::uint64_t> sent_;    ///< of journals with something in progress
   std::map<Journal, std::uint64_t> passed_;  ///< to be stored
   std::string last_machine_;                 ///< the others come first
   std::uint64_t missing_ = 0;

@@ -29,7 +29,7 @@ class SparkplugNode {
     std::chrono::milliseconds look{1000};
     std::chrono::milliseconds connect_limit{10'000};
     std::chrono::milliseconds rebirth_interval{1000};  ///< of two births that were asked for
-    std::chrono::milliseconds farewell{1000};          ///< at the end, for what is under way
+    std::chrono::milliseconds farewell{1000};          ///< at the end, for what is in progress
     BrokerState::Options state = {};
   };
   struct Parts {

@@ -250,7 +250,7 @@ class Agent::PartStream : public api::TimedSource {
   /// The next document; "": none now. `pause` until the next one may be changed.
   virtual Asked<std::string> make(SteadyTime now, std::chrono::steady_clock::duration& pause) = 0;
 
-  /// False: too much is under way.
+  /// False: too much is in progress.
   bool take_share(const std::string& xml) {
     auto share = agent_.budget_.take(xml.size());
     if (!share) return false;

@@ -34,7 +34,7 @@ class Agent {
     std::string plant;           ///< makes UUIDs unique: the identity of the database
     std::uint64_t instance = 0;  ///< another one at every start
     std::size_t buffer_size = ObservationBuffer::kCapacity;
-    std::uint64_t body_memory = 128ull * 1024 * 1024;  ///< of large documents under way
+    std::uint64_t body_memory = 128ull * 1024 * 1024;  ///< of large documents in progress
     std::function<std::vector<storage::Record>(const std::string& machine)> last_alarms = {};
   };
   Agent(Options options, const Clock& clock);

@@ -35,7 +35,7 @@ class BodyBudget {
     std::int64_t size_ = 0;
   };
 
-  /// nullopt: too much is under way.
+  /// nullopt: too much is in progress.
   std::optional<Share> take(std::uint64_t bytes) {
     if (bytes < kSmall) return Share();
     const auto size = static_cast<std::int64_t>(bytes);

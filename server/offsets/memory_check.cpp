@@ -110,7 +110,7 @@ class MemoryCheck {
       if (cell.keeps == interpreter::Keeps::Always) continue;
       return fmt::format(
           "{} is kept by the control until it is switched off, and not reported: "
-          "what it is at the machine cannot be told",
+          "what it is at the machine is not known",
           name);
     }
     if (cells_.empty()) return std::string();
@@ -120,7 +120,7 @@ class MemoryCheck {
     const storage::MemoryReport& newest = reports->front();
     const auto kept = library::read_memory_texts(newest.texts);
     if (!kept) {
-      return fmt::format("what the control keeps cannot be told: its report after run {}: {}",
+      return fmt::format("what the control keeps is not known: its report after run {}: {}",
                          newest.run, kept.error().what);
     }
     for (const auto& [name, cell] : cells_) {
@@ -170,7 +170,7 @@ class MemoryCheck {
         number_text(in_setup), correction_.target, correction_.machine, name);
   }
 
-  /// What the setup of the run that reported gave the cell; nothing: that cannot be told.
+  /// What the setup of the run that reported gave the cell; nothing: that is not known.
   Result<std::optional<double>> setup_number(const storage::MemoryReport& report,
                                              const std::string& name) {
     const auto run = store_.runs.find(report.run);

@@ -121,7 +121,7 @@ Result<std::string> Offsets::what_form_lacks(const Current& now, const std::stri
 std::string Offsets::what_is_not_loaded(const Current& now) {
   if (!now.loaded || now.loaded->number == now.setup) return {};
   return fmt::format(
-      "{} is said to be in the control, and setup {} is the newest: load it there, "
+      "{} is recorded as loaded in the control, and setup {} is the newest: load it there, "
       "then `dnc setup loaded {} {}`",
       now.loaded->number ? fmt::format("setup {}", *now.loaded->number)
                          : std::string("no known setup"),

@@ -18,7 +18,7 @@ struct Deviation {
   double value = 0;
 };
 
-/// What follows from deviations, with reasons in words either way.
+/// What follows from deviations, with reasons in words in both cases.
 struct Outcome {
   std::vector<std::string> reasons;
   std::size_t used = 0, left_out = 0;

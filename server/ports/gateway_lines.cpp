@@ -93,8 +93,8 @@ void GatewayLines::fetch_upload(const std::shared_ptr<Line>& line, const dds::Li
     stored.action = LineAction::Stored;
     stored.name = upload.id;
     stored.text = *words;
-    if (auto told = parts_.ask(std::move(stored), kAnswerLimit); !told)
-      process::log_warning("upload not confirmed machine={}: {}", line->name, told.error().what);
+    if (auto answer = parts_.ask(std::move(stored), kAnswerLimit); !answer)
+      process::log_warning("upload not confirmed machine={}: {}", line->name, answer.error().what);
   } else {
     process::log_error("program from the control not stored machine={}: {}", line->name,
                        words.error().what);

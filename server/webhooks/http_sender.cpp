@@ -9,7 +9,7 @@ namespace dripline::webhooks {
 namespace {
 
 /// While it lives, an exchange that takes too long, or is not wanted any more, is cut off. The
-/// library's own timeouts begin anew with each byte of an answer.
+/// library's own timeouts begin again with each byte of an answer.
 class Deadline {
  public:
   Deadline(httplib::Client& client, std::chrono::milliseconds limit, const std::stop_token& stop)

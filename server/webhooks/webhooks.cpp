@@ -83,7 +83,7 @@ Result<void> Webhooks::remove(const std::string& name, const storage::Actor& who
   const auto webhook = parts_.store.find(name);
   if (!webhook) return fail(webhook.error());
   if (auto removed = parts_.store.remove(name, who, parts_.clock.now()); !removed) return removed;
-  std::jthread ended;  // joined outside of the lock, when a delivery that is under way is over
+  std::jthread ended;  // joined outside of the lock, when a delivery that is in progress is over
   {
     const std::lock_guard lock(mutex_);
     const auto found = workers_.find(webhook->id);

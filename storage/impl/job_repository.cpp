@@ -96,7 +96,7 @@ Result<void> check_open(const Job& job) {
   return fail(Errc::Conflict, "job {} is {}", job.id, to_string(job.state));
 }
 
-/// Numbers the open jobs anew, with `job` at `place`.
+/// Numbers the open jobs again, with `job` at `place`.
 Result<void> put_at(sql::Database& database, const Job& job, std::uint64_t place) {
   auto jobs = open_jobs(database, job.machine, {.limit = JobStore::kMaxJobs + 1});
   if (!jobs) return fail(jobs.error());

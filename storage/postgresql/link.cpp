@@ -11,8 +11,8 @@
 namespace dripline::storage::postgresql {
 namespace {
 
-/// Answers that nobody reads fill the server's buffer, and then it reads no more either: far less
-/// than that is under way.
+/// Answers that no one reads fill the server's buffer, and then it reads no more either: far less
+/// than that is in progress.
 constexpr std::size_t kUnderWay = 256;
 
 std::uint64_t changes_in(pg_result* result) {

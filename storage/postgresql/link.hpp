@@ -32,7 +32,7 @@ class Link {
     virtual ~Hoarder() = default;
     virtual void send_rows() = 0;
   };
-  /// Null: nobody any more.
+  /// Null: no one any more.
   void set_hoarder(Hoarder* hoarder);
   Hoarder* hoarder() const { return hoarder_; }
 
@@ -49,7 +49,7 @@ class Link {
   Result<ResultPointer> answer();
   /// The answers are read when something is sent the next time; errors of theirs are lost.
   void leave();
-  /// As `leave`, but only so many are under way at once.
+  /// As `leave`, but only so many are in progress at once.
   Result<void> leave_some();
   /// Runs one or several statements, and waits.
   Result<ResultPointer> execute(const std::string& sql);
@@ -73,7 +73,7 @@ class Link {
   std::unordered_map<std::string, std::string> prepared_;  ///< SQL and kinds: name
   std::vector<std::string> fresh_;     ///< of those: prepared since the last answer
   std::deque<std::string_view> sent_;  ///< SQL that is not answered yet
-  bool has_left_ = false;              ///< `sent_` is followed by a Sync, and nobody waits
+  bool has_left_ = false;              ///< `sent_` is followed by a Sync, and no one waits
   bool has_failed_ = false;            ///< something could not be sent
   std::uint64_t names_ = 0, changes_ = 0;
   std::string last_state_;

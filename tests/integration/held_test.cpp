@@ -84,7 +84,7 @@ TEST_F(HeldLathe, EverybodyReadsWhatWasMeasuredUntilItIsResumed) {
   ASSERT_TRUE(eventually([&] { return machine()["status"].value("execution", "") == "ACTIVE"; }))
       << machine().dump();
   EXPECT_TRUE(machine()["held"].is_null());
-  EXPECT_EQ(machine()["queue_hold"]["reason"], kWhy) << "until somebody releases it";
+  EXPECT_EQ(machine()["queue_hold"]["reason"], kWhy) << "until someone releases it";
   // A person's hold has his name.
   EXPECT_EQ(system_.rest().post("/api/v1/runs/" + run + "/commands", {{"action", "hold"}}).status,
             200);

@@ -57,7 +57,7 @@ TEST_F(Identity, TheAuditTrailIsVerifiedHereAndElsewhere) {
   expect_good(admin("audit verify --checkpoint " + kept));
   expect_good(admin("audit export " + trail));
   const auto offline = "audit verify " + trail + " --checkpoint " + kept;
-  const auto good = as("nobody", offline);
+  const auto good = as("stranger", offline);
   EXPECT_EQ(good.status, 0) << good.output;
   EXPECT_NE(good.output.find("each as it was written"), std::string::npos) << good.output;
 
@@ -75,7 +75,7 @@ TEST_F(Identity, TheAuditTrailIsVerifiedHereAndElsewhere) {
       << found.output;
   EXPECT_EQ(system.rest().get("/api/v1/health").json()["status"], "degraded");
   expect_good(admin("audit export " + trail));
-  const auto elsewhere = as("nobody", offline);
+  const auto elsewhere = as("stranger", offline);
   EXPECT_EQ(elsewhere.status, 1) << elsewhere.output;
 }
 

@@ -95,7 +95,7 @@ TEST_F(Intake, AKillTakesNoFileTwiceAndLosesNoneAndNoEvent) {
   const fs::path folder = system_.folder() / "cam";
   fs::create_directories(folder);
   configure("[[folder]]\nname = \"cam\"\npath = \"" + folder.string() +
-            "\"\ncontrol = \"fanuc\"\nsettle_seconds = 0\npoll_seconds = 1\n[[folder.rule]]\n"
+            "\"\ncontrol = \"fanuc\"\nunchanged_seconds = 0\npoll_seconds = 1\n[[folder.rule]]\n"
             "matches = '(?P<program>P\\d)_\\d+\\.nc'\nprogram = \"{program}\"\n");
   Receiver receiver;
   system_.start_server();

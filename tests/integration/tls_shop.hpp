@@ -18,7 +18,7 @@ class TlsShop {
     self_signed("server", "/CN=localhost", "subjectAltName=DNS:localhost,IP:127.0.0.1");
     for (const std::string authority : {"people", "strangers"})
       self_signed(authority, "/CN=" + authority, "basicConstraints=critical,CA:TRUE");
-    std::ofstream(file("revoked")) << "# nobody yet\n";
+    std::ofstream(file("revoked")) << "# no one yet\n";
     for (const auto& argument :
          {"--tls-certificate=" + file("server.pem"), "--tls-key=" + file("server.key"),
           "--tls-client-ca=" + file("people.pem"), "--tls-client-revoked=" + file("revoked")})
@@ -45,7 +45,7 @@ class TlsShop {
   void revoke(const std::string& user) {
     std::ofstream(file("revoked"), std::ios::app) << serial(user) << "  # " << user << '\n';
   }
-  /// By the user's certificate; "token": as the owner of the state folder; "": as nobody.
+  /// By the user's certificate; "token": as the owner of the state folder; "": as no one.
   test_support::Finished dnc(const std::string& arguments, const std::string& user) const {
     std::string access;
     if (user == "token") {

@@ -76,7 +76,7 @@ std::string next_step(const Authority& authority, const Issued& issued) {
   const std::string where = is_server ? std::string(kServerFolder)
                                       : fmt::format("{}/{}", kServerFolder, issued.holder.name);
   return fmt::format(
-      "{}: valid until {}\n\nCopy this folder to the {}, over a path that nobody reads (key.pem is "
+      "{}: valid until {}\n\nCopy this folder to the {}, over a path that no one reads (key.pem is "
       "its secret),\nto {} for example, for the user of {} alone. Then set there\n\n    "
       "dds-security = \"{}\"\n\nand restart {}.\n",
       folder, date_text(issued.validity.not_after),
@@ -95,7 +95,7 @@ int init(Context& context, const PkiCommand& command) {
     return refuse(made.error());
   context.print(fmt::format(
       "The authority of '{}' is in {}.\n\nIts keys, {}/authority/*.key, stay on this computer: "
-      "whoever has them can pose as the\nserver and command every machine. Keep a copy of the "
+      "anyone who has them can pose as the\nserver and command every machine. Keep a copy of the "
       "folder in a safe place; without it no\ncertificate can be renewed.\n\nNext: dnc pki "
       "server, and dnc pki gateway MACHINE for each machine.\n",
       command.shop, fs::absolute(*folder).string(), fs::absolute(*folder).string()));

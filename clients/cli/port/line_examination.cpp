@@ -102,7 +102,7 @@ class Examination {
     parts_.say(fmt::format("listening at {}", wire::short_form(settings)));
     LineSample dropped;  // characters in transit while the rate changed
     if (auto read = drain(dropped); !read) return fail(read.error());
-    // No rate can be told from another before a character arrives.
+    // No rate can be distinguished from another before a character arrives.
     while (sample.size() == 0 && parts_.now() < end && !parts_.is_ended()) {
       parts_.wait(milliseconds(100));
       if (auto read = drain(sample); !read) return fail(read.error());

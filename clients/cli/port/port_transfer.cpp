@@ -58,7 +58,7 @@ int send(Context& context, const SendCommand& command) {
     if (!port->transfer) {
       return complain(client::Failure{
           client::Failure::Kind::Refused, Errc::NotFound,
-          "what became of the transfer is not known: whoever has the line began again; see dnc "
+          "what became of the transfer is not known: the line's owner began again; see dnc "
           "port recording " +
               command.port});
     }

@@ -167,7 +167,7 @@ void add_holding(Command group, Context& context) {
   add_machine(hold, options->machine);
   hold.add_option("--reason", options->reason, "State why; everybody sees it").required();
   hold.footer(
-      "What runs goes on.\n\nExample:\n  dnc job hold mill-3 --reason \"bore is 0.03 wide\"");
+      "What runs continues.\n\nExample:\n  dnc job hold mill-3 --reason \"bore is 0.03 wide\"");
   run_at_server(hold, context, options, hold_jobs);
 
   auto release = group.add_subcommand("release", "Release a queue that is held");

@@ -69,7 +69,7 @@ void add_loaded_setup(Command group, Context& context) {
       .excludes(revision);
   add_json_flag(command, context);
   command.footer(
-      "Such a control gets no setup with a start: somebody loads it there (dnc setup export), and "
+      "Such a control gets no setup with a start: someone loads it there (dnc setup export), and "
       "says so here.\nRuns that are started later have this setup; only then is it known under "
       "which offsets their parts\nwere cut. Say --unknown when values were changed at the "
       "control.\n\nExample:\n  dnc setup export mill-3 -r 7 -o tools.txt\n  dnc program push "

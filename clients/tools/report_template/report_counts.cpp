@@ -33,18 +33,18 @@ bool ReportInterpreter::take_count(std::int64_t count, std::string_view line,
   return true;
 }
 
-/// Which of two different numbers is right is not known. What the template says is for parts whose
-/// lines say nothing.
+/// Which of two different numbers is right is not known. What the template states is for parts
+/// whose lines state nothing.
 void ReportInterpreter::take_expected(std::int64_t expected, std::string_view line,
                                       std::vector<ReportEvent>& events) {
-  const auto said = static_cast<std::uint64_t>(expected);
-  if (state_.has_expected && state_.expected != said) {
+  const auto count = static_cast<std::uint64_t>(expected);
+  if (state_.has_expected && state_.expected != count) {
     return add_fault(FindingKind::BadValue,
-                     fmt::format("expected in '{}' is {}, a line before said {}", kept_line(line),
-                                 said, *state_.expected),
+                     fmt::format("expected in '{}' is {}, an earlier line has {}", kept_line(line),
+                                 count, *state_.expected),
                      events);
   }
-  state_.expected = said;
+  state_.expected = count;
   state_.has_expected = true;
 }
 

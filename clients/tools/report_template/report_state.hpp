@@ -81,7 +81,7 @@ struct ReportState {
   bool is_incomplete = false;
   std::string cut;            ///< a line of the part, or before it, that is not whole; shown text
   bool is_after_cut = false;  ///< what comes next may be the rest of it
-  bool has_expected = false;  ///< a line said how many, not the template
+  bool has_expected = false;  ///< a line stated how many, not the template
   std::string last_end;       ///< the line that ended a part, until another comes
   friend bool operator==(const ReportState&, const ReportState&) = default;
 };

@@ -55,13 +55,13 @@ void RunSession::end_rebuild() {
   is_over_ =
       rebuild_->last_step() == StepState::Ended || rebuild_->last_step() == StepState::Alarmed;
   keep_inherited(*rebuild_);
-  // The clock does not go back behind what the skipped blocks have seen.
+  // The clock does not go back before what the skipped blocks have seen.
   for (const auto& given : rebuild_->answers_given()) {
     const auto answer = decode_answer(rebuild_->original_run(), given.number, given.bytes);
     const auto* time = answer ? std::get_if<interpreter::LocalTime>(&*answer) : nullptr;
     if (time == nullptr) continue;
-    const std::int64_t behind = interpreter::milliseconds_of(*time) - clock_ms();
-    if (behind > 0) clock_ahead_ += static_cast<double>(behind) / 1000;
+    const std::int64_t gap = interpreter::milliseconds_of(*time) - clock_ms();
+    if (gap > 0) clock_ahead_ += static_cast<double>(gap) / 1000;
   }
   next_answer_ = std::min<std::size_t>(setup_.answers.size(), rebuild_->answers().prompts);
   modes_.clear();

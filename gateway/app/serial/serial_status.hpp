@@ -25,7 +25,7 @@ struct SerialState {
   std::optional<line::SendProgress> progress = {};
   std::uint64_t recorded = 0;  ///< FlightRecorder::next_number
   bool is_emergency_stopped = false;
-  // Of one moment: the line goes on while a status is made, and counting walks the buffer.
+  // Of one moment: the line continues while a status is made, and counting walks the buffer.
   std::uint64_t buffered_bytes = 0;
   double buffered_seconds = 0;
   bool has_all_text = false;

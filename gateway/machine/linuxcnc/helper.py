@@ -66,7 +66,7 @@ def set_pin(name, text):
 
 
 def stop_motion():
-    """Without a task there is no command, but the motion goes on with what it has. Its pins stop it: along the path, then the drives."""
+    """Without a task there is no command, but the motion continues with what it has. Its pins stop it: along the path, then the drives."""
     component = hal.component("dripline-stop-%d" % os.getpid())
     component.ready()
     set_pin("motion.feed-inhibit", "1")

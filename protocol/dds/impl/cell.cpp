@@ -24,7 +24,7 @@ void ServerShared::release(const std::string& machine, std::uint32_t cell) {
   places_.erase(found);
 }
 
-void ServerShared::forget(std::uint32_t cell) {
+void ServerShared::drop_waiting(std::uint32_t cell) {
   const std::lock_guard lock(mutex_);
   for (auto& [machine, place] : places_) place.waiting.erase(cell);
 }
@@ -49,7 +49,7 @@ Result<std::unique_ptr<Cell>> Cell::open(const NetworkOptions& options, std::uin
 Cell::~Cell() {
   watcher_.request_stop();
   if (watcher_.joinable()) watcher_.join();
-  shared_.forget(number_);
+  shared_.drop_waiting(number_);
 }
 
 Result<void> Cell::start() {
@@ -240,8 +240,8 @@ bool Cell::claim(const std::string& machine) {
   return shared_.claim(machine, number_, [this] { wake_watcher(); });
 }
 
-/// A machine that has a line now and had none is attached anew: its entities are all there, or none
-/// are.
+/// A machine that has a line now and had none is attached again: its entities are all there, or
+/// none are.
 std::shared_ptr<Attachment> Cell::attach(const std::string& machine, bool has_line) {
   if (auto attached = find(machine)) {
     if (attached->has_line() || !has_line) return attached;

@@ -25,7 +25,7 @@ struct ServerShared {
   bool claim(const std::string& machine, std::uint32_t cell, const std::function<void()>& wake);
   void release(const std::string& machine, std::uint32_t cell);
   /// The cell ends: it is not woken any more.
-  void forget(std::uint32_t cell);
+  void drop_waiting(std::uint32_t cell);
   /// The cell that has the machine; without one, where it is expected.
   std::uint32_t cell_with(const std::string& machine) const;
 

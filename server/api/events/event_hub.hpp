@@ -39,7 +39,7 @@ class MachineState {
  public:
   /// `number`: of the publication; a later one holds.
   void publish(std::string text, std::uint64_t number);
-  /// As it is known to somebody else; anything published after `number` holds.
+  /// As it is known to another client; anything published after `number` holds.
   void fill(std::string text, std::uint64_t number);
   bool is_newer(std::uint64_t number) const;
   /// The event that brings a listener who knows version `known` (0: none) here, and `known` with
@@ -111,7 +111,7 @@ class EventHub {
   std::shared_ptr<EventSubscription> subscribe_port(const std::string& port);
   /// An event `machine` is the machine's state from now on.
   void publish(Event event);
-  /// The state of a machine, to a listener that has just begun. `text`: as it is known to somebody
+  /// The state of a machine, to a listener that has just begun. `text`: as it is known to someone
   /// else; it is not needed when one was published since the listener began, which is newer.
   void show(EventSubscription& listener, const std::string& machine,
             const std::function<std::string()>& text);

@@ -163,7 +163,7 @@ bool TrackedText::follow(std::string_view before) {
       continue;
     }
     if (differs <= end) {
-      // A number's end is where a longer one goes on.
+      // A number's end is where a longer one continues.
       Reader reader(text_, member.value);
       if (before[value] == '{' || text_[member.value] == '{' || !reader.skip_value()) return false;
       shift = reader.at() - end;

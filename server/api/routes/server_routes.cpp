@@ -26,7 +26,7 @@ nlohmann::json health_json(const library::Health::State& state, Audience audienc
 }
 
 /// Whether work that is given to the server now would be stored. Degraded is ready, but for a store
-/// that lets nobody in.
+/// that lets no one in.
 bool is_ready(const library::Health::State& state) {
   using Level = library::Health::Level;
   return state.level != Level::Failed &&

@@ -10,7 +10,7 @@
 
 namespace dripline::ports {
 
-/// Follows the recordings of gateways' lines that somebody watches; others cost nothing. A line
+/// Follows the recordings of gateways' lines that someone watches; others cost nothing. A line
 /// that is watched is shown from its last entries before that on, and nothing is left out: where
 /// the recording begins is known from the status, and an answer that fails is asked for again. Any
 /// thread.
@@ -32,7 +32,7 @@ class GatewayMonitor {
   struct Followed {
     std::uint64_t session = 0;
     std::uint64_t recorded = 0;  ///< as the last status has it
-    std::uint64_t seen = 0;      ///< the same one interval ago: nobody watched it then
+    std::uint64_t seen = 0;      ///< the same one interval ago: no one watched it then
     std::uint64_t next = 0;      ///< of a line that is watched
     bool is_watched = false, is_read = false;
   };

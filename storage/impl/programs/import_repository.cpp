@@ -27,7 +27,7 @@ Import read_import(const sql::Statement& row) {
   import.revision = read_revision(row);
   import.machine = row.text(kAfterRevision);
   // The schema allows only these words; a row with another one is damaged, and is offered to
-  // nobody.
+  // no one.
   import.state = parse_import_state(row.text(kAfterRevision + 1)).value_or(ImportState::Rejected);
   if (const auto time = row.optional_time(kAfterRevision + 5)) {
     ImportClass found{.base = {},

@@ -112,7 +112,7 @@ void send_request(int fd, const std::string& target) {
   if (::send(fd, request.data(), request.size(), MSG_NOSIGNAL) < 0) std::exit(1);
 }
 
-/// One connection with a request under way.
+/// One connection with a request in progress.
 struct Asking {
   int fd = -1;
   std::string buffer;

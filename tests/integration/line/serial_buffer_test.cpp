@@ -49,7 +49,7 @@ TEST(SerialBuffer, IsNotFeltByTheControlWhenTheServerIsAwayAndComesBack) {
   SerialSystem shop({.settings = {"flow=xonxoff"},
                      .gateway_arguments = {"--line-ahead-s", std::to_string(ahead.count())},
                      .line = is_long ? "9600n81" : "115200n81",
-                     // A computer that stands still for a moment is no end of the text.
+                     // A computer that is still for a moment is no end of the text.
                      .idle_end_ms = "2000"});
   // More than the gateway keeps, so that it needs the server again afterwards.
   const std::string text = contour(rate * static_cast<std::uint64_t>(ahead.count()) + 320'000);
@@ -61,8 +61,8 @@ TEST(SerialBuffer, IsNotFeltByTheControlWhenTheServerIsAwayAndComesBack) {
       },
       60s))
       << shop.status().dump();
-  const std::string said = shop.message();
-  EXPECT_NE(said.find(" of the line"), std::string::npos) << said;
+  const std::string message = shop.message();
+  EXPECT_NE(message.find(" of the line"), std::string::npos) << message;
   const double reach = buffered();
   constexpr std::chrono::seconds kBefore{2};
   const Watched before = watch(shop.cable, kBefore);
@@ -75,7 +75,7 @@ TEST(SerialBuffer, IsNotFeltByTheControlWhenTheServerIsAwayAndComesBack) {
   std::printf(
       "cut %d s, beforehand %.1f s (%s), %.0f characters a second, before %.0f, longest "
       "pause %.3f s\n",
-      cut_seconds(), reach, said.c_str(), per_second(seen, cut), per_second(before, kBefore),
+      cut_seconds(), reach, message.c_str(), per_second(seen, cut), per_second(before, kBefore),
       seen.longest_pause.count());
   // A busy computer paces its lines a little slower.
   EXPECT_GT(per_second(seen, cut), 0.8 * per_second(before, kBefore));

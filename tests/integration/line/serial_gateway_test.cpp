@@ -70,7 +70,7 @@ TEST(SerialGateway, IsNotFeltByTheControlWhenTheServerIsAwayForAsLongAsTheBuffer
     return shop.message().find("the rest of the program is buffered") != std::string::npos;
   })) << shop.message();
   shop.system->server().kill();
-  // The control gets all of it without pause, and prints while nobody is there.
+  // The control gets all of it without pause, and prints while no one is there.
   ASSERT_TRUE(shop.control->wait_ended(1, 60s));
   EXPECT_FALSE(shop.control->wait_logged("line:", 2)) << "no gap, no fault";
   shop.system->start_server();

@@ -92,7 +92,8 @@ TEST_P(AccountTest, KeepsCredentials) {
 }
 
 TEST_P(AccountTest, RefusesWhatRefersToNothing) {
-  EXPECT_EQ(accounts().save_credential(credential("nobody", "x"), {}).error().code, Errc::Conflict);
+  EXPECT_EQ(accounts().save_credential(credential("stranger", "x"), {}).error().code,
+            Errc::Conflict);
   User anna = user("anna");
   anna.groups = {"absent"};
   EXPECT_EQ(accounts().save_user(anna, {}).error().code, Errc::Conflict);

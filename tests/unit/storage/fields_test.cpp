@@ -94,7 +94,7 @@ TEST_P(FieldsTest, ListingsChooseByThemAndByTheLatestRevision) {
   EXPECT_EQ(listed({.machine_group = kAllMachines}), "c ");
   EXPECT_EQ(listed({.part = ""}), "d ") << "not stated";
   EXPECT_EQ(listed({.control = "centurion", .author = "cam"}), "a b c d ");
-  EXPECT_EQ(listed({.author = "nobody"}), "");
+  EXPECT_EQ(listed({.author = "stranger"}), "");
   EXPECT_EQ(listed({.state = RevisionState::Released}), "");
   EXPECT_EQ(listed({.after = "b"}), "c d ");
   EXPECT_EQ(listed({.part = "1", .after = "a"}, {.limit = 1, .offset = 0}), "b ");

@@ -22,7 +22,7 @@ function useRoute(): Route {
   return useMemo(() => parseRoute(hash), [hash]);
 }
 
-/// The feed follows the session: it reads while somebody is signed in, and keeps what it knows while a session is renewed.
+/// The feed follows the session: it reads while someone is signed in, and keeps what it knows while a session is renewed.
 function useSession(): SessionState {
   const state = useSessionState();
   useEffect(() => void beginSession(), []);

@@ -11,7 +11,7 @@ function faultOf(failure: unknown): string {
   return String(failure);
 }
 
-/// What kept it from being done; null while it is under way or not tried.
+/// What kept it from being done; null while it is in progress or not tried.
 function useAttempt(action: () => Promise<void>) {
   const [fault, setFault] = useState<string | null>(null);
   const [isBusy, setBusy] = useState(false);

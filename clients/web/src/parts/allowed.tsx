@@ -29,7 +29,7 @@ export function Only({ to, children }: { to: Permission; children: ComponentChil
   return useRefusal(to) === null ? <>{children}</> : <Allowed to={to}>{null}</Allowed>;
 }
 
-/// The same element either way, so that a change of rights loses nothing that was typed.
+/// The same element in both cases, so that a change of rights loses nothing that was typed.
 export function Allowed({ to, machine, children }: { to: Permission; machine?: string; children: ComponentChildren }) {
   const refusal = useRefusal(to, machine);
   return (

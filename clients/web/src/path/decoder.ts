@@ -49,7 +49,7 @@ export class PathDecoder {
     this.onNote(note);
   }
 
-  /// The inner loop of the page: numbers are read in place. A number above 2^31 goes on as a product, since shifts have 32 bits.
+  /// The inner loop of the page: numbers are read in place. A number above 2^31 continues as a product, since shifts have 32 bits.
   private takePoints(bytes: Uint8Array): void {
     const { grid, polyline } = this;
     const end = bytes.length;

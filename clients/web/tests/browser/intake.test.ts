@@ -17,7 +17,7 @@ const { shop, visit } = shopForTests(async (shop) => {
   const folder = path.join(shop.folder, 'cam');
   mkdirSync(folder);
   const file = path.join(shop.folder, 'dncd.toml');
-  writeFileSync(file, `[[folder]]\nname = "cam-mills"\npath = ${JSON.stringify(folder)}\ncontrol = "fanuc"\nsettle_seconds = 1\npoll_seconds = 1\n`);
+  writeFileSync(file, `[[folder]]\nname = "cam-mills"\npath = ${JSON.stringify(folder)}\ncontrol = "fanuc"\nunchanged_seconds = 1\npoll_seconds = 1\n`);
   return ['--config', file];
 });
 before(async () => {

@@ -94,7 +94,7 @@ TEST_F(DncPki, RefusesWhatItCannotDo) {
   expect_refused(pki({"renew", "lathe-1", "--server"}), 2, "name a machine, or --server");
 }
 
-/// A kill leaves the folder of before or the one of after, and the next call goes on.
+/// A kill leaves the folder of before or the one of after, and the next call continues.
 TEST_F(DncPki, LeavesNoHalfFolderWhenItIsKilled) {
   expect_good(pki({"init"}), "");
   expect_good(pki({"gateway", "lathe-1"}), "");

@@ -114,7 +114,7 @@ TEST(TncMdi, PositionsOneAxisAndCallsATool) {
   EXPECT_EQ(fixture.mdi("IX+10 R0 F500\n"), "completed");
   EXPECT_EQ(fixture.at(0), 20);
   EXPECT_EQ(fixture.mdi("TOOL CALL 5 Z S800\n"), "completed");
-  EXPECT_EQ(fixture.rpm(), 800) << "M03 is in force, and the spindle turns on";
+  EXPECT_EQ(fixture.rpm(), 800) << "M03 is in force, and the spindle stays on";
   EXPECT_EQ(fixture.mdi("Z+50 R0 F500\n"), "completed");
   EXPECT_EQ(fixture.at(2), 50);
   EXPECT_EQ(fixture.rpm(), 800);

@@ -199,7 +199,7 @@ TEST(DryRun, OfAFanucControlTakesEffectInTheMoveThatRuns) {
   ASSERT_TRUE(fixture.turn("dry_run", true).accepted);
   ASSERT_TRUE(fixture.run_until([&] { return fixture.feed() > 1199; }));
   EXPECT_LT(fixture.status->position[0], 50) << "the same move";
-  EXPECT_EQ(fixture.status->spindle_rpm, 500) << "the spindle turns";
+  EXPECT_EQ(fixture.status->spindle_rpm, 500) << "the spindle runs";
   ASSERT_TRUE(fixture.turn("dry_run", false).accepted);
   ASSERT_TRUE(fixture.run_until([&] { return fixture.feed() < 301; }));
   EXPECT_EQ(fixture.ends(), RunOutcome::Completed);

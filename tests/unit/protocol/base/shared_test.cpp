@@ -31,7 +31,7 @@ TEST(Shared, CopiesShareTheValueUntilOneOfThemIsEdited) {
 
   const std::string* const place = &*second;
   second.edit() += "!";
-  EXPECT_EQ(&*second, place) << "nobody else has it";
+  EXPECT_EQ(&*second, place) << "no one else has it";
 
   Shared<std::string> third = first;
   third.emplace() = "three";

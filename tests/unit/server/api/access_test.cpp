@@ -254,14 +254,14 @@ TEST_F(Access, BySignInIsLimitedAndTellsNothing) {
   };
   const auto wrong = attempt("anna", "wrong password");
   expect_error(wrong, 401, "denied", "do not belong together");
-  EXPECT_EQ(attempt("nobody", "wrong password").body, wrong.body);
+  EXPECT_EQ(attempt("stranger", "wrong password").body, wrong.body);
   int limited = 0;
   for (int i = 0; i < 20; ++i) limited += attempt("anna", "wrong").status == 429 ? 1 : 0;
   EXPECT_EQ(limited, 11);
   const auto right = attempt("anna", "correct horse");
   EXPECT_EQ(right.status, 429);
   EXPECT_NE(header(right, "Retry-After"), "");
-  EXPECT_EQ(attempt("nobody", std::string(2000, 'x')).status, 413);
+  EXPECT_EQ(attempt("stranger", std::string(2000, 'x')).status, 413);
   EXPECT_EQ(as("", "POST", "/api/v1/session", std::string(1 << 20, 'x')).status, 413);
 }
 

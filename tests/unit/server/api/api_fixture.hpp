@@ -71,7 +71,7 @@ class ApiTest : public ServerTest {
             .catalog = catalog_,
             .sources = {.store = *store_, .releases = *releases_, .clock = clock_},
             .spool = folder_.path()},
-        std::vector{folder});  // nobody looks at it
+        std::vector{folder});  // no one looks at it
     webhooks_ = std::make_unique<webhooks::Webhooks>(
         webhooks::Webhooks::Parts{
             .store = store_->webhooks, .sender = sender_, .clock = clock_, .server = "db"},

@@ -41,7 +41,7 @@ class FoldersTest : public server_test::ServerTest {
     settings_.name = "cam";
     settings_.path = folder_.path() / "cam";
     settings_.control = "fanuc";
-    settings_.settle = std::chrono::milliseconds(0);
+    settings_.unchanged_time = std::chrono::milliseconds(0);
     settings_.poll = std::chrono::seconds(3600);
     fs::create_directories(settings_.path);
   }

@@ -45,9 +45,9 @@ class HotFolderTest : public server_test::ServerTest {
   }
   void look(const Arrivals& arrivals = {}) { hot_->look(arrivals, {}); }
   /// Looks, waits the time in which a file must not change, and looks again.
-  void settle() {
+  void look_twice() {
     look();
-    clock_.advance(settings_.settle);
+    clock_.advance(settings_.unchanged_time);
     look();
   }
   std::string reason(const std::string& name) {
@@ -60,7 +60,7 @@ class HotFolderTest : public server_test::ServerTest {
     return found ? found->size() : 0;
   }
   std::string refused(const std::string& name) {
-    settle();
+    look_twice();
     EXPECT_TRUE(fs::exists(fs::symlink_status(path() / "failed" / name))) << name;
     EXPECT_FALSE(fs::exists(fs::symlink_status(path() / name))) << name;
     return reason(name);
@@ -77,13 +77,13 @@ TEST_F(HotFolderTest, TakesAFileOnceItDoesNotChange) {
   look();
   EXPECT_EQ(revisions("O0200"), 0u);
   EXPECT_EQ(hot_->state().waiting, 1u);
-  clock_.advance(settings_.settle / 2);
+  clock_.advance(settings_.unchanged_time / 2);
   write("O0200.nc", std::string(kGood) + "%\n");
   look();
-  clock_.advance(settings_.settle / 2);
+  clock_.advance(settings_.unchanged_time / 2);
   look();
   EXPECT_EQ(revisions("O0200"), 0u) << "it changed since";
-  clock_.advance(settings_.settle / 2);
+  clock_.advance(settings_.unchanged_time / 2);
   look();
   ASSERT_EQ(revisions("O0200"), 1u);
   const auto revision = store_->programs.revision("O0200", 1);
@@ -107,15 +107,15 @@ TEST_F(HotFolderTest, TakesWhatIsRenamedIntoItAtOnce) {
 TEST_F(HotFolderTest, LeavesWhatIsOpenForWriting) {
   write("O0200.nc", kGood);
   const int writer = ::open((path() / "O0200.nc").c_str(), O_WRONLY | O_APPEND);
-  settle();
+  look_twice();
   EXPECT_EQ(revisions("O0200"), 0u)
-      << "the system tells: it is ours, and on a disk of this computer";
+      << "the system knows: it is ours, and on a disk of this computer";
   ::close(writer);
-  settle();
+  look_twice();
   EXPECT_EQ(revisions("O0200"), 1u);
   write("O0300.nc", kGood);
   look();
-  clock_.advance(settings_.settle);
+  clock_.advance(settings_.unchanged_time);
   look({.whole = {}, .written = {"O0300.nc"}});
   EXPECT_EQ(revisions("O0300"), 0u) << "it was written to, and was not closed";
 }
@@ -130,7 +130,7 @@ TEST_F(HotFolderTest, RefusesAProgramWithAnAlarmAndSaysWhy) {
   settings_.is_checked = false;
   make();
   write("O0200.nc", kAlarm);
-  settle();
+  look_twice();
   EXPECT_EQ(revisions("O0200"), 1u);
 }
 
@@ -140,7 +140,7 @@ TEST_F(HotFolderTest, ChecksWithTheMachinesSetupAndCalledPrograms) {
   EXPECT_NE(refused("O0200.nc").find("line 2"), std::string::npos);
   push("O0077", "O77\nG0 X1.\nM99\n", "fanuc");
   write("O0200.nc", "O200\nM98 P77\nM30\n");
-  settle();
+  look_twice();
   EXPECT_EQ(revisions("O0200"), 1u) << reason("O0200.2.nc");
 }
 
@@ -152,8 +152,8 @@ TEST_F(HotFolderTest, RefusesWhatIsNoFileAndFollowsNoLink) {
   ASSERT_EQ(::mkfifo((path() / "pipe.nc").c_str(), 0600), 0);
   EXPECT_NE(refused("pipe.nc").find("a pipe"), std::string::npos);
   fs::create_directory(path() / "sub.nc");
-  settle();
-  EXPECT_TRUE(fs::exists(path() / "sub.nc")) << "whoever made it may be in it";
+  look_twice();
+  EXPECT_TRUE(fs::exists(path() / "sub.nc")) << "its maker may be in it";
   EXPECT_NE(reason("sub.nc").find("it is a folder"), std::string::npos);
   write("bad\nname.nc", kGood);
   EXPECT_NE(refused("bad%0Aname.nc").find("control characters"), std::string::npos);
@@ -186,7 +186,7 @@ TEST_F(HotFolderTest, LeavesTemporaryAndIgnoredFiles) {
   make();
   write("O1.nc.tmp", kGood);
   write("notes.txt", "later");
-  settle();
+  look_twice();
   EXPECT_TRUE(fs::exists(path() / "O1.nc.tmp"));
   EXPECT_TRUE(fs::exists(path() / "notes.txt"));
   write("part.nc", kGood);
@@ -195,11 +195,11 @@ TEST_F(HotFolderTest, LeavesTemporaryAndIgnoredFiles) {
 
 TEST_F(HotFolderTest, APostOfTheSameNameIsTakenAgain) {
   write("O0200.nc", kGood);
-  settle();
+  look_twice();
   write("O0200.nc", std::string(kGood) + "%\n");
-  settle();
+  look_twice();
   write("O0200.nc", kGood);
-  settle();
+  look_twice();
   EXPECT_EQ(revisions("O0200"), 3u) << "the first text again is a new revision";
   EXPECT_TRUE(fs::exists(path() / "done" / "O0200.nc"));
   EXPECT_TRUE(fs::exists(path() / "done" / "O0200.2.nc"));
@@ -209,7 +209,7 @@ TEST_F(HotFolderTest, APostOfTheSameNameIsTakenAgain) {
 /// As after a kill between the store's transaction and the move.
 TEST_F(HotFolderTest, AStoredFileThatIsStillThereIsOnlyMoved) {
   write("O0200.nc", kGood);
-  settle();
+  look_twice();
   push("O0200", "O1\nG0 X2.\nM30\n", "fanuc");
   fs::rename(path() / "done" / "O0200.nc", path() / "O0200.nc");
   const auto file = store_->folders.list("cam", {})->at(0);
@@ -224,7 +224,7 @@ TEST_F(HotFolderTest, AStoredFileThatIsStillThereIsOnlyMoved) {
   hot_.reset();
   reopen();
   make();
-  settle();
+  look_twice();
   EXPECT_EQ(revisions("O0200"), 2u) << "it was stored before";
   EXPECT_TRUE(fs::exists(path() / "done" / "O0200.nc"));
   EXPECT_FALSE(fs::exists(path() / "O0200.nc"));
@@ -246,7 +246,7 @@ TEST_F(HotFolderTest, AnAttackOnItsFoldersLeadsNowhere) {
   fs::create_directory(folder_.path() / "elsewhere");
   fs::create_symlink(folder_.path() / "elsewhere", path() / "done");
   write("O0200.nc", kGood);
-  settle();
+  look_twice();
   EXPECT_NE(fault_, "");
   EXPECT_TRUE(fs::is_empty(folder_.path() / "elsewhere"));
   EXPECT_TRUE(fs::exists(path() / "O0200.nc"));

@@ -15,17 +15,17 @@ constexpr const char* kFolder = "[[folder]]\nname = \"cam\"\npath = \"/srv/cam\"
 
 TEST(FolderSettings, HaveDefaultsAndEveryKey) {
   const auto plain = read_one(kFolder);
-  EXPECT_EQ(plain.settle, std::chrono::seconds(2));
+  EXPECT_EQ(plain.unchanged_time, std::chrono::seconds(2));
   EXPECT_TRUE(plain.is_checked);
   EXPECT_EQ(plain.done, "done");
   const auto full = read_one(std::string(kFolder) +
                              "machine = \"mill-3\"\nauthor = \"{owner}\"\ncomment = \"by CAM\"\n"
-                             "check = false\nsettle_seconds = 0\npoll_seconds = 30\nmax_mb = 8\n"
+                             "check = false\nunchanged_seconds = 0\npoll_seconds = 30\nmax_mb = 8\n"
                              "done = \"ok\"\nfailed = \"bad\"\n"
                              "[[folder.rule]]\nmatches = '.*\\.bak'\nignore = true\n");
   EXPECT_EQ(full.machine, "mill-3");
   EXPECT_FALSE(full.is_checked);
-  EXPECT_EQ(full.settle.count(), 0);
+  EXPECT_EQ(full.unchanged_time.count(), 0);
   EXPECT_EQ(full.poll, std::chrono::seconds(30));
   EXPECT_EQ(full.max_bytes, 8u << 20);
   EXPECT_EQ(full.failed, "bad");

@@ -39,7 +39,7 @@ TEST_F(SessionsTest, RefusesEveryoneWithTheSameWords) {
   ASSERT_TRUE(accounts().users().remove(admin(), "gone"));
   const auto wrong = sign_in("anna", "wrong password").error();
   EXPECT_EQ(wrong.code, Errc::Denied);
-  for (const char* name : {"locked", "gone", "machine", "nobody", "", "No/Name", "admin"}) {
+  for (const char* name : {"locked", "gone", "machine", "stranger", "", "No/Name", "admin"}) {
     const auto refused = sign_in(name);
     ASSERT_FALSE(refused) << name;
     EXPECT_EQ(refused.error().what, wrong.what) << name;

@@ -73,7 +73,7 @@ TEST_F(MachineRelease, ARunOfAJobNamesItAndAHeldQueueStartsNothing) {
       .machine = "lathe-1", .program = "O0100", .revision = {}, .author = "anna", .job = added->id};
   ASSERT_TRUE(store_->jobs.hold({"lathe-1", "anna", "wide", clock_.now()}, "anna"));
   EXPECT_EQ(service_->start(request).error().code, Errc::Conflict);
-  EXPECT_EQ(starts(), 0u) << "checked where the run is stored, whoever asks";
+  EXPECT_EQ(starts(), 0u) << "checked where the run is stored, no matter who asks";
   ASSERT_TRUE(store_->jobs.release("lathe-1", "anna", clock_.now()));
   const auto run = service_->start(request);
   ASSERT_TRUE(run) << run.error().what;

@@ -60,7 +60,7 @@ TEST_F(RecordFeedTest, PublishesEveryRecordOnceAndInOrder) {
   auto feed = make();
   store("a", 3);
   EXPECT_EQ(fill(feed), "a1 a2 a3 ");
-  EXPECT_EQ(fill(feed), "") << "they are under way";
+  EXPECT_EQ(fill(feed), "") << "they are in progress";
   store("a", 4);
   store("b", 1);
   EXPECT_EQ(fill(feed), "b1 a4 ");

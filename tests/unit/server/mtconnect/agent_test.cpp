@@ -49,9 +49,9 @@ struct Refused {
 TEST_F(AgentTest, RefusesInTheWordsOfTheStandard) {
   add("lathe-1");
   for (const Refused& row : std::initializer_list<Refused>{
-           {"/nobody", 404, "NO_DEVICE"},
-           {"/nobody/current", 404, "NO_DEVICE"},
-           {"/nobody/sample?interval=100", 404, "NO_DEVICE"},
+           {"/unknown", 404, "NO_DEVICE"},
+           {"/unknown/current", 404, "NO_DEVICE"},
+           {"/unknown/sample?interval=100", 404, "NO_DEVICE"},
            {"/probe/current", 404, "INVALID_URI"},
            {"/lathe-1/nothing", 404, "INVALID_URI"},
            {"/a/b/c/d", 404, "INVALID_URI"},

@@ -108,7 +108,7 @@ TEST_F(SchemaTest, AssetsAreValid) {
 }
 
 TEST_F(SchemaTest, ErrorsAreValid) {
-  for (const char* target : {"/nobody/probe", "/a/b/c", "/current?at=999999", "/sample?count=x",
+  for (const char* target : {"/unknown/probe", "/a/b/c", "/current?at=999999", "/sample?count=x",
                              "/current?path=%5B", "/asset/none"}) {
     const auto response = ask(target);
     EXPECT_NE(response.status, 200) << target;

@@ -157,7 +157,7 @@ TEST_F(KeptOffsets, AMemoryThatCannotBeReadIsADoubt) {
   use_rules();
   const std::string run = measure_three();
   report_text(run, R"({"part":1,"parts":2,"cells":{}})");
-  expect(reasons_of_no_proposal(), {"cannot be told", run, "1 of 2 parts of a memory"});
+  expect(reasons_of_no_proposal(), {"is not known", run, "1 of 2 parts of a memory"});
 }
 
 TEST_F(KeptOffsets, AVariableThatGoesBeforeTheToolIsNamed) {

@@ -255,11 +255,11 @@ TEST_F(WhatCounts, IsNamedWhereTheControlWaitsForTheNewestSetup) {
   EXPECT_EQ(only_proposal().used, 3U);
   const auto second = save_setup(setup("radius = 0.8\n"), "another insert").number;
   expect(why_nothing(),
-         {fmt::format("setup {} is said to be in the control, and setup {} is the newest", first,
-                      second),
+         {fmt::format("setup {} is recorded as loaded in the control, and setup {} is the newest",
+                      first, second),
           fmt::format("`dnc setup loaded lathe-1 {}`", second)});
   ASSERT_TRUE(store_->setups.note_loaded("lathe-1", std::nullopt, "olga"));
-  expect(why_nothing(), {"no known setup is said to be in the control"});
+  expect(why_nothing(), {"no known setup is recorded as loaded in the control"});
 }
 
 TEST_F(WhatCounts, AValueThatIsTakenOutOfTheSetupEndsInTheHistory) {

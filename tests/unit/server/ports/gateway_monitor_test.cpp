@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A gateway's recording in the test's hands, and somebody who watches it, or nobody.
+/// A gateway's recording in the test's hands, and someone who watches it, or no one.
 class GatewayMonitorTest : public testing::Test {
  protected:
   GatewayMonitorTest() {
@@ -87,7 +87,7 @@ TEST_F(GatewayMonitorTest, ReadsNoneOfWhatWasLongBeforeAndAllSince) {
   report();
   monitor_.begin();
   let_look();
-  EXPECT_EQ(asked_, 0) << "nobody watches it";
+  EXPECT_EQ(asked_, 0) << "no one watches it";
   is_watched_ = true;
   record("new 0");  // at once, before the monitor looks again, and without a status
   ASSERT_TRUE(wait_seen("new 0"));

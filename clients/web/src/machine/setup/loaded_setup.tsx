@@ -1,4 +1,4 @@
-// A control at the end of a line gets no setup with a start: somebody loads it there, and says here which one it has.
+// A control at the end of a line gets no setup with a start: someone loads it there, and says here which one it has.
 import type { LoadedSetup as Loaded } from '../../../generated/api';
 import { getIfThere, pathOf, send } from '../../api/request';
 import { Allowed } from '../../parts/allowed';

@@ -144,7 +144,7 @@ export const programs = {
     notComplete: 'Not all of it is listed.',
     acrossControls: 'Two controls: what belongs to a control and not to the program is not compared.',
     editClass: 'The change is about',
-    classes: { none: 'nothing', comment: 'comments', same_motion: 'text, not motion', feed_and_speed: 'feeds and speeds', offsets: 'offsets', geometry: 'geometry', other: 'more than can be told from it' },
+    classes: { none: 'nothing', comment: 'comments', same_motion: 'text, not motion', feed_and_speed: 'feeds and speeds', offsets: 'offsets', geometry: 'geometry', other: 'more than is known from it' },
     differences: {
       path: 'path', feed: 'feed', speed: 'spindle speed', tool: 'tool', offset: 'offset', dwell: 'dwell', coolant: 'coolant', function: 'M function', exact_stop: 'exact stop', stop: 'stop',
       output: 'output', order: 'order', alarm: 'alarm',

@@ -44,7 +44,7 @@ struct LaterEnd {
   }
 
  private:
-  /// A numbered comment goes on in indented lines without numbers after a `~` at its end.
+  /// A numbered comment continues in indented lines without numbers after a `~` at its end.
   static const char* end_of_comment(const char* at, const char* limit, bool is_numbered) {
     for (;;) {
       const char* end = find_line_end(at, limit);

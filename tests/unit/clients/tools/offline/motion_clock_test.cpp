@@ -31,9 +31,9 @@ Summary checked(std::string_view control, const std::string& text, const Machine
 
 /// What the simulated machine needs for the same program.
 double simulated(std::string_view control, const std::string& text) {
-  class Nobody final : public machine::ExecutionSink {
+  class NoSink final : public machine::ExecutionSink {
     void on_block_executed(const Origin&) override {}
-  } nobody;
+  } sink;
   machine::MachineLimits limits;
   limits.spindle.assumed_rpm = 1000;
   const MachineData stated = machine_data();
@@ -42,7 +42,7 @@ double simulated(std::string_view control, const std::string& text) {
                                          .feed_per_minute = *stated.axes[i]->max_rate,
                                          .acceleration = *stated.axes[i]->acceleration};
   }
-  machine::SimulatedMachine machine(limits, {}, nobody);
+  machine::SimulatedMachine machine(limits, {}, sink);
   machine.begin({});
   MemorySource source(text);
   auto interpreter = *(*find_dialect(control))->make({}, source, machine.events());

@@ -118,7 +118,7 @@ TEST(Counts, ThatContradictEachOtherLeaveThePartUnknown) {
   Reading reading(kCountedParts);
   reading.take("PART P1").take("COUNT 3").take("1 D40 40.01").take("END 1");
   EXPECT_EQ(reading.brought, (Brought{"[", "D40=40.01 good",
-                                      "bad_value: expected in 'END 1' is 1, a line before said 3",
+                                      "bad_value: expected in 'END 1' is 1, an earlier line has 3",
                                       "missing: lines 2 to 3 did not come", "] unknown"}));
   Reading other(kCountedParts);
   other.take("PART P1").take("COUNT 1").take("1 D40 40.01").take("END 2");

@@ -59,12 +59,12 @@ TEST_F(NetworkCut, OfTenMinutesIsNotFeltByTheControlAtAnyMomentOfTheRun) {
 }
 
 /// What the status states is kept to the second, and then the control is told nothing wrong: the
-/// line waits, and goes on without a gap when the server is back.
+/// line waits, and continues without a gap when the server is back.
 TEST_F(NetworkCut, LastsAsLongAsWasSaidBeforehandAndThenTheLineWaits) {
   begin_run(30min);
   connect(false);
-  const double said = status().buffered_seconds;
-  const auto whole = static_cast<int>(said);
+  const double stated = status().buffered_seconds;
+  const auto whole = static_cast<int>(stated);
   EXPECT_NE(status().message.find(
                 fmt::format("{} min {} s of the line; no server", whole / 60, whole % 60)),
             std::string::npos)
@@ -72,7 +72,7 @@ TEST_F(NetworkCut, LastsAsLongAsWasSaidBeforehandAndThenTheLineWaits) {
   const auto begun = clock_.steady_now();
   ASSERT_TRUE(pass_until([&] { return status().execution == dds::Execution::Waiting; }, 20min));
   const double lasted = std::chrono::duration<double>(clock_.steady_now() - begun).count();
-  EXPECT_NEAR(lasted, said, 1);
+  EXPECT_NEAR(lasted, stated, 1);
   EXPECT_EQ(status().waits_for, dds::WaitsFor::Text);
   const std::size_t sent = wire_.sent.size();
   pass(60s);

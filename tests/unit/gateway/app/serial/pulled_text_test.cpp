@@ -68,7 +68,7 @@ TEST_F(PulledTextTest, ReachesAsFarAsItsBufferWithoutAServer) {
   EXPECT_GE(ahead, 100'000U);
   EXPECT_FALSE(pulled.is_complete());
   std::uint64_t at = 0;
-  for (std::string piece; at < ahead; at += piece.size()) {  // nobody serves any more
+  for (std::string piece; at < ahead; at += piece.size()) {  // no one serves any more
     piece = pulled.read(at, 1000).value();
     ASSERT_FALSE(piece.empty()) << at;
     ASSERT_EQ(piece, text_.substr(at, piece.size()));
@@ -76,7 +76,8 @@ TEST_F(PulledTextTest, ReachesAsFarAsItsBufferWithoutAServer) {
   }
   EXPECT_EQ(pulled.read(at, 1000).value(), "");
   serve(pulled);
-  EXPECT_EQ(pulled.read(at, 1000).value(), text_.substr(at, 1000)) << "it goes on where it waited";
+  EXPECT_EQ(pulled.read(at, 1000).value(), text_.substr(at, 1000))
+      << "it continues where it waited";
 }
 
 TEST_F(PulledTextTest, StatesWhenAllOfTheRestIsHere) {

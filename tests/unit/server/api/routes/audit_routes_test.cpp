@@ -123,7 +123,7 @@ TEST_F(AuditRoutes, VerifyTheTrailAndNameTheFirstPlace) {
   ASSERT_TRUE(kept) << kept.error().what;
 
   auto database = storage::sqlite::Database::open(folder_.path() / "store.sqlite");
-  ASSERT_TRUE(database->execute("UPDATE audit SET who = 'nobody' WHERE id = 2"));
+  ASSERT_TRUE(database->execute("UPDATE audit SET who = 'stranger' WHERE id = 2"));
   const Json changed = json(call("POST", "/api/v1/audit/verification"));
   EXPECT_EQ(changed["verification"]["intact"], false);
   EXPECT_EQ(changed["verification"]["fault"]["entry"], 2) << changed;

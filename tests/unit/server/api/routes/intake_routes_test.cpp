@@ -169,7 +169,7 @@ TEST_F(CertificateAccess, IsTheUserOfItsNameWithHisRights) {
   EXPECT_EQ(session["role"], "operator");
   EXPECT_EQ(session["credential"], "certificate 0A1B");
   EXPECT_EQ(with_certificate("anna", "GET", "/api/v1/users").status, 403);
-  EXPECT_EQ(with_certificate("nobody", "GET", "/api/v1/session").status, 401);
+  EXPECT_EQ(with_certificate("stranger", "GET", "/api/v1/session").status, 401);
 }
 
 TEST_F(CertificateAccess, IsNamedBySerialInTheAuditTrail) {

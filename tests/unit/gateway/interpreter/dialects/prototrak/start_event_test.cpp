@@ -46,9 +46,9 @@ TEST(StartEvent, IsRefusedWhereThereIsNone) {
               ElementsAre(HasSubstr("PTK0113")));
   for (const char* place : {"N0", "N256", "L3", "T1", "N1x"}) {
     MemorySource source(kProgram);
-    EventSink nobody;
+    EventSink sink;
     const auto setup = parse_setup(std::string("[control]\nstart_at = \"") + place + "\"\n");
-    EXPECT_FALSE((*find_dialect("prototrak-plus"))->make(*setup, source, nobody)) << place;
+    EXPECT_FALSE((*find_dialect("prototrak-plus"))->make(*setup, source, sink)) << place;
   }
 }
 
