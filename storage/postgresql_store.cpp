@@ -2,6 +2,7 @@
 
 #include "storage/impl/all_repositories.hpp"
 #include "storage/impl/postgresql_connections.hpp"
+#include "storage/postgresql/url.hpp"
 
 namespace dripline::storage {
 
@@ -48,6 +49,12 @@ Result<bool> PostgresqlStore::copy_to(const std::filesystem::path&,
 Result<std::string> PostgresqlStore::identity() {
   return parts_->connections->read(
       [](sql::Database& database) { return database.text("SELECT id FROM identity"); });
+}
+
+Result<bool> holds_password(const std::string& url) {
+  const auto facts = postgresql::read_url(url);
+  if (!facts) return fail(facts.error());
+  return facts->has_password;
 }
 
 }  // namespace dripline::storage

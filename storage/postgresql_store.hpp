@@ -21,20 +21,28 @@ struct PostgresqlStoreOptions {
   std::size_t readers = 4;                           ///< connections that read at the same time
   std::uint64_t cache_bytes = 8 << 20;    ///< of program chunks kept checked and decompressed
   std::chrono::milliseconds wait{10000};  ///< at most for a connection or a lock, then Errc::Busy
+  /// The place is another server's now, for good: called once, from any thread, and returns soon.
+  std::function<void(const Error&)> on_lost{};
 };
+
+/// Of a URL: whether it has a password in it, which whoever sees the command line can read. Errors:
+/// Syntax.
+Result<bool> holds_password(const std::string& url);
 
 /// The second Store: one PostgreSQL database, 15 or newer. What was stored is durable as PostgreSQL
 /// promises it (synchronous_commit, and with a synchronous standby there too). One server at a time
-/// uses a database, which is said in it (store_holder): who lost the place stores nothing more, and
-/// reads nothing from when it knows (3 s at most).
+/// uses a database, which is said in it (store_holder): who lost the place stores nothing more,
+/// reads nothing from when it knows (3 s at most), and is told by `on_lost`.
 /// A lost connection is opened again by the next call; what was not at its commit yet is done
 /// again, and so is what another transaction was in the way of. Errors besides those of Store:
 /// Timeout (the connection was lost at the commit, and nobody knows whether it was stored).
 class PostgresqlStore final : public OpenedStore {
  public:
-  /// Creates or migrates the tables. `clock` must outlive the store. Errors: Syntax (the URL), Io,
-  /// Denied, Busy (another server uses the database), Unsupported (an older PostgreSQL, another
-  /// encoding, a newer version's tables or somebody else's).
+  /// Takes the place, then creates or migrates the tables; on an error the place is free again.
+  /// `clock` must outlive the store. Errors: Syntax (the URL), Io, Denied, Busy (another server
+  /// uses the database, or another session has locked a table of it), Unsupported (an older
+  /// PostgreSQL, another encoding, a newer version's tables or somebody else's, a database of
+  /// PostgreSQL's own, or one that is being migrated or was).
   static Result<std::unique_ptr<PostgresqlStore>> open(const PostgresqlStoreOptions& options,
                                                        const Clock& clock);
   ~PostgresqlStore() override;

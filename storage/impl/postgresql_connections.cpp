@@ -4,7 +4,9 @@
 #include <mutex>
 
 #include "protocol/base/random.hpp"
+#include "storage/postgresql/lock_holders.hpp"
 #include "storage/postgresql/migration.hpp"
+#include "storage/postgresql/url.hpp"
 #include "storage/sql/query.hpp"
 
 namespace dripline::storage {
@@ -18,6 +20,9 @@ constexpr std::chrono::seconds kRenew{3};
 /// A database that is not there keeps no caller longer; one that was just lost may be back at once.
 constexpr std::chrono::milliseconds kReconnect{2000}, kPause{100};
 
+constexpr const char* kGivePlace =
+    "UPDATE store_holder SET holder = '', until = now() WHERE holder = ?1";
+
 }  // namespace
 
 PostgresqlConnections::PostgresqlConnections(const PostgresqlStoreOptions& options)
@@ -27,14 +32,20 @@ PostgresqlConnections::PostgresqlConnections(const PostgresqlStoreOptions& optio
       readers_(options.wait) {}
 
 Result<std::unique_ptr<PostgresqlConnections>> PostgresqlConnections::open(
-    const PostgresqlStoreOptions& options) {
+    const PostgresqlStoreOptions& options, const DatabaseUse& use) {
+  const auto facts = postgresql::read_url(options.url);
+  if (!facts) return fail(facts.error());
+  if (auto ours = postgresql::check_name(facts->database); !ours) return fail(ours.error());
   std::unique_ptr<PostgresqlConnections> connections(new PostgresqlConnections(options));
   auto writer = Database::connect({.url = options.url, .lock_timeout = options.wait});
   if (!writer) return fail(writer.error());
   connections->label_ = writer->label();
-  if (auto done = postgresql::migrate(*writer, postgresql::schema()); !done)
-    return fail(done.error());
-  if (auto taken = connections->take_place(*writer); !taken) return fail(taken.error());
+  if (auto done = connections->prepare(*writer, use); !done) {
+    const bool was_locked = writer->waited_for_lock();
+    writer->roll_back();
+    connections->give_place(*writer);
+    return fail(was_locked ? postgresql::locked_by_others(*writer, options.wait) : done.error());
+  }
   connections->writer_.add(*std::move(writer));
   for (std::size_t i = 0; i < std::max<std::size_t>(1, options.readers); ++i)
     connections->readers_.add(std::nullopt);
@@ -47,11 +58,64 @@ PostgresqlConnections::~PostgresqlConnections() {
   if (!keeper_.joinable()) return;  // it was never opened
   keeper_.request_stop();
   keeper_.join();
+  if (is_lost_) return;
   // When this fails the place ends by its time.
-  static_cast<void>(write([this](sql::Database& database) {
-    return sql::run(
-        database, "UPDATE store_holder SET holder = '', until = now() WHERE holder = ?1", holder_);
-  }));
+  static_cast<void>(
+      write([this](sql::Database& database) { return sql::run(database, kGivePlace, holder_); }));
+}
+
+/// The place comes first: another server's tables are not migrated while it works. An empty
+/// database has no place yet, so its tables are made before.
+Result<void> PostgresqlConnections::prepare(Database& database, const DatabaseUse& use) {
+  auto has_place = postgresql::has_table(database, "store_holder");
+  if (has_place && !*has_place) {
+    auto made = postgresql::migrate(database, postgresql::schema(), use.begin);
+    if (!made) {
+      // Another server may have made them at the same moment.
+      has_place = postgresql::has_table(database, "store_holder");
+      if (!has_place || !*has_place) return made;
+    }
+  }
+  if (!has_place) return fail(has_place.error());
+  if (auto taken = take_place(database); !taken) return taken;
+  if (auto fits = check_use(database, use); !fits) return fits;
+  return postgresql::migrate(database, postgresql::schema());
+}
+
+Result<void> PostgresqlConnections::check_use(Database& database, const DatabaseUse& use) const {
+  const auto kind = use.kind;
+  const auto is_begun = postgresql::has_table(database, "store_migration");
+  if (!is_begun) return fail(is_begun.error());
+  const auto is_left = postgresql::has_table(database, "store_migrated");
+  if (!is_left) return fail(is_left.error());
+  if (kind == DatabaseUse::Kind::Enter && !*is_begun) {
+    const auto identity = database.text("SELECT id FROM identity");
+    if (identity && *identity == use.source && !*is_left) return {};  // it was entered before
+    return fail(Errc::Conflict,
+                "database {} has tables already: a migration goes into an empty one (createdb "
+                "--encoding=UTF8 --template=template0 NAME)",
+                label_);
+  }
+  if (kind != DatabaseUse::Kind::Enter && *is_begun) {
+    return fail(Errc::Busy,
+                "database {} is the target of a migration that is not complete: run it again (dnc "
+                "server migrate); or drop the database, the old one is as it was",
+                label_);
+  }
+  if (kind == DatabaseUse::Kind::Serve && *is_left) {
+    const auto to = database.text("SELECT target FROM store_migrated");
+    return fail(Errc::Conflict,
+                "database {} was migrated to {}: what is stored here now would be missing there. "
+                "To use it again all the same: DROP TABLE store_migrated",
+                label_, to.value_or("another one"));
+  }
+  return {};
+}
+
+/// Best effort: otherwise it ends by its time.
+void PostgresqlConnections::give_place(Database& database) {
+  if (may_have_place_ && database.is_alive())
+    static_cast<void>(sql::run(database, kGivePlace, holder_));
 }
 
 /// True: it is ours now. False: `other` has it.
@@ -77,6 +141,7 @@ Result<bool> PostgresqlConnections::try_place(Database& database, std::string& o
       "second' WHERE id = 1",
       holder_, options_.described, kPlace.count());
   if (!taken) return fail(taken.error());
+  may_have_place_ = true;
   if (auto done = database.commit(); !done) return fail(done.error());
   return true;
 }
@@ -86,10 +151,7 @@ Result<void> PostgresqlConnections::take_place(Database& database) {
   std::string other;
   for (;;) {
     const auto taken = try_place(database, other);
-    if (!taken) {
-      database.roll_back();
-      return fail(taken.error());
-    }
+    if (!taken) return fail(taken.error());
     if (*taken) return {};
     if (SteadyClock::now() >= deadline) {
       return fail(Errc::Busy,
@@ -122,16 +184,27 @@ Result<void> PostgresqlConnections::begin_write(Database& database, Durability d
       sql::first_row(database, "SELECT holder FROM store_holder WHERE id = 1 FOR UPDATE",
                      [](const sql::Statement& row) { return row.text(0); });
   if (!holder) return fail(holder.error());
-  if (!*holder || **holder != holder_) is_lost_ = true;
+  if (!*holder || **holder != holder_) lose_place();
   return check_place();
 }
 
+Error PostgresqlConnections::lost_error() const {
+  return {Errc::Io,
+          fmt::format("database {} was taken over by another server: nothing is stored or "
+                      "read by this one any more",
+                      label_)};
+}
+
+/// For good, also when the other one has given it back: what this one has in memory is not what is
+/// stored any more.
+void PostgresqlConnections::lose_place() {
+  if (is_lost_.exchange(true)) return;
+  if (options_.on_lost) options_.on_lost(lost_error());
+}
+
 Result<void> PostgresqlConnections::check_place() const {
-  if (!is_lost_) return {};
-  return fail(Errc::Io,
-              "database {} was taken over by another server: nothing is stored or read by this one "
-              "any more; end it",
-              label_);
+  if (is_lost_) return fail(lost_error());
+  return {};
 }
 
 Result<void> PostgresqlConnections::write_with(const Work& work, Durability durability) {
@@ -153,8 +226,9 @@ Result<void> PostgresqlConnections::write_with(const Work& work, Durability dura
         if (is_over) return done;
         continue;  // nothing of it was stored
       }
-      const bool is_in_the_way = slot->was_in_the_way();
+      const bool is_in_the_way = slot->was_in_the_way(), was_locked = slot->waited_for_lock();
       slot->roll_back();
+      if (was_locked) return fail(postgresql::locked_by_others(*slot, options_.wait));
       if (!is_in_the_way || is_over) return done;
     }
   });

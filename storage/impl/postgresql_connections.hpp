@@ -13,15 +13,25 @@
 
 namespace dripline::storage {
 
+/// What a database is opened for. A migration (storage/migration) leaves one for a file or enters
+/// one from it; no server uses a database that is being entered or was left.
+struct DatabaseUse {
+  enum class Kind : std::uint8_t { Serve, Leave, Enter };
+  Kind kind = Kind::Serve;
+  std::string begin{};   ///< of Enter: SQL in the transaction that makes the tables
+  std::string source{};  ///< of Enter: the identity of the database that is moved
+};
+
 /// One connection that writes and some that read; a lost one is opened again by whoever needs it.
 /// The database has one holder (schema, store_holder): every transaction that writes locks the
 /// holder's row and looks who it is, so a server that lost its place stores nothing any more, and
 /// once it knows that it reads nothing either: what it would do is another one's now. Thread-safe.
 class PostgresqlConnections final : public Connections {
  public:
-  /// Creates or migrates the schema, and takes the holder's place. Errors: see
+  /// Takes the holder's place, and creates or migrates the schema. Errors: see
   /// PostgresqlStore::open.
-  static Result<std::unique_ptr<PostgresqlConnections>> open(const PostgresqlStoreOptions& options);
+  static Result<std::unique_ptr<PostgresqlConnections>> open(const PostgresqlStoreOptions& options,
+                                                             const DatabaseUse& use = {});
   /// Gives the place back.
   ~PostgresqlConnections() override;
 
@@ -36,17 +46,23 @@ class PostgresqlConnections final : public Connections {
   explicit PostgresqlConnections(const PostgresqlStoreOptions& options);
   Result<void> write_with(const Work& work, Durability durability) override;
   Result<void> read_with(const Work& work) override;
+  Result<void> prepare(Database& database, const DatabaseUse& use);
+  Result<void> check_use(Database& database, const DatabaseUse& use) const;
   Result<void> take_place(Database& database);
+  void give_place(Database& database);
+  void lose_place();
   Result<bool> try_place(Database& database, std::string& other);
   Result<void> begin_write(Database& database, Durability durability);
   /// Opens it when it is not. Errors: Io, after trying for a moment.
   Result<void> connect(Slot& slot);
   void keep_place(const std::stop_token& stop);
   Result<void> check_place() const;
+  Error lost_error() const;
 
   const PostgresqlStoreOptions options_;
   std::string label_;
   std::string holder_;
+  bool may_have_place_ = false;        ///< while it is opened
   std::atomic<bool> is_lost_ = false;  ///< the place; for good
   ConnectionPool<Slot> writer_;
   ConnectionPool<Slot> readers_;

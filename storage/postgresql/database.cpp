@@ -6,6 +6,7 @@
 #include "storage/postgresql/cursor.hpp"
 #include "storage/postgresql/errors.hpp"
 #include "storage/postgresql/link.hpp"
+#include "storage/postgresql/url.hpp"
 
 namespace dripline::storage::postgresql {
 namespace {
@@ -56,13 +57,7 @@ Error refused(PGconn* connection) {
 }  // namespace
 
 Result<Database> Database::connect(const ConnectOptions& options) {
-  char* fault = nullptr;
-  PQconninfoOption* read = PQconninfoParse(options.url.c_str(), &fault);
-  PQconninfoFree(read);
-  PQfreemem(fault);
-  if (read == nullptr)
-    return fail(Errc::Syntax, "the database's URL cannot be read: postgresql://HOST:PORT/NAME");
-
+  if (const auto facts = read_url(options.url); !facts) return fail(facts.error());
   PGconn* connection = open_connection(options);
   if (connection == nullptr) return fail(Errc::Io, "no memory for a connection");
   auto link = std::make_unique<Link>(connection);
@@ -154,6 +149,10 @@ bool Database::is_alive() const {
 
 bool Database::was_in_the_way() const {
   return asks_to_repeat(link_->last_state());
+}
+
+bool Database::waited_for_lock() const {
+  return link_->last_state() == "55P03";
 }
 
 }  // namespace dripline::storage::postgresql

@@ -48,6 +48,8 @@ class Database final : public sql::Database {
   /// The transaction was undone because another was in its way (40001, 40P01): it may be begun
   /// again.
   bool was_in_the_way() const;
+  /// The last error: a lock of another session did not come free in time (55P03).
+  bool waited_for_lock() const;
 
   /// "postgresql://host:5432/name": without user and password.
   const std::string& label() const { return label_; }

@@ -4,15 +4,24 @@
 #include "storage/sql/query.hpp"
 
 namespace dripline::storage::postgresql {
+
+Result<bool> has_table(Database& database, const std::string& name) {
+  const auto known = sql::first_row(
+      database,
+      "SELECT count(*) FROM information_schema.tables WHERE table_schema = current_schema() AND "
+      "table_name = ?1",
+      [](const sql::Statement& row) { return row.integer(0) > 0; }, name);
+  if (!known) return fail(known.error());
+  return known->value_or(false);
+}
+
 namespace {
 
 /// 0: it has no tables.
 Result<std::int64_t> version_of(Database& database, std::uint64_t newest) {
-  const auto has_version = database.integer(
-      "SELECT count(*) FROM information_schema.tables WHERE table_schema = current_schema() AND "
-      "table_name = 'schema_version'");
-  if (!has_version) return has_version;
-  if (*has_version > 0) {
+  const auto has_version = has_table(database, "schema_version");
+  if (!has_version) return fail(has_version.error());
+  if (*has_version) {
     const auto version = database.integer("SELECT version FROM schema_version");
     if (!version) return version;
     if (*version >= 1 && static_cast<std::uint64_t>(*version) <= newest) return version;
@@ -28,7 +37,8 @@ Result<std::int64_t> version_of(Database& database, std::uint64_t newest) {
               database.label());
 }
 
-Result<void> apply(Database& database, std::span<const Migration> migrations) {
+Result<void> apply(Database& database, std::span<const Migration> migrations,
+                   const std::string& also) {
   const auto version = version_of(database, migrations.size());
   if (!version) return fail(version.error());
   if (*version == static_cast<std::int64_t>(migrations.size())) return {};
@@ -46,14 +56,18 @@ Result<void> apply(Database& database, std::span<const Migration> migrations) {
                   done.error().what);
     }
   }
+  if (!also.empty()) {
+    if (auto done = database.execute(also); !done) return done;
+  }
   return sql::run(database, "UPDATE schema_version SET version = ?1", migrations.size());
 }
 
 }  // namespace
 
-Result<void> migrate(Database& database, std::span<const Migration> migrations) {
+Result<void> migrate(Database& database, std::span<const Migration> migrations,
+                     const std::string& also) {
   if (auto begun = database.begin(); !begun) return begun;
-  auto done = apply(database, migrations);
+  auto done = apply(database, migrations, also);
   if (done) done = database.commit();
   if (!done) database.roll_back();
   return done;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "storage/postgresql/database.hpp"
@@ -18,8 +19,13 @@ struct Migration {
 /// The files of storage/postgresql/schema, compiled in.
 std::span<const Migration> schema();
 
-/// Brings the database to the newest version, all steps in one transaction. Errors: Unsupported (it
-/// is of a newer version, or holds someone else's tables), and those of Database.
-Result<void> migrate(Database& database, std::span<const Migration> migrations);
+/// Brings the database to the newest version, all steps in one transaction, and runs `also` in it
+/// when something was to be done. Errors: Unsupported (it is of a newer version, or holds someone
+/// else's tables), and those of Database.
+Result<void> migrate(Database& database, std::span<const Migration> migrations,
+                     const std::string& also = "");
+
+/// Whether it has a table of that name.
+Result<bool> has_table(Database& database, const std::string& name);
 
 }  // namespace dripline::storage::postgresql

@@ -1,5 +1,7 @@
 // What only the store in PostgreSQL has: its one holder, lost connections, transactions that are
 // begun again.
+#include <atomic>
+
 #include "storage/postgresql/database.hpp"
 #include "storage/sql/query.hpp"
 #include "storage/sqlite/database.hpp"
@@ -66,6 +68,101 @@ TEST_F(PostgresqlStoreTest, WhoLostThePlaceStoresNothing) {
   EXPECT_FALSE(store_->runs.find("r1")) << "what it would do with it is another server's now";
   EXPECT_EQ(query("SELECT count(*) FROM record"), 0);
   EXPECT_EQ((*second)->records.store(make_batch(1, 3)), 3u);
+}
+
+TEST_F(PostgresqlStoreTest, WhoLostThePlaceIsTold) {
+  store_.reset();
+  std::atomic<int> calls = 0;
+  std::string why;
+  auto first = PostgresqlStore::open({.url = database_->url(),
+                                      .on_lost =
+                                          [&](const Error& error) {
+                                            why = error.what;
+                                            ++calls;
+                                          }},
+                                     clock_);
+  ASSERT_TRUE(first) << first.error().what;
+  ASSERT_TRUE((*first)->probe());
+  EXPECT_EQ(calls, 0);
+  change("UPDATE store_holder SET holder = 'srv-2', until = now() + interval '1 hour'");
+  EXPECT_FALSE((*first)->probe());
+  EXPECT_FALSE((*first)->probe());
+  EXPECT_EQ(calls, 1);
+  EXPECT_NE(why.find("taken over by another server"), std::string::npos) << why;
+  first->reset();
+  EXPECT_EQ(query("SELECT count(*) FROM store_holder WHERE holder = 'srv-2'"), 1)
+      << "and gives nothing back that is another one's";
+}
+
+/// What the other one stored meanwhile is not what this one has in memory.
+TEST_F(PostgresqlStoreTest, APlaceThatWasTakenAndGivenBackIsLostToo) {
+  ASSERT_TRUE(store_->probe());
+  change("UPDATE store_holder SET holder = '', until = now()");
+  EXPECT_FALSE(store_->probe());
+}
+
+TEST_F(PostgresqlStoreTest, WhoDoesNotStartKeepsNobodyOut) {
+  store_.reset();
+  change("UPDATE schema_version SET version = 99");
+  const auto newer = open_another("srv-2");
+  ASSERT_FALSE(newer);
+  EXPECT_EQ(newer.error().code, Errc::Unsupported);
+  EXPECT_EQ(query("SELECT count(*) FROM store_holder WHERE holder = ''"), 1);
+}
+
+TEST_F(PostgresqlStoreTest, TablesAreNotMigratedUnderAServerThatWorks) {
+  change("UPDATE schema_version SET version = 99");
+  const auto newer = open_another();
+  ASSERT_FALSE(newer);
+  EXPECT_EQ(newer.error().code, Errc::Busy) << "the place comes first: " << newer.error().what;
+}
+
+TEST_F(PostgresqlStoreTest, ALockedTableIsNamedWithWhoHasIt) {
+  store_.reset();
+  auto other = postgresql::Database::connect({.url = database_->url()});
+  ASSERT_TRUE(other->execute("SET application_name = 'psql'"));
+  ASSERT_TRUE(other->begin());
+  ASSERT_TRUE(other->integer("SELECT id FROM store_holder FOR UPDATE"));
+  const auto pid = other->integer("SELECT CAST(pg_backend_pid() AS bigint)");
+  const auto refused = PostgresqlStore::open(
+      {.url = database_->url(), .wait = std::chrono::milliseconds(300)}, clock_);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Busy);
+  const std::string& what = refused.error().what;
+  EXPECT_NE(what.find(fmt::format("process {} (psql) of user dripline", *pid)), std::string::npos)
+      << what;
+  EXPECT_NE(what.find("has locked store_holder"), std::string::npos) << what;
+  EXPECT_NE(what.find("0.3 s"), std::string::npos) << what;
+  EXPECT_EQ(what.find("SELECT"), std::string::npos) << what;
+  EXPECT_EQ(what.find("55P03"), std::string::npos) << what;
+  other->roll_back();
+  EXPECT_TRUE(open_another());
+}
+
+TEST_F(PostgresqlStoreTest, PostgresqlsOwnDatabasesAreRefused) {
+  const std::string url = database_->url();
+  const auto name = url.find("test_");
+  for (const std::string own : {"postgres", "template0", "template1"}) {
+    const std::string named = url.substr(0, name) + own + url.substr(url.find('?'));
+    const auto refused = PostgresqlStore::open({.url = named}, clock_);
+    ASSERT_FALSE(refused) << own;
+    EXPECT_EQ(refused.error().code, Errc::Unsupported);
+    EXPECT_EQ(refused.error().what.rfind("database " + own + ": PostgreSQL keeps it", 0), 0u)
+        << refused.error().what;
+  }
+  // As libpq takes it when no database is named.
+  const auto unnamed = PostgresqlStore::open({.url = "postgresql://postgres@127.0.0.1:1/"}, clock_);
+  ASSERT_FALSE(unnamed);
+  EXPECT_EQ(unnamed.error().code, Errc::Unsupported) << unnamed.error().what;
+}
+
+TEST_F(PostgresqlStoreTest, APasswordInTheUrlIsSeen) {
+  EXPECT_EQ(holds_password("postgresql://anna:secret@db-1/shop"), true);
+  EXPECT_EQ(holds_password("postgresql://anna@db-1/shop?password=secret"), true);
+  EXPECT_EQ(holds_password("postgresql://anna@db-1/shop?passfile=/etc/dripline/pgpass"), false);
+  const auto wrong = holds_password("postgresql://anna:secret@db-1/shop?nothing=1");
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().what.find("secret"), std::string::npos) << wrong.error().what;
 }
 
 TEST_F(PostgresqlStoreTest, ALostConnectionIsOpenedAgain) {

@@ -1,0 +1,50 @@
+#include "storage/postgresql/lock_holders.hpp"
+
+#include "storage/sql/query.hpp"
+
+namespace dripline::storage::postgresql {
+namespace {
+
+/// Sessions with a lock on a table of ours, the oldest transaction first; readers of ours are in
+/// nobody's way. What a user may not see of another one's session is NULL.
+constexpr const char* kHolders =
+    "SELECT CAST(l.pid AS bigint), coalesce(CAST(a.usename AS text), ''), "
+    "coalesce(a.application_name, ''), "
+    "coalesce(host(a.client_addr), 'this computer'), string_agg(DISTINCT CAST(c.relname AS text), "
+    "', '), "
+    "coalesce(CAST(floor(extract(epoch FROM now() - min(a.xact_start))) AS bigint), -1) "
+    "FROM pg_locks AS l JOIN pg_class AS c ON c.oid = l.relation AND c.relkind = 'r' "
+    "JOIN pg_namespace AS n ON n.oid = c.relnamespace AND n.nspname = current_schema() "
+    "LEFT JOIN pg_stat_activity AS a ON a.pid = l.pid "
+    "WHERE l.granted AND l.pid <> pg_backend_pid() AND (l.mode <> 'AccessShareLock' OR "
+    "a.application_name <> 'dncd') "
+    "GROUP BY l.pid, a.usename, a.application_name, a.client_addr "
+    "ORDER BY min(a.xact_start) LIMIT 3";
+
+std::string holder_text(const sql::Statement& row) {
+  std::string text = fmt::format("process {}", row.integer(0));
+  if (!row.text(2).empty()) text += fmt::format(" ({})", row.text(2));
+  if (!row.text(1).empty()) text += fmt::format(" of user {}", row.text(1));
+  text += fmt::format(" from {} has locked {}", row.text(3), row.text(4));
+  if (row.integer(5) >= 0) text += fmt::format(" for {} s", row.integer(5));
+  return text;
+}
+
+}  // namespace
+
+Error locked_by_others(Database& database, std::chrono::milliseconds waited) {
+  const std::string who = [&] {
+    const auto holders = sql::all_rows(database, kHolders, holder_text);
+    if (!holders || holders->empty()) return std::string("the session that had it is gone");
+    std::string all;
+    for (const std::string& holder : *holders) all += (all.empty() ? "" : "; ") + holder;
+    return all;
+  }();
+  constexpr double kMsPerSecond = 1000.0;
+  return {Errc::Busy,
+          fmt::format("database {}: a table was locked by another session for longer than {} s, "
+                      "the limit: {}. Let it end its transaction, or end the session",
+                      database.label(), static_cast<double>(waited.count()) / kMsPerSecond, who)};
+}
+
+}  // namespace dripline::storage::postgresql
