@@ -22,6 +22,9 @@ class SqliteConnections final : public Connections {
   /// What only a file has. On one consistent picture of it.
   Result<bool> read_file(const std::function<Result<bool>(sqlite::Database&)>& action);
 
+  /// For who gives the file another name after the connections have ended; the last call.
+  FileLock keep_lock() { return std::move(lock_); }
+
  private:
   SqliteConnections(FileLock lock, const SqliteStoreOptions& options)
       : lock_(std::move(lock)),

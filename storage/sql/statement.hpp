@@ -57,6 +57,13 @@ class Statement {
     return *this;
   }
 
+  /// The same for one parameter, whose type is known only while the program runs.
+  template <class T>
+  void bind_at(int position, const T& value) {
+    bind_one(position, value);
+  }
+  void bind_null_at(int position, Kind kind) { cursor_->bind_null(position, kind); }
+
   /// True: there is a row to read. False: done; the next step begins again. Errors: see Database.
   Result<bool> step() { return cursor_->step(); }
   /// Steps to the end and resets, so that it can be bound and run again.
