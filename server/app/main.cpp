@@ -1,14 +1,18 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <csignal>
 #include <ctime>
+#include <mutex>
+#include <optional>
 
 #include "protocol/dds/configuration.hpp"
 #include "protocol/process/daemon_log.hpp"
 #include "protocol/process/log.hpp"
 #include "protocol/process/service_manager.hpp"
 #include "protocol/process/stop_signals.hpp"
+#include "server/app/migrate_store.hpp"
 #include "server/app/restore.hpp"
 #include "server/app/server.hpp"
 #include "server/app/settings.hpp"
@@ -18,6 +22,7 @@ namespace {
 
 constexpr int kFailed = 1;
 constexpr int kUnsafe = 2;
+constexpr unsigned kLongestEnd = 30;  ///< seconds
 
 int complain(const Error& error) {
   fmt::print(stderr, "dncd: {}\n", error.what);
@@ -33,6 +38,27 @@ void keep_memory_small() {
   ::mallopt(M_MMAP_THRESHOLD, kMapFrom);  // NOLINT(concurrency-mt-unsafe): no threads yet
   ::mallopt(M_ARENA_MAX, kArenas);        // NOLINT(concurrency-mt-unsafe): no threads yet
 }
+
+/// Ends the process when the database is another server's: a service manager starts it again, and
+/// what it would do until then is that server's.
+class LostStore {
+ public:
+  void note(const Error& error) {
+    {
+      const std::lock_guard lock(mutex_);
+      why_ = error.what;
+    }
+    ::kill(::getpid(), SIGTERM);  // that the main thread waits for
+  }
+  std::optional<std::string> why() const {
+    const std::lock_guard lock(mutex_);
+    return why_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<std::string> why_;
+};
 
 void serve_until(const sigset_t& signals, Server& server, const Clock& clock) {
   constexpr std::chrono::hours kTidyInterval{1};
@@ -63,9 +89,18 @@ int restore(const Settings& settings) {
   return 0;
 }
 
+int migrate(const Settings& settings) {
+  ::umask(S_IRWXG | S_IRWXO);
+  // On standard error: the daemon's log file is the daemon's.
+  if (auto opened = process::start_log("dncd", {}); !opened) return complain(opened.error());
+  const auto migrated = migrate_store(settings);
+  return migrated ? 0 : complain(migrated.error());
+}
+
 int run(const Settings& settings) {
   keep_memory_small();
   if (!settings.restore.empty()) return restore(settings);
+  if (!settings.migrate_to.empty()) return migrate(settings);
   const sigset_t signals = process::block_stop_signals();
   ::umask(S_IRWXG | S_IRWXO);  // programs, reports, the log and the token are the owner's alone
   const process::LogOptions log{.file = settings.log,
@@ -75,8 +110,11 @@ int run(const Settings& settings) {
   if (auto opened = process::start_log("dncd", log); !opened) return complain(opened.error());
   dds::send_log_to(process::log_foreign);
   const SystemClock clock;
+  LostStore lost;
   const auto files = process::require_open_files(process::kServerFiles);
-  auto server = files ? Server::start(settings, clock) : fail(files.error());
+  auto server =
+      files ? Server::start(settings, clock, [&lost](const Error& error) { lost.note(error); })
+            : fail(files.error());
   if (!server) {
     process::log_error("not started: {}", server.error().what);
     // Without a log file the line above is on standard error already.
@@ -92,12 +130,17 @@ int run(const Settings& settings) {
   std::fflush(stdout);
   process::notify_ready((*server)->status());
   serve_until(signals, **server, clock);
+  if (const auto why = lost.why()) {
+    process::log_error("{}: the server ends", *why);
+    if (!settings.log.empty()) fmt::print(stderr, "dncd: {}: the server ends\n", *why);
+    ::alarm(kLongestEnd);  // an end that hangs is an end all the same
+  }
   process::log_info("stopping");
   process::notify_stopping();
   server->reset();
   process::log_info("stopped");
   spdlog::shutdown();
-  return 0;
+  return lost.why() ? kFailed : 0;
 }
 
 }  // namespace

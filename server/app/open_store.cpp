@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "protocol/process/log.hpp"
 #include "storage/postgresql_store.hpp"
 #include "storage/sqlite_store.hpp"
 
@@ -12,13 +13,6 @@ namespace {
 
 bool is_postgresql(const std::string& url) {
   return url.starts_with("postgresql://") || url.starts_with("postgres://");
-}
-
-/// "dncd 812 on srv-1, /var/lib/dripline".
-std::string description(const StateFolder& folder) {
-  std::array<char, 256> host{};
-  ::gethostname(host.data(), host.size() - 1);
-  return fmt::format("dncd {} on {}, {}", ::getpid(), host.data(), folder.path().string());
 }
 
 /// A folder that has had no database does not take one that another folder's server has signed:
@@ -37,7 +31,8 @@ Result<void> check_trail(const StateFolder& folder, storage::OpenedStore& store)
 }
 
 Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& settings,
-                                  const Clock& clock) {
+                                  const Clock& clock, OnLost on_lost) {
+  if (auto known = check_url(settings.store); !known) return fail(known.error());
   if (!settings.backups.empty()) {
     return fail(Errc::Unsupported,
                 "backups: {} is a folder for backups of a SQLite file; a PostgreSQL database is "
@@ -54,8 +49,11 @@ Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& set
   if (!lock) return fail(lock.error());
   const auto holder = folder.server_id();
   if (!holder) return fail(holder.error());
-  auto store = storage::PostgresqlStore::open(
-      {.url = settings.store, .holder = *holder, .described = description(folder)}, clock);
+  auto store = storage::PostgresqlStore::open({.url = settings.store,
+                                               .holder = *holder,
+                                               .described = description(folder),
+                                               .on_lost = std::move(on_lost)},
+                                              clock);
   if (!store) return fail(store.error());
   if (auto own = check_trail(folder, **store); !own) return fail(own.error());
   return KeptStore{*std::move(lock), *std::move(store), ""};
@@ -72,16 +70,34 @@ Result<KeptStore> open_sqlite(const StateFolder& folder, const Settings& setting
 
 }  // namespace
 
-Result<KeptStore> open_store(const StateFolder& folder, const Settings& settings,
-                             const Clock& clock) {
-  if (!settings.store.empty() && !is_postgresql(settings.store)) {
+std::string description(const StateFolder& folder) {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("dncd {} on {}, {}", ::getpid(), host.data(), folder.path().string());
+}
+
+Result<void> check_url(const std::string& url) {
+  if (!is_postgresql(url)) {
     // Not repeated: it may hold a password.
     return fail(Errc::Unsupported,
                 "store: the URL begins with postgresql://, or is empty for a SQLite file in the "
                 "state folder");
   }
+  const auto has_password = storage::holds_password(url);
+  if (!has_password) return fail(has_password.error());
+  if (*has_password) {
+    process::log_warning(
+        "store: the URL has a password in it. Whoever can list processes or read the service's "
+        "configuration and the log of its start sees it: put it into ~/.pgpass, or the file that "
+        "PGPASSFILE names, and take it out of the URL");
+  }
+  return {};
+}
+
+Result<KeptStore> open_store(const StateFolder& folder, const Settings& settings,
+                             const Clock& clock, OnLost on_lost) {
   auto kept = settings.store.empty() ? open_sqlite(folder, settings, clock)
-                                     : open_postgresql(folder, settings, clock);
+                                     : open_postgresql(folder, settings, clock, std::move(on_lost));
   if (!kept) return kept;
   auto identity = kept->store->identity();
   if (!identity) return fail(identity.error());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,11 +19,20 @@ struct KeptStore {
   std::string identity;
 };
 
+/// The store is another server's now, for good: called once, from any thread, and returns soon.
+using OnLost = std::function<void(const Error&)>;
+
 /// Opens what `settings.store` names, the folder's SQLite file by default, and remembers in the
 /// folder which database it is. `clock` must outlive the store. Errors: those of the store;
 /// Unsupported (another URL than postgresql://, or a folder of backups with PostgreSQL), Corrupt
 /// (not the database that this folder has had), Busy (another server uses it).
 Result<KeptStore> open_store(const StateFolder& folder, const Settings& settings,
-                             const Clock& clock);
+                             const Clock& clock, OnLost on_lost = {});
+
+/// "dncd 812 on srv-1, /var/lib/dripline": who uses a database, for whoever is refused.
+std::string description(const StateFolder& folder);
+
+/// Warns of a password in the URL. Errors: Unsupported (none of postgresql://), Syntax.
+Result<void> check_url(const std::string& url);
 
 }  // namespace dripline::app

@@ -4,7 +4,6 @@
 
 #include "protocol/process/log.hpp"
 #include "server/app/impl/server_parts.hpp"
-#include "server/app/open_store.hpp"
 
 namespace dripline::app {
 namespace {
@@ -60,7 +59,8 @@ Server::~Server() {
   parts_->machine_service.end();
 }
 
-Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock) {
+Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock,
+                                              OnLost on_lost) {
   const auto options = http_options(settings);
   if (!options) return fail(options.error());
   const auto agent = mtconnect_options(settings);
@@ -79,7 +79,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
     if (!std::filesystem::is_directory(settings.archives, ec))
       return fail(Errc::Io, "archives: {} is no folder and cannot be made", settings.archives);
   }
-  auto kept = open_store(*folder, settings, clock);
+  auto kept = open_store(*folder, settings, clock, std::move(on_lost));
   if (!kept) return fail(kept.error());
   const std::string identity = kept->identity;
   const auto is_checked = kept->store->check(kCheckBeforeStart);

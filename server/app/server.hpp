@@ -4,8 +4,8 @@
 #include <string>
 
 #include "protocol/base/clock.hpp"
+#include "server/app/open_store.hpp"
 #include "server/app/settings.hpp"
-#include "server/app/state_folder.hpp"
 
 namespace dripline::app {
 
@@ -15,8 +15,10 @@ struct ServerParts;
 class Server {
  public:
   /// Listens and takes part in DDS when it returns. Errors: Denied (unsafe settings), Io, Busy
-  /// (another server uses the folder), Corrupt, Unsupported.
-  static Result<std::unique_ptr<Server>> start(const Settings& settings, const Clock& clock);
+  /// (another server uses the folder or the database), Corrupt, Unsupported. `on_lost`: the
+  /// database is another server's now, and this one can only end.
+  static Result<std::unique_ptr<Server>> start(const Settings& settings, const Clock& clock,
+                                               OnLost on_lost = {});
   /// In order: accepts nothing, flushes storage, leaves DDS.
   ~Server();
 

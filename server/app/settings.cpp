@@ -307,6 +307,12 @@ CommandLine read_command_line(int argc, const char* const* argv) {
       .add_option("--restore", line.settings.restore,
                   "Bring this backup (or: newest) of --backups into the state folder, and end")
       ->type_name("BACKUP");
+  program
+      .add_option("--migrate-to", line.settings.migrate_to,
+                  "Move everything into this PostgreSQL database, or from --store into a SQLite "
+                  "file of the state folder, and end")
+      ->type_name("URL|DIR");
+  program.add_flag("--json", line.settings.wants_json, "Report a migration as JSON");
   process::SettingsReader reader(std::span<const Row>(kRows), line.settings);
   reader.declare(program);
   try {

@@ -48,6 +48,8 @@ struct Settings {
   std::uint32_t archive_measurements_days = 0;
   std::uint32_t archive_measurements_rows = 0;  ///< thousands
   std::string restore;               ///< on the command line alone: a backup, or kNewestBackup
+  std::string migrate_to;            ///< likewise: postgresql://..., or the state folder
+  bool wants_json = false;           ///< likewise, of what a migration reports
   bool begin_empty = false;          ///< on the command line alone, for one start
   bool recover_admin = false;        ///< likewise
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names

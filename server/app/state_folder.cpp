@@ -12,6 +12,7 @@
 #include "protocol/base/private_folder.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
+#include "storage/migration/files.hpp"
 
 namespace dripline::app {
 namespace {
@@ -100,7 +101,15 @@ Result<void> StateFolder::expect_database(bool begin_empty) const {
     std::filesystem::remove(identity_file(), ec);
     return {};
   }
-  if (is_there || !std::filesystem::exists(identity_file(), ec)) return {};
+  if (is_there) return {};
+  const auto left = migration::left_file(database());
+  if (std::filesystem::exists(left, ec)) {
+    return fail(Errc::Conflict,
+                "what this folder kept was migrated to a PostgreSQL database: name it with --store "
+                "(`store` in dncd.toml). {} is how it was then",
+                left.string());
+  }
+  if (!std::filesystem::exists(identity_file(), ec)) return {};
   return fail(Errc::Corrupt,
               "the database of this folder, {}, is {}: restore it from a backup, or start once "
               "with --begin-empty to begin without programs, runs and reports",
@@ -120,6 +129,18 @@ Result<void> StateFolder::remember_database(const std::string& identity,
   std::error_code ec;
   if (!std::filesystem::exists(identity_file(), ec))
     return replace_private_file(identity_file(), identity + "\n");
+  return expect_identity(identity, name);
+}
+
+Result<void> StateFolder::expect_identity(const std::string& identity,
+                                          const std::string& name) const {
+  std::error_code ec;
+  if (!std::filesystem::exists(identity_file(), ec)) {
+    return fail(Errc::NotFound,
+                "{}: this state folder has not been its server's, {} is missing: use the folder "
+                "that has the key of its audit trail",
+                name, identity_file().string());
+  }
   std::ifstream file(identity_file());
   std::string known;
   std::getline(file, known);

@@ -34,6 +34,10 @@ class StateFolder {
   /// had), Io.
   Result<void> remember_database(const std::string& identity, const std::string& name) const;
 
+  /// The same without remembering it: one that this folder has had. Errors: also NotFound (it has
+  /// had none).
+  Result<void> expect_identity(const std::string& identity, const std::string& name) const;
+
   /// One process uses a database elsewhere with this folder. Errors: Busy, Io.
   Result<FileLock> lock() const;
   /// What this folder's server calls itself in a database elsewhere; made like the token.

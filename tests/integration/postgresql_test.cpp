@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <sstream>
 #include <thread>
 
 #include "storage/postgresql/database.hpp"
@@ -46,6 +48,11 @@ class Postgresql : public testing::Test {
     ASSERT_EQ(lines.size(), kLines);
     for (std::size_t i = 0; i < lines.size(); ++i)
       ASSERT_EQ(lines[i], fmt::format("LINE {:05}", i + 1));
+  }
+  std::string log_text() const {
+    std::stringstream text;
+    text << std::ifstream(system_->folder() / "dncd.log").rdbuf();
+    return text.str();
   }
   /// As a database that is restarted, or fails over: whatever is under way is undone.
   void cut_off() {
@@ -105,6 +112,50 @@ TEST_F(Postgresql, ASecondServerIsRefusedWhileTheFirstWorks) {
   EXPECT_NE(second.server().output().find("is used by another server (dncd "), std::string::npos)
       << second.server().output();
   expect_whole(system_->start_run("O0300"));
+}
+
+/// As a server that was frozen, or cut off, for longer than its place lasts.
+TEST_F(Postgresql, AServerThatLostItsPlaceEndsAndSaysWhy) {
+  begin();
+  auto other = storage::postgresql::Database::connect({.url = database_->url()});
+  ASSERT_TRUE(other->execute(
+      "UPDATE store_holder SET holder = 'srv-2', until = now() + interval '1 hour'"));
+  const auto status = system_->server().wait(std::chrono::seconds(20));
+  ASSERT_TRUE(status) << "it ends: " << system_->server().output();
+  EXPECT_EQ(*status, 1);
+  EXPECT_NE(system_->server().output().find("was taken over by another server"), std::string::npos)
+      << system_->server().output();
+  ASSERT_TRUE(other->execute("UPDATE store_holder SET until = now()"));
+  system_->start_server();  // as a service manager does
+  system_->wait_connected();
+  expect_whole(system_->start_run("O0300"));
+}
+
+/// Whatever fails after the place was taken: here the ports of DDS are another one's.
+TEST_F(Postgresql, AServerThatDoesNotStartKeepsNobodyOut) {
+  begin();
+  const auto second = test::TestDatabase::make_empty();
+  const auto failed =
+      test_support::run_to_end({program_path("dncd"), "--state", system_->folder() / "other",
+                                "--store", second->url(), "--http", "127.0.0.1:0", "--dds-domain",
+                                std::to_string(system_->domain()), "--dds-tag", "other"},
+                               system_->folder() / "other.out");
+  EXPECT_EQ(failed.status, 1) << failed.output;
+  EXPECT_NE(failed.output.find("in use"), std::string::npos) << failed.output;
+  auto database = storage::postgresql::Database::connect({.url = second->url()});
+  EXPECT_EQ(database->integer("SELECT count(*) FROM store_holder WHERE holder = ''"), 1);
+}
+
+TEST_F(Postgresql, APasswordInTheUrlIsWarnedOfAndNeverLogged) {
+  std::string url = database_->url();
+  url.insert(url.find('@'), ":wonderland");
+  system_.emplace(System::Options{
+      .speed = "max", .server_arguments = {"--store", url}, .gateway_arguments = {}});
+  system_->start_server();
+  const std::string output = system_->server().output() + log_text();
+  EXPECT_NE(output.find("the URL has a password in it"), std::string::npos) << output;
+  EXPECT_NE(output.find("PGPASSFILE"), std::string::npos) << output;
+  EXPECT_EQ(output.find("wonderland"), std::string::npos) << output;
 }
 
 // Its audit trail is signed with the key of the folder that wrote it.

@@ -39,6 +39,10 @@ class System {
   void add_server_argument(std::string argument) {
     options_.server_arguments.push_back(std::move(argument));
   }
+  /// Instead of those given before, from its next start on.
+  void use_server_arguments(std::vector<std::string> arguments) {
+    options_.server_arguments = std::move(arguments);
+  }
   /// From the next start of a gateway on.
   void use_gateway_arguments(std::vector<std::string> arguments) {
     options_.gateway_arguments = std::move(arguments);

@@ -1,6 +1,7 @@
 #include "clients/cli/context.hpp"
 #include "clients/cli/server/archive_commands.hpp"
 #include "clients/cli/server/backup_commands.hpp"
+#include "clients/cli/server/migrate_command.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
@@ -72,6 +73,7 @@ void add_server_commands(Command app, Context& context) {
   run_at_server(status, context, show_status);
   add_backup_commands(group, context);
   add_archive_commands(group, context);
+  add_migrate_command(group, context);
 }
 
 }  // namespace dripline::cli
