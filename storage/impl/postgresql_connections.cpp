@@ -154,10 +154,12 @@ Result<void> PostgresqlConnections::take_place(Database& database) {
     if (!taken) return fail(taken.error());
     if (*taken) return {};
     if (SteadyClock::now() >= deadline) {
-      return fail(Errc::Busy,
-                  "database {} is used by another server ({}): end that one; a server that was "
-                  "killed loses its place after {} s",
-                  label_, other.empty() ? "not named" : other, kPlace.count());
+      return fail(
+          Errc::Busy,
+          "database {} is used by another server ({}), and still was after {} s of waiting: "
+          "end that one; a server that was killed loses its place after {} s",
+          label_, other.empty() ? "not named" : other,
+          std::chrono::duration<double>(options_.wait_for_holder).count(), kPlace.count());
     }
     std::this_thread::sleep_for(kPause);
   }
