@@ -45,6 +45,13 @@ Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& set
                 "name it with --store, and remove {}",
                 folder.identity_file().string());
   }
+  // Before the database is touched: a migration goes into an empty one.
+  if (std::error_code ec; std::filesystem::exists(folder.database(), ec)) {
+    return fail(Errc::Conflict,
+                "what this state folder keeps is in {}: move it into the database first (dnc "
+                "server migrate --to URL), or start without --store",
+                folder.database().string());
+  }
   auto lock = folder.lock();
   if (!lock) return fail(lock.error());
   const auto holder = folder.server_id();

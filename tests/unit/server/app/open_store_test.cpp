@@ -54,6 +54,28 @@ TEST_F(OpenStore, PostgresqlIsNotBegunEmpty) {
   expect_refused(settings, "database.id");
 }
 
+TEST_F(OpenStore, WhatAFileHoldsIsMovedBeforePostgresqlIsUsed) {
+  ASSERT_TRUE(open({}));
+  Settings settings;
+  settings.store = "postgresql://127.0.0.1:1/shop";
+  const auto refused = open(settings);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Conflict) << "before anything is connected";
+  EXPECT_NE(refused.error().what.find("dnc server migrate --to"), std::string::npos)
+      << refused.error().what;
+}
+
+TEST_F(OpenStore, AFileThatWasMigratedIsNotBegunAnew) {
+  ASSERT_TRUE(open({}));
+  const auto file = folder_.path() / StateFolder::kDatabase;
+  std::filesystem::rename(file, file.string() + ".migrated");
+  const auto refused = open({});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("migrated to a PostgreSQL database"), std::string::npos)
+      << refused.error().what;
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST_F(OpenStore, OneProcessUsesAFolderWithADatabaseElsewhere) {
   const auto folder = StateFolder::open(folder_.path().string());
   const auto lock = folder->lock();
