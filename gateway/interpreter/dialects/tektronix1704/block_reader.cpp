@@ -26,6 +26,22 @@ bool is_digit(char c) {
   return static_cast<unsigned char>(c - '0') <= 9;
 }
 
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\0' || c == kDelete;
+}
+
+/// The number of a word, after its letter.
+bool has_digits(std::string_view text) {
+  for (const char c : text) {
+    if (is_digit(c)) return true;
+    if (!is_blank(c) && c != '+' && c != '-' && c != '.') return false;
+  }
+  return false;
+}
+
 /// The characters of one line, one after the other.
 class LineInHand {
  public:
@@ -229,6 +245,28 @@ ReadOutcome LineInHand::read() {
 
 ReadOutcome read_line(Run& run, std::string_view line) {
   return LineInHand(run, line).read();
+}
+
+bool looks_like_block(std::string_view line) {
+  if (line.find(kRewindStop) != std::string_view::npos) return false;
+  bool has_words = false, has_other = false, in_comment = false, in_name = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (in_comment || c == '(') {
+      in_comment = c != ')';
+      continue;
+    }
+    if (is_blank(c)) continue;
+    const std::uint8_t index = address_of(c);
+    const bool is_word = index != kNoAddress && !in_name && has_digits(line.substr(i + 1));
+    const bool is_axis = is_word && (bit(static_cast<Address>(index)) & kEndWords) != 0;
+    if (is_axis) return true;
+    in_name = is_letter(c) && !is_word;
+    const bool is_of_number = is_digit(c) || c == '+' || c == '-' || c == '.';
+    has_words |= is_word;
+    has_other |= !is_word && !is_of_number;
+  }
+  return has_words && !has_other;
 }
 
 }  // namespace dripline::interpreter::tektronix1704

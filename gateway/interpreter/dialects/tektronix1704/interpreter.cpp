@@ -15,6 +15,15 @@ namespace {
 /// Titles in a leader are long; a comment may be too.
 constexpr LineRules kLineRules{.max_bytes = 16 * 1024, .skip_percent = false};
 
+/// For a message: the beginning of a line that may hold any characters.
+std::string shown(std::string_view line) {
+  constexpr std::size_t kMaxShown = 40;
+  std::string text(line.substr(0, kMaxShown));
+  std::ranges::replace_if(
+      text, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return line.size() > kMaxShown ? text + "..." : text;
+}
+
 }  // namespace
 
 TektronixInterpreter::TektronixInterpreter(ControlOptions options, ProgramSource& source,
@@ -77,9 +86,18 @@ BlockOutcome TektronixInterpreter::meet(LineState state) {
   }
 }
 
-/// The text up to the first end of block: leader, titles, the rewind stop code.
+/// The text up to the first end of block: leader, titles, the rewind stop code. The control would
+/// lose a block that is there.
 BlockOutcome TektronixInterpreter::hunt(const SourceLine& line) {
   State& state = run_.state;
+  if (looks_like_block(line.text)) {
+    begin_block(line.place);
+    run_.fail(Fault::BlockInLeader, 1,
+              fmt::format("{}: program {} of the tape has no rewind stop code and end of block "
+                          "before it",
+                          shown(line.text), state.part));
+    return BlockOutcome::Paused;
+  }
   const bool is_wanted = state.part >= state.wanted;
   state.reader = !is_wanted            ? ReaderState::Pass
                  : run_.options.search ? ReaderState::Search
@@ -237,7 +255,10 @@ bool TektronixInterpreter::has_more() {
     const LineState state = reader_.next(line);
     if (state == LineState::End) return false;
     if (state != LineState::Ready) return true;
-    if (std::exchange(is_hunting, false)) continue;
+    if (std::exchange(is_hunting, false)) {
+      if (looks_like_block(line.text)) return true;  // the next start reports it
+      continue;
+    }
     const std::size_t first = line.text.find_first_of(kLetters);
     if (first != std::string_view::npos && first < line.text.find('(')) return true;
   }

@@ -30,6 +30,8 @@ struct Fault {
   static constexpr DiagnosticRow BlockTooLong{"TEK0110", "block too long"};
   static constexpr DiagnosticRow NumberNotFound{"TEK0111", "sequence number not found"};
   static constexpr DiagnosticRow ProgramNotFound{"TEK0113", "the tape has no such program"};
+  static constexpr DiagnosticRow BlockInLeader{
+      "TEK0114", "block before the first end of block of a program would be lost"};
   static constexpr DiagnosticRow TextFailed{"TEK0112", "tape cannot be read"};
   static constexpr DiagnosticRow EndWithoutM{"TEK0120", "end of tape without M02 or M30"};
   static constexpr DiagnosticRow Capacity{"TEK0201", "coordinate capacity exceeded"};

@@ -75,6 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
         TapeCase{"the_last_program_is_followed_by_the_first", kFirst + kFirst, 2, 1},
         TapeCase{"one_program_is_followed_by_itself", kFirst, 1, 1},
         TapeCase{"a_title_at_the_end_is_no_program", kFirst + "(END OF TAPE)\n(X1)\n", 1, 1},
+        TapeCase{"a_block_after_m02_is_not_passed_over", kFirst + "N40X30000\n", 1, 2},
         TapeCase{"m30_goes_back_to_its_own_rewind_stop", kFirst + kWoundBack + kSecond, 2, 2},
         TapeCase{"m30_without_one_goes_back_further", kFirst + "\nN1F500X30000\nN2M30\n" + kSecond,
                  2, 1},
@@ -106,6 +107,38 @@ TEST(TapePrograms, AreNotReadOnAfterRewinding) {
   Reader reader(kWoundBack + kSecond);
   EXPECT_FALSE(reader.control().read_on());
 }
+
+struct LeaderCase {
+  const char* name;
+  const char* line;  ///< directly after M02
+  bool is_block;
+};
+
+class TapeLeader : public testing::TestWithParam<LeaderCase> {};
+
+// No block between two programs is lost without an alarm; what is no block may be there.
+TEST_P(TapeLeader, HoldsNoBlock) {
+  for (const std::int64_t part : {1, 2}) {
+    Reader reader(kFirst + GetParam().line + "\n" + kFirst, part);
+    const bool is_read_on = part == 1 && reader.control().read_on();
+    EXPECT_EQ(is_read_on, part == 1);
+    EXPECT_EQ(reader.run(), GetParam().is_block ? StepState::Alarmed : StepState::Ended);
+    EXPECT_EQ(reader.log().find("TEK0114") != std::string::npos, GetParam().is_block);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, TapeLeader,
+                         testing::Values(LeaderCase{"axis_word", "N40X30000", true},
+                                         LeaderCase{"axis_word_among_others", "G91 Y-5 #", true},
+                                         LeaderCase{"axis_word_after_a_comment", "(A) Z+1", true},
+                                         LeaderCase{"mode", "G91", true},
+                                         LeaderCase{"spindle", "N40 S20 M03", true},
+                                         LeaderCase{"blank_tape", "", false},
+                                         LeaderCase{"title", "PART NO 17 OF THE SERIES", false},
+                                         LeaderCase{"name_with_digits", "MAX2 BY 3", false},
+                                         LeaderCase{"comment", "(X3)", false},
+                                         LeaderCase{"stop_code", "N40X3 %", false}),
+                         [](const auto& row) { return std::string(row.param.name); });
 
 // What the gateway does at the next start: the modes of the program before, and the tape.
 TEST(TapePrograms, BeginWithTheModesOfTheOneBefore) {
