@@ -39,6 +39,8 @@ class ControlMemory {
   std::uint32_t tape_part(const std::string& revision) const {
     return tape_ && tape_->revision == revision ? tape_->part : 1;
   }
+  /// Of whatever tape is in the reader.
+  std::uint32_t next_part() const { return tape_ ? tape_->part : 1; }
   /// The reader is there from now on; 1: at the beginning of whatever tape comes.
   void set_tape(const std::string& revision, std::uint32_t part);
   /// Why nothing can begin; empty: it can.

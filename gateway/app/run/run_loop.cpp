@@ -260,6 +260,7 @@ Result<void> RunLoop::recover() {
   const auto& run = parts_.outbox.active_run();
   if (!run) {
     parts_.journal.clear();
+    if (parts_.run.last_message.empty()) state_tape();
     return {};
   }
   // A block that reported something is executed when its record is committed, all others when the

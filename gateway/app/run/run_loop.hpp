@@ -90,6 +90,7 @@ class RunLoop {
   std::optional<interpreter::PanelTables::DryRun> dry_run() const;
   StartOrigin read_on(const report::ActiveRun& run, StartOrigin origin) const;
   void keep_tape();
+  void state_tape();
   const interpreter::Snapshot* modes_for(const StartOrigin& origin);
   void take_modes();
   void note_left();

@@ -204,8 +204,14 @@ void RunLoop::keep_tape() {
   const std::uint32_t part = session.next_part();
   parts_.memory.set_tape(session.run().revision, part);
   if (part == 1) return;
-  parts_.run.last_message = fmt::format("the next start reads program {} of the tape", part);
+  state_tape();
   parts_.recorder.note({}, parts_.run.last_message);
+}
+
+void RunLoop::state_tape() {
+  const std::uint32_t part = parts_.memory.next_part();
+  if (part > 1)
+    parts_.run.last_message = fmt::format("the next start reads program {} of the tape", part);
 }
 
 /// Before the session is gone: of the block that was executed last.

@@ -68,9 +68,49 @@ TEST(TapeInTheReader, StaysThereWhenTheGatewayIsRestarted) {
   shop.push("TK", "%\nN1F9000X10000\nN2M02\n%\nN1F9000Y20000\nN2M02\n");
   EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
   shop.restart_gateway();
+  shop.status.reset();
+  ASSERT_TRUE(shop.run_until([&] { return shop.status.has_value(); }));
+  EXPECT_EQ(shop.status->message, "the next start reads program 2 of the tape");
   EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
   EXPECT_NEAR(shop.at(1), 50.8, 1e-6);
 }
+
+TEST(TapeInTheReader, StatesNothingAfterARestartBeforeTheFirstProgram) {
+  TapeShop shop;
+  shop.push("TK", "%\nN1F9000X10000\nN2M30\n");
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  shop.restart_gateway();
+  shop.status.reset();
+  ASSERT_TRUE(shop.run_until([&] { return shop.status.has_value(); }));
+  EXPECT_EQ(shop.status->message, "");
+}
+
+/// A block directly after M02, which an end of block and no rewind stop code precede: the reader
+/// would take it for the leader of the next program. With the program of the gateway's process
+/// before it, and with a new one.
+class BlockAfterM02 : public testing::TestWithParam<const char*> {};
+
+TEST_P(BlockAfterM02, AlarmsTheNextStartAlsoAfterARestart) {
+  for (const bool restarts : {false, true}) {
+    TapeShop shop;
+    shop.push("TK", std::string("%\nN1F9000X10000\nN2M02\n") + GetParam());
+    EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+    EXPECT_THAT(shop.status->message, HasSubstr("the next start reads program 2 of the tape"));
+    if (restarts) shop.restart_gateway();
+    ASSERT_TRUE(shop.start("TK").accepted);
+    const auto end = shop.ended();
+    EXPECT_EQ(end.outcome, RunOutcome::Alarmed);
+    EXPECT_THAT(end.reason, HasSubstr("TEK0114"));
+    EXPECT_THAT(end.reason, HasSubstr("N040X30000"));
+    EXPECT_NEAR(shop.at(0), restarts ? 0 : 25.4, 1e-6) << "nothing was moved";
+    EXPECT_EQ(shop.panel("rewind"), "ok");
+    EXPECT_EQ(shop.run().outcome, RunOutcome::Completed) << "the first program, from a wound tape";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, BlockAfterM02,
+                         testing::Values("N040X30000\nN050M02\n", "N040X30000\n",
+                                         "N040X30000\n%\nN050M02\n"));
 
 // A program that was broken off is begun again, and not passed over.
 TEST(TapeInTheReader, StaysBeforeAProgramThatWasAborted) {
