@@ -189,7 +189,9 @@ class TapeReaderControl final : public DisciplineBase {
         static_cast<std::byte>(row));  // so that it knows the companion characters
     is_hunting_ = false;
     const bool has_stop = std::exchange(is_stop_last_, false);
-    if (has_stop && !search_) emit_text("%\n");
+    // The program's first line is its head, also where that is no rewind stop: its reader decides
+    // what it means that a block is there.
+    if (!search_) emit_text(has_stop ? "%\n" : is_head_text_ ? head_ + "\n" : "\n");
     if (!has_stop) say_head();
     run_on(now);
   }
@@ -197,8 +199,8 @@ class TapeReaderControl final : public DisciplineBase {
   /// The head of a tape is a rewind stop directly followed by an end of block.
   void say_head() {
     if (is_head_text_ && !head_.empty()) {
-      emit_fault(
-          {Errc::Corrupt, fmt::format("no end of block before '{}', which was skipped", head_)});
+      emit_fault({Errc::Corrupt, fmt::format("no end of block before '{}', which was skipped",
+                                             std::string_view(head_).substr(0, kShownHead))});
     } else {
       emit_fault({Errc::Corrupt, "no rewind stop just before the first end of block"});
     }
@@ -210,7 +212,7 @@ class TapeReaderControl final : public DisciplineBase {
     if (is_stop_last_) head_.clear();
     if (is_stop_last_) is_head_text_ = true;
     if (meaning.kind == RowKind::WrongParity) is_head_text_ = false;
-    if (meaning.kind == RowKind::Text && head_.size() < kShownHead) head_ += meaning.character;
+    if (meaning.kind == RowKind::Text && head_.size() < kMaxTapeBlock) head_ += meaning.character;
   }
 
   void take(std::uint8_t row, TapeRow meaning, LineTime now) {
@@ -250,7 +252,10 @@ class TapeReaderControl final : public DisciplineBase {
     const std::string block = std::exchange(block_, {});
     if (block.empty() && !has_block_) return run_on(now);  // this is still the head
     has_block_ = true;
-    if (search_ && word_value(block, 'N') == search_) search_.reset();
+    if (search_ && word_value(block, 'N') == search_) {
+      search_.reset();
+      emit_text("%\n");  // the blocks before it are the head
+    }
     if (!search_) emit_text(block + "\n");
     const TapeEnd end = tape_end(block);
     if (end != TapeEnd::None && search_) return stop_with({Errc::NotFound, not_found()}, now);
@@ -300,7 +305,7 @@ class TapeReaderControl final : public DisciplineBase {
   std::string block_;
   std::uint64_t row_ = 0;
   bool is_hunting_ = true, is_stop_last_ = false, is_ready_ = true, has_block_ = false;
-  std::string head_;  ///< the first skipped characters
+  std::string head_;  ///< the skipped characters, up to kMaxTapeBlock
   bool is_head_text_ = true;
 };
 

@@ -231,8 +231,19 @@ class TapeReaderHost final : public DisciplineBase {
     end_transfer(now);
     is_over_ = true;
   }
+  /// What is left holds no block: the rest of an end of block, and perhaps a rewind stop behind the
+  /// last program.
+  bool has_no_block_left() const {
+    constexpr std::string_view kNoBlock = "%\r\n \t";
+    const bool are_rows_blank = std::ranges::all_of(
+        rows_.begin() + static_cast<std::ptrdiff_t>(row_at_), rows_.end(), [&](std::byte row) {
+          const auto kind = decode_row(settings_.code, static_cast<std::uint8_t>(row)).kind;
+          return kind != RowKind::Text && kind != RowKind::WrongParity;
+        });
+    return are_rows_blank && queued_text().find_first_not_of(kNoBlock) == std::string_view::npos;
+  }
   bool is_read() const {
-    return stage_ != Stage::Leader && is_text_taken() && row_at_ == rows_.size();
+    return stage_ != Stage::Leader && has_begun_ && is_last_offered() && has_no_block_left();
   }
   void ask() {
     if (std::exchange(is_asked_, true)) return;
@@ -274,7 +285,7 @@ class TapeReaderHost final : public DisciplineBase {
 
   void wind_back(LineTime now) {
     is_wound_back_ = true;
-    const bool has_rest = has_text() || row_at_ != rows_.size();
+    const bool has_rest = !has_begun_ || !has_no_block_left();
     if (is_sending() && stage_ == Stage::Text && !has_rest && !is_last_offered()) {
       is_back_pending_ = true;
       return;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "protocol/wire/character_coder.hpp"
 #include "protocol/wire/tape_code.hpp"
 #include "tests/support/line/line_simulator.hpp"
 
@@ -41,6 +42,52 @@ TEST_P(TapeReaderLine, ReadsTheProgramAndWindsBack) {
   ASSERT_TRUE(wire.control().line->begin_receive("", wire.now()));
   EXPECT_EQ(wire.run(wire.now() + seconds(20)), LineSimulator::Outcome::Idle);
   EXPECT_EQ(wire.control().received, kProgram);
+}
+
+// A rewind stop behind the last program, and ends of block of two characters: after M30 nothing is
+// left that the control could have read.
+TEST_P(TapeReaderLine, IsReadWhereNoBlockIsLeft) {
+  for (const std::string_view end : {"", "%\n", "\n%\n"}) {
+    for (const EndOfBlock ends : {EndOfBlock::Lf, EndOfBlock::CrLf}) {
+      auto settings = settings_of(GetParam());
+      if (GetParam() != CharacterCode::Eia) settings.end_of_block = ends;
+      auto wire = line(settings);
+      ASSERT_TRUE(wire.host().send(kProgram + std::string(end), wire.now()));
+      ASSERT_TRUE(wire.control().line->begin_receive("", wire.now()));
+      EXPECT_EQ(wire.run(seconds(20)), LineSimulator::Outcome::Idle);
+      EXPECT_EQ(wire.control().received, kProgram) << end;
+      EXPECT_EQ(wire.host().sends, 1U) << end;
+      EXPECT_TRUE(wire.host().failures.empty()) << end;
+      EXPECT_EQ(wire.host().requests.size(), 1U) << end;
+    }
+  }
+}
+
+// A tape that is wound back in its middle has not been read.
+TEST_P(TapeReaderLine, IsNotReadWhereABlockIsLeft) {
+  auto wire = line(settings_of(GetParam()));
+  ASSERT_TRUE(wire.host().send("%\nN1M30\n%\nN2X7\nN3M02\n", wire.now()));
+  ASSERT_TRUE(wire.control().line->begin_receive("", wire.now()));
+  wire.run(seconds(20));
+  ASSERT_EQ(wire.host().failures.size(), 1U);
+  EXPECT_EQ(wire.host().failures[0].what, "the control wound the tape back");
+}
+
+// What it skipped before the first end of block is the head of its program, and no block after it.
+TEST_P(TapeReaderLine, GivesTheHeadThatItSkipped) {
+  auto settings = settings_of(GetParam());
+  settings.leader = 0;
+  auto control = make_discipline(settings, Role::Control).value();
+  ASSERT_TRUE(control->begin_receive("", {}));
+  CharacterEncoder encoder(settings.code, settings.end_of_block);
+  std::vector<std::byte> rows;
+  ASSERT_TRUE(encoder.encode("N40X3\nN50Y1\nN60M02\n", rows));
+  control->receive(rows, {});
+  std::string text;
+  for (const auto& event : control->take_events()) {
+    if (const auto* got = std::get_if<TextReceived>(&event)) text += got->text;
+  }
+  EXPECT_EQ(text, "N40X3\nN50Y1\nN60M02\n");
 }
 
 // The control stops the reader at M02; cycle start runs it on, over the leader of the next program.
@@ -135,7 +182,7 @@ TEST_P(TapeReaderLine, FindsABlockWithoutTakingTheOnesBefore) {
   ASSERT_TRUE(wire.host().send(kProgram, wire.now()));
   ASSERT_TRUE(wire.control().line->begin_receive("N030", wire.now()));
   EXPECT_EQ(wire.run(seconds(20)), LineSimulator::Outcome::Idle);
-  EXPECT_EQ(wire.control().received, "N30Z-7\nN40M30\n");
+  EXPECT_EQ(wire.control().received, "%\nN30Z-7\nN40M30\n");
 }
 
 TEST_P(TapeReaderLine, ReportsABlockThatIsNotOnTheTape) {
