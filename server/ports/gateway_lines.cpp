@@ -1,6 +1,7 @@
 #include "server/ports/gateway_lines.hpp"
 
 #include <fmt/ranges.h>
+#include <atomic>
 #include <utility>
 
 #include "gateway/line/line_words.hpp"
@@ -37,6 +38,7 @@ struct GatewayLines::Line {
   std::unique_ptr<RemoteRequestHandler> requests;
   wire::Offer offer = wire::Offer::None;
   std::string reply;
+  std::atomic<bool> waits_for_end = false;  ///< a request, for the end of its run
 };
 
 GatewayLines::GatewayLines(Parts parts)
@@ -83,6 +85,12 @@ void GatewayLines::on_status(const dds::Status& status) {
   }
   if (has_upload) line->strand.post([this, line, upload = *upload] { fetch_upload(line, upload); });
   if (has_call) line->strand.post([this, line, call = *call] { handle_call(line, call); });
+  if (!line->waits_for_end) return;
+  line->strand.post([line] {
+    if (!line->requests) return;
+    line->requests->on_run_stored();
+    line->waits_for_end = line->requests->waits_for_end();
+  });
 }
 
 void GatewayLines::fetch_upload(const std::shared_ptr<Line>& line, const dds::LineUpload& upload) {
@@ -184,8 +192,10 @@ void GatewayLines::handle_call(const std::shared_ptr<Line>& line, const dds::Lin
     case dds::LineCallAction::NextJob:
       return line->requests->carry_out(line::RuleAction::NextJob, call.argument);
     case dds::LineCallAction::Program:
-      return line->requests->answer(
+      line->requests->answer(
           {.kind = wire::TransferRequest::Kind::SendProgram, .name = call.argument});
+      line->waits_for_end = line->requests->waits_for_end();
+      return;
     case dds::LineCallAction::List:
       return line->requests->answer(
           {.kind = wire::TransferRequest::Kind::Directory, .name = call.argument});

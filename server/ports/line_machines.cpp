@@ -177,8 +177,9 @@ Result<void> LineMachines::command(const machines::CommandRequest& request) {
   return done;
 }
 
-void LineMachines::on_sent(const std::string& machine, const SendEnd& end) {
-  runs_.ended(end, *directory_.records_of(machine));
+void LineMachines::on_sent(const std::string& machine, const SendEnd& end,
+                           std::function<void()> stored) {
+  runs_.ended(end, *directory_.records_of(machine), std::move(stored));
   on_change(machine);
 }
 

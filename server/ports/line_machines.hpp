@@ -36,8 +36,8 @@ class LineMachines final : public machines::MachineControl {
   /// strand. `wire_name` is what the control calls the program; empty: as the library does.
   void start_later(const machines::StartRequest& request, Started started,
                    const std::string& wire_name = "");
-  /// On the strand of that line.
-  void on_sent(const std::string& machine, const SendEnd& end);
+  /// On the strand of that line. `stored`: the run's end is in the store.
+  void on_sent(const std::string& machine, const SendEnd& end, std::function<void()> stored = {});
   void on_change(const std::string& machine);
   void save_progress(const PortLine& line);
   LineRuns& runs() { return runs_; }

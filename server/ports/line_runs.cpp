@@ -39,7 +39,8 @@ storage::Counters to_counters(const SendProgress& progress) {
           .executed = 0};
 }
 
-LineRecords::Entry ending_entry(const storage::RunEnding& ending) {
+LineRecords::Entry ending_entry(const storage::RunEnding& ending,
+                                std::function<void()> stored = {}) {
   dds::RunEndText text;
   text.outcome = to_outcome(ending.state);
   text.sent = ending.counters.sent;
@@ -50,6 +51,7 @@ LineRecords::Entry ending_entry(const storage::RunEnding& ending) {
   entry.record.kind = std::string(dds::to_string(dds::RecordKind::RunEnded));
   entry.record.text = dds::encode(text);
   entry.ending = ending;
+  entry.on_stored = std::move(stored);
   return entry;
 }
 
@@ -159,7 +161,7 @@ void LineRuns::progressed(const std::string& machine, const SendProgress& progre
   }
 }
 
-void LineRuns::ended(const SendEnd& end, LineRecords& records) {
+void LineRuns::ended(const SendEnd& end, LineRecords& records, std::function<void()> stored) {
   storage::RunEnding ending;
   ending.run = end.progress.id;
   ending.state = to_state(end.outcome);
@@ -170,7 +172,7 @@ void LineRuns::ended(const SendEnd& end, LineRecords& records) {
   process::log_info("run ended over a line run={} state={} sent={} accepted={}: {}", ending.run,
                     storage::to_string(ending.state), ending.counters.sent,
                     ending.counters.accepted, ending.reason);
-  records.add({ending_entry(ending)});
+  records.add({ending_entry(ending, std::move(stored))});
 }
 
 Result<void> LineRuns::give_up_unfinished(const std::string& machine, LineRecords& records) {

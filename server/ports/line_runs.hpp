@@ -35,7 +35,7 @@ class LineRuns {
   /// Refused; nothing of it has left.
   void refused(const storage::Run& run, const Error& error);
   void progressed(const std::string& machine, const SendProgress& progress);
-  void ended(const SendEnd& end, LineRecords& records);
+  void ended(const SendEnd& end, LineRecords& records, std::function<void()> stored = {});
   /// Runs of a former life of the server: they end Interrupted, with the counters of the store.
   Result<void> give_up_unfinished(const std::string& machine, LineRecords& records);
 

@@ -24,6 +24,10 @@ class PortAtControl final : public RequestedLine {
   void refuse(const std::string& why) override {
     if (const auto line = directory_.line_of(machine_)) line->refuse(why);
   }
+  bool is_asked() const override {
+    const auto line = directory_.line_of(machine_);
+    return line && line->view().request.has_value();
+  }
   void accept_receive(const std::string& name) override {
     if (const auto line = directory_.line_of(machine_)) line->accept_receive(name);
   }
@@ -147,8 +151,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
             if (end.progress.kind == JobKind::Answer) inbound->on_answer_over();
             if (end.progress.kind != JobKind::Run) return;
             inbound->on_run(end.progress.id);
-            line_machines_.on_sent(name, end);
-            inbound->on_run_stored();
+            line_machines_.on_sent(name, end, [inbound] { inbound->on_run_stored(); });
           },
       .on_request = [inbound](const wire::TransferRequest& request) { inbound->answer(request); },
       .on_change = [this, name] { line_machines_.on_change(name); }};

@@ -12,6 +12,12 @@ void GatewayAtControl::note(const std::string& words) {
   process::log_info("machine={}: {}", machine_, words);
 }
 
+bool GatewayAtControl::is_asked() const {
+  const auto view = machines_.machine(machine_);
+  const bool has_line = view && view->status && view->status->serial_line;
+  return has_line && view->status->serial_line->asked.has_value();
+}
+
 void GatewayAtControl::send(SendJob job) {
   if (job.text) {
     job.size = job.text->size();

@@ -32,6 +32,7 @@ class GatewayAtControl final : public RequestedLine,
 
   void note(const std::string& words) override;
   void refuse(const std::string& why) override { tell(dds::LineAction::Refuse, "", why); }
+  bool is_asked() const override;
   void accept_receive(const std::string&) override {}  // the gateway takes it by itself
   void send(SendJob job) override;
   void start_later(const machines::StartRequest& request, Started started,

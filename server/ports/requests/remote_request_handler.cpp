@@ -204,7 +204,7 @@ void RemoteRequestHandler::repeat() {
   if (!last) return refuse(last.error().what, true);
   if (last->empty()) return refuse("there was no run to repeat", true);
   const storage::Run& run = last->front();
-  if (run.state == storage::RunState::Active) {
+  if (run.state == storage::RunState::Active || run.state == storage::RunState::Ordered) {
     waits_for_end_ = true;
     return;
   }

@@ -51,10 +51,13 @@ class RemoteRequestHandler {
   void on_transfer_completed() { is_sent_since_ = true; }
   /// A run is on the line, or was.
   void on_run() { is_sent_since_ = false; }
-  /// The end of a run is stored.
+  /// The end of a run is stored, or may be.
   void on_run_stored() {
-    if (std::exchange(waits_for_end_, false)) repeat();
+    // What was started meanwhile may have answered the request.
+    if (std::exchange(waits_for_end_, false) && parts_.line->is_asked()) repeat();
   }
+  /// The end of the last run is still to be stored before the request can be answered.
+  bool waits_for_end() const { return waits_for_end_; }
   /// Short messages to the control, as a program; nothing when there is no program for it.
   void report(const std::vector<std::string>& words) const;
 

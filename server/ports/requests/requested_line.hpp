@@ -18,6 +18,8 @@ class RequestedLine {
   virtual void note(const std::string& words) = 0;
   /// Refuses what the protocol asked for; empty: no program is left.
   virtual void refuse(const std::string& why) = 0;
+  /// Whether the control waits for an answer of its protocol's request.
+  virtual bool is_asked() const = 0;
   /// Takes the program that the control is about to send.
   virtual void accept_receive(const std::string& name) = 0;
   /// Sends an answer; what becomes of it is logged.

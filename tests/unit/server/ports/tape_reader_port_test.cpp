@@ -1,4 +1,7 @@
+#include <atomic>
+
 #include "tests/support/line/played_control.hpp"
+#include "tests/support/store_decorator.hpp"
 #include "tests/unit/server/ports/port_fixture.hpp"
 
 /// A port as the tape reader of a control: what happens to the tape when it was read.
@@ -10,8 +13,9 @@ using test_support::PlayedControl;
 
 class TapeReaderPortTest : public PortServiceTest {
  protected:
-  void add_reader(const std::string& offer) {
-    start_ports();
+  void add_reader(const std::string& offer) { add_reader(offer, *store_); }
+  void add_reader(const std::string& offer, const storage::Store& store) {
+    start_ports(store);
     add_machine("mill", "prototrak-plus");
     auto port = mill();
     port.settings = {{"baud", "115200"},     {"flow", "tape_reader"}, {"offer", offer},
@@ -39,6 +43,37 @@ TEST_F(TapeReaderPortTest, DoesNotRepeatARunThatWasBrokenOff) {
   ASSERT_TRUE(control_->until([&] { return runs().front().state == RunState::Interrupted; }));
   ASSERT_TRUE(control_->until([&] { return is_asked(); }));
   EXPECT_EQ(runs().size(), 1U);
+}
+
+/// A store that cannot keep the end of a run for a while.
+class BusyStore final : public test_support::RecordStoreDecorator {
+ public:
+  using RecordStoreDecorator::RecordStoreDecorator;
+  Result<std::uint64_t> store(const storage::RecordBatch& batch) override {
+    if (!batch.endings.empty() && failures_ > 0) {
+      --failures_;
+      return fail(Errc::Busy, "the database is locked");
+    }
+    return RecordStoreDecorator::store(batch);
+  }
+  std::atomic<int> failures_{3};
+};
+
+// The control asks at once, and the run whose tape it is has not ended for the store.
+TEST_F(TapeReaderPortTest, RepeatsWhenTheEndOfTheRunIsStoredLate) {
+  BusyStore records(*store_);
+  storage::Store store = test_support::with(*store_, records);
+  add_reader("repeat", store);
+  push("TK1", "%\nN1X1\nN2M30\n", "prototrak-plus");
+  ASSERT_TRUE(start("TK1"));
+  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
+  ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
+  ASSERT_TRUE(control_->until([&] { return records.failures_ == 0; }));
+  ASSERT_TRUE(control_->until([&] { return runs().size() == 2U; }));
+  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
+  EXPECT_TRUE(control_->until([&] { return control_->programs.size() == 2; }));
+  EXPECT_EQ(runs().back().state, RunState::Completed);
+  ports_.reset();  // before the store
 }
 
 }  // namespace
