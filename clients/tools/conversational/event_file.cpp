@@ -1,8 +1,10 @@
 #include "clients/tools/conversational/event_file.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 
 #include "clients/tools/conversational/impl/form_reader.hpp"
+#include "clients/tools/conversational/post.hpp"
 #include "clients/tools/conversational/reader.hpp"
 #include "protocol/base/lines.hpp"
 
@@ -117,6 +119,15 @@ bool has_text(std::string_view text, std::string_view wanted) {
          std::search(text.begin(), text.end(), wanted.begin(), wanted.end(), is_same) != text.end();
 }
 
+/// Why a file is not posted.
+std::optional<std::string> posting_fault(std::string_view file) {
+  const auto events = read_events(file);
+  if (!events) return events.error().what;
+  const auto posted = post(*events);
+  if (!posted) return posted.error().what;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<std::vector<ListedEvent>> list_events(std::string_view file, const EventQuery& query) {
@@ -145,7 +156,18 @@ Result<std::string> delete_events(std::string_view file, std::size_t first, std:
     return fail(Errc::Conflict, "event {} is the program's {}: it is changed, not deleted",
                 first == 0 ? first : last, first == 0 ? "first" : "last");
   }
-  return cut->text(0, cut->starts[first]) + cut->text(cut->starts[last + 1], cut->lines.size());
+  std::string text =
+      cut->text(0, cut->starts[first]) + cut->text(cut->starts[last + 1], cut->lines.size());
+  if (!posting_fault(file)) {
+    if (const auto fault = posting_fault(text)) {
+      return fail(Errc::Conflict,
+                  "without {} the file could not be posted: {} (numbered as it then is)",
+                  first == last ? fmt::format("event {}", first)
+                                : fmt::format("events {} to {}", first, last),
+                  *fault);
+    }
+  }
+  return text;
 }
 
 Result<std::string> insert_events(std::string_view file, std::size_t before,

@@ -32,8 +32,9 @@ struct EventQuery {
 Result<std::vector<ListedEvent>> list_events(std::string_view file, const EventQuery& query);
 
 /// Deletes the events first to last. NotFound (no such event), Syntax (a range that runs
-/// backwards), Conflict (the program's first or last event, as at the control). Faults of fields do
-/// not matter, so a faulty event can be deleted.
+/// backwards), Conflict (the program's first or last event, as at the control; a file that could be
+/// posted could not be any more, as with the begin of a pattern whose end stays). Of a file that
+/// cannot be posted faults do not matter, so a faulty event can be deleted.
 Result<std::string> delete_events(std::string_view file, std::size_t first, std::size_t last);
 
 /// Inserts `[[event]]` tables before an event. NotFound (no such event), Conflict (before the

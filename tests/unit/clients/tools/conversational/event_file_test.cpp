@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "clients/tools/conversational/post.hpp"
+#include "clients/tools/conversational/reader.hpp"
+
 // CEN-210: the conversational editor's insert, delete and search of events.
 
 namespace dripline::conversational {
@@ -49,6 +52,27 @@ TEST(EventFile, DeletesEventsWithTheCommentsAboveThem) {
   EXPECT_EQ(text_of(delete_events(kFirstEvent + "[[event]]\ntype = \"mill\"\n" + kLastEvent, 1, 1)),
             kFirstEvent + kLastEvent)
       << "a faulty event is deleted too";
+}
+
+TEST(EventFile, DeletesNothingThatPostingThenMisses) {
+  const auto event = [](const std::string& type, const std::string& fields = "") {
+    return "[[event]]\ntype = \"" + type + "\"\n" + fields;
+  };
+  const std::string rough =
+      event("rough_turning", "cut_increment = 0.1\nstart_x = 1\nstart_z = 0\npattern = 1\n");
+  const std::string line = event("line", "feed = \"rapid\"\nx = 1\n");
+  const std::string file = kFirstEvent + kPosition + rough + line + event("end_cycle") + kLastEvent;
+  const auto posted = post(read_events(file).value());
+  ASSERT_TRUE(posted) << posted.error().what;
+  EXPECT_EQ(text_of(delete_events(file, 2, 2)),
+            "error: without event 2 the file could not be posted: event 3 (end_cycle): no pattern "
+            "has begun (numbered as it then is)");
+  EXPECT_EQ(text_of(delete_events(file, 3, 4)),
+            "error: without events 3 to 4 the file could not be posted: event 3 (end_of_program): "
+            "pattern 1 has not ended: end_cycle is missing (numbered as it then is)");
+  EXPECT_EQ(text_of(delete_events(file, 2, 4)), kFirstEvent + kPosition + kLastEvent);
+  const std::string faulty = kFirstEvent + rough + kLastEvent;
+  EXPECT_EQ(text_of(delete_events(faulty, 1, 1)), kFirstEvent + kLastEvent) << "on the way to good";
 }
 
 TEST(EventFile, InsertsEventsBeforeOne) {
