@@ -215,7 +215,7 @@ int show_found(Context& context, const EditCommand& command, const EditedText& o
     complain(Error{Errc::Syntax, fmt::format("line {}, \"{}\" cannot be read: {}", block.line,
                                              printable(block.text), reason)});
   }
-  return search->unread.empty() ? kExitOk : kExitNo;
+  return search->unread.empty() && !search->found.empty() ? kExitOk : kExitNo;
 }
 
 /// Errors: Syntax (nothing to do, or two things that do not go together).
@@ -347,8 +347,10 @@ void add_edit_command(Command app, Context& context) {
       "values are set first, then words are removed. Blocks of other controls are named by line,\n"
       "and have no words, but --find-text and --change take any text of a line.\nThe changed "
       "blocks are shown; a file is replaced as a whole or not at "
-      "all.\n\nExit status: 0 done, 1 the control or the server refused and nothing was changed, 2 "
-      "usage.\n\nExamples:\n  dnc edit 15.h --delete 5..7 --insert-after 9 \"L X+10 R0 F MAX M\"\n "
+      "all.\n\nExit status: 0 done, 1 the control or the server refused and nothing was changed, "
+      "or "
+      "--find\nor --find-text found nothing, 2 usage.\n\nExamples:\n  dnc edit 15.h --delete 5..7 "
+      "--insert-after 9 \"L X+10 R0 F MAX M\"\n "
       " dnc edit 15.h --set 4 F250 --leave-out 5 M\n  dnc edit 15.h --find \"TOOL CALL\"\n  dnc "
       "edit O0200 --change T0101 T0202 --whole-words --within 10..40\n  dnc "
       "edit --program 15.h --replace 4 \"TOOL CALL 2 Z S800\" --comment \"new tool\"");

@@ -73,11 +73,13 @@ Result<TextPattern> TextSearchOptions::pattern(const EditedText& original,
 int TextSearchOptions::show(Context& context, const EditedText& original) const {
   auto blocks = nlohmann::ordered_json::array();
   std::string text;
+  bool has_found = false;
   for (const auto& wanted : wanted_) {
     const auto looked_for = pattern(original, wanted);
     if (!looked_for) return complain(looked_for.error()), kExitUsage;
     const auto found = program_editing::find_text(original.text(), *looked_for);
     if (!found) return complain(found.error()), kExitNo;
+    has_found |= !found->empty();
     for (const auto& line : *found) {
       blocks.push_back({{"block", line.block}, {"line", line.line}, {"text", line.text}});
       text += fmt::format("{}: {}\n", line.block, printable(line.text));
@@ -88,7 +90,7 @@ int TextSearchOptions::show(Context& context, const EditedText& original) const 
                     ? json_text(nlohmann::ordered_json{{"blocks", std::move(blocks)},
                                                        {"unread", nlohmann::ordered_json::array()}})
                     : text);
-  return kExitOk;
+  return has_found ? kExitOk : kExitNo;
 }
 
 Result<void> TextSearchOptions::add_changes(const EditedText& original,

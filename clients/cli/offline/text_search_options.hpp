@@ -18,7 +18,7 @@ class TextSearchOptions {
   bool changes() const { return !replacements_.empty(); }
   /// Errors: Syntax (an option of a search without one).
   Result<void> check() const;
-  /// Lists the lines with the text.
+  /// Lists the lines with the text. Exit status 1: there is none.
   int show(Context& context, const EditedText& original) const;
   /// Errors: Unsupported (the control keeps numbered blocks), Conflict (two changes of one text
   /// meet in a line), and those of `change_text`.

@@ -128,8 +128,9 @@ TEST_F(DncEdit, ShowsOnlyTheBlocksThatHaveAnAddress) {
   const auto found = dnc({"edit", "15.h", "--find", "X"});
   EXPECT_EQ(found.status, 0) << found.err;
   EXPECT_EQ(found.out, "3 L X+10,000 Y+20,000 R0 F15999 M03\n5 L X+40,000 R F200 M\n");
-  EXPECT_EQ(dnc({"edit", "15.h", "--find", "IX", "--find", "LBL"}).out,
-            "No block has IX or LBL.\n");
+  const auto none = dnc({"edit", "15.h", "--find", "IX", "--find", "LBL"});
+  EXPECT_EQ(none.out, "No block has IX or LBL.\n");
+  EXPECT_EQ(none.status, 1);
   const auto shown = json::parse(dnc({"edit", "15.h", "--find", "tool call", "--json"}).out);
   EXPECT_EQ(shown, json::parse(R"({"blocks":[{"block":2,"line":3,
       "text":"2 TOOL CALL 1 Z S 500,000"}],"unread":[]})"));
@@ -182,7 +183,12 @@ TEST_F(DncEdit, FindsAndChangesTextsOfLines) {
     return dnc(more);
   };
   EXPECT_EQ(with({"--find-text", "G1", "--whole-words"}).out, "3: G1 X1\n");
-  EXPECT_EQ(with({"--find-text", "M30"}).out, "No line has M30.\n");
+  EXPECT_EQ(with({"--find-text", "G1"}).status, 0);
+  const auto none = with({"--find-text", "M30"});
+  EXPECT_EQ(none.out, "No line has M30.\n");
+  EXPECT_EQ(none.status, 1) << "as grep";
+  EXPECT_EQ(with({"--find-text", "M30", "--json"}).status, 1);
+  EXPECT_EQ(with({"--find-text", "M30", "--find-text", "G1"}).status, 0) << "one of them is there";
   const auto shown = with({"--find-text", "G1", "--within", "4..5", "--json"});
   EXPECT_EQ(json::parse(shown.out).at("blocks"),
             json::parse(R"([{"block":4,"line":4,"text":"G10 X2"}])"));
