@@ -13,6 +13,9 @@ namespace dripline::interpreter {
 /// What the machine is, as far as the setup states it. A real machine that differs begins no
 /// program; the simulated one takes it over. Linear axes in mm, rotary ones in degrees.
 struct MachineData {
+  /// Per second squared: no machine is as slow, and times with less mean nothing.
+  static constexpr double kMinAcceleration = 0.1;
+
   struct AxisData {
     std::optional<double> min, max;  ///< travel, in machine coordinates: both or neither
     std::optional<double> max_rate;  ///< per minute

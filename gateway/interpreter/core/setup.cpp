@@ -214,8 +214,12 @@ void read_machine_axis(Table& table, Axis axis, MachineData::AxisData& data) {
     return table.complain(data.min ? "min" : "max", "the travel has both ends, min and max");
   if (data.min && !(*data.min < *data.max)) return table.complain("min", "is not below max");
   if (data.max_rate && !(*data.max_rate > 0)) table.complain("rate", "expected a number above 0");
-  if (data.acceleration && !(*data.acceleration > 0))
-    table.complain("acceleration", "expected a number above 0");
+  if (data.acceleration && !(*data.acceleration >= MachineData::kMinAcceleration)) {
+    const std::string_view unit = is_rotary(axis) ? "degrees" : "mm";
+    table.complain("acceleration",
+                   fmt::format("{} {}/s2 is below the least, {} {}/s2", *data.acceleration, unit,
+                               MachineData::kMinAcceleration, unit));
+  }
 }
 
 void read_machine(Table& table, MachineData& machine) {

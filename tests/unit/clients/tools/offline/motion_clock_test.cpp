@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <cmath>
 #include <string>
@@ -128,6 +129,17 @@ TEST(MotionClock, NeedsAnAccelerationInTheSetup) {
   const auto bad = parse_machine_data("[machine]\nX = { acceleration = -1.0 }\n");
   ASSERT_FALSE(bad);
   EXPECT_NE(bad.error().what.find("acceleration"), std::string::npos);
+}
+
+TEST(MotionClock, RefusesAnAccelerationThatNoMachineHasWithTheLimit) {
+  const auto slow = parse_machine_data("[machine]\nX = { acceleration = 1e-300 }\n");
+  ASSERT_FALSE(slow);
+  EXPECT_THAT(slow.error().what, testing::HasSubstr("1e-300 mm/s2 is below the least, 0.1 mm/s2"));
+  const auto rotary = parse_machine_data("[machine]\nC = { acceleration = 0.09 }\n");
+  ASSERT_FALSE(rotary);
+  EXPECT_THAT(rotary.error().what,
+              testing::HasSubstr("0.09 degrees/s2 is below the least, 0.1 degrees/s2"));
+  EXPECT_TRUE(parse_machine_data("[machine]\nX = { acceleration = 0.1 }\n"));
 }
 
 // The reader has the ramps' time to read: 0.5 inch at 200 inch/min are 0.15 s, and longer from rest
