@@ -236,7 +236,10 @@ int show(Context& context, const GraphicsCommand& command) {
 
 void add_turning_options(Command command, GraphicsCommand& options) {
   constexpr const char* kGroup = "Lathe programs";
-  command.add_flag("--path", options.shows_path, "Draw the tool path over the part").group(kGroup);
+  command
+      .add_flag("--path", options.shows_path,
+                "Draw the tool path over the part: feed green, rapid red")
+      .group(kGroup);
   command.add_flag("--limits", options.shows_limits, "Draw the setup's travel limits")
       .group(kGroup);
   command.add_flag("--zone", options.shows_zone, "Draw the setup's safe zone").group(kGroup);

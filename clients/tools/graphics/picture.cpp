@@ -7,7 +7,46 @@
 
 namespace dripline::graphics {
 
-void Picture::draw_line(double from_x, double from_y, double to_x, double to_y, Shade shade) {
+namespace {
+
+using Color = std::array<std::uint8_t, 3>;
+
+Color color_of(Shade shade, Ink ink) {
+  switch (ink) {
+    case Ink::Red:
+      return {shade, static_cast<std::uint8_t>(shade / 4), static_cast<std::uint8_t>(shade / 4)};
+    case Ink::Green:
+      return {static_cast<std::uint8_t>(shade / 4), shade, static_cast<std::uint8_t>(shade / 4)};
+    default:
+      return {shade, shade, shade};
+  }
+}
+
+/// The sRGB default of the library is what viewers expect; no colormap, tight rows.
+Result<std::string> png_of(std::size_t width, std::size_t height, png_uint_32 format,
+                           const std::uint8_t* pixels) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(width);
+  image.height = static_cast<png_uint_32>(height);
+  image.format = format;
+  png_alloc_size_t size = 0;
+  if (png_image_write_to_memory(&image, nullptr, &size, 0, pixels, 0, nullptr) == 0) {
+    return fail(Errc::Io, "PNG: {}", image.message);
+  }
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels, 0, nullptr) == 0) {
+    return fail(Errc::Io, "PNG: {}", image.message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace
+
+void Picture::draw_line(double from_x, double from_y, double to_x, double to_y, Shade shade,
+                        Ink ink) {
+  if (ink != Ink::Gray && inks_.empty()) inks_.resize(shades_.size(), Ink::Gray);
   const double longest = std::max(std::fabs(to_x - from_x), std::fabs(to_y - from_y));
   const double steps = std::min(std::ceil(longest), 4.0 * static_cast<double>(width_ + height_));
   for (double step = 0; step <= steps; ++step) {
@@ -16,34 +55,33 @@ void Picture::draw_line(double from_x, double from_y, double to_x, double to_y, 
     const double y = std::floor(from_y + (to_y - from_y) * part);
     const bool is_inside =
         x >= 0 && y >= 0 && x < static_cast<double>(width_) && y < static_cast<double>(height_);
-    if (is_inside) set(static_cast<std::size_t>(x), static_cast<std::size_t>(y), shade);
+    if (!is_inside) continue;
+    const std::size_t at = static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
+    shades_[at] = shade;
+    if (!inks_.empty()) inks_[at] = ink;
   }
 }
 
 void Picture::place(const Picture& part, std::size_t x, std::size_t y) {
+  if (!part.inks_.empty() && inks_.empty()) inks_.resize(shades_.size(), Ink::Gray);
   for (std::size_t row = 0; row < part.height_; ++row) {
-    std::copy_n(part.row(row), part.width_,
-                shades_.begin() + static_cast<std::ptrdiff_t>((y + row) * width_ + x));
+    const auto to = static_cast<std::ptrdiff_t>((y + row) * width_ + x);
+    std::copy_n(part.row(row), part.width_, shades_.begin() + to);
+    for (std::size_t column = 0; !inks_.empty() && column < part.width_; ++column) {
+      inks_[(y + row) * width_ + x + column] = part.ink_at(column, row);
+    }
   }
 }
 
 Result<std::string> Picture::png() const {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(width_);
-  image.height = static_cast<png_uint_32>(height_);
-  image.format = PNG_FORMAT_GRAY;
-  // The sRGB default of the library is what viewers expect; no colormap, tight rows.
-  png_alloc_size_t size = 0;
-  if (png_image_write_to_memory(&image, nullptr, &size, 0, shades_.data(), 0, nullptr) == 0) {
-    return fail(Errc::Io, "PNG: {}", image.message);
+  if (inks_.empty()) return png_of(width_, height_, PNG_FORMAT_GRAY, shades_.data());
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(3 * shades_.size());
+  for (std::size_t i = 0; i < shades_.size(); ++i) {
+    const Color color = color_of(shades_[i], inks_[i]);
+    pixels.insert(pixels.end(), color.begin(), color.end());
   }
-  std::string bytes(size, '\0');
-  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, shades_.data(), 0, nullptr) == 0) {
-    return fail(Errc::Io, "PNG: {}", image.message);
-  }
-  bytes.resize(size);
-  return bytes;
+  return png_of(width_, height_, PNG_FORMAT_RGB, pixels.data());
 }
 
 namespace {

@@ -8,7 +8,7 @@ namespace dripline::graphics {
 namespace {
 
 constexpr Shade kHatch = 110, kSolid = 75, kEdge = 235, kBore = 30;
-constexpr Shade kAxis = 130, kFeedLine = 255, kRapidLine = 190, kLimitLine = 160, kZoneLine = 120;
+constexpr Shade kAxis = 130, kFeedLine = 255, kRapidLine = 240, kLimitLine = 160, kZoneLine = 120;
 constexpr std::size_t kHatchStep = 9, kDash = 6, kAxisDash = 14;
 constexpr double kMargin = 0.04;
 
@@ -140,13 +140,13 @@ void draw_part(Picture& picture, const Screen& screen, const TurnedSection& part
 }
 
 void draw_dashed(Picture& picture, const SectionPoint& from, const SectionPoint& to, Shade shade,
-                 double dash) {
+                 double dash, Ink ink = Ink::Gray) {
   const double length = std::hypot(to.z - from.z, to.x - from.x);
   const double reach = 4.0 * static_cast<double>(picture.width() + picture.height());
   for (double at = 0; at < std::min(length, reach); at += 2 * dash) {
     const double a = at / length, b = std::min(1.0, (at + dash) / length);
     picture.draw_line(from.z + (to.z - from.z) * a, from.x + (to.x - from.x) * a,
-                      from.z + (to.z - from.z) * b, from.x + (to.x - from.x) * b, shade);
+                      from.z + (to.z - from.z) * b, from.x + (to.x - from.x) * b, shade, ink);
   }
 }
 
@@ -158,9 +158,9 @@ void draw_path(Picture& picture, const Screen& screen, std::span<const PathPiece
   for (const PathPiece& piece : path) {
     const SectionPoint from = on(screen, piece.from), to = on(screen, piece.to);
     if (piece.is_rapid) {
-      draw_dashed(picture, from, to, kRapidLine, kDash);
+      draw_dashed(picture, from, to, kRapidLine, kDash, Ink::Red);
     } else {
-      picture.draw_line(from.z, from.x, to.z, to.x, kFeedLine);
+      picture.draw_line(from.z, from.x, to.z, to.x, kFeedLine, Ink::Green);
     }
   }
 }

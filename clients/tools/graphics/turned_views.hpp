@@ -27,7 +27,8 @@ struct TurnedView {
   std::size_t width = 1024;               ///< pixels; the height follows, up to twice as much
 };
 
-/// The part (absent: the path alone) and the tool path: feeds as lines, rapid moves dashed.
+/// The part (absent: the path alone) and the tool path: feeds as green lines, rapid moves red and
+/// dashed, in the colors of the Centurion's screen.
 /// Errors: LimitExceeded (there is nothing to show, or a window without extent).
 Result<Picture> draw_turned(const TurnedSection* part, std::span<const PathPiece> path,
                             const TurnedView& view);

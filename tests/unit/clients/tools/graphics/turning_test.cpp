@@ -164,6 +164,19 @@ TEST(TurnedViews, DrawTheWayLimitsAndZone) {
   EXPECT_EQ(at(-20, 15), 255) << "the feed";
   EXPECT_GT(at(-70, 10), 0) << "the limit of Z";
   EXPECT_EQ(at(-20, 10), kBlack);
+  const auto has_ink = [&](Ink ink) {
+    for (std::size_t y = 0; y < picture->height(); ++y)
+      for (std::size_t x = 0; x < picture->width(); ++x)
+        if (picture->ink_at(x, y) == ink) return true;
+    return false;
+  };
+  EXPECT_EQ(picture->ink_at(600, 100), Ink::Green) << "the feed";
+  EXPECT_TRUE(has_ink(Ink::Red)) << "the rapid move";
+  constexpr std::size_t kColorType = 25;
+  EXPECT_EQ(picture->png()->at(kColorType), 2) << "RGB";
+  view.shows_path = false;
+  EXPECT_EQ(draw_turned(nullptr, simulation.path(), view)->png()->at(kColorType), 0) << "gray";
+  view.shows_path = true;
   view.has_front_turret = true;
   const auto below = draw_turned(nullptr, simulation.path(), view);
   EXPECT_EQ(below->at(600, 400), 255) << "+X points down";
