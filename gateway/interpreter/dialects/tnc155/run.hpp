@@ -107,12 +107,13 @@ struct Run : BlockRun {
 
   BlockParts parts;  ///< of the block being executed
   language::LoopGuard loops;
-  language::WordLedger ledger;   ///< of the part being executed: its coordinates, by their place
-  bool is_in_block = false;      ///< read, and not finished
-  bool is_measuring = false;     ///< moves are checked against the limits and not made
-  bool blend_follows = false;    ///< RND or a chamfer follows the current part
-  bool starts_contour = false;   ///< the part being executed is the first with RL or RR
-  std::optional<Answer> answer;  ///< to the question of the part being executed
+  language::WordLedger ledger;  ///< of the part being executed: its coordinates, by their place
+  bool is_in_block = false;     ///< read, and not finished
+  bool is_measuring = false;    ///< moves are checked against the limits and not made
+  std::optional<Block> contour_begin;  ///< the block after Approach, where it can be read
+  bool blend_follows = false;          ///< RND or a chamfer follows the current part
+  bool starts_contour = false;         ///< the part being executed is the first with RL or RR
+  std::optional<Answer> answer;        ///< to the question of the part being executed
 
  private:
   EventSink& stages() {

@@ -155,8 +155,8 @@ struct StartState {
   bool is_in_contour = false;                 ///< or a corner
   std::int32_t contour_block = Block::kNone;  ///< that began it
   std::bitset<100> codes;                     ///< M functions of the machine that were not output
-  std::bitset<kParameterCount> assigned;      ///< Q parameters that the program has set
-  std::bitset<kParameterCount> carried;       ///< or used in a computation before it set them
+  std::vector<std::int32_t> assigned;         ///< Q parameters that the program has set; sorted
+  std::vector<std::int32_t> carried;          ///< or used in a computation before it set them
 };
 
 struct PolarData {
@@ -215,6 +215,7 @@ struct State {
   double tool_feed = 0;             ///< F of TOOL CALL: F AUTO
   bool has_plane_angles = false;    ///< Q120 to Q122, which are 0: no plane is tilted
   bool takes_shorter_path = false;  ///< M126
+  bool is_rapid_next = false;       ///< the last positioning block had FMAX: the way to an approach
   bool has_rounded = false;         ///< a comparison of a later control took two values as equal
   CycleState cycle;
   BlankState blank;

@@ -239,6 +239,14 @@ bool dwell(Run& run, const Block& block) {
   return true;
 }
 
+/// A later control takes the sign of DEPTH as the direction, and set-up clearance and infeed
+/// without one (TNC 426, User's Manual: pecking). Those of an older program have that of the depth.
+void take_direction(MachiningCycle& cycle) {
+  if (!(cycle.depth < 0)) return;
+  if (cycle.clearance > 0) cycle.clearance = -cycle.clearance;
+  if (cycle.peck > 0) cycle.peck = -cycle.peck;
+}
+
 /// The value of a sub-block of lengths goes by its word: set-up, depth or pecking.
 void take_length(MachiningCycle& draft, std::string_view word, double value) {
   if (word.starts_with("SET-UP")) {
@@ -318,6 +326,7 @@ bool define_cycle(Run& run, const Block& block) {
   }
   CycleState& cycle = run.state.cycle;
   if (!take_machining(run, block, cycle_parts(block.cycle)[block.part])) return false;
+  if (cycle.is_complete && run.options.is_later) take_direction(cycle.draft);
   if (cycle.is_complete) cycle.machining = cycle.draft;
   if (cycle.is_complete && run.options.is_later) cycle.is_modal_call = false;
   return true;

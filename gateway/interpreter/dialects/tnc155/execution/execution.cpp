@@ -47,6 +47,10 @@ bool move(Run& run, const Block& block) {
       return run_tangent_arc(run, block);
     case BlockKind::RadiusArc:
       return run_radius_arc(run, block);
+    case BlockKind::Approach:
+      return later::approach(run, block);
+    case BlockKind::Departure:
+      return later::depart(run, block);
     default:
       return run_single_axis(run, block);
   }
@@ -189,6 +193,8 @@ constexpr std::array<bool (*)(Run&, const Block&),
              later::define_table,
              later::cycle_call_at,
              later::print,
+             positioning /* Approach */,
+             positioning /* Departure */,
              later::accept};
 
 [[gnu::cold, gnu::noinline]] bool refuse_left_words(Run& run, const Block& block) {

@@ -20,6 +20,16 @@ std::string block_text(std::int32_t number) {
   return number < 0 ? "a block without number" : fmt::format("block {}", number);
 }
 
+/// The number of its label, or its name in quotes: the run has met the label when it went there.
+std::string label_text(const State& state, const LabelFrame& frame) {
+  if (frame.label != static_cast<std::uint32_t>(kNameLabel)) return fmt::format("{}", frame.label);
+  for (const LabelPlace& label : state.known_labels) {
+    const bool is_it = label.program == frame.call.program && label.at.offset == frame.from;
+    if (is_it) return fmt::format("\"{}\"", label.name);
+  }
+  return "with a name";
+}
+
 /// Why the state at this block cannot be rebuilt, one text a reason.
 std::vector<std::string> refusals(const Run& run, std::int32_t returning) {
   const State& state = run.state;
@@ -27,7 +37,7 @@ std::vector<std::string> refusals(const Run& run, std::int32_t returning) {
   for (const LabelFrame& frame : state.labels) {
     if (state.start.pass != 0) break;
     reasons.push_back(fmt::format("repeats and return address of LBL {}, which line {} calls",
-                                  frame.label, frame.call.line));
+                                  label_text(state, frame), frame.call.line));
   }
   if (returning >= 0) {
     reasons.push_back(fmt::format("how often block {} leads back over it", returning));
@@ -68,9 +78,9 @@ void add_axes(std::string& text, const AxisValues& values) {
 void add_labels(std::string& text, const State& state) {
   for (const LabelFrame& frame : state.labels) {
     if (frame.is_repeat) {
-      text += fmt::format(", LBL {} {} more times", frame.label, frame.left);
+      text += fmt::format(", LBL {} {} more times", label_text(state, frame), frame.left);
     } else {
-      text += fmt::format(", LBL {} returns to line {}", frame.label, frame.back.line);
+      text += fmt::format(", LBL {} returns to line {}", label_text(state, frame), frame.back.line);
     }
   }
 }
@@ -183,22 +193,43 @@ void note_contour_start(Run& run, std::int32_t number) {
   start.is_in_contour = is_open;
 }
 
-bool note_computation(Run& run, const Block& block) {
+namespace {
+
+void insert(std::vector<std::int32_t>& parameters, std::int32_t parameter) {
+  const auto at = std::ranges::lower_bound(parameters, parameter);
+  if (at == parameters.end() || *at != parameter) parameters.insert(at, parameter);
+}
+
+}  // namespace
+
+void note_use(Run& run, std::int32_t parameter) {
   StartState& start = run.state.start;
+  if (!std::ranges::binary_search(start.assigned, parameter)) insert(start.carried, parameter);
+}
+
+bool note_computation(Run& run, const Block& block) {
   for (const Value* operand : {&block.first, &block.second}) {
-    if (!operand->is_q()) continue;
-    const auto q = static_cast<std::size_t>(operand->number);
-    if (!start.assigned.test(q)) start.carried.set(q);
+    if (operand->is_q()) note_use(run, operand->number);
   }
-  const auto q = static_cast<std::size_t>(block.target);
-  if (start.carried.test(q)) {
+  return note_result(run, block);
+}
+
+bool note_result(Run& run, const Block& block) {
+  StartState& start = run.state.start;
+  if (std::ranges::binary_search(start.carried, block.target)) {
     return run.fail(ErrorCode::ProgramStartUndefined,
                     fmt::format("a start after {} would lose Q{}, whose value continues that of "
                                 "the run before",
-                                block_text(block.number), q));
+                                block_text(block.number), block.target));
   }
-  start.assigned.set(q);
+  insert(start.assigned, block.target);
   return true;
+}
+
+void note_definition(Run& run, std::int32_t parameter) {
+  StartState& start = run.state.start;
+  if (!start.is_searching) return;
+  if (!std::ranges::binary_search(start.carried, parameter)) insert(start.assigned, parameter);
 }
 
 bool check_positions(Run& run, std::uint16_t named) {

@@ -42,7 +42,13 @@ bool is_contour_open(const State& state);
 /// After each block of the search: where the contour in force began.
 void note_contour_start(Run& run, std::int32_t number);
 
-/// FN 0 to FN 8 of the search. False: the parameter's value depends on how often the program ran.
+/// Of a computation of the search: a Q parameter that it uses.
+void note_use(Run& run, std::int32_t parameter);
+/// After note_use: the one that it sets. False: its value depends on how often the program ran.
+bool note_result(Run& run, const Block& block);
+/// A Q word of a cycle of the search, which the program gives a value.
+void note_definition(Run& run, std::int32_t parameter);
+/// FN 0 to FN 8 of the search.
 bool note_computation(Run& run, const Block& block);
 
 /// The first positioning after the start moves the axes in `named`; all others must be where the

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/later/cycle_table_run.hpp"
 #include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
@@ -23,20 +24,6 @@ bool is_allowed(CycleUse use, double value) {
 }
 
 constexpr double kMaxPasses = 2000;
-
-/// Programs may set Q200 and above after the definition: whether the control takes that over is not
-/// stated.
-bool check_unchanged(Run& run) {
-  const auto rows = cycle_table(run.state.cycle.machining.number);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double now = run.state.q[static_cast<std::size_t>(rows[i].q)];
-    if (now == run.state.cycle_words[i]) continue;
-    return run.fail(ErrorCode::NotSupported,
-                    fmt::format("Q{} was changed from {} to {} after CYCL DEF {}", rows[i].q,
-                                run.state.cycle_words[i], now, run.state.cycle.machining.number));
-  }
-  return true;
-}
 
 bool check_spindle(Run& run, int cycle) {
   const State& state = run.state;
@@ -84,16 +71,65 @@ bool check_bore(Run& run, const Table& table) {
   return true;
 }
 
+/// The counterbore is made toward the spindle, from below, by a tool that gets through the hole
+/// beside its center.
+bool check_back_bore(Run& run, const Table& table) {
+  const auto wrong = [&](int q, std::string_view what) {
+    return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q{} {} {}", q, table.of(q), what));
+  };
+  if (table.of(249) < 0) return wrong(249, "is below the underside");
+  if (table.of(249) > table.of(250)) return wrong(249, "is more than the thickness, Q250");
+  if (!(table.of(251) > 0)) return wrong(251, "is no off-center distance");
+  if (table.of(214) == 0) return wrong(214, "is no direction, and the tool goes through the hole");
+  for (const int feed : {253, 254})
+    if (!(table.of(feed) > 0)) return wrong(feed, "is no feed");
+  return check_disengagement(run, table);
+}
+
 }  // namespace
 
+bool check_unchanged(Run& run, std::span<const int> but) {
+  const auto rows = cycle_table(run.state.cycle.machining.number);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (std::ranges::find(but, rows[i].q) != but.end()) continue;
+    const double now = run.state.q[static_cast<std::size_t>(rows[i].q)];
+    if (now == run.state.cycle_words[i]) continue;
+    return run.fail(ErrorCode::NotSupported,
+                    fmt::format("Q{} was changed from {} to {} after CYCL DEF {}", rows[i].q,
+                                run.state.cycle_words[i], now, run.state.cycle.machining.number));
+  }
+  return true;
+}
+
 bool check_ready(Run& run, int cycle) {
-  return check_unchanged(run) && check_spindle(run, cycle);
+  return check_unchanged(run, {}) && check_spindle(run, cycle);
+}
+
+double passes_of(const Table& table) {
+  const double depth = -table.of(201);
+  switch (table.run().state.cycle.machining.number) {
+    case kDrill:
+    case kUniversal:
+    case kPeck: {
+      double least = table.of(202);
+      if (table.of(212) > 0) least = std::min(least, table.of(205));
+      if (table.of(257) > 0) least = std::min(least, table.of(257));
+      return depth / least;
+    }
+    case kChipTap:
+      return table.of(257) > 0 ? depth / table.of(257) : 1;
+    case kBoreMill:
+      return depth / table.of(334);
+    default:
+      return 1;
+  }
 }
 
 bool check_values(Run& run, const Table& table, int cycle) {
   const auto wrong = [&](int q, std::string_view what) {
     return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q{} {} {}", q, table.of(q), what));
   };
+  if (cycle == kBackBore) return check_back_bore(run, table);
   if (table.of(201) > 0) return wrong(201, "is above the surface");
   if (!is_rigid(cycle) && !(table.of(206) > 0)) return wrong(206, "is no feed");
   if (is_rigid(cycle) && table.of(239) == 0) return wrong(239, "is no pitch");
@@ -103,27 +139,20 @@ bool check_values(Run& run, const Table& table, int cycle) {
                                          "the way in",
                                          table.of(403)));
   }
-  const double depth = -table.of(201);
-  double passes = 1;
   if (cycle == kDrill || cycle == kUniversal || cycle == kPeck) {
     if (!(table.of(202) > 0)) return wrong(202, "is no infeed");
-    double least = table.of(202);
-    if (table.of(212) > 0) {
-      if (!(table.of(205) > 0)) return wrong(205, "is no least infeed, and Q212 makes it smaller");
-      least = std::min(least, table.of(205));
+    if (table.of(212) > 0 && !(table.of(205) > 0)) {
+      return wrong(205, "is no least infeed, and Q212 makes it smaller");
     }
-    if (table.of(257) > 0) least = std::min(least, table.of(257));
-    passes = depth / least;
   }
   if (cycle == kUniversal && table.of(213) > 0 && !(table.of(256) > 0)) {
     return wrong(256, "is no way back to break chips");
   }
-  if (cycle == kChipTap && table.of(257) > 0) passes = depth / table.of(257);
   if (cycle == kBoreMill) {
     if (!(table.of(334) > 0)) return wrong(334, "is no infeed");
-    passes = depth / table.of(334);
     if (!check_bore(run, table)) return false;
   }
+  const double passes = passes_of(table);
   if (passes <= kMaxPasses) return true;
   return run.fail(ErrorCode::EntryOutOfRange,
                   fmt::format("CYCL DEF {} would be {:.0f} infeeds, at most {:.0f}", cycle, passes,
@@ -163,9 +192,14 @@ bool define_table(Run& run, const Block& block) {
     run.set_q(339, preset);
     return use_preset(run, static_cast<int>(preset));
   }
+  if (is_pattern(block.cycle)) {
+    for (std::size_t i = 0; i < rows.size(); ++i) note_definition(run, rows[i].q);
+    return run_pattern(run, block.cycle, values);
+  }
   // The words of a definition are what the parameters hold from then on.
   for (std::size_t i = 0; i < rows.size(); ++i) {
     run.set_q(rows[i].q, values[i]);
+    note_definition(run, rows[i].q);
   }
   state.cycle_words = std::move(values);
   state.cycle.machining = MachiningCycle{};

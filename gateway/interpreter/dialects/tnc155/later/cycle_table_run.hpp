@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/path.hpp"
@@ -14,6 +17,7 @@ enum Cycle : std::uint8_t {
   kReam = 201,
   kBore = 202,
   kUniversal = 203,
+  kBackBore = 204,
   kPeck = 205,
   kTap = 206,
   kRigidTap = 207,
@@ -28,10 +32,12 @@ constexpr bool is_rigid(int cycle) {
 /// The words of the cycle, and the moves in the tool axis.
 class Table {
  public:
-  explicit Table(Run& run)
+  /// `last`: the height after the cycle, where a pattern has another one than the cycle itself.
+  explicit Table(Run& run, std::optional<double> last = {})
       : run_(run),
         rows_(cycle_table(run.state.cycle.machining.number)),
-        unit_(run.state.mm_per_unit()) {}
+        unit_(run.state.mm_per_unit()),
+        last_(last) {}
 
   /// As programmed; 0 for one that this control's definition has not.
   double of(int q) const {
@@ -49,7 +55,9 @@ class Table {
   double surface() const { return mm(203); }
   double clearance() const { return surface() + mm(200); }
   double bottom() const { return surface() + mm(201); }
-  double last() const { return std::max(clearance(), surface() + mm(204)); }
+  double last() const { return last_.value_or(std::max(clearance(), surface() + mm(204))); }
+  /// The word that says how deep the cycle goes: 0 does nothing.
+  double depth() const { return of(run_.state.cycle.machining.number == kBackBore ? 249 : 201); }
 
   void rapid(double height) const { move(height, kRapid); }
   void cut(double height, double feed) const { move(height, {false, feed, feed}); }
@@ -98,13 +106,38 @@ class Table {
   Run& run_;
   std::span<const CycleParameter> rows_;
   double unit_;
+  std::optional<double> last_;
 };
 
 // Conditions of a call; false: the run has failed.
 
+/// No parameter `but` these was changed since the definition: whether the control takes that over
+/// is not stated.
+bool check_unchanged(Run& run, std::span<const int> but);
 /// Tool and spindle, and no parameter changed since the definition.
 bool check_ready(Run& run, int cycle);
+/// How many infeeds a call comes to, about.
+double passes_of(const Table& table);
 /// Signs, sizes, feeds and a bounded number of moves.
 bool check_values(Run& run, const Table& table, int cycle);
+/// Everything before the first move of a call. `is_idle`: depth 0, nothing is to be done.
+bool check_call(Run& run, const Table& table, bool& is_idle);
+/// The moves of one call, after the checks.
+void make_cycle(const Table& table, int cycle);
+/// Whether `moves` would stay within the limits; it is made without output.
+template <class Moves>
+bool stays_within_limits(Run& run, const Moves& moves) {
+  if (!run.limits.has_any()) return true;
+  const Position machine = run.state.machine;
+  const AxisValues nominal = run.state.nominal;
+  run.is_measuring = true;
+  moves();
+  run.is_measuring = false;
+  run.state.machine = machine;
+  run.state.nominal = nominal;
+  return !run.limits.reached();
+}
+/// The last definition was a pattern: its points, and the cycle at each of them.
+bool run_pattern(Run& run, int pattern, const std::vector<double>& words);
 
 }  // namespace dripline::interpreter::tnc155::later

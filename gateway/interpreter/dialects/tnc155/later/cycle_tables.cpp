@@ -62,6 +62,17 @@ constexpr std::array kChipTapWords{kClearance,
                                    P{256, Distance},
                                    P{336, Zero, false},
                                    P{403, Number, false}};
+constexpr std::array kBackBoringWords{kClearance,       P{249, Length},   P{250, Distance},
+                                      P{251, Distance}, P{252, Distance}, P{253, Feed},
+                                      P{254, Feed},     P{255, Seconds},  kSurface,
+                                      kSecond,          P{214, Distance}, P{336, Zero, false}};
+constexpr std::array kPolarWords{kClearance,     kSurface,         kSecond,
+                                 P{216, Length}, P{217, Length},   P{244, Distance},
+                                 P{245, Number}, P{246, Number},   P{247, Number},
+                                 P{241, Number}, P{301, Distance}, P{365, Zero, false}};
+constexpr std::array kCartesianWords{
+    kClearance,     kSurface,       kSecond,        P{225, Length}, P{226, Length},  P{237, Length},
+    P{238, Length}, P{242, Number}, P{243, Number}, P{224, Number}, P{301, Distance}};
 constexpr std::array kPresetWords{P{339, Number}};
 constexpr std::array kBoreMillingWords{kClearance,       kDepth,           kPlunge,
                                        P{334, Distance}, kSurface,         kSecond,
@@ -79,6 +90,8 @@ std::span<const CycleParameter> cycle_table(int cycle) {
       return kBoringWords;
     case 203:
       return kUniversalWords;
+    case 204:
+      return kBackBoringWords;
     case 205:
       return kPeckingWords;
     case 206:
@@ -89,6 +102,10 @@ std::span<const CycleParameter> cycle_table(int cycle) {
       return kBoreMillingWords;
     case 209:
       return kChipTapWords;
+    case kPolarPattern:
+      return kPolarWords;
+    case kCartesianPattern:
+      return kCartesianWords;
     case 247:
       return kPresetWords;
     default:

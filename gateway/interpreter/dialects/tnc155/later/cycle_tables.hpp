@@ -21,6 +21,12 @@ struct CycleParameter {
   bool is_needed = true;  ///< older controls of the family have not all; absent it is 0
 };
 
+/// Point patterns, which call the cycle that was defined before them.
+inline constexpr int kPolarPattern = 220, kCartesianPattern = 221;
+constexpr bool is_pattern(int cycle) {
+  return cycle == kPolarPattern || cycle == kCartesianPattern;
+}
+
 inline constexpr int kRetractionFeed = 208;
 /// What a parameter holds whose feed is FMAX.
 inline constexpr double kRapidFeed = 99'999;

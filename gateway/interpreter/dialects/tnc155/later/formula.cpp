@@ -150,11 +150,25 @@ bool set(Run& run, std::int32_t parameter, double value) {
   return true;
 }
 
-/// A start in the middle would have other values than the run that was interrupted.
-bool refuse_in_search(Run& run, const Block& block) {
+/// A start in the middle computes again what the program has computed, but for a value that
+/// continues that of the run before.
+bool note_in_search(Run& run, const Block& block) {
   if (!run.state.start.is_searching) return true;
+  for (const FormulaStep& step : run.parts.later.formula) {
+    const bool is_program =
+        step.kind == FormulaStep::Kind::Parameter && !is_of_control(step.parameter);
+    if (is_program) note_use(run, step.parameter);
+  }
+  return note_result(run, block);
+}
+
+/// The same of system data: of what the program itself has set before the block.
+bool note_system_in_search(Run& run, const Block& block, bool is_rebuilt) {
+  if (!run.state.start.is_searching) return true;
+  if (is_rebuilt) return note_result(run, block);
   return run.fail(ErrorCode::ProgramStartUndefined,
-                  fmt::format("a start after the computation of Q{}", block.target));
+                  fmt::format("a start after FN 18 has read into Q{} what the program had not set",
+                              block.target));
 }
 
 /// The control keeps values as binary numbers (IEEE 754; iTNC 530, User's Manual, programming notes
@@ -182,7 +196,7 @@ void warn_of_rounding(Run& run, int function, double a, double b) {
 
 bool assign(Run& run, const Block& block) {
   double value = 0;
-  return refuse_in_search(run, block) && evaluate(run, run.parts.later.formula, value) &&
+  return note_in_search(run, block) && evaluate(run, run.parts.later.formula, value) &&
          set(run, block.target, value);
 }
 
@@ -212,7 +226,9 @@ bool read_system(Run& run, const Block& block) {
   const auto& ids = run.parts.later.ids;
   const int id = ids[0], number = ids[1], place = ids[2];
   const double unit = state.mm_per_unit();
-  if (!refuse_in_search(run, block)) return false;
+  const bool is_moved = place >= 1 && place <= 3 && state.machine.has(static_cast<Axis>(place - 1));
+  const bool is_rebuilt = id == 220 || (id == 270 ? is_moved : state.tool.is_called);
+  if (!note_system_in_search(run, block, is_rebuilt)) return false;
   if (place == 0 && (id == 20 || id == 60)) {
     if (number == 1) return set(run, block.target, state.tool.number);
     const bool is_axis = number == (id == 20 ? 3 : 2);

@@ -39,10 +39,9 @@ void ream(const Table& table) {
 
 /// Away from the wall, in the direction of Q214: 1 to 4 are the negative and positive first and
 /// second axis; see the README for the way back.
-PlaneVector disengagement(const Table& table) {
-  constexpr double kDistance = 0.2;
+PlaneVector disengagement(const Table& table, double distance) {
   const int direction = static_cast<int>(table.of(214));
-  const double by = direction == 1 || direction == 2 ? -kDistance : kDistance;
+  const double by = direction == 1 || direction == 2 ? -distance : distance;
   if (direction == 0) return {};
   return direction % 2 == 1 ? PlaneVector{by, 0} : PlaneVector{0, by};
 }
@@ -52,12 +51,38 @@ void bore(const Table& table) {
   table.cut(table.bottom(), table.feed(206));
   table.dwell(table.of(211));
   table.turn(SpindleState::Oriented);
-  const PlaneVector away = disengagement(table);
+  constexpr double kOffTheWall = 0.2;
+  const PlaneVector away = disengagement(table, kOffTheWall);
   const double retraction = table.feed(table.of(208) > 0 ? 208 : 206);
   if (table.of(214) > 0) table.shift(away, retraction);
   table.retract(table.clearance());
   table.rapid(table.last());
   if (table.of(214) > 0) table.shift({-away.first, -away.second}, 0);
+  table.turn(direction);
+}
+
+/// From below. The length of the tool is that of its underside, and the tooth is Q252 above it (TNC
+/// 426 and iTNC 530, User's Manuals: back boring, tool edge height).
+void bore_back(const Table& table) {
+  const SpindleState direction = table.run().state.spindle.state;
+  const double in_and_out = table.feed(253);
+  const double underside = table.surface() - table.mm(250) - table.mm(252);
+  const double below = underside - table.mm(200);
+  const PlaneVector aside = disengagement(table, table.mm(251));
+  const PlaneVector back{-aside.first, -aside.second};
+  table.turn(SpindleState::Oriented);
+  table.shift(aside, in_and_out);
+  table.cut(below, in_and_out);
+  table.shift(back, in_and_out);
+  table.turn(direction);
+  table.cut(underside + table.mm(249), table.feed(254));
+  table.dwell(table.of(255));
+  table.cut(below, in_and_out);
+  table.turn(SpindleState::Oriented);
+  table.shift(aside, in_and_out);
+  table.cut(table.clearance(), in_and_out);
+  table.rapid(table.last());
+  table.shift(back, 0);
   table.turn(direction);
 }
 
@@ -223,7 +248,9 @@ void mill_bore(const Table& table) {
   table.rapid(table.last());
 }
 
-void make(const Table& table, int cycle) {
+}  // namespace
+
+void make_cycle(const Table& table, int cycle) {
   table.rapid(table.clearance());
   switch (cycle) {
     case kDrill:
@@ -232,6 +259,8 @@ void make(const Table& table, int cycle) {
       return ream(table);
     case kBore:
       return bore(table);
+    case kBackBore:
+      return bore_back(table);
     case kChipTap:
       return tap_with_breaks(table);
     case kUniversal:
@@ -247,45 +276,39 @@ void make(const Table& table, int cycle) {
   }
 }
 
-bool stays_within_limits(Run& run, const Table& table, int cycle) {
-  if (!run.limits.has_any()) return true;
-  const Position machine = run.state.machine;
-  const AxisValues nominal = run.state.nominal;
-  run.is_measuring = true;
-  make(table, cycle);
-  run.is_measuring = false;
-  run.state.machine = machine;
-  run.state.nominal = nominal;
-  return !run.limits.reached();
-}
-
-}  // namespace
-
 double clearance_height(Run& run) {
   return Table(run).clearance();
 }
 
-bool run_table(Run& run) {
-  State& state = run.state;
+bool check_call(Run& run, const Table& table, bool& is_idle) {
+  const State& state = run.state;
   const int cycle = state.cycle.machining.number;
   if (!refuse_before_positioning(run, "a cycle call")) return false;
   if (state.is_compensating() || state.is_parallel || state.blend.kind != BlendKind::None) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted,
                     fmt::format("cycle {} within a contour: R0 before it", cycle));
   }
-  const Table table(run);
   if (!check_ready(run, cycle)) return false;
-  if (table.of(201) == 0) {
+  is_idle = table.depth() == 0;
+  if (is_idle) {
     run.warn("TNC-ACCEPTED", fmt::format("cycle {} has depth 0 and does nothing", cycle));
     return true;
   }
   if (!check_values(run, table, cycle)) return false;
-  if (run.blend_follows) {
-    return run.fail(ErrorCode::PlaneWronglyDefined, "RND or CHF after a cycle call");
-  }
-  if (!stays_within_limits(run, table, cycle)) return run.fail_at_limit();
+  if (!run.blend_follows) return true;
+  return run.fail(ErrorCode::PlaneWronglyDefined, "RND or CHF after a cycle call");
+}
+
+bool run_table(Run& run) {
+  State& state = run.state;
+  const int cycle = state.cycle.machining.number;
+  const Table table(run);
+  bool is_idle = false;
+  if (!check_call(run, table, is_idle)) return false;
+  if (is_idle) return true;
+  if (!stays_within_limits(run, [&] { make_cycle(table, cycle); })) return run.fail_at_limit();
   interrupt_contour(run);
-  make(table, cycle);
+  make_cycle(table, cycle);
   state.last = LastMove{};
   state.polar.is_current = false;
   return true;

@@ -170,7 +170,10 @@ bool retract(Run& run, const Block& block) {
 
 bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   const LaterWords& words = run.parts.later;
-  if (words.is_auto_feed && !use_tool_feed(run)) return false;
+  const bool moves = block.coordinate_count != 0 || block.kind == BlockKind::PolarLine ||
+                     block.kind == BlockKind::PolarArc;
+  if (moves && block.kind != BlockKind::Approach) run.state.is_rapid_next = block.is_rapid;
+  if (words.is_auto_feed && block.kind != BlockKind::Approach && !use_tool_feed(run)) return false;
   const bool is_plain =
       !run.state.cycle.is_modal_call && !run.state.takes_shorter_path && !words.retracts;
   if (words.m_count == 0 && block.m == Block::kNone && is_plain) [[likely]]
@@ -178,8 +181,6 @@ bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   Extras extras;
   if (!sort_m(run, extras)) return false;
   if (run.state.takes_shorter_path && !check_shorter_path(run, block)) return false;
-  const bool moves = block.coordinate_count != 0 || block.kind == BlockKind::PolarLine ||
-                     block.kind == BlockKind::PolarArc;
   if (!check_modal_call(run, extras, moves) || !begin_codes(run, extras)) return false;
   return (words.retracts ? retract(run, block) : move(run, block)) && finish(run, extras, moves);
 }

@@ -14,6 +14,9 @@ bool move_in_pole_plane(Run& run, const Block& block, bool (*move)(Run&, const B
 bool stop_block(Run& run, const Block& block);
 bool cycle_call(Run& run, const Block& block);
 bool cycle_call_at(Run& run, const Block& block);
+/// APPR and DEP on a straight line, tangential or normal to the contour.
+bool approach(Run& run, const Block& block);
+bool depart(Run& run, const Block& block);
 /// RND and CHF with a feed of their own.
 bool corner(Run& run, const Block& block);
 /// TOOL CALL with DL, DR and F.

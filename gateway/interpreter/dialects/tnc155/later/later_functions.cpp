@@ -34,10 +34,28 @@ bool add(Reading& in, Formula& formula, FormulaStep step) {
   return true;
 }
 
+/// Where a number or a Q parameter should be, the formula ends or has another operator.
+bool missing_operand(Reading& in) {
+  const char* end = in.cursor.at();
+  while (end != in.cursor.begin() && static_cast<unsigned char>(end[-1]) <= ' ') --end;
+  const char* begin = end;
+  while (begin != in.cursor.begin() && begin[-1] >= 'A' && begin[-1] <= 'Z') --begin;
+  if (begin == end && begin != in.cursor.begin()) --begin;
+  return in.cursor.wrong(
+      ErrorCode::BlockFormatIncorrect, end,
+      fmt::format("a number or a Q parameter is missing after {}", std::string_view(begin, end)));
+}
+
+bool is_operand_missing(TextCursor& cursor) {
+  constexpr std::string_view kAfterOperand = "+-*/%^)=";
+  return cursor.is_at_end() || kAfterOperand.find(cursor.peek()) != std::string_view::npos;
+}
+
 /// A number of any size, or a Q parameter; without sign.
 bool read_operand(Reading& in, Formula& formula) {
   TextCursor& cursor = in.cursor;
   const char* start = (cursor.peek(), cursor.at());
+  if (is_operand_missing(cursor)) return missing_operand(in);
   FormulaStep step;
   if (cursor.take('Q')) {
     if (!TextCursor::is_digit(*cursor.at())) return refuse(in, start);  // QL, QR, QS
@@ -71,7 +89,7 @@ bool read_term(Reading& in, Formula& formula, int depth, bool& is_plain) {
   is_plain = true;
   if (cursor.take('(')) {
     if (!read_sum(in, formula, depth + 1)) return false;
-    return cursor.take(')') || cursor.missing(")");
+    return cursor.take(')') || cursor.wrong(") is missing");
   }
   if (cursor.take("PI")) return add(in, formula, {.number = Angle::kPi});
   if (cursor.peek() == '+' || cursor.peek() == '-') {

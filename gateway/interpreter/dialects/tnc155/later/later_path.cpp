@@ -180,6 +180,23 @@ bool read_path(Reading& in, BlockKind kind) {
   return is_complete(in);
 }
 
+bool read_contour_end(Reading& in, BlockKind kind, bool is_normal) {
+  Block& block = in.block;
+  block.kind = kind;
+  block.part = is_normal ? 1 : 0;
+  while (!in.cursor.is_at_end()) {
+    const bool is_length = in.cursor.take("LEN");
+    if (is_length && in.words.length.is_programmed()) return in.cursor.wrong("LEN twice");
+    if (is_length ? !read_value(in, in.words.length, "LEN") : !read_path_word(in)) return false;
+  }
+  const bool has_side =
+      block.compensation == Compensation::Left || block.compensation == Compensation::Right;
+  if (!in.words.length.is_programmed()) return in.cursor.missing("LEN");
+  if (block.turn) return in.cursor.wrong("DR is for circles");
+  if (kind == BlockKind::Approach) return has_side || in.cursor.wrong("APPR needs RL or RR");
+  return block.compensation <= Compensation::Off || in.cursor.wrong("DEP ends RL and RR");
+}
+
 bool read_corner(Reading& in, BlockKind kind) {
   in.block.kind = kind;
   in.cursor.take('R');

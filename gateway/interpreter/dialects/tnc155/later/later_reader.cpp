@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <tuple>
 
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
@@ -148,7 +149,12 @@ bool read_label(Reading& in, BlockKind kind, std::int32_t least) {
 
 bool read_label_call(Reading& in) {
   if (!read_label(in, BlockKind::LabelCall, 1)) return false;
-  if (in.cursor.take("REP") && in.cursor.is_digit_next()) {
+  if (in.cursor.take("REP")) {
+    // A TNC 155 lists its call of a subprogram so; what a later control does is not known.
+    if (!in.cursor.is_digit_next()) {
+      return in.cursor.wrong(
+          "REP without a number: CALL LBL alone calls a subprogram, REP 2 repeats");
+    }
     if (!in.cursor.read_integer(in.block.repeats, 0, kLastLaterLabel, "REP")) return false;
     std::int32_t left = 0;  // as a listing shows it; a run begins with all
     if (in.cursor.take('/') && !in.cursor.read_integer(left, 0, in.block.repeats, "REP")) {
@@ -200,8 +206,28 @@ bool read_flat_plane(Reading& in, const char* start) {
   return true;
 }
 
+/// Those by circles are refused: whether R is the radius of the contour or of the tool's center is
+/// not stated.
+bool is_contour_end(Reading& in, BlockKind& kind, bool& is_normal) {
+  for (const auto& [word, its_kind, is_its_normal] :
+       {std::tuple("APPR LT", BlockKind::Approach, false),
+        std::tuple("APPR LN", BlockKind::Approach, true),
+        std::tuple("DEP LT", BlockKind::Departure, false),
+        std::tuple("DEP LN", BlockKind::Departure, true)}) {
+    kind = its_kind;
+    is_normal = is_its_normal;
+    if (in.cursor.take(word)) return true;
+  }
+  return false;
+}
+
 bool read_keyword(Reading& in, const char* start) {
   TextCursor& cursor = in.cursor;
+  BlockKind contour_end{};
+  bool is_normal = false;
+  if (is_contour_end(in, contour_end, is_normal)) {
+    return read_contour_end(in, contour_end, is_normal);
+  }
   if (cursor.take("TOOL CALL")) return read_tool_call(in);
   if (cursor.take("TOOL DEF")) return read_tool_definition(in);
   if (cursor.take("BEGIN PGM")) return read_frame(in, BlockKind::Begin);

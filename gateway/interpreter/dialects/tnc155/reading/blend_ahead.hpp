@@ -22,6 +22,8 @@ inline bool is_positioning(const Block& block) {
     case BlockKind::PolarArc:
     case BlockKind::TangentArc:
     case BlockKind::RadiusArc:
+    case BlockKind::Approach:
+    case BlockKind::Departure:
       return true;
     default:
       return false;

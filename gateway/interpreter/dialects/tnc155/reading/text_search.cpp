@@ -1,6 +1,7 @@
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -96,6 +97,17 @@ BlockHead read_head(std::string_view block, Form form) {
   return head;
 }
 
+/// A line of the block after its first one that sets a label: 0, or its place in `block`. With `~`
+/// at its end a line goes on in the next one.
+std::size_t continued_label(std::string_view block) {
+  for (std::size_t end = block.find('\n'); end != std::string_view::npos;
+       end = block.find('\n', end + 1)) {
+    const BlockHead head = read_head(block.substr(end + 1), Form::Plain);
+    if (head.label >= 0 || !head.name.empty()) return end + 1;
+  }
+  return 0;
+}
+
 std::string LabelSet::text() const {
   return block < 0 ? fmt::format("line {}", at.line)
                    : fmt::format("block {} (line {})", block, at.line);
@@ -174,6 +186,15 @@ void TextSearch::note(Index& index, std::string_view text) {
   ++index.blocks;
   const BlockHead head = read_head(text, index.progress.state.program.form);
   index.is_complete = head.is_end;
+  if (const std::size_t at = is_later_ ? continued_label(text) : 0; at != 0) [[unlikely]] {
+    const std::string_view rest = text.substr(at);
+    index.second = {reader_.block_place(), head.number};
+    index.doubled = fmt::format("a label behind ~, in the continuation of {}: {}",
+                                index.second.text(), rest.substr(0, rest.find_first_of("\r\n")));
+    index.second.at.line +=
+        static_cast<std::uint64_t>(std::ranges::count(text.substr(0, at), '\n'));
+    return;
+  }
   if (head.is_skipped) {
     if (!is_later_ || (head.label < 0 && head.name.empty())) return;
     index.doubled = fmt::format("a label behind a slash: {}", text);
