@@ -25,7 +25,7 @@ void LineGateway::start() {
                                    "--machine",
                                    "lathe-1",
                                    "--control",
-                                   "centurion",
+                                   options_.control,
                                    "--state",
                                    folder_.path() / "gw",
                                    "--server",

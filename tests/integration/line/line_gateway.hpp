@@ -11,8 +11,8 @@
 
 namespace dripline::integration {
 
-/// A real gateway that plays a Centurion lathe at the end of a line, without a server. Failures are
-/// reported through gtest assertions.
+/// A real gateway that plays a control (a Centurion lathe) at the end of a line, without a server.
+/// Failures are reported through gtest assertions.
 class LineGateway {
  public:
   struct Options {
@@ -21,6 +21,7 @@ class LineGateway {
     std::string speed = "max";
     std::vector<std::string> arguments = {};
     bool is_unattended = true;  ///< else as a gateway with a line is by itself
+    std::string control = "centurion";
   };
   explicit LineGateway(Options options);
   ~LineGateway();
