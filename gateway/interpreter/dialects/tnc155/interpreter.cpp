@@ -168,16 +168,11 @@ BlockOutcome TncInterpreter::look_ahead() {
   const ReadState state = run_.reader.peek(run_.state.reading, next);
   if (state == ReadState::NotYet) return BlockOutcome::NeedsText;
   peeked_blend_ = state == ReadState::Ready && is_blend_next(next);
-  if (parts.blocks[parts.count - 1].kind == BlockKind::Approach) [[unlikely]]
-    note_contour_begin(state == ReadState::Ready);
-  return BlockOutcome::Finished;
-}
-
-/// The direction of an approach is that of the contour after it.
-void TncInterpreter::note_contour_begin(bool is_there) {
-  run_.contour_begin.reset();
-  if (is_there && run_.reader.read_peeked(run_.state.reading, parts_ahead_))
+  run_.contour_begin.reset();  // the direction of an approach is that of the contour after it
+  if (parts.blocks[parts.count - 1].kind == BlockKind::Approach && state == ReadState::Ready &&
+      run_.reader.read_peeked(run_.state.reading, parts_ahead_))
     run_.contour_begin = parts_ahead_.blocks[0];
+  return BlockOutcome::Finished;
 }
 
 /// In ISO a corner may come after other words, whose own blocks of plain language come first.

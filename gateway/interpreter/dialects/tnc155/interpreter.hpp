@@ -49,7 +49,6 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>,
   bool check_number();
   BlockOutcome look_ahead();
   bool is_blend_next(std::string_view text);
-  void note_contour_begin(bool is_there);
   BlockOutcome find_definition();
   BlockOutcome meet_end();
   bool is_start() const;
