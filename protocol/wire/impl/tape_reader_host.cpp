@@ -219,6 +219,9 @@ class TapeReaderHost final : public DisciplineBase {
     // Rows keep their rate although the caller is a little late each time.
     next_row_ = std::max(next_row_ + row_time_, now - 2 * row_time_);
     const auto kind = decode_row(settings_.code, static_cast<std::uint8_t>(row)).kind;
+    if (kind == RowKind::Text || kind == RowKind::WrongParity) is_in_block_ = true;
+    if (kind == RowKind::BlockEnd || kind == RowKind::CarriageReturn || kind == RowKind::RewindStop)
+      is_in_block_ = false;
     const bool is_last_row = row_at_ == rows_.size();
     if (is_last_row) end_tape(now);
     if (!is_sending()) return;
@@ -231,9 +234,10 @@ class TapeReaderHost final : public DisciplineBase {
     end_transfer(now);
     is_over_ = true;
   }
-  /// What is left holds no block: the rest of an end of block, and perhaps a rewind stop behind the
-  /// last program.
+  /// What is left holds no block and ends none: the rest of an end of block, and perhaps a rewind
+  /// stop after the last program.
   bool has_no_block_left() const {
+    if (is_in_block_) return false;
     constexpr std::string_view kNoBlock = "%\r\n \t";
     const bool are_rows_blank = std::ranges::all_of(
         rows_.begin() + static_cast<std::ptrdiff_t>(row_at_), rows_.end(), [&](std::byte row) {
@@ -314,6 +318,7 @@ class TapeReaderHost final : public DisciplineBase {
   bool is_running_ = false, is_stopped_ = false, was_held_ = false;
   bool is_asked_ = false, is_wound_back_ = false, is_head_ = false;
   bool has_begun_ = false;             ///< a character of the text was read
+  bool is_in_block_ = false;           ///< its end was not read yet
   bool is_over_ = false;               ///< the tape was read to its end, and not wound back
   bool runs_next_ = false;             ///< the control has run the reader since
   std::optional<LineTime> closes_at_;  ///< stopped after the last character: then it is over
