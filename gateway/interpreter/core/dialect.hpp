@@ -132,6 +132,9 @@ struct Dialect {
   std::span<const std::string_view> status_fields = {};
   /// Settings of a setup that are not valid are those of a new control. nullptr: there are none.
   ScreenSettings (*screen)(const Setup& setup) = nullptr;
+  /// A tool's length that comes into force shifts the position at once, while the axes stay; else
+  /// the position stays, and the axes follow.
+  bool length_shifts_position = false;
 };
 
 }  // namespace dripline::interpreter

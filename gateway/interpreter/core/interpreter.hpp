@@ -71,7 +71,10 @@ struct ActiveModes {
   std::uint16_t work_system = 0;  ///< its code in tenths: 540 is G54; 0: the control has none
   std::uint16_t work_page = 0;    ///< the P of G54.1; 0: none
   Length tool_length_x;           ///< wear included, a radius
-  Length tool_length_z;           ///< wear included
+  Length tool_length_y;           ///< wear included
+  Length tool_length_z;           ///< wear included; along `length_axis`
+  Axis length_axis = Axis::Z;     ///< of a mill that takes its length along another axis too
+  bool is_length_plain = true;    ///< an axis is at position + length; false: not so simple
   Length tool_radius;
   Feed feed;                        ///< as programmed
   std::string_view cycle;           ///< static storage; empty: no cycle

@@ -206,7 +206,16 @@ ActiveModes FanucInterpreter::modes() const {
   const bool is_paged = system == kMoreWorkSystems;
   modes.work_system = static_cast<std::uint16_t>(is_paged ? 541 : 10 * system);
   if (is_paged) modes.work_page = static_cast<std::uint16_t>(run_.memory.coordinates.more_work);
-  modes.tool_length_z = Length::mm(state.length_offset);
+  if (run_.options.is_lathe) {  // the number after T, until the next one
+    const auto offset = static_cast<std::size_t>(state.h_number);
+    const ToolOffsets& tools = run_.memory.tools;
+    modes.tool_length_x = Length::mm(tools.x_geometry[offset] + tools.x_wear[offset]);
+    modes.tool_length_z = Length::mm(length_of_offset(run_, state.h_number));
+  } else {
+    modes.tool_length_z = Length::mm(state.length_offset);
+    modes.length_axis = state.length_axis;
+  }
+  modes.is_length_plain = !run_.tilted.is_on();
   modes.tool_radius = Length::mm(radius_of_offset(run_, state.d_number));
   const Length feed = Length::mm(state.feed[state.is_per_revolution()]);
   modes.feed = state.is_per_revolution() ? Feed::per_revolution(feed) : Feed::per_minute(feed);

@@ -107,6 +107,7 @@ const Dialect kRs274NgcDialect{.name = "rs274ngc",
                                .waits_at_tool_change = true,
                                .options = &list_options,
                                .text = {.has_diameter_codes = true},
-                               .status_fields = kStatusFields};
+                               .status_fields = kStatusFields,
+                               .length_shifts_position = true};
 
 }  // namespace dripline::interpreter

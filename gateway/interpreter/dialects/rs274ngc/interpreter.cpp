@@ -1,6 +1,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/interpreter.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
@@ -236,7 +237,10 @@ ActiveModes Rs274NgcInterpreter::modes() const {
   const int system = state.system;  // 7 to 9 are G59.1 to G59.3
   modes.work_system = static_cast<std::uint16_t>(system <= 6 ? 530 + 10 * system : 584 + system);
   modes.tool_length_x = Length::mm(state.tool_length[index_of(Axis::X)]);
+  modes.tool_length_y = Length::mm(state.tool_length[index_of(Axis::Y)]);
   modes.tool_length_z = Length::mm(state.tool_length[index_of(Axis::Z)]);
+  const auto others = std::span(state.tool_length).subspan(index_of(Axis::Z) + 1);
+  modes.is_length_plain = std::ranges::all_of(others, [](double length) { return length == 0; });
   modes.tool_radius = Length::mm(state.compensation.radius);
   const bool is_inverse = state.modes.feed == FeedMode::InverseTime;
   modes.feed = is_inverse ? Feed::inverse_time(state.feed) : run_.modal_feed();
