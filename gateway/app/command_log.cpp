@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 256;
 
+/// In what is kept, between the text of an answer and its values: no text has it.
+constexpr char kValues = '\x1f';
+
 std::string start_key(const std::string& run) {
   return "run " + run;
 }
@@ -20,7 +23,10 @@ Result<std::optional<Reply>> CommandLog::find(const std::string& command) const 
   auto known = outbox_.command_result(command);
   if (!known) return fail(known.error());
   if (!*known) return std::optional<Reply>();
-  return std::optional(Reply{(*known)->is_accepted, (*known)->reason});
+  const std::string& kept = (*known)->reason;
+  const std::size_t end = std::min(kept.find(kValues), kept.size());
+  return std::optional(Reply{(*known)->is_accepted, kept.substr(0, end),
+                             end < kept.size() ? kept.substr(end + 1) : std::string()});
 }
 
 std::optional<Reply> CommandLog::find_start(const std::string& run) const {
@@ -29,17 +35,21 @@ std::optional<Reply> CommandLog::find_start(const std::string& run) const {
 }
 
 void CommandLog::stage(const std::string& command, const Reply& reply) {
-  outbox_.add_command_result(command, reply.is_accepted, reply.reason);
+  const std::string values = reply.values.empty() ? "" : kValues + reply.values;
+  outbox_.add_command_result(command, reply.is_accepted, reply.reason + values);
 }
 
-void CommandLog::stage_start(const std::string& run, const std::string& command) {
-  stage(start_key(run), {});
-  if (!command.empty()) stage(command, {});
+void CommandLog::stage_start(const std::string& run, const std::string& command,
+                             const std::string& notice) {
+  const Reply accepted{true, valid_text(notice, kMaxReason)};
+  stage(start_key(run), accepted);
+  if (!command.empty()) stage(command, accepted);
 }
 
 void CommandLog::answer(const std::string& command, const Reply& reply) {
   if (waiting_.size() >= kMaxWaiting) waiting_.pop_front();
-  waiting_.push_back({machine_, command, reply.is_accepted, valid_text(reply.reason, kMaxReason)});
+  waiting_.push_back(
+      {machine_, command, reply.is_accepted, valid_text(reply.reason, kMaxReason), reply.values});
 }
 
 void CommandLog::send() {

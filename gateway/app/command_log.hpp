@@ -16,6 +16,7 @@ namespace dripline::gateway {
 struct Reply {
   bool is_accepted = true;
   std::string reason;
+  std::string values = {};  ///< the same as JSON, where it has more than a text
 };
 inline Reply refuse(std::string reason) {
   return {false, std::move(reason)};
@@ -36,8 +37,10 @@ class CommandLog {
 
   /// Stages an answer, for the next commit of the outbox.
   void stage(const std::string& command, const Reply& reply);
-  /// Stages the acceptance of a start, under its run and, unless empty, its command.
-  void stage_start(const std::string& run, const std::string& command);
+  /// Stages the acceptance of a start, under its run and, unless empty, its command. `notice`: what
+  /// its operator has to know.
+  void stage_start(const std::string& run, const std::string& command,
+                   const std::string& notice = {});
 
   /// Queues an answer to be sent. A full queue drops the oldest: its sender asks again.
   void answer(const std::string& command, const Reply& reply);

@@ -58,6 +58,7 @@ Gateway::Gateway(Parts parts)
              .on_over =
                  [this] {
                    if (line_) line_->on_run_over();
+                   server_.want_status();
                  }}),
       positions_({.dialect = parts_.dialect,
                   .setup = parts_.setup,
@@ -125,11 +126,12 @@ SteadyTime Gateway::turn(SteadyTime now) {
   if (line_) line_->poll(now);
   loop_.step(now);
   commands_.send();
-  server_.send_records(now);
+  // First: a client that learns of a run's end finds the position where the run has left it.
   server_.send_status(now, [this] {
     if (run_.session) run_.session->size_feed(parts_.options.speed.factor);
     return status();
   });
+  server_.send_records(now);
   return next_turn(now);
 }
 

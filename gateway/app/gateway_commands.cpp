@@ -71,9 +71,13 @@ void Gateway::answer_query(const dds::Command& command) {
   const double first = std::clamp(command.value, 0.0, 1e9);
   dds::CommandResult result{
       .machine = parts_.options.machine, .id = command.id, .accepted = true, .reason = {}};
+  // Before the first run what its start would find.
+  const Result<ControlMemory> at_start = memory_.has_begun()
+                                             ? Result<ControlMemory>(fail(Errc::Busy, "begun"))
+                                             : positions_.memory_at_start(command.setup);
   result.values = control_values(
-      {.beginning = command.argument, .passed_over = static_cast<std::size_t>(first)}, memory_,
-      recorder_, *machine_);
+      {.beginning = command.argument, .passed_over = static_cast<std::size_t>(first)},
+      at_start ? *at_start : memory_, recorder_, *machine_);
   [[maybe_unused]] const auto written = parts_.endpoint.write(result);
 }
 
@@ -142,7 +146,7 @@ Reply Gateway::start(const dds::Command& command) {
   const auto done =
       loop_.begin({command.run, command.program, command.revision, command.control, command.size},
                   std::move(feed), {command.id, command.setup, *std::move(from), command.argument});
-  return done ? Reply{} : refuse(done.error().what);
+  return done ? Reply{true, valid_text(loop_.notice(), kMaxReason)} : refuse(done.error().what);
 }
 
 Reply Gateway::operate(const dds::Command& command) {
@@ -189,7 +193,7 @@ Reply Gateway::set_position(const dds::Command& command) {
     memory_.restore(*before);
     return refuse(change.error().what);
   }
-  Reply reply{true, valid_text(change->text, kMaxReason)};
+  Reply reply{true, valid_text(change->text, kMaxReason), change->details};
   outbox_.discard();
   memory_.stage();
   recorder_.note_memory_change(std::string(dds::kChangePrefix) + command.id,
@@ -201,7 +205,6 @@ Reply Gateway::set_position(const dds::Command& command) {
     return refuse(fmt::format("what was set cannot be kept: {}", done.error().what));
   }
   (void)memory_.take_change();  // it is reported
-  run_.was_set = true;
   server_.want_status();
   return reply;
 }

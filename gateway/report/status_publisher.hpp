@@ -18,10 +18,10 @@ class StatusPublisher {
   explicit StatusPublisher(Send send) : send_(std::move(send)) {}
 
   /// Whether a status offered now could go out: saves making one.
-  bool is_due(SteadyTime now) const { return now >= next_; }
+  bool is_due(SteadyTime now) const { return !last_ || now >= next_; }
   /// Sends `status` (all but its time is compared) when it is due.
   void offer(const dds::Status& status, SteadyTime now);
-  /// A server has appeared: the next offer goes out.
+  /// A server has appeared, or is to know at once: the next offer goes out.
   void reset() { last_.reset(); }
 
   static constexpr std::chrono::milliseconds kMinInterval{100}, kMaxInterval{1000};

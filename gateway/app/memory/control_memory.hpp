@@ -27,6 +27,8 @@ class ControlMemory {
   Result<std::vector<interpreter::VariableRecord>> begin(std::vector<interpreter::MemoryCell> cells,
                                                          std::vector<double> base,
                                                          const interpreter::Setup& setup);
+  /// Whether `begin` was called: which cells there are is known.
+  bool has_begun() const { return !known_.empty(); }
   /// After `begin`: the same, as it was when the last run began at its first block. Errors:
   /// NotFound (that was no run of `revision`).
   Result<std::vector<interpreter::VariableRecord>> at_beginning(const std::string& revision) const;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "gateway/app/memory/position_change.hpp"
 #include "gateway/app/run/run_texts.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
 
@@ -51,10 +51,6 @@ bool is_equal(double a, double b) {
   return std::fabs(a - b) <= 1e-9 * std::max({1.0, std::fabs(a), std::fabs(b)});
 }
 
-std::string shown_number(const std::optional<double>& number) {
-  return number && std::isfinite(*number) ? fmt::format("{:.10g}", *number) : "vacant";
-}
-
 }  // namespace
 
 /// A control with this setup, before its first block.
@@ -100,8 +96,13 @@ Result<void> PositionSetter::check_rest() const {
   return {};
 }
 
-Result<void> PositionSetter::check_axis(Axis axis) const {
-  if (parts_.machine.capabilities().axes[static_cast<std::size_t>(axis)]) return {};
+/// The machine may have axes that its control has not.
+Result<void> PositionSetter::check_axis(Axis axis, const interpreter::Setup& setup) const {
+  auto axes = parts_.machine.capabilities().axes;
+  const auto of_control =
+      parts_.dialect.screen ? parts_.dialect.screen(setup).axes : std::optional(axes);
+  if (of_control) axes &= *of_control;
+  if (axes[static_cast<std::size_t>(axis)]) return {};
   return fail(Errc::Unsupported, "this machine has no axis {}", interpreter::letter(axis));
 }
 
@@ -111,8 +112,7 @@ Result<void> PositionSetter::check_frames(const Control& control,
   if (what.empty()) what = obstacle(setup);
   if (!what.empty())
     return fail(Errc::Conflict, "{} is in force at power on: take it out of the setup first", what);
-  if (!parts_.run.left) return {};
-  what = obstacle(parts_.run.left->frame);
+  what = obstacle(parts_.run.frame_left);
   if (!what.empty()) {
     return fail(Errc::Conflict,
                 "{} is in force since the last program: cancel it first (by MDI, or by a program)",
@@ -121,20 +121,20 @@ Result<void> PositionSetter::check_frames(const Control& control,
   return {};
 }
 
-/// MDI that cannot go on from the modes of the program before begins without a tool, while the axes
-/// are where that one left them, its length included; and a lathe's T offsets are in no modes.
-Result<void> PositionSetter::check_length_known() const {
-  if (!parts_.run.is_length_known) {
-    return fail(Errc::Conflict,
-                "something has run after a datum or a tool was set, or MDI has begun without the "
-                "tool in force: which length is in the position is not certain. Set tools before, "
-                "or start the gateway anew and touch off without a tool in force");
-  }
-  if (parts_.dialect.name == "fanuc-t" && parts_.run.left) {
+/// A device that is moved by a program's coordinates does not move by lengths: a control that has
+/// them in its memory would be right, and the machine's next motion would not.
+Result<void> PositionSetter::check_tool(Axis axis, Sets what) const {
+  const bool is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe;
+  if (!parts_.machine.capabilities().places_axes) {
+    if (what == Sets::Datum) return {};
     return fail(Errc::Unsupported,
-                "something has run since power on: which T offset is in the position is not known "
-                "at this control. Enter the length by MDI (G10)");
+                "this machine moves by coordinates in which no tool has a length: one that is set "
+                "would not be in its motion. Set the datum with each tool instead");
   }
+  const ToolInPosition& tool = parts_.run.tool;
+  const std::string why =
+      what == Sets::Length ? tool.length_fault(axis) : tool.datum_fault(axis, is_lathe);
+  if (!why.empty()) return fail(Errc::Conflict, "{}", why);
   return {};
 }
 
@@ -143,10 +143,8 @@ interpreter::RestingPlace PositionSetter::place(const interpreter::Setup& setup)
   const interpreter::Position at = parts_.machine.status().position;
   for (const Axis axis : interpreter::kAllAxes)
     place.at[static_cast<std::size_t>(axis)] = at.raw(axis);
-  if (const auto& left = parts_.run.left) {
-    place.length_x = left->tool_length_x.mm();
-    place.length_z = left->tool_length_z.mm();
-  }
+  place.has_lengths = parts_.machine.capabilities().places_axes;
+  if (place.has_lengths) place.length = parts_.run.tool.left_out;
   place.memory = setup.units.value_or(parts_.dialect.units);
   return place;
 }
@@ -176,18 +174,17 @@ Result<void> check_function(const PositionRules& rules, const PositionSetting& s
 
 }  // namespace
 
-Result<PositionSetter::Change> PositionSetter::set(const std::string& argument,
-                                                   const std::string& who,
-                                                   const std::string& server_setup) {
+Result<PositionChange> PositionSetter::set(const std::string& argument, const std::string& who,
+                                           const std::string& server_setup) {
   const auto setting = interpreter::parse_position_setting(argument);
   if (!setting) return fail(setting.error());
   const PositionRules& rules = interpreter::position_rules(parts_.dialect.name);
   if (auto has = check_function(rules, *setting, parts_.dialect.name); !has)
     return fail(has.error());
-  if (auto has = check_axis(setting->axis); !has) return fail(has.error());
-  if (auto rests = check_rest(); !rests) return fail(rests.error());
   auto setup = setup_of(server_setup);
   if (!setup) return fail(setup.error());
+  if (auto has = check_axis(setting->axis, *setup); !has) return fail(has.error());
+  if (auto rests = check_rest(); !rests) return fail(rests.error());
   const bool is_diameter =
       setting->axis == Axis::X && parts_.dialect.machine == interpreter::MachineKind::Lathe;
   // The value is a diameter to all who ask; a control where it is not would take half of it.
@@ -195,16 +192,9 @@ Result<PositionSetter::Change> PositionSetter::set(const std::string& argument,
     return fail(Errc::Unsupported,
                 "X of this control is a radius ([control] x_is_diameter): set it by MDI (G10)");
   }
-  if (setting->tool > 0) {
-    if (auto known = check_length_known(); !known) return fail(known.error());
-  }
+  const Sets what = setting->tool > 0 ? Sets::Length : Sets::Datum;
+  if (auto known = check_tool(setting->axis, what); !known) return fail(known.error());
   const interpreter::RestingPlace place = this->place(*setup);
-  const bool has_length = !is_off(place.length_x) || !is_off(place.length_z);
-  if (setting->tool > 0 && has_length && !parts_.machine.capabilities().places_axes) {
-    return fail(Errc::Conflict,
-                "a tool offset is in force since the last program: cancel it by MDI first (G49, "
-                "T00)");
-  }
 
   // As at the start of a program: what is kept wins, except over what was changed in the setup.
   auto alone = control_with(*setup);
@@ -227,18 +217,11 @@ Result<PositionSetter::Change> PositionSetter::set(const std::string& argument,
   for (const auto& change : *changes) setup->variables.push_back({change.name, change.value});
   const auto then = control_with(*setup);
   if (!then) return fail(then.error());
-  nlohmann::json numbers = nlohmann::json::object();
-  std::string text;
   for (const auto& change : *changes) {
     const auto at = parts_.memory.place_of(change.name);
     if (!at || !is_equal(then->numbers.at(*at), change.value))
       return fail(Errc::Unsupported, "the control does not take {} for {}", change.value,
                   change.name);
-    const auto before = read(change.name);
-    numbers[change.name] = {before && std::isfinite(*before) ? nlohmann::json(*before) : nullptr,
-                            change.value};
-    text += fmt::format("{}{} is {}, it was {}", text.empty() ? "" : "; ", change.name,
-                        shown_number(change.value), shown_number(before));
   }
   const std::size_t axis = static_cast<std::size_t>(setting->axis);
   const auto frame = then->interpreter->frame();
@@ -254,11 +237,23 @@ Result<PositionSetter::Change> PositionSetter::set(const std::string& argument,
   }
   for (const auto& change : *changes)
     parts_.memory.note(*parts_.memory.place_of(change.name), change.value);
-  nlohmann::json record{{"what", interpreter::to_text(*setting)},
-                        {"by", who},
-                        {"at", place.at[axis] * (is_diameter ? 2 : 1)},
-                        {"cells", std::move(numbers)}};
-  return Change{std::move(text), record.dump()};
+  return shown_change({.setting = *setting,
+                       .place = place,
+                       .changes = *changes,
+                       .before = read,
+                       .is_diameter = is_diameter,
+                       .who = who});
+}
+
+Result<ControlMemory> PositionSetter::memory_at_start(const std::string& server_setup) const {
+  const auto setup = setup_of(server_setup);
+  if (!setup) return fail(setup.error());
+  auto control = control_with(*setup);
+  if (!control) return fail(control.error());
+  ControlMemory memory = parts_.memory;
+  const auto kept = memory.begin(control->memory->memory_cells(), control->numbers, *setup);
+  if (!kept) return fail(kept.error());
+  return memory;
 }
 
 Result<std::string> PositionSetter::playback(const std::string& axes,
@@ -268,18 +263,19 @@ Result<std::string> PositionSetter::playback(const std::string& axes,
     return fail(Errc::Unsupported, "control {} takes no position into a program",
                 parts_.dialect.name);
   }
+  auto setup = setup_of(server_setup);
+  if (!setup) return fail(setup.error());
   std::vector<Axis> wanted;
   for (const char letter : axes) {
     const auto axis = interpreter::axis_of(letter);
     if (!axis || std::ranges::find(wanted, *axis) != wanted.end())
       return fail(Errc::Syntax, "'{}': expected letters of axes, each once", axes);
-    if (auto has = check_axis(*axis); !has) return fail(has.error());
+    if (auto has = check_axis(*axis, *setup); !has) return fail(has.error());
+    if (auto known = check_tool(*axis, Sets::Datum); !known) return fail(known.error());
     wanted.push_back(*axis);
   }
   if (wanted.empty()) return fail(Errc::Syntax, "expected letters of axes");
   if (auto rests = check_rest(); !rests) return fail(rests.error());
-  auto setup = setup_of(server_setup);
-  if (!setup) return fail(setup.error());
   const auto alone = control_with(*setup);
   if (!alone) return fail(alone.error());
   ControlMemory memory = parts_.memory;  // which a question does not change

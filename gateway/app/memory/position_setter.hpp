@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gateway/app/memory/control_memory.hpp"
+#include "gateway/app/memory/position_change.hpp"
 #include "gateway/app/run/run_session.hpp"
 #include "gateway/interpreter/position_rules.hpp"
 #include "gateway/machine/motion_backend.hpp"
@@ -25,25 +26,25 @@ class PositionSetter {
   /// All references must outlive it.
   explicit PositionSetter(Parts parts) : parts_(parts) {}
 
-  struct Change {
-    std::string text;    ///< for people: "G54.X is 87.5, it was 100"
-    std::string record;  ///< JSON, for the memory's report
-  };
   /// Changes the memory; its owner stages it. `argument`: interpreter::PositionSetting; `who`: the
   /// operator; `setup`: the server's, as with a start, TOML. Errors: Unsupported, NotFound,
   /// LimitExceeded, Busy, Conflict, Syntax; the memory has to be restored then.
-  Result<Change> set(const std::string& argument, const std::string& who, const std::string& setup);
+  Result<PositionChange> set(const std::string& argument, const std::string& who,
+                             const std::string& setup);
   /// The words of a block with the position of these axes ("XY") in program coordinates. Errors:
   /// likewise; the memory is as it was.
   Result<std::string> playback(const std::string& axes, const std::string& setup) const;
+  /// A copy, as the start of a program would find it. Errors: those of the setup and of the memory.
+  Result<ControlMemory> memory_at_start(const std::string& setup) const;
 
  private:
   struct Control;
   Result<interpreter::Setup> setup_of(const std::string& setup) const;
   Result<Control> control_with(const interpreter::Setup& setup) const;
   Result<void> check_rest() const;
-  Result<void> check_length_known() const;
-  Result<void> check_axis(interpreter::Axis axis) const;
+  enum class Sets { Length, Datum };
+  Result<void> check_tool(interpreter::Axis axis, Sets what) const;
+  Result<void> check_axis(interpreter::Axis axis, const interpreter::Setup& setup) const;
   Result<void> check_frames(const Control& control, const interpreter::Setup& setup) const;
   interpreter::RestingPlace place(const interpreter::Setup& setup) const;
 

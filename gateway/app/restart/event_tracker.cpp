@@ -76,6 +76,8 @@ void EventTracker::move_to(const Position& to) {
       state_.highest.set_raw(axis, value);
     state_.position.set_raw(axis, value);
   }
+  for (std::size_t i = 0; i < counts_.moves.size(); ++i)
+    counts_.moves[i] += to.has(static_cast<Axis>(i)) ? 1U : 0U;
 }
 
 void EventTracker::measure_move(const interpreter::Origin& origin, const Position& to,
@@ -162,6 +164,7 @@ void EventTracker::on_tool(const interpreter::ToolChange& event) {
   if (event.is_preselection) {
     state_.next_tool = event.number;
   } else {
+    ++counts_.tools;
     state_.tool = event.number;
     state_.next_tool.reset();
     state_.tool_shape = event.shape;

@@ -33,6 +33,14 @@ class EventTracker final : public interpreter::EventGate {
     return one.block == block ? std::optional(one.length) : std::nullopt;
   }
 
+  /// How many moves of X, Y and Z and tool changes the interpreter has given, those of skipped
+  /// blocks included.
+  struct Counts {
+    std::array<std::uint64_t, 3> moves{};
+    std::uint64_t tools = 0;
+  };
+  const Counts& counts() const { return counts_; }
+
   /// From `state` on, nothing passes until the block `last` has ended; then `on_open` is called,
   /// with the sink that follows. Without `on_open` nothing passes at all.
   using OnOpen = std::function<void(interpreter::EventSink& out)>;
@@ -107,6 +115,7 @@ class EventTracker final : public interpreter::EventGate {
   DeliveredState state_;
   std::unique_ptr<Paths> paths_;
   double length_ = 0;
+  Counts counts_;
   bool is_closed_ = false;
   std::uint64_t last_ = 0;
   OnOpen on_open_;

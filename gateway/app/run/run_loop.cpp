@@ -229,7 +229,10 @@ void RunLoop::try_to_finish(SteadyTime now) {
   recorder.finish();
   note_left();
   take_modes();
-  if (locked_at_) parts_.machine.begin(*std::exchange(locked_at_, std::nullopt));
+  if (locked_at_) {
+    parts_.machine.begin(locked_at_->at);
+    parts_.run.tool = std::exchange(locked_at_, std::nullopt)->tool;
+  }
   parts_.run.is_ending = false;
   parts_.run.session.reset();
   parts_.on_over();

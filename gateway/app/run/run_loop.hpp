@@ -70,6 +70,8 @@ class RunLoop {
   bool is_looking_through() const;
   /// A hold is the operator's from here on: records on disk again do not end it.
   void keep_hold() { is_held_by_fault_ = false; }
+  /// What the operator has to know of how the run has begun; empty: nothing.
+  const std::string& notice() const { return notice_; }
   /// Ends the run, if any, as interrupted. Errors: those of the outbox; then the next start does
   /// it.
   Result<void> interrupt(const std::string& reason);
@@ -95,6 +97,7 @@ class RunLoop {
   void take_modes();
   void note_left();
   void note_beginning(const StartOrigin& origin, bool has_modes);
+  std::string notice_of_mdi() const;
   Result<std::optional<RestartPlan>> plan_of(const report::ActiveRun& run,
                                              const StartOrigin& origin) const;
   Result<void> stage_start(const report::ActiveRun& run, const StartOrigin& origin,
@@ -130,8 +133,13 @@ class RunLoop {
   };
   std::optional<Modes> modes_;
   std::string why_no_modes_ = "nothing has run since the gateway was started";
-  std::string setup_given_;                         ///< digest of the server's setup of this run
-  std::optional<interpreter::Position> locked_at_;  ///< of this run: the axes end there
+  std::string notice_;
+  std::string setup_given_;  ///< digest of the server's setup of this run
+  struct Locked {
+    interpreter::Position at;
+    ToolInPosition tool;
+  };
+  std::optional<Locked> locked_at_;  ///< of this run: the axes end there
   SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_checkpoint_{};
   machine::MachineState last_state_{};
   std::uint64_t look_rounds_ = 0;

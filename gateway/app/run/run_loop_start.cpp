@@ -48,8 +48,6 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
   }
   if (origin.from.is_mdi) {
     setup.is_mdi = true;
-    setup.start = parts_.machine.status().position;
-    setup.start.unmark_all();
     return setup;
   }
   const auto begun = restart ? parse_start_argument(restart->conditions.start)
@@ -85,18 +83,26 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   auto restart = plan_of(run, origin);
   if (!restart) return fail(restart.error());
   const bool is_restart = restart->has_value();
-  const auto setup = setup_of(origin, *restart);
+  auto setup = setup_of(origin, *restart);
   if (!setup) return fail(setup.error());
   const interpreter::Snapshot* const modes = modes_for(origin);
-  const bool goes_on = origin.from.is_mdi || modes != nullptr;
-  const interpreter::Position at = is_restart || goes_on ? parts_.machine.status().position
-                                                         : setup->position.value_or(setup->start);
+  const bool is_mdi = origin.from.is_mdi, goes_on = is_mdi || modes != nullptr;
+  // A program that begins with its tool, or in its middle, moves from where the last one has left.
+  const bool stays = is_restart || goes_on || !origin.from.place.empty();
+  ToolInPosition tool = parts_.run.tool;
+  interpreter::Position at = is_restart || goes_on ? parts_.machine.status().position
+                                                   : setup->position.value_or(setup->start);
+  const bool drops_tool = is_mdi && modes == nullptr && parts_.machine.capabilities().places_axes;
+  if (drops_tool) tool.drop_tool(at);
+  if (is_mdi) {
+    setup->start = at;
+    setup->start.unmark_all();
+  }
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
   if (is_restart) conditions.restart_of = origin.from.restart->run;
   if (auto done = parts_.machine.check_begin(at); !done) return done;
   // A line cannot be read again, and the run of a restart was looked through before.
   auto check = is_restart || !parts_.keeps_checkpoints ? nullptr : parts_.machine.make_check(at);
-  const bool is_mdi = origin.from.is_mdi;
   auto session = RunSession::make(
       {.run = run,
        .feed = std::move(feed),
@@ -111,6 +117,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
        .is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe,
        .is_mdi = is_mdi,
        .modes = modes,
+       .tool = stays ? std::optional(tool) : std::nullopt,
        .dry_run = dry_run()},
       parts_.dialect, *setup);
   if (!session) {
@@ -118,12 +125,14 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
         session.error().code == Errc::Corrupt || session.error().code == Errc::NotFound;
     return fail(session.error().code, "{}{}", is_memory ? "" : "setup: ", session.error().what);
   }
+  notice_ = is_mdi && modes == nullptr ? notice_of_mdi() : std::string();
   if (auto done = stage_start(run, origin, std::move(conditions), **session); !done) return done;
 
   parts_.journal.begin(run.run);
   parts_.on_begin(*setup);
   locked_at_.reset();
-  if (parts_.machine.panel().machine_lock) locked_at_ = parts_.machine.status().position;
+  if (parts_.machine.panel().machine_lock)
+    locked_at_ = Locked{is_mdi ? at : parts_.machine.status().position, tool};
   note_beginning(origin, modes != nullptr);
   setup_given_ = sha256(origin.setup).hex();
   modes_.reset();
@@ -176,7 +185,7 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
                                            origin.from.restart ? origin.from.restart->run : ""});
     session.want_checkpoint();
   }
-  parts_.commands.stage_start(run.run, origin.command);
+  parts_.commands.stage_start(run.run, origin.command, notice_);
   const auto done = parts_.outbox.commit();
   if (done) return {};
   parts_.outbox.discard();
@@ -214,11 +223,15 @@ void RunLoop::state_tape() {
     parts_.run.last_message = fmt::format("the next start reads program {} of the tape", part);
 }
 
-/// Before the session is gone: of the block that was executed last.
+/// Before the session is gone. What the program has ended itself was executed up to there.
 void RunLoop::note_left() {
+  const RunSession& session = *parts_.run.session;
+  const auto& alarm = parts_.recorder.alarm();
+  const bool is_completed = parts_.run.last_execution == dds::Execution::ProgramCompleted;
+  const bool has_ended_itself = is_completed || (alarm && !alarm->id.starts_with("MCH"));
   const std::uint64_t block = parts_.machine.status().origin.block;
-  const interpreter::ActiveModes& modes = parts_.run.session->modes_at(block);
-  parts_.run.left = {modes.tool_length_x, modes.tool_length_z, parts_.run.session->frame_at(block)};
+  parts_.run.frame_left = session.frame_at(block);
+  parts_.run.tool = session.tool_at_end(has_ended_itself ? std::nullopt : std::optional(block));
 }
 
 /// Before the session is gone.
@@ -235,10 +248,6 @@ void RunLoop::take_modes() {
 }
 
 void RunLoop::note_beginning(const StartOrigin& origin, bool has_modes) {
-  const auto& left = parts_.run.left;
-  const bool has_length = left && (left->tool_length_x.mm() != 0 || left->tool_length_z.mm() != 0);
-  if (parts_.run.was_set || (origin.from.is_mdi && !has_modes && has_length))
-    parts_.run.is_length_known = false;
   const machine::OperatorPanel& panel = parts_.machine.panel();
   if (panel.machine_lock) parts_.recorder.note({}, "machine lock: the axes do not move");
   if (panel.dry_run && !panel.machine_lock) parts_.recorder.note({}, "dry run");
@@ -247,10 +256,17 @@ void RunLoop::note_beginning(const StartOrigin& origin, bool has_modes) {
                                          has_modes ? "" : ", read with the modes of power on: ",
                                          has_modes ? "" : why_no_modes_));
   }
-  if (!origin.from.is_mdi || has_modes) return;
-  parts_.recorder.note(
-      {},
-      fmt::format("MDI begins with the modes of power on, and without a tool: {}", why_no_modes_));
+  if (!notice_.empty()) parts_.recorder.note({}, notice_);
+}
+
+/// And what the position becomes, which is without the length of a dropped tool.
+std::string RunLoop::notice_of_mdi() const {
+  const bool is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe;
+  std::string lost = to_text(parts_.run.tool.left_out, is_lathe);
+  if (!parts_.machine.capabilities().places_axes) lost.clear();
+  return fmt::format(
+      "MDI begins with the modes of power on, and without a tool: {}{}{}", why_no_modes_,
+      lost.empty() ? "" : ". The axes stay; the position is that of no tool from here on: ", lost);
 }
 
 }  // namespace dripline::gateway

@@ -19,7 +19,7 @@ std::int64_t milliseconds(UtcTime time) {
 Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
                                                      const interpreter::Dialect& dialect,
                                                      const interpreter::Setup& setup) {
-  std::unique_ptr<RunSession> session(new RunSession(std::move(parts), setup));
+  std::unique_ptr<RunSession> session(new RunSession(std::move(parts), dialect, setup));
   interpreter::Setup given = setup;
   given.answers.clear();
   const auto make = [&](const interpreter::Setup& its_setup, interpreter::EventSink& events) {
@@ -34,6 +34,7 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
       return fail(restored.error());
   }
   session->begin_live();
+  session->tool_history_.begin(session->parts_.tool, session->interpreter_->modes(), {});
   session->note_modes();
   if (auto begun = session->begin_check(make, given); !begun) return fail(begun.error());
   if (!session->parts_.restart) return session;
@@ -97,12 +98,14 @@ interpreter::EventSink& front_of(std::optional<interpreter::DryRun>& stage,
 
 }  // namespace
 
-RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
+RunSession::RunSession(Parts parts, const interpreter::Dialect& dialect,
+                       const interpreter::Setup& setup)
     : parts_(std::move(parts)),
       setup_(setup),
       begun_ms_(milliseconds(parts_.clock.now())),
       events_(parts_.machine.capabilities(), parts_.machine.events()),
-      tracker_(front_of(dry_run_, parts_.dry_run, events_)) {
+      tracker_(front_of(dry_run_, parts_.dry_run, events_)),
+      tool_history_(dialect.length_shifts_position) {
   if (parts_.checkpoints != nullptr)
     checkpoints_.emplace(parts_.run.run, *parts_.checkpoints, parts_.clock);
 }
@@ -156,6 +159,7 @@ void RunSession::note_modes() {
   }
   if (modes_.empty() || modes_.back().modes != modes)
     modes_.push_back({interpreter_->blocks(), modes});
+  tool_history_.note(interpreter_->blocks(), modes, tracker_.counts());
 }
 
 namespace {
@@ -214,6 +218,7 @@ void RunSession::drop_modes() {
   const std::uint64_t executing = status.origin.block;
   while (modes_.size() > 1 && modes_[1].block <= executing) modes_.pop_front();
   while (frames_.size() > 1 && frames_[1].block <= executing) frames_.pop_front();
+  tool_history_.drop(executing);
 }
 
 const interpreter::ActiveModes& RunSession::modes_at(std::uint64_t block) const {

@@ -12,6 +12,7 @@
 #include "gateway/app/restart/checkpoint_keeper.hpp"
 #include "gateway/app/restart/rebuild.hpp"
 #include "gateway/app/run/program_check.hpp"
+#include "gateway/app/run/tool_in_position.hpp"
 #include "gateway/feed/line_feed.hpp"
 #include "gateway/interpreter/core/live_values.hpp"
 #include "gateway/interpreter/registry.hpp"
@@ -42,6 +43,8 @@ class RunSession {
     bool is_mdi = false;  ///< keyed in at the control
     const interpreter::Snapshot* modes =
         nullptr;  ///< in which the control is; null: as at power on
+    /// How the position relates to the axes; nothing: these are at the start of the program.
+    std::optional<ToolInPosition> tool = {};
     /// In a dry run of a machine that knows none: the events' own feeds change.
     std::optional<interpreter::PanelTables::DryRun> dry_run = {};
   };
@@ -76,6 +79,11 @@ class RunSession {
   const interpreter::ActiveModes& modes_at(std::uint64_t block) const;
   /// The program's coordinate frame at that block; nothing when the control does not report it.
   const std::optional<interpreter::CoordinateFrame>& frame_at(std::uint64_t block) const;
+  /// How the position relates to the axes when the machine rests in `block`, which was cut off;
+  /// nothing: all blocks were executed.
+  ToolInPosition tool_at_end(const std::optional<std::uint64_t>& block) const {
+    return tool_history_.at_end(block);
+  }
   /// Passes the changes of the blocks up to `executed` to the control's memory.
   void keep_memory(std::uint64_t executed);
   /// The hash of the path when `block` ended.
@@ -118,7 +126,7 @@ class RunSession {
   void size_feed(std::optional<double> speed_factor);
 
  private:
-  RunSession(Parts parts, const interpreter::Setup& setup);
+  RunSession(Parts parts, const interpreter::Dialect& dialect, const interpreter::Setup& setup);
   using Make = std::function<Result<std::unique_ptr<interpreter::Interpreter>>(
       const interpreter::Setup&, interpreter::EventSink& events)>;
   Result<void> give_memory(const Make& make, const interpreter::Setup& setup);
@@ -190,6 +198,7 @@ class RunSession {
     std::optional<interpreter::CoordinateFrame> frame;
   };
   std::deque<Frame> frames_;  ///< likewise
+  ToolHistory tool_history_;
   std::unique_ptr<ProgramCheck> check_;
   std::unique_ptr<Rebuild> rebuild_;
   bool is_over_ = false, has_question_ = false, is_probing_ = false;
@@ -203,15 +212,10 @@ struct CurrentRun {
   bool was_emergency_stopped = false;   ///< it ends when the switch is released
   dds::Execution last_execution = dds::Execution::Ready;
   std::string last_message;
-  /// What the last program of this process has left in force at its end.
-  struct Left {
-    Length tool_length_x, tool_length_z;
-    std::optional<interpreter::CoordinateFrame> frame;
-  };
-  std::optional<Left> left = {};
-  bool was_set = false;  ///< an operator has set a datum or a tool since the gateway began
-  /// False: MDI has begun without the tool whose length is in the position, or after what was set.
-  bool is_length_known = true;
+  /// Of the last program of this process, at its end; nothing: none has run, or its control reports
+  /// no coordinates.
+  std::optional<interpreter::CoordinateFrame> frame_left = {};
+  ToolInPosition tool = {};  ///< between two runs
 
   /// Commands and motion apply to it.
   bool is_active() const { return session && !is_ending; }

@@ -75,6 +75,23 @@ Result<PositionSetting> parse_position_setting(std::string_view text) {
   return setting;
 }
 
+std::string_view to_text(CellUnit unit) {
+  return unit == CellUnit::Degree ? "deg" : unit == CellUnit::Inch ? "in" : "mm";
+}
+
+std::string shown_number(const std::optional<double>& value, CellUnit unit) {
+  if (!value || !std::isfinite(*value)) return "vacant";
+  const int decimals = unit == CellUnit::Inch ? 4 : 3;
+  const std::string text = fmt::format("{:.{}f}", *value, decimals);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text.front() == '-' ? text.substr(1) : text;
+}
+
+CellUnit unit_of(Axis axis, Units memory) {
+  if (is_rotary(axis)) return CellUnit::Degree;
+  return memory == Units::Inch ? CellUnit::Inch : CellUnit::Millimeter;
+}
+
 Result<double> number_of(const ReadCell& read_cell, const std::string& cell,
                          std::string_view what) {
   const auto number = read_cell(cell);

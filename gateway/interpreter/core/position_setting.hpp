@@ -34,18 +34,33 @@ std::string to_text(const PositionSetting& setting);
 Result<PositionSetting> parse_position_setting(std::string_view text);
 
 struct RestingPlace {
+  double length_of(Axis axis) const {
+    const auto i = static_cast<std::size_t>(axis);
+    return i < length.size() ? length[i] : 0;
+  }
+
   /// In machine coordinates, the length of the tool left out; mm and degrees, X of a lathe a
   /// radius.
   std::array<double, kAxisCount> at{};
-  double length_x = 0, length_z = 0;  ///< of the tool offset in force, mm
-  Units memory = Units::Millimeter;   ///< of the control's memory
+  /// Of the tool offset in force along X, Y and Z, mm: an axis is at `at` + `length`.
+  std::array<double, 3> length{};
+  bool has_lengths = true;           ///< false: of a machine that moves by none
+  Units memory = Units::Millimeter;  ///< of the control's memory
 };
 
 /// The present number of a cell of the control's memory; nothing: it has none of that name.
 using ReadCell = std::function<std::optional<double>(const std::string& name)>;
+enum class CellUnit : std::uint8_t { Millimeter, Inch, Degree };
+/// "mm", "in", "deg"
+std::string_view to_text(CellUnit unit);
+/// With the digits of a control's screen: "-170.000", "1.2500"; "vacant".
+std::string shown_number(const std::optional<double>& value, CellUnit unit);
+/// Of a cell of a linear axis in `memory`, or of a rotary one.
+CellUnit unit_of(Axis axis, Units memory = Units::Millimeter);
 struct CellNumber {
   std::string name;
   double value = 0;
+  CellUnit unit = CellUnit::Millimeter;
 };
 
 /// Which of these functions a control has on its screen, and what they change.

@@ -94,9 +94,13 @@ TEST_F(ControlValues, OfALongMemoryComeInPages) {
   EXPECT_EQ(value_of(ask("P10"), "P10"), 7.5) << "when the program is over, too";
 }
 
-TEST_F(ControlValues, AreNoneBeforeTheFirstProgramAndChangeNothing) {
-  const json answer = ask("");
-  EXPECT_TRUE(answer["values"].empty());
+TEST_F(ControlValues, AreThoseOfTheSetupBeforeTheFirstProgramAndChangeNothing) {
+  dds::Command query = fixture_.command(dds::CommandAction::Query);
+  query.argument = "P10";
+  query.setup = "[[variable]]\nname = \"P10\"\nvalue = 2.5\n";
+  EXPECT_EQ(value_of(json::parse(fixture_.send(query).values), "P10"), 2.5) << "the server's";
+  const json answer = ask("P10");
+  EXPECT_EQ(value_of(answer, "P10"), 0);
   EXPECT_TRUE(answer["outputs"].empty());
   EXPECT_TRUE(answer["next"].is_null());
   EXPECT_EQ(fixture_.status->execution, dds::Execution::Ready);
@@ -105,7 +109,7 @@ TEST_F(ControlValues, AreNoneBeforeTheFirstProgramAndChangeNothing) {
 TEST_F(ControlValues, AreAnsweredAgainUnderTheSameIdAsTheyAreThen) {
   dds::Command query = fixture_.command(dds::CommandAction::Query);
   query.argument = "P10";
-  EXPECT_EQ(json::parse(fixture_.send(query).values)["values"].size(), 0U);
+  EXPECT_EQ(value_of(json::parse(fixture_.send(query).values), "P10"), 0);
   fixture_.push("O1", "P10=7.5\nM30\n");
   ASSERT_TRUE(fixture_.start("O1").accepted);
   fixture_.ended();

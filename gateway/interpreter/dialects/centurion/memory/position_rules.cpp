@@ -33,7 +33,7 @@ Result<std::vector<CellNumber>> changes(const PositionSetting& setting, const Re
   const double most = kMaxLength * (place.memory == Units::Inch ? 1 : Length::kMillimetersPerInch);
   if (setting.tool == 0) {
     if (auto fits = check_size(at, most, zero); !fits) return fail(fits.error());
-    return std::vector{CellNumber{zero, at}};
+    return std::vector{CellNumber{zero, at, unit_of(setting.axis, place.memory)}};
   }
   if (setting.tool > centurion::kOffsetCount) {
     return fail(Errc::NotFound, "this control has no tool offset {}: 1 to {}", setting.tool,
@@ -42,14 +42,15 @@ Result<std::vector<CellNumber>> changes(const PositionSetting& setting, const Re
   const auto of_zero = number_of(read, zero, zero);
   if (!of_zero) return fail(of_zero.error());
   const double value = setting.canonical() / unit / (is_x ? 2 : 1);
-  const double in_force = (is_x ? place.length_x : place.length_z) / unit;
+  const double in_force = place.length_of(setting.axis) / unit;
   const double length = at + in_force - *of_zero - value;
   const std::string cell = parameter(
       Parameters::tool_parameter(setting.tool, is_x ? ToolField::LengthX : ToolField::LengthZ));
   if (auto fits = check_size(length, most, cell); !fits) return fail(fits.error());
   const int wear =
       Parameters::tool_parameter(setting.tool, is_x ? ToolField::WearX : ToolField::WearZ);
-  return std::vector{CellNumber{cell, length}, CellNumber{parameter(wear), 0}};
+  const CellUnit shown = unit_of(setting.axis, place.memory);
+  return std::vector{CellNumber{cell, length, shown}, CellNumber{parameter(wear), 0, shown}};
 }
 
 }  // namespace

@@ -36,14 +36,14 @@ Result<std::vector<CellNumber>> measured(const PositionSetting& setting, const R
     const std::string cell = setting.offset + suffix;
     const double datum = at - value - read("EXT" + suffix).value_or(0);
     if (auto fits = check_size(datum, kMaxWorkOffset, cell); !fits) return fail(fits.error());
-    return std::vector{CellNumber{cell, datum}};
+    return std::vector{CellNumber{cell, datum, unit_of(setting.axis)}};
   }
   const bool is_x = setting.axis == Axis::X;
   const std::string tool = fmt::format("tool.{}.", setting.tool);
   const std::string cell = tool + (is_x ? "x" : "length");
   const auto known = number_of(read, cell, fmt::format("tool offset {}", setting.tool));
   if (!known) return fail(known.error());
-  const double length = at + (is_x ? place.length_x : place.length_z) - *zero - value;
+  const double length = at + place.length_of(setting.axis) - *zero - value;
   if (auto fits = check_size(length, fanuc::kMaxOffsetValue, cell); !fits)
     return fail(fits.error());
   std::vector<CellNumber> changes{{cell, length}};

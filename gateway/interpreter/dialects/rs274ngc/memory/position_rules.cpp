@@ -40,14 +40,15 @@ Result<std::vector<CellNumber>> changes(const PositionSetting& setting, const Re
   if (setting.tool == 0) {
     const double datum = at - setting.canonical() - shift;
     if (auto fits = check_size(datum, kMaxLength, setting.offset); !fits) return fail(fits.error());
-    return std::vector{CellNumber{parameter(first + axis), datum / unit}};
+    return std::vector{
+        CellNumber{parameter(first + axis), datum / unit, unit_of(setting.axis, place.memory)}};
   }
   const std::string cell = fmt::format("tool.{}.{}", setting.tool, letter(setting.axis));
   const auto known = number_of(
       read, cell, fmt::format("tool {} in its tool table: add it to the setup", setting.tool));
   if (!known) return fail(known.error());
-  const double in_force = setting.axis == Axis::X ? place.length_x : place.length_z;
-  const double length = at + in_force - *work * unit - shift - setting.canonical();
+  const double length =
+      at + place.length_of(setting.axis) - *work * unit - shift - setting.canonical();
   if (auto fits = check_size(length, kMaxLength, cell); !fits) return fail(fits.error());
   return std::vector{CellNumber{cell, length}};
 }

@@ -19,7 +19,8 @@ Result<std::vector<CellNumber>> changes(const PositionSetting& setting, const Re
   const double value = setting.canonical();
   if (auto fits = check_size(value, kMaxPosition, "the coordinate"); !fits)
     return fail(fits.error());
-  return std::vector{CellNumber{cell, place.at[static_cast<std::size_t>(setting.axis)] - value}};
+  return std::vector{CellNumber{cell, place.at[static_cast<std::size_t>(setting.axis)] - value,
+                                unit_of(setting.axis)}};
 }
 
 /// One axis: a single-axis block; more: a straight line. The operator adds feed and M.
