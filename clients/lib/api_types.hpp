@@ -171,6 +171,13 @@ struct Run {
   std::optional<RunStatistics> statistics = {};  ///< absent: not ended, not known, an older server
 };
 
+/// A run of what was keyed in.
+struct KeyedInRun {
+  Run run;
+  std::string
+      notice;  ///< that it has begun without the modes and the tool before; empty: with them
+};
+
 /// A run that is asked for by itself.
 struct ShownRun {
   Run run;

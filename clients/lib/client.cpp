@@ -174,6 +174,7 @@ template Reply<PositionSet> Client::fetch(HttpRequest, std::string_view);
 template Reply<PlaybackBlock> Client::fetch(HttpRequest, std::string_view);
 template Reply<ControlValues> Client::fetch(HttpRequest, std::string_view);
 template Reply<Run> Client::fetch(HttpRequest, std::string_view);
+template Reply<KeyedInRun> Client::fetch(HttpRequest, std::string_view);
 template Reply<ShownRun> Client::fetch(HttpRequest, std::string_view);
 template Reply<Webhook> Client::fetch(HttpRequest, std::string_view);
 template Reply<WebhookTest> Client::fetch(HttpRequest, std::string_view);

@@ -163,7 +163,7 @@ class Client {
   /// `at`: executed, block=1234, L7, N120, T3, time=2026-11-23T15:04:05Z.
   Reply<Run> restart_run(std::string_view run, std::string_view at);
   /// Blocks keyed in at an idle machine. Failures: Refused also while a run is active.
-  Reply<Run> key_in(std::string_view machine, std::string_view text);
+  Reply<KeyedInRun> key_in(std::string_view machine, std::string_view text);
   /// A datum, or with a tool its length, from where the axes of a machine without a run are.
   Reply<PositionSet> set_position(std::string_view machine, const PositionToSet& setting);
   /// The position of the axes of these letters as the words of a block.

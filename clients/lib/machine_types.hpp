@@ -107,6 +107,17 @@ struct Positions {
 
 struct PositionSet {
   std::string machine, change, text;
+  std::string what;  ///< as it was asked: "tool 3 Z 0 mm G54"
+  struct Cell {
+    std::string name;
+    std::optional<double> before;  ///< absent: vacant
+    double value = 0;
+    std::string unit;  ///< mm, in, deg
+  };
+  std::vector<Cell> cells = {};  ///< empty: an older gateway or server gives the text alone
+  /// Of the tool in force along the axis, and of the work offset that a length is of; in the unit
+  /// of the first cell.
+  std::optional<double> length = {}, zero = {};
 };
 struct PlaybackBlock {
   std::string machine, block;

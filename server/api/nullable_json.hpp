@@ -19,5 +19,8 @@ inline nlohmann::json time_or_null(const std::optional<UtcTime>& time) {
 inline nlohmann::json number_or_null(const std::optional<std::uint64_t>& number) {
   return number ? nlohmann::json(*number) : nlohmann::json(nullptr);
 }
+inline nlohmann::json number_or_null(const std::optional<double>& number) {
+  return number ? nlohmann::json(*number) : nlohmann::json(nullptr);
+}
 
 }  // namespace dripline::api

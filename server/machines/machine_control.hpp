@@ -91,6 +91,8 @@ struct StartRequest {
   std::optional<std::uint64_t> job = {};  ///< of the machine's queue, that it is a run of
   /// Called when the run is stored and nothing has gone to the machine. Its error refuses the run.
   std::function<Result<void>(const storage::Run&)> before = {};
+  /// Called when it was accepted and its operator has to know something of how it begins.
+  std::function<void(const std::string& notice)> on_notice = {};
 
   library::Releases::Wish wish() const {
     return {.machine = machine, .program = program, .revision = revision, .role = role};
@@ -124,6 +126,8 @@ struct PositionRequest {
 struct PositionAnswer {
   std::string change;  ///< which its record names instead of a run; empty: nothing was changed
   std::string text;    ///< what is set, or the block
+  /// What is set, as JSON (gateway/app/memory/position_change.hpp); empty: an older gateway.
+  std::string details = {};
 };
 
 /// Receives what happens at the machines. Called on worker threads, never two calls for one machine

@@ -267,6 +267,10 @@ Result<std::string> MachineService::values(const ValueQuery& query) {
   dds::Command command;
   command.machine = query.machine;
   command.action = dds::CommandAction::Query;
+  // Before its first run the gateway shows what this would give the control.
+  const auto setup = setup_of(*view);
+  if (!setup) return fail(setup.error());
+  if (*setup) command.setup = (*setup)->text;
   command.argument = query.beginning;
   command.value = static_cast<double>(query.passed_over);
   return parts->commands.ask(std::move(command));
@@ -300,7 +304,8 @@ Result<PositionAnswer> MachineService::position(const PositionRequest& request) 
   auto result = parts->commands.result_of(std::move(command));
   if (!result) return fail(result.error());
   const std::string change = std::string(dds::kChangePrefix) + result->id;
-  return PositionAnswer{request.is_playback ? "" : change, std::move(result->reason)};
+  return PositionAnswer{request.is_playback ? "" : change, std::move(result->reason),
+                        std::move(result->values)};
 }
 
 /// The sender has got an error for this start, so it must not run.

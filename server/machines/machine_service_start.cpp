@@ -116,7 +116,9 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   command.control = run->control;
   command.argument = start_argument(request);
   if (*setup) command.setup = (*setup)->text;
-  return conclude_start(*run, parts->commands.carry_out(std::move(command)));
+  const auto result = parts->commands.result_of(std::move(command));
+  if (result && request.on_notice && !result->reason.empty()) request.on_notice(result->reason);
+  return conclude_start(*run, result ? Result<void>() : fail(result.error()));
 }
 
 Result<storage::Run> MachineService::conclude_start(const storage::Run& run,

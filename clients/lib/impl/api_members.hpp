@@ -116,8 +116,17 @@ void members(V& v, Is<Positions> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<PositionSet::Cell> auto& x) {
+  DRIPLINE_MEMBERS(name, before, value, unit);
+}
+
+template <class V>
 void members(V& v, Is<PositionSet> auto& x) {
   DRIPLINE_MEMBERS(machine, change, text);
+  v.later("what", x.what);
+  v.later("cells", x.cells);
+  v.later("length", x.length);
+  v.later("zero", x.zero);
 }
 
 template <class V>
@@ -160,6 +169,12 @@ void members(V& v, Is<Run> auto& x) {
   v.later("approval", x.approval);
   v.later("job", x.job);
   v.later("statistics", x.statistics);
+}
+
+template <class V>
+void members(V& v, Is<KeyedInRun> auto& x) {
+  members(v, x.run);
+  v.later("notice", x.notice);
 }
 
 template <class V>

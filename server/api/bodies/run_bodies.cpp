@@ -211,7 +211,7 @@ Result<interpreter::PositionSetting> decode_position_setting(std::string_view bo
   const std::uint64_t tool = is_tool ? object->optional_unsigned("tool").value_or(0) : 0;
   const std::string letter = object->required_text("axis", 1);
   const auto value = object->optional_number("value");
-  const auto unit = object->optional_text("unit", 2);
+  const auto unit = object->optional_text("unit", 3);
   const std::string offset = object->optional_text("offset", 16).value_or("");
   if (auto good = object->finish(); !good) return fail(good.error());
   const auto axis = letter.size() == 1 ? interpreter::axis_of(letter[0]) : std::nullopt;
@@ -219,7 +219,10 @@ Result<interpreter::PositionSetting> decode_position_setting(std::string_view bo
   if (!value) return fail(Errc::Syntax, "value is missing");
   if (!(std::abs(*value) <= kMaxValue))
     return fail(Errc::LimitExceeded, "value {} is not {} to {}", *value, -kMaxValue, kMaxValue);
-  if (unit && *unit != "mm" && *unit != "in")
+  if (interpreter::is_rotary(*axis) && unit && *unit != "deg")
+    return fail(Errc::Syntax, "unit '{}' of axis {}, which turns: its value is in degrees", *unit,
+                letter);
+  if (!interpreter::is_rotary(*axis) && unit && *unit != "mm" && *unit != "in")
     return fail(Errc::Syntax, "unit '{}' is neither mm nor in", *unit);
   if (!unit && *value != 0 && !interpreter::is_rotary(*axis))
     return fail(Errc::Syntax, "value {} needs a unit: mm or in", *value);

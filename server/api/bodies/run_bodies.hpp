@@ -39,7 +39,7 @@ Result<machines::CommandRequest> decode_command(std::string_view body);
 Result<std::string> decode_mdi(std::string_view body);
 Result<machines::CommandRequest> decode_machine_command(std::string_view body);
 /// {"axis", "value", "unit"?, "offset"?} of a datum; of a touch-off also "tool". A value of a
-/// linear axis other than 0 needs its unit.
+/// linear axis other than 0 needs its unit, mm or in; that of a rotary one is in degrees.
 Result<interpreter::PositionSetting> decode_position_setting(std::string_view body, bool is_tool);
 inline constexpr double kMaxOverride = 10;
 inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one command

@@ -7,6 +7,7 @@
 #include "protocol/base/utf8.hpp"
 #include "server/api/api.hpp"
 #include "server/api/bodies/run_bodies.hpp"
+#include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
@@ -15,15 +16,12 @@ namespace {
 
 using nlohmann::json;
 
-json number_json(const std::optional<double>& number) {
-  return number ? json(*number) : json(nullptr);
-}
-
 json memory_json(const library::KeptMemory& memory) {
   auto cells = json::array();
   for (const auto& [name, cell] : memory.cells) {
-    cells.push_back(
-        {{"name", name}, {"value", number_json(cell.value)}, {"setup", number_json(cell.base)}});
+    cells.push_back({{"name", name},
+                     {"value", number_or_null(cell.value)},
+                     {"setup", number_or_null(cell.base)}});
   }
   const auto& change = memory.change;
   return {{"machine", memory.machine},
@@ -272,9 +270,40 @@ Response key_in(Services& services, const Request& request) {
                                .subject = run.id,
                                .detail = fmt::format("{}: {}", run.machine, one_line(*text))});
   };
+  std::string notice;
+  start.on_notice = [&notice](const std::string& given) { notice = given; };
   const auto run = services.machines.start(start);
   if (!run) return error_response(run.error());
-  return json_response(201, run_json(*run));
+  json view_of_run = run_json(*run);
+  view_of_run["notice"] = text_or_null(notice);
+  return json_response(201, view_of_run);
+}
+
+/// What was set, as the gateway gives it; an older one gives its text alone.
+json position_json(const std::string& machine, const std::string& what,
+                   const machines::PositionAnswer& answer) {
+  const json given = json::parse(answer.details, nullptr, false);
+  const auto number = [&](const char* name) {
+    const bool has = given.is_object() && given.contains(name) && given[name].is_number();
+    return has ? given[name] : json(nullptr);
+  };
+  json cells = json::array();
+  if (given.is_object() && given.contains("cells") && given["cells"].is_array()) {
+    for (const json& cell : given["cells"]) {
+      const bool is_good = cell.is_object() && cell.contains("name") && cell["name"].is_string() &&
+                           cell.contains("value") && cell["value"].is_number() &&
+                           cell.contains("unit") && cell["unit"].is_string();
+      if (!is_good) continue;
+      const bool has_before = cell.contains("before") && cell["before"].is_number();
+      cells.push_back({{"name", cell["name"]},
+                       {"before", has_before ? cell["before"] : json(nullptr)},
+                       {"value", cell["value"]},
+                       {"unit", cell["unit"]}});
+    }
+  }
+  return {{"machine", machine},    {"change", answer.change}, {"text", answer.text},
+          {"what", what},          {"cells", cells},          {"length", number("length")},
+          {"zero", number("zero")}};
 }
 
 /// The audit trail has it before it goes out.
@@ -303,8 +332,7 @@ Response set_position(Services& services, const Request& request, bool is_tool) 
   }
   services.audit.write(std::move(change));
   if (!answer) return error_response(answer.error());
-  return json_response(200,
-                       {{"machine", name}, {"change", answer->change}, {"text", answer->text}});
+  return json_response(200, position_json(name, asked.argument, *answer));
 }
 
 Response set_datum(Services& services, const Request& request) {

@@ -88,9 +88,15 @@ json at_machine_json(const offsets::MachineChange& change) {
     cells.push_back(
         {{"name", name}, {"before", before ? json(*before) : json(nullptr)}, {"value", after}});
   }
-  return {{"change", change.change},         {"target", change.target},
-          {"time", to_iso8601(change.time)}, {"who", text_or_null(change.what.by)},
-          {"what", change.what.what},        {"cells", std::move(cells)}};
+  return {{"change", change.change},
+          {"target", change.target},
+          {"time", to_iso8601(change.time)},
+          {"who", text_or_null(change.what.by)},
+          {"what", change.what.what},
+          {"unit", text_or_null(change.what.unit)},
+          {"length", number_or_null(change.what.length)},
+          {"zero", number_or_null(change.what.zero)},
+          {"cells", std::move(cells)}};
 }
 
 /// `{comment}`, or nothing.

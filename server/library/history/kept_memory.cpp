@@ -94,6 +94,11 @@ std::optional<MemoryChange> read_memory_change(const std::vector<std::string>& t
     if (!is_good) return std::nullopt;
     change.cells[name] = {before, *after};
   }
+  constexpr std::size_t kMaxUnit = 3;
+  if (has_text("unit") && given["unit"].get<std::string>().size() <= kMaxUnit)
+    change.unit = given["unit"].get<std::string>();
+  if (given.contains("length")) (void)read_number(given["length"], change.length);
+  if (given.contains("zero")) (void)read_number(given["zero"], change.zero);
   return change;
 }
 

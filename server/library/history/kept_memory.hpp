@@ -22,6 +22,9 @@ struct MemoryChange {
   std::string what;  ///< interpreter::PositionSetting: "datum G54 X 12.5 mm"
   std::string by;
   std::map<std::string, std::pair<std::optional<double>, double>> cells;  ///< before, and after
+  std::string unit = {};              ///< of these: mm, in, deg; empty: an older gateway
+  std::optional<double> length = {};  ///< of the tool in force along the axis; none: not known
+  std::optional<double> zero = {};    ///< of the work offset that a length is of
 };
 
 /// Everything a control kept after a run, as its gateway reported it.

@@ -80,7 +80,9 @@ TEST_F(ApiHandlers, KeepWhatIsKeyedInAndStartIt) {
   const std::string before = stored_run(0);  // on lathe-1, a Centurion
   ASSERT_TRUE(store_->runs.set_state(before, storage::RunState::Completed, ""));
   machines_.views.front().machine.gateway_version = "1";
-  EXPECT_EQ(key_in("G0 X1").status, 201);
+  const auto keyed_in = key_in("G0 X1");
+  EXPECT_EQ(keyed_in.status, 201);
+  EXPECT_TRUE(json(keyed_in)["notice"].is_null());
   ASSERT_EQ(machines_.started.size(), 1U);
   const machines::StartRequest start = machines_.started.front();
   EXPECT_TRUE(start.is_mdi);
@@ -106,6 +108,15 @@ TEST_F(ApiHandlers, KeepWhatIsKeyedInAndStartIt) {
   EXPECT_EQ(machines_.started.size(), 1U);
 }
 
+TEST_F(ApiHandlers, GiveWhatTheOperatorHasToKnowOfHowMdiHasBegun) {
+  ASSERT_TRUE(store_->runs.set_state(stored_run(0), storage::RunState::Completed, ""));
+  machines_.views.front().machine.gateway_version = "1";
+  machines_.notice = "MDI begins without a tool";
+  const auto answer = json(post("/api/v1/machines/lathe-1/mdi", {{"text", "G0 X1"}}));
+  EXPECT_EQ(answer["notice"], "MDI begins without a tool");
+  EXPECT_EQ(answer["program"], "MDI lathe-1");
+}
+
 TEST_F(ApiHandlers, SetADatumAndALengthFromThePosition) {
   const std::string datum = "/api/v1/machines/lathe-1/datum";
   const std::string touch = "/api/v1/machines/lathe-1/touch-off";
@@ -114,6 +125,11 @@ TEST_F(ApiHandlers, SetADatumAndALengthFromThePosition) {
   const auto good = post(datum, {{"offset", "G54"}, {"axis", "X"}, {"value", 0.5}, {"unit", "in"}});
   ASSERT_EQ(good.status, 200) << good.body;
   EXPECT_EQ(json(good)["text"], "G54.X is 87.5, it was 100");
+  EXPECT_EQ(json(good)["what"], "datum G54 X 0.5 in");
+  EXPECT_EQ(json(good)["cells"].dump(),
+            R"([{"before":null,"name":"G54.X","unit":"mm","value":87.5}])");
+  EXPECT_EQ(json(good)["length"], 2.5);
+  EXPECT_TRUE(json(good)["zero"].is_null());
   EXPECT_EQ(machines_.positions.back().argument, "datum G54 X 0.5 in");
   EXPECT_EQ(machines_.positions.back().who, "admin");
   const auto entries = json(get("/api/v1/audit"))["entries"];
@@ -124,7 +140,17 @@ TEST_F(ApiHandlers, SetADatumAndALengthFromThePosition) {
   EXPECT_EQ(machines_.positions.back().argument, "tool 3 Z 0 mm G54");
   EXPECT_EQ(post(datum, {{"axis", "C"}, {"value", 90}}).status, 200);
   EXPECT_EQ(machines_.positions.back().argument, "datum C 90 deg");
+  machines_.details.clear();  // as an older gateway answers
+  const auto turned = post(datum, {{"axis", "C"}, {"value", 90}, {"unit", "deg"}});
+  EXPECT_EQ(turned.status, 200) << turned.body;
+  EXPECT_TRUE(json(turned)["cells"].empty());
+  EXPECT_TRUE(json(turned)["length"].is_null());
   const std::size_t sent = machines_.positions.size();
+  for (const char* unit : {"mm", "in"}) {
+    expect_error(post(datum, {{"axis", "C"}, {"value", 90}, {"unit", unit}}), 400, "syntax",
+                 "its value is in degrees");
+  }
+  expect_error(post(datum, {{"axis", "X"}, {"value", 5}, {"unit", "deg"}}), 400, "syntax", "'deg'");
   expect_error(post(datum, {{"axis", "X"}, {"value", 5}}), 400, "syntax", "needs a unit");
   expect_error(post(datum, {{"axis", "Q"}, {"value", 0}}), 400, "syntax", "axis 'Q'");
   expect_error(post(datum, {{"axis", "X"}}), 400, "syntax", "value is missing");

@@ -26,6 +26,7 @@ class FakeMachines final : public machines::MachineControl {
       if (auto ready = request.before(run); !ready) return fail(ready.error());
     }
     ++sent;
+    if (request.on_notice && !notice.empty()) request.on_notice(notice);
     return run;
   }
   Result<void> command(const machines::CommandRequest& request) override {
@@ -45,7 +46,7 @@ class FakeMachines final : public machines::MachineControl {
     if (refusal) return fail(*refusal);
     if (auto view = machine(request.machine); !view) return fail(view.error());
     if (request.is_playback) return machines::PositionAnswer{"", "L X+1.000 Y-2.500 R0"};
-    return machines::PositionAnswer{"set-1", "G54.X is 87.5, it was 100"};
+    return machines::PositionAnswer{"set-1", "G54.X is 87.5, it was 100", details};
   }
 
   std::vector<machines::MachineView> views;
@@ -54,6 +55,10 @@ class FakeMachines final : public machines::MachineControl {
   std::string answer =
       R"({"values":[{"name":"P10","value":7.5},{"name":"P11","value":null}],"next":null,)"
       R"("outputs":[{"axis":"X","output":3,"on":true}],"codes":[21]})";
+  std::string details =
+      R"({"cells":[{"name":"G54.X","before":null,"value":87.5,"unit":"mm"}],"length":2.5,)"
+      R"("zero":null})";
+  std::string notice;
   int sent = 0;  ///< starts that went to a machine
   std::vector<machines::StartRequest> started;
   std::vector<machines::CommandRequest> commands;
