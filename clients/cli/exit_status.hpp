@@ -11,6 +11,7 @@ inline constexpr int kExitUsage = 2;        ///< usage, unreadable file, unknown
 inline constexpr int kExitUnreachable = 3;  ///< no server, or not a Dripline server
 inline constexpr int kExitDenied =
     4;  ///< the server does not accept the token, or it may not do this
+inline constexpr int kExitTimeout = 124;  ///< --timeout has passed, as timeout(1) has it
 inline constexpr int kExitClosedPipe =
     141;  ///< standard output has no reader any more, as for SIGPIPE
 inline constexpr int kExitInterrupted = 130;  ///< Ctrl-C

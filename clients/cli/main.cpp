@@ -38,6 +38,7 @@ Exit status:
   2    usage, an unreadable file, an unknown control
   3    the server is not reachable
   4    the server does not accept the token, or its user may not do this
+  124  --timeout has passed; a watched run continues
   130  interrupted by Ctrl-C; a watched run continues
 
 See `dnc VERB --help` and `dnc GROUP VERB --help`. NO_COLOR is respected.)";

@@ -204,19 +204,38 @@ void print_archives(const Context& context, const ordered_json& history) {
   }
 }
 
+/// With the digits of the control's screen, where its gateway gives the unit.
+std::string number_at_machine(const ordered_json& cell, const char* key, const std::string& unit) {
+  const auto found = cell.find(key);
+  if (unit == "-" || found == cell.end() || !found->is_number()) return offset_number(cell, key);
+  return fmt::format("{:.{}f}", found->get<double>(), unit == "in" ? 4 : 3);
+}
+
+/// What the length or the datum was computed with.
+std::string basis_at_machine(const ordered_json& change, const std::string& unit) {
+  const std::string length = number_at_machine(change, "length", unit);
+  const std::string zero = number_at_machine(change, "zero", unit);
+  std::string text = length == "-" ? "-" : "tool " + length;
+  if (zero != "-") text += fmt::format(", zero {}", zero);
+  return text;
+}
+
 /// In the control's memory, and in no setup.
 void print_at_machine(const Context& context, const ordered_json& shown) {
   const auto changes = shown.find("at_machine");  // an older server has none
   if (changes == shown.end() || changes->empty()) return;
-  Table table({"VALUE", "SINCE", "WHO", "SET", "CELLS"});
+  Table table({"VALUE", "SINCE", "WHO", "SET", "CELLS", "UNIT", "IN FORCE"});
   for (const auto& change : *changes) {
+    const std::string unit = offset_word(change, "unit");
     std::string cells;
     for (const auto& cell : change.at("cells")) {
       cells += fmt::format("{}{} {} -> {}", cells.empty() ? "" : ", ", offset_word(cell, "name"),
-                           offset_number(cell, "before"), offset_number(cell, "value"));
+                           number_at_machine(cell, "before", unit),
+                           number_at_machine(cell, "value", unit));
     }
     table.add({offset_word(change, "target"), time_text(offset_word(change, "time")),
-               offset_word(change, "who"), offset_word(change, "what"), cells});
+               offset_word(change, "who"), offset_word(change, "what"), cells, unit,
+               basis_at_machine(change, unit)});
   }
   context.print("\nSet at the machine, in the memory of its control:\n");
   context.print(table);

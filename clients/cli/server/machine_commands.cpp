@@ -172,19 +172,25 @@ struct MdiCommand {
   std::string machine;
   std::vector<std::string> blocks;
   bool waits = false;
+  std::optional<std::uint32_t> timeout;
 };
 
 int key_in(Context& context, client::Client& client, const MdiCommand& command) {
   std::string text;
   for (const std::string& block : command.blocks) text += block + "\n";
-  auto run = client.key_in(command.machine, text);
-  if (!run) return complain(run.error());
-  if (command.waits) return watch_run(context, client, *run, WatchStyle::Silent);
+  auto keyed_in = client.key_in(command.machine, text);
+  if (!keyed_in) return complain(keyed_in.error());
+  if (!keyed_in->notice.empty()) fmt::print(stderr, "dnc: {}\n", printable(keyed_in->notice));
+  const client::Run& run = keyed_in->run;
+  if (command.waits || command.timeout) {
+    std::optional<std::chrono::seconds> timeout;
+    if (command.timeout) timeout = std::chrono::seconds(*command.timeout);
+    return watch_run(context, client, run, WatchStyle::Silent, timeout);
+  }
   if (context.wants_json) {
-    context.print(json_text(*run));
+    context.print(json_text(*keyed_in));
   } else {
-    context.print(
-        fmt::format("Run {} of what was keyed in started on {}.\n", run->id, run->machine));
+    context.print(fmt::format("Run {} of what was keyed in started on {}.\n", run.id, run.machine));
   }
   return kExitOk;
 }
@@ -196,13 +202,20 @@ void add_mdi(Command group, Context& context) {
   command.add_option("BLOCK", options->blocks, "One block; a few where the control takes them")
       .required();
   command.add_flag("--wait", options->waits, "Wait for its end and print only the outcome");
+  command
+      .add_option("--timeout", options->timeout,
+                  "Wait so many seconds for its end; the run continues then (exit status 124)")
+      .check(in_range(1, 86'400));
   add_json_flag(command, context);
   command.footer(
       "It runs on an idle machine, from where its axes are and with what the last text has left "
       "in force (modes, tool,\noffsets, spindle). After an abort, an alarm or a restart of the "
       "gateway, and when axes, setup or memory were changed\nmeanwhile, it begins with the modes "
-      "of power on and without a tool; the run's report says so. A program begins\nas always: MDI "
-      "changes nothing for it but position and memory.\n\nIt is a run of the program \"MDI "
+      "of power on and without a tool, and standard error says so: the axes stay, and the\n"
+      "position is that of no tool from there on. A program begins as always: MDI changes nothing "
+      "for it but position\nand memory. Where it waits (a tool change, a stop, a question), "
+      "standard error names the prompt and the command\nthat answers it.\n\nIt is a run of the "
+      "program \"MDI "
       "MACHINE\", whose revisions are what was keyed in: dnc run hold, abort and show work.\n"
       "Centurion and Tektronix take one block, the TNC one single-axis block or TOOL CALL, Fanuc "
       "and RS274/NGC ten\nlines, a ProtoTRAK none.\n\nExample:\n  dnc machine mdi mill-1 'G90 G0 "

@@ -45,8 +45,10 @@ void add_setting_options(Command command, Context& context, PositionCommand& opt
       .add_option("VALUE", options.setting.value,
                   "The coordinate that the present position gets; X of a lathe is a diameter")
       .required();
-  command.add_option("--unit", options.setting.unit, "Unit of VALUE; needed unless it is 0")
-      .check(one_of({"mm", "in"}));
+  command
+      .add_option("--unit", options.setting.unit,
+                  "Unit of VALUE; needed unless it is 0. Rotary axes: degrees, without a unit")
+      .check(one_of({"mm", "in", "deg"}));
   command.add_option("--offset", options.setting.offset,
                      "Work offset, e.g. G54; a TNC has one datum and takes none");
   add_json_flag(command, context);
@@ -61,7 +63,10 @@ void add_position_verbs(Command group, Context& context) {
       "not known, and while\na shift, rotation, scaling or mirror image is in force. What is set "
       "is "
       "in the control's memory from then on\n(dnc memory show, dnc offset history); a restart of a "
-      "run that was cut off before is refused after it.\n\n";
+      "run that was cut off before is refused after it.\nThe answer names the tool's length that "
+      "was in force. It is refused where that is not certain: in the middle of a move\nwith which "
+      "a length came into force, with a tilted tool, and a datum along an axis whose tool MDI has "
+      "lost.\n\n";
   auto datum = group.add_subcommand("datum", "Set a datum from the machine's position");
   auto options = std::make_shared<PositionCommand>();
   datum.add_option("MACHINE", options->machine, "The machine").required();
@@ -83,8 +88,9 @@ void add_position_verbs(Command group, Context& context) {
       std::string(kCommon) +
       "VALUE is a coordinate of --offset. Mills: Z. Lathes: X and Z; the wear of that axis "
       "becomes 0. A TNC has the length in\nTOOL DEF of a program: see dnc machine "
-      "playback.\n\nExample:\n  dnc machine touch-off lathe-1 3 X 40.02 --unit mm --offset "
-      "G54");
+      "playback. A machine of LinuxCNC or a board of the Grbl class does not move by\nlengths of "
+      "tools: it is refused there.\n\nExample:\n  dnc machine touch-off lathe-1 3 X 40.02 --unit "
+      "mm --offset G54");
   run_at_server(touch, context, tool, touch_off);
 
   auto playback = group.add_subcommand(
@@ -95,9 +101,9 @@ void add_position_verbs(Command group, Context& context) {
       .required();
   add_json_flag(playback, context);
   playback.footer(
-      "The actual position key of a TNC: coordinates of the datum, without feed and M function. "
-      "They "
-      "contain the radius of the\ntool that was used, so its TOOL DEF has R 0.\n\nExample:\n  dnc "
+      "The actual position key of a TNC: coordinates of the datum in mm and degrees, without feed "
+      "and M function. They contain the radius of the\ntool that was used, so its TOOL DEF has R "
+      "0.\n\nExample:\n  dnc "
       "machine playback mill-3 XY");
   run_at_server(playback, context, axes, play_back);
 }

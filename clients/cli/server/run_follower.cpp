@@ -35,12 +35,14 @@ class RunFollower {
   RunFollower(Context& context, client::Client& client, client::Run run, WatchStyle style)
       : context_(context), client_(client), run_(std::move(run)), style_(style) {}
 
-  int watch() {
+  int watch(std::optional<std::chrono::seconds> timeout) {
+    const SteadyTime begun = clock_.steady_now();
     client::EventStream stream(client_.address(), run_.machine);
     last_heard_ = last_asked_ = clock_.steady_now();
     show();
     while (!has_ended(run_)) {
       if (is_interrupted()) return leave();
+      if (timeout && clock_.steady_now() - begun >= *timeout) return end_wait(*timeout);
       if (auto item = stream.next(200ms)) take(*item);
       if (!failure_ && clock_.steady_now() - last_asked_ >= kAskAfter) refresh();
       if (failure_) return give_up();
@@ -163,6 +165,16 @@ class RunFollower {
     return kExitInterrupted;
   }
 
+  int end_wait(std::chrono::seconds timeout) {
+    area_.clear();
+    const std::string id = short_id(run_.id);
+    note(fmt::format(
+        "run {} has not ended in {} s and continues{}; dnc run watch {} follows it, dnc run abort "
+        "{} ends it",
+        id, timeout.count(), told_.empty() ? "" : " (" + printable(told_) + ")", id, id));
+    return kExitTimeout;
+  }
+
   int give_up() {
     area_.clear();
     note(fmt::format("the further course of run {} is not known here", short_id(run_.id)));
@@ -186,9 +198,10 @@ class RunFollower {
 
 }  // namespace
 
-int watch_run(Context& context, client::Client& client, client::Run run, WatchStyle style) {
+int watch_run(Context& context, client::Client& client, client::Run run, WatchStyle style,
+              std::optional<std::chrono::seconds> timeout) {
   catch_interrupts();
-  return RunFollower(context, client, std::move(run), style).watch();
+  return RunFollower(context, client, std::move(run), style).watch(timeout);
 }
 
 }  // namespace dripline::cli

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <chrono>
+#include <optional>
+
 #include "clients/cli/context.hpp"
 #include "clients/lib/client.hpp"
 
@@ -11,7 +14,9 @@ enum class WatchStyle {
 };
 
 /// Follows a run to its end and prints the outcome. Returns the exit status: by the run's outcome,
-/// or kExitInterrupted on Ctrl-C, which leaves the run alone.
-int watch_run(Context& context, client::Client& client, client::Run run, WatchStyle style);
+/// kExitInterrupted on Ctrl-C, or kExitTimeout when it has not ended in time; both leave the run
+/// alone.
+int watch_run(Context& context, client::Client& client, client::Run run, WatchStyle style,
+              std::optional<std::chrono::seconds> timeout = {});
 
 }  // namespace dripline::cli

@@ -83,7 +83,8 @@ void add_value_verbs(Command group, Context& context) {
   command.add_flag("--all", options->is_all, "List those that are 0 or vacant too");
   add_json_flag(command, context);
   command.footer(
-      "They are asked of the gateway, as the executed blocks have left them: those that the "
+      "They are asked of the gateway, as the executed blocks have left them (before the first run: "
+      "as its start\nwould find them): those that the "
       "control keeps from\nblock to block and from program to program, with its own names and in "
       "its own units, and those that it shows\nwhile a program runs (Q parameters of a TNC). What "
       "runs "
