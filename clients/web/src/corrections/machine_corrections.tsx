@@ -80,6 +80,19 @@ function HistoryTable({ history }: { history: PastValue[] }) {
   );
 }
 
+type AtMachineChange = OffsetHistory['at_machine'][number];
+
+/// With the digits of the control's screen; an older gateway gives no unit.
+export function setText(value: number, unit: AtMachineChange['unit']): string {
+  return unit === null ? numberText(value, 4) : `${numberText(value, unit === 'in' ? 4 : 3)}\u00a0${unit === 'deg' ? '°' : unit}`;
+}
+
+export function atMachineText(change: AtMachineChange): string {
+  return change.cells
+    .map((cell) => `${cell.name}: ${cell.before === null ? '–' : setText(cell.before, change.unit)} → ${setText(cell.value, change.unit)}`)
+    .join(', ');
+}
+
 /// In the control's memory, and in no setup.
 function AtMachine({ changes }: { changes: OffsetHistory['at_machine'] }) {
   const t = texts().corrections;
@@ -93,7 +106,7 @@ function AtMachine({ changes }: { changes: OffsetHistory['at_machine'] }) {
             {changes.map((one) => (
               <tr key={one.change}>
                 <th scope="row" class="nowrap">{one.target}</th>
-                <td>{one.cells.map((cell) => `${cell.name}: ${cell.before === null ? '–' : numberText(cell.before, 4)} → ${numberText(cell.value, 4)}`).join(', ')}</td>
+                <td>{atMachineText(one)}{one.length !== null && one.length !== 0 && `; ${t.lengthInForce(setText(one.length, one.unit))}`}</td>
                 <td>{dateTimeText(one.time)}</td>
                 <td>{one.who ?? '–'}</td>
                 <td>{one.what}</td>

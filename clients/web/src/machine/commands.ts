@@ -1,5 +1,5 @@
 // The commands that the API has for a machine and for its run.
-import type { CommandRequest, DatumRequest, PositionSet, Run, RunRequest } from '../../generated/api';
+import type { CommandRequest, DatumRequest, KeyedInRun, PositionSet, Run, RunRequest } from '../../generated/api';
 import { pathOf, send } from '../api/request';
 
 /// Needs a run: hold, resume, abort, answer.
@@ -47,8 +47,8 @@ export function startRun(request: StartRequest): Promise<Run> {
 }
 
 /// Blocks keyed in at an idle machine (MDI), one a line.
-export function keyIn(machine: string, text: string): Promise<Run> {
-  return send<Run>('POST', pathOf('machines', machine, 'mdi'), { json: { text } });
+export function keyIn(machine: string, text: string): Promise<KeyedInRun> {
+  return send<KeyedInRun>('POST', pathOf('machines', machine, 'mdi'), { json: { text } });
 }
 
 /// `tool`: its length is set, else the datum.

@@ -11,6 +11,7 @@ export function Mdi({ machine }: { machine: Machine }) {
   const t = texts().machine;
   const command = useCommand();
   const [text, setText] = useState('');
+  const [notice, setNotice] = useState('');
   const lines = text.split('\n').filter((line) => line.trim() !== '');
   const most = machine.starts.mdi;
   if (most === 0) return null;
@@ -23,7 +24,8 @@ export function Mdi({ machine }: { machine: Machine }) {
           <textarea name="mdi" rows={Math.min(most, 3)} maxLength={2048} value={text} aria-invalid={lines.length > most} onInput={(e) => setText(e.currentTarget.value)} />
         </label>
         <SureButton class="big primary" label={t.mdiRun} disabled={lines.length === 0 || lines.length > most || command.isBusy || !machine.connected}
-          question={t.mdiSure(lines.join(' / '), machine.name)} onSure={() => void command.send(() => keyIn(machine.name, lines.join('\n')))} />
+          question={t.mdiSure(lines.join(' / '), machine.name)} onSure={() => void command.send(async () => setNotice((await keyIn(machine.name, lines.join('\n'))).notice ?? ''))} />
+        {notice !== '' && <p role="status" class="notice warn">{notice}</p>}
         <CommandFault command={command} />
       </Allowed>
     </section>

@@ -39,7 +39,7 @@ function SetForm({ machine, axes }: { machine: Machine; axes: string[] }) {
   const unit = unitOf(display).name;
   const shownUnit = kRotary.includes(chosen) ? '°' : unit;
   const setting: PositionToSet = {
-    axis: chosen, value: value ?? 0, unit: unit === 'inch' ? 'in' : 'mm', ...(offset !== '' && { offset }), ...(isTool && { tool: number }),
+    axis: chosen, value: value ?? 0, unit: kRotary.includes(chosen) ? 'deg' : unit === 'inch' ? 'in' : 'mm', ...(offset !== '' && { offset }), ...(isTool && { tool: number }),
   };
   const thing = isTool ? t.lengthOf(tool) : offset;
   const send = () => command.send(async () => setAnswer((await setPosition(machine.name, setting) as PositionSet).text));

@@ -74,6 +74,7 @@ test('a block is keyed in, named before it runs, and refused while a program run
   assert.equal((await shop.api<{ runs: unknown[] }>('GET', 'runs?machine=mill-3'))?.runs.length, 0, 'one press runs nothing');
   await part.getByRole('button', { name: 'Press again: X+31.25 R0 F9000 on mill-3' }).click();
   await page.locator('.position').getByText('31.250').first().waitFor();
+  await part.getByRole('status').getByText(/without a tool: nothing has run since/).waitFor();
   await part.getByLabel('One block').fill('X+1 R0 F9000\nX+2 R0 F9000');
   await assert.rejects(part.getByRole('button', { name: 'Run' }).click({ timeout: 500 }), 'the control takes one');
   assert.deepEqual(await findBarriers(page), []);
@@ -91,7 +92,7 @@ test('a datum is set from the position, and the position is taken as a block', a
   await part.getByLabel('Axis').selectOption('X');
   await part.getByLabel('The position becomes (mm)').fill('1,25');
   await pressTwice(part.getByRole('button', { name: 'Set', exact: true }), part.getByRole('button', { name: 'Press again: X = 1.25 mm on mill-3' }));
-  await part.getByText('datum.X is 30, it was 0').waitFor();
+  await part.getByText('datum.X is 30.000 mm, it was 0.000').waitFor();
   await part.getByLabel('The position becomes (mm)').fill('about 3');
   assert.equal(await part.getByRole('button', { name: 'Set', exact: true }).isDisabled(), true);
   assert.deepEqual(await findBarriers(page), []);
@@ -99,7 +100,7 @@ test('a datum is set from the position, and the position is taken as a block', a
   await page.getByText(/datum X 1\.25 mm/).waitFor();
   assertNoComplaints(complaints); // the next view asks for rules that this machine does not have
   await page.goto(`${shop.url}/#/corrections/mill-3`);
-  await page.getByRole('region', { name: 'Set at the machine' }).getByText(/^datum\.X: 0\.0000 → 30\.0000$/).waitFor();
+  await page.getByRole('region', { name: 'Set at the machine' }).getByText(/^datum\.X: 0\.000\s*mm → 30\.000\s*mm$/).waitFor();
   await shop.stopMachine('mill-3');
 });
 

@@ -165,6 +165,7 @@ export const measured: typeof Shape = {
     historyOf: (machine) => `Werkzeuge und Nullpunkte von ${machine}`,
     atMachine: 'An der Maschine gesetzt',
     setAs: 'Als',
+    lengthInForce: (length) => `Werkzeuglänge dabei ${length}`,
     noHistory: 'Keine Einrichtung dieser Maschine hat einen solchen Wert.',
     value: 'Wert',
     change: 'Änderung',

@@ -163,6 +163,7 @@ export const measured = {
     historyOf: (machine: string) => `Tools and offsets of ${machine}`,
     atMachine: 'Set at the machine',
     setAs: 'As',
+    lengthInForce: (length: string) => `tool's length in force ${length}`,
     noHistory: 'No setup of this machine has such a value.',
     value: 'Value',
     change: 'Change',
