@@ -136,7 +136,12 @@ TEST_F(GrblSystem, BlocksKeyedInMoveTheBoardAndAreHeldAndAborted) {
     return system->rest().post("/api/v1/machines/lathe-1/datum",
                                {{"offset", "G55"}, {"axis", "X"}, {"value", 5}, {"unit", "mm"}});
   };
-  EXPECT_NE(datum().body.find("#5241 is 20, it was 0"), std::string::npos) << datum().body;
+  EXPECT_NE(datum().body.find("#5241 is 20.000 mm, it was 0.000\""), std::string::npos)
+      << datum().body;
+  const auto length = system->rest().post("/api/v1/machines/lathe-1/touch-off",
+                                          {{"tool", 1}, {"axis", "Z"}, {"value", 0}});
+  EXPECT_EQ(length.status, 409) << length.body;
+  EXPECT_NE(length.body.find("would not be in its motion"), std::string::npos) << length.body;
   EXPECT_EQ(system->wait_ended(key_in("G21 G90 G94 F3000 G55 G1 X6\n")).value("state", ""),
             "completed");
   EXPECT_NEAR(board_x(), 26, 1e-3) << "by the datum that was set";

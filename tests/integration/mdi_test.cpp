@@ -15,7 +15,8 @@ using Reply = test_support::RestClient::Reply;
 
 class MdiSystem : public testing::Test {
  protected:
-  void begin(const std::string& speed = "1x", const std::string& setup = "") {
+  void begin(const std::string& speed = "1x", const std::string& setup = "",
+             const std::string& control = "fanuc") {
     std::vector<std::string> arguments;
     if (!setup.empty()) {
       const std::string file = folder_.path() / "setup.toml";
@@ -25,7 +26,7 @@ class MdiSystem : public testing::Test {
     system.emplace(System::Options{.speed = speed,
                                    .server_arguments = {},
                                    .gateway_arguments = std::move(arguments),
-                                   .control = "fanuc"});
+                                   .control = control});
     system->start_server();
     system->start_gateway();
     system->wait_connected();
@@ -224,7 +225,13 @@ TEST_F(MdiSystem, ADatumSetFromThePositionIsKeptAndOnRecord) {
   const json datum{{"offset", "G54"}, {"axis", "X"}, {"value", 5}, {"unit", "mm"}};
   const Reply done = set("datum", datum);
   ASSERT_EQ(done.status, 200) << done.body;
-  EXPECT_EQ(done.json().value("text", ""), "G54.X is 20, it was 0");
+  EXPECT_EQ(done.json().value("text", ""),
+            "G54.X is 20.000 mm, it was 0.000 (no tool's length in force along X)");
+  EXPECT_EQ(done.json()["what"], "datum G54 X 5 mm");
+  EXPECT_EQ(done.json()["cells"].dump(),
+            R"([{"before":0.0,"name":"G54.X","unit":"mm","value":20.0}])");
+  EXPECT_EQ(done.json()["length"], 0);
+  EXPECT_TRUE(done.json()["zero"].is_null());
   system->gateway().kill();  // it was on disk before it was answered
   system->server().kill();
   system->start_server();
@@ -242,10 +249,76 @@ TEST_F(MdiSystem, ADatumSetFromThePositionIsKeptAndOnRecord) {
       system->rest().get("/api/v1/machines/lathe-1/offset-history?target=G54").json();
   ASSERT_EQ(history["at_machine"].size(), 1U) << history.dump();
   EXPECT_EQ(history["at_machine"][0]["target"], "G54.X");
+  EXPECT_EQ(history["at_machine"][0]["unit"], "mm");
+  EXPECT_EQ(history["at_machine"][0]["length"], 0);
   system->push("O1", "O1\nG21 G90 G54 G0 X7.\nM30\n");
   EXPECT_EQ(system->wait_ended(system->start_run("O1")).value("state", ""), "completed");
   EXPECT_TRUE(eventually([&] { return x() == 27; })) << status().dump();
   EXPECT_EQ(audited("machine.datum").size(), 2U) << "asked, and done";
+}
+
+/// Touch off X, move, touch off Z; the answer of MDI says that the tool is lost, and what that
+/// does.
+TEST_F(MdiSystem, ATouchOffAfterMdiWithoutTheToolIsByTheAxes) {
+  begin("max", "[[tool]]\nnumber = 3\nlength = 10.0\n");
+  EXPECT_TRUE(key_in("G21 G43 H3 G91 G1 Z-180. F9000\n").json()["notice"].is_string());
+  ends_idle();
+  const auto set = [&](const char* what, const json& body) {
+    return system->rest().post(std::string("/api/v1/machines/lathe-1/") + what, body);
+  };
+  EXPECT_EQ(set("datum", {{"offset", "G54"}, {"axis", "X"}, {"value", 0}}).status, 200);
+  const Reply moved = key_in("G21 G91 G1 X1. F9000\n");
+  EXPECT_NE(moved.json().value("notice", "").find("from here on: Z 10 mm"), std::string::npos)
+      << moved.body;
+  EXPECT_EQ(system->wait_ended(moved.json().value("id", "")).value("state", ""), "completed");
+  const json tool{{"tool", 3}, {"offset", "G54"}, {"axis", "Z"}, {"value", -179.5}, {"unit", "mm"}};
+  const Reply done = set("touch-off", tool);
+  ASSERT_EQ(done.status, 200) << done.body;
+  EXPECT_EQ(done.json()["cells"][0]["value"], 9.5) << done.body;
+  EXPECT_EQ(done.json()["length"], 0) << done.body;
+  EXPECT_EQ(done.json()["zero"], 0) << done.body;
+  EXPECT_TRUE(key_in("G21 G91 G1 X1. F9000\n").json()["notice"].is_string()) << "it was set";
+  ends_idle();
+  EXPECT_TRUE(key_in("X1.\n").json()["notice"].is_null());
+}
+
+/// Who learns that a run has ended finds the machine where it is.
+TEST_F(MdiSystem, TheStatusIsThatOfTheEndWhenTheRunHasEnded) {
+  begin("max");
+  for (int i = 1; i <= 10; ++i) {
+    EXPECT_EQ(mdi("G21 G91 G0 X1.\n").value("state", ""), "completed");
+    EXPECT_EQ(x(), i);
+  }
+}
+
+TEST_F(MdiSystem, ValuesAreThoseOfTheSetupBeforeTheFirstRun) {
+  begin("max", "[[offset]]\nname = \"G54\"\nX = 100.0\n");
+  const auto values = [&] {
+    return system->rest().get("/api/v1/machines/lathe-1/values?beginning=G54.X").body;
+  };
+  EXPECT_NE(values().find(R"({"name":"G54.X","value":100.0})"), std::string::npos) << values();
+  const Reply saved = system->rest().put_bytes("/api/v1/machines/lathe-1/setup",
+                                               "[[offset]]\nname = \"G54\"\nX = 40.0\n");
+  EXPECT_EQ(saved.status / 100, 2) << saved.body;
+  EXPECT_NE(values().find(R"({"name":"G54.X","value":40.0})"), std::string::npos) << values();
+}
+
+TEST_F(MdiSystem, ARotaryAxisTakesDegrees) {
+  begin("max");
+  const auto datum = [&](const json& unit) {
+    json body{{"offset", "G54"}, {"axis", "A"}, {"value", 90}};
+    if (!unit.is_null()) body["unit"] = unit;
+    return system->rest().post("/api/v1/machines/lathe-1/datum", body);
+  };
+  const Reply refused = datum("in");
+  EXPECT_EQ(refused.status, 400) << refused.body;
+  EXPECT_NE(refused.body.find("its value is in degrees"), std::string::npos) << refused.body;
+  for (const json& unit : {json("deg"), json(nullptr)}) {
+    const Reply done = datum(unit);
+    ASSERT_EQ(done.status, 200) << done.body;
+    EXPECT_EQ(done.json()["cells"][0]["value"], -90) << done.body;
+    EXPECT_EQ(done.json()["cells"][0]["unit"], "deg") << done.body;
+  }
 }
 
 TEST_F(MdiSystem, NothingIsSetWhileAProgramRuns) {
@@ -259,6 +332,29 @@ TEST_F(MdiSystem, NothingIsSetWhileAProgramRuns) {
   EXPECT_NE(refused.body.find("busy with run " + run), std::string::npos) << refused.body;
   EXPECT_EQ(system->wait_ended(run).value("state", ""), "completed");
   EXPECT_TRUE(system->rest().get("/api/v1/machines/lathe-1/memory").json()["memories"].empty());
+}
+
+/// A tool that is changed by hand: who waits for the end is told how to go on, and not for ever.
+TEST_F(MdiSystem, WhoWaitsAtAToolChangeIsToldHowToGoOn) {
+  begin("max", "[[tool]]\nnumber = 3\nlength = 10.0\n", "rs274ngc");
+  const auto dnc = [&](const std::string& arguments) {
+    return test_support::run_to_end(
+        {"/bin/sh", "-c",
+         program_path("dnc") + " --server " + system->url() + " --state " +
+             system->server_state().string() + " " + arguments},
+        system->folder() / "dnc.out");
+  };
+  const auto waited = dnc("machine mdi lathe-1 'T3 M6' --timeout 2");
+  EXPECT_EQ(waited.status, 124) << waited.output;
+  EXPECT_NE(waited.output.find("tool change"), std::string::npos) << waited.output;
+  EXPECT_NE(waited.output.find("dnc run resume"), std::string::npos) << waited.output;
+  EXPECT_NE(waited.output.find("has not ended in 2 s"), std::string::npos) << waited.output;
+  const auto resumed = dnc("run resume latest");
+  EXPECT_EQ(resumed.status, 0) << resumed.output;
+  ends_idle();
+  const auto done = dnc("machine mdi lathe-1 'G21 G0 X1' --timeout 30");
+  EXPECT_EQ(done.status, 0) << done.output;
+  EXPECT_EQ(x(), 1);
 }
 
 TEST_F(MdiSystem, NeedsAnOperator) {
@@ -289,7 +385,8 @@ TEST_F(MdiSystem, NeedsAnOperator) {
   EXPECT_EQ(datum.status, 4) << datum.output;
   const auto set = dnc("operator", "machine datum lathe-1 X -2 --unit mm --offset G54");
   EXPECT_EQ(set.status, 0) << set.output;
-  EXPECT_EQ(set.output, "lathe-1: G54.X is 2, it was 0\n");
+  EXPECT_EQ(set.output,
+            "lathe-1: G54.X is 2.000 mm, it was 0.000 (no tool's length in force along X)\n");
   const auto back = dnc("operator", "machine datum lathe-1 X 0 --offset G54");
   EXPECT_EQ(back.status, 0) << back.output;
   const auto done = dnc("operator", "machine mdi lathe-1 'G21 G90 G0 X3.' --wait");

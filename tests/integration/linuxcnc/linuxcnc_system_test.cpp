@@ -75,6 +75,11 @@ TEST_F(LinuxCncSystem, BlocksKeyedInMoveTheMachineAndAnAbortStopsIt) {
   const auto datum = system->rest().post("/api/v1/machines/lathe-1/datum",
                                          {{"offset", "G54"}, {"axis", "X"}, {"value", 0}});
   EXPECT_EQ(datum.status, 200) << datum.body;
+  const auto length =
+      system->rest().post("/api/v1/machines/lathe-1/touch-off",
+                          {{"tool", 1}, {"offset", "G54"}, {"axis", "Z"}, {"value", 0}});
+  EXPECT_EQ(length.status, 409) << length.body;
+  EXPECT_NE(length.body.find("would not be in its motion"), std::string::npos) << length.body;
   EXPECT_NEAR(linuxcnc->position()[0], begun_at + 25, 0.001) << "nothing moves";
   EXPECT_EQ(system->wait_ended(key_in("G21 G90 G54 G1 X-3. F2400\n")).value("state", ""),
             "completed");
