@@ -31,8 +31,9 @@ struct MotionCapabilities {
   bool dry_run = false;    ///< obeys OperatorPanel::dry_run at once
   bool handwheel = false;  ///< moves the program forward by `turn_handwheel`
   bool simulated_time =
-      false;                 ///< `poll` lets machine time pass: another speed than 1x is possible
-  bool places_axes = false;  ///< `begin` puts the axes where it is asked to
+      false;                  ///< `poll` lets machine time pass: another speed than 1x is possible
+  bool places_axes = false;   ///< `begin` puts the axes where it is asked to
+  bool tool_lengths = false;  ///< a tool's length in force is taken into account
 };
 
 /// What a back end without signals answers.

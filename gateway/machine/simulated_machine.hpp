@@ -80,7 +80,8 @@ class SimulatedMachine final : public MotionBackend {
                                    .dry_run = true,
                                    .handwheel = true,
                                    .simulated_time = true,
-                                   .places_axes = true};
+                                   .places_axes = true,
+                                   .tool_lengths = true};
   // Each refers to those above it.
   const MachineLimits limits_;
   const interpreter::Workpiece workpiece_;

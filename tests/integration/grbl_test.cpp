@@ -157,6 +157,18 @@ TEST_F(GrblSystem, BlocksKeyedInMoveTheBoardAndAreHeldAndAborted) {
   EXPECT_LT(board_x(), 900);
 }
 
+// A board moves by coordinates: the tip would be deeper by the length.
+TEST_F(GrblSystem, AToolsLengthInForceIsAnAlarmBeforeTheFirstMove) {
+  const auto setup = std::filesystem::path(testing::TempDir()) / "grbl_length.toml";
+  std::ofstream(setup) << "[[tool]]\nnumber = 1\nlength = 10.0\n";
+  start("rs274ngc", {}, 20, {"--setup", setup.string()});
+  system->push("deep", "G21 G90 G94 F3000\nG1 X5\nG43 H1\nG1 Z-1\nM2\n");
+  const auto run = system->wait_ended(start_run("deep"));
+  EXPECT_EQ(run.value("state", ""), "alarmed") << run.dump();
+  EXPECT_NE(run.dump().find("Z 10.000 mm is in force"), std::string::npos) << run.dump();
+  EXPECT_EQ(board->with([](GrblBoard& peer) { return peer.position()[0]; }), 0);
+}
+
 TEST_F(GrblSystem, APulledCableIsAnAlarmAndTheOperatorsResetEndsIt) {
   start();
   system->push("path", straight_program(2000, kFeed));

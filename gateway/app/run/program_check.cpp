@@ -6,13 +6,29 @@ namespace dripline::gateway {
 
 using interpreter::StepState;
 
+void ProgramCheck::Refusals::on_alarm(const interpreter::Alarm& alarm) {
+  if (!first && alarm.diagnostic.id.starts_with("MCH")) first = alarm.diagnostic;
+  out().on_alarm(alarm);
+}
+
+ProgramCheck::ProgramCheck(Parts parts)
+    : parts_(std::move(parts)),
+      refusals_(parts_.machine->events()),
+      filter_(parts_.capabilities, refusals_, [this] { return interpreter_->modes(); }) {}
+
+std::optional<interpreter::Diagnostic> ProgramCheck::found() const {
+  const auto& refused = parts_.machine->refusal();
+  if (refused && (!refusals_.first || refused->line <= refusals_.first->line)) return refused;
+  return refusals_.first;
+}
+
 ProgramCheck::State ProgramCheck::work(SteadyTime now) {
   constexpr std::uint64_t kBlocksAtOnce = 1024;
   if (is_over()) return state_;
   if (!began_) began_ = now;
   if (now - *began_ > kLimit) return state_ = State::Passed;
-  const StepState step = parts_.interpreter->step(kBlocksAtOnce);
-  if (const auto& refusal = parts_.machine->refusal()) {
+  const StepState step = interpreter_->step(kBlocksAtOnce);
+  if (const auto refusal = found()) {
     refusal_.origin.line = refusal->line;
     refusal_.diagnostic = *refusal;
     refusal_.diagnostic.text =
@@ -34,11 +50,11 @@ ProgramCheck::State ProgramCheck::work(SteadyTime now) {
 }
 
 bool ProgramCheck::answer() {
-  if (!std::holds_alternative<interpreter::PromptQuestion>(parts_.interpreter->question()) ||
+  if (!std::holds_alternative<interpreter::PromptQuestion>(interpreter_->question()) ||
       next_answer_ >= parts_.answers.size())
     return false;
   const interpreter::PromptAnswer given{parts_.answers[next_answer_++]};
-  return parts_.interpreter->answer(given).has_value();
+  return interpreter_->answer(given).has_value();
 }
 
 }  // namespace dripline::gateway

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gateway/interpreter/core/interpreter.hpp"
-#include "gateway/machine/motion_backend.hpp"
+#include "gateway/machine/capability_filter.hpp"
 #include "protocol/base/clock.hpp"
 
 namespace dripline::gateway {
@@ -18,11 +18,19 @@ class ProgramCheck {
  public:
   struct Parts {
     std::unique_ptr<machine::MotionCheck> machine;
-    /// At the program's beginning; its events go to the machine's check.
-    std::unique_ptr<interpreter::Interpreter> interpreter;
-    std::vector<std::string> answers;  ///< of the setup, to the program's prompts
+    const machine::MotionCapabilities& capabilities;  ///< of the machine, which outlives the check
+    std::vector<std::string> answers;                 ///< of the setup, to the program's prompts
   };
-  explicit ProgramCheck(Parts parts) : parts_(std::move(parts)) {}
+  explicit ProgramCheck(Parts parts);
+  ProgramCheck(const ProgramCheck&) = delete;
+  ProgramCheck& operator=(const ProgramCheck&) = delete;
+
+  /// For an interpreter that is given to `begin` then.
+  interpreter::EventSink& events() { return filter_; }
+  /// `interpreter`: at the program's beginning.
+  void begin(std::unique_ptr<interpreter::Interpreter> interpreter) {
+    interpreter_ = std::move(interpreter);
+  }
 
   enum class State { Working, NeedsText, Passed, Refused };
   /// A bounded piece of work.
@@ -32,14 +40,26 @@ class ProgramCheck {
   /// When refused: what the machine cannot do, with its line.
   const interpreter::Alarm& refusal() const { return refusal_; }
   /// Looked through so far, for the operator.
-  std::uint64_t block() const { return parts_.interpreter->blocks(); }
+  std::uint64_t block() const { return interpreter_->blocks(); }
 
   static constexpr std::chrono::seconds kLimit{10};
 
  private:
+  /// Keeps the first alarm of the filter in front of it.
+  class Refusals final : public interpreter::EventFilter {
+   public:
+    using EventFilter::EventFilter;
+    void on_alarm(const interpreter::Alarm& alarm) override;
+    std::optional<interpreter::Diagnostic> first;
+  };
+
   bool answer();
+  std::optional<interpreter::Diagnostic> found() const;
 
   Parts parts_;
+  std::unique_ptr<interpreter::Interpreter> interpreter_;
+  Refusals refusals_;
+  machine::CapabilityFilter filter_;
   State state_ = State::Working;
   std::optional<SteadyTime> began_;
   std::size_t next_answer_ = 0;

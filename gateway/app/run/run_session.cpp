@@ -77,13 +77,16 @@ Result<void> RunSession::give_memory(const Make& make, const interpreter::Setup&
 /// kept is not in the setup.
 Result<void> RunSession::begin_check(const Make& make, const interpreter::Setup& setup) {
   if (!parts_.check) return {};
-  auto made = make(setup, parts_.check->events());
+  auto check = std::make_unique<ProgramCheck>(
+      ProgramCheck::Parts{.machine = std::move(parts_.check),
+                          .capabilities = parts_.machine.capabilities(),
+                          .answers = setup_.answers});
+  auto made = make(setup, check->events());
   if (!made) return fail(made.error());
   if (retained_ != nullptr || parts_.modes != nullptr)
     if (auto same = (*made)->restore(interpreter_->snapshot()); !same) return same;
-  check_ = std::make_unique<ProgramCheck>(ProgramCheck::Parts{.machine = std::move(parts_.check),
-                                                              .interpreter = *std::move(made),
-                                                              .answers = setup_.answers});
+  check->begin(*std::move(made));
+  check_ = std::move(check);
   return {};
 }
 
@@ -103,7 +106,8 @@ RunSession::RunSession(Parts parts, const interpreter::Dialect& dialect,
     : parts_(std::move(parts)),
       setup_(setup),
       begun_ms_(milliseconds(parts_.clock.now())),
-      events_(parts_.machine.capabilities(), parts_.machine.events()),
+      events_(parts_.machine.capabilities(), parts_.machine.events(),
+              [this] { return interpreter_->modes(); }),
       tracker_(front_of(dry_run_, parts_.dry_run, events_)),
       tool_history_(dialect.length_shifts_position) {
   if (parts_.checkpoints != nullptr)
@@ -242,6 +246,10 @@ bool RunSession::resolve(const interpreter::ProbeQuestion& question) {
   waits_ = Waits::ForMachine;
   if (!parts_.machine.capabilities().probing) {
     events_.refuse(question.probe.origin, "probe");
+    is_over_ = true;
+    return false;
+  }
+  if (!is_probing_ && !events_.has_length(question.probe.origin)) {
     is_over_ = true;
     return false;
   }
