@@ -11,6 +11,7 @@
 #include "storage/postgresql_store.hpp"
 #include "storage/sql/database.hpp"
 #include "storage/sqlite_store.hpp"
+#include "tests/support/manual_clock.hpp"
 #include "tests/support/postgresql/test_database.hpp"
 
 namespace dripline::storage {
@@ -32,15 +33,7 @@ class TemporaryDirectory {
   std::filesystem::path path_;
 };
 
-/// A clock the test moves.
-class ManualClock final : public Clock {
- public:
-  UtcTime now() const override { return now_; }
-  SteadyTime steady_now() const override { return SteadyTime{now_.time_since_epoch()}; }
-  void advance(std::chrono::microseconds step) { now_ += step; }
-
- private:
-  UtcTime now_{std::chrono::microseconds{1'700'000'000'000'000}};
+using test_support::ManualClock;
 };
 
 inline std::span<const std::byte> bytes_of(std::string_view text) {
