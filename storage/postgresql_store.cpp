@@ -7,9 +7,8 @@
 namespace dripline::storage {
 
 struct PostgresqlStore::Parts {
-  Parts(std::unique_ptr<PostgresqlConnections> opened, const Clock& clock,
-        std::uint64_t cache_bytes)
-      : connections(std::move(opened)), repositories(*connections, clock, cache_bytes) {}
+  Parts(std::unique_ptr<PostgresqlConnections> opened, const Clock& clock, const Caches& caches)
+      : connections(std::move(opened)), repositories(*connections, clock, caches) {}
 
   std::unique_ptr<PostgresqlConnections> connections;
   Repositories repositories;
@@ -19,8 +18,8 @@ Result<std::unique_ptr<PostgresqlStore>> PostgresqlStore::open(
     const PostgresqlStoreOptions& options, const Clock& clock) {
   auto connections = PostgresqlConnections::open(options);
   if (!connections) return fail(connections.error());
-  return std::unique_ptr<PostgresqlStore>(new PostgresqlStore(
-      std::make_unique<Parts>(std::move(*connections), clock, options.cache_bytes)));
+  return std::unique_ptr<PostgresqlStore>(new PostgresqlStore(std::make_unique<Parts>(
+      std::move(*connections), clock, Caches{options.cache_bytes, options.content_cache})));
 }
 
 PostgresqlStore::PostgresqlStore(std::unique_ptr<Parts> parts)

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "protocol/base/clock.hpp"
+#include "storage/content_cache.hpp"
 #include "storage/opened_store.hpp"
 
 namespace dripline::storage {
@@ -19,7 +20,9 @@ struct PostgresqlStoreOptions {
   std::string described{};  ///< which server this is, for whoever is refused
   std::chrono::milliseconds wait_for_holder{12000};  ///< that another one's place ends, then Busy
   std::size_t readers = 4;                           ///< connections that read at the same time
-  std::uint64_t cache_bytes = 8 << 20;    ///< of program chunks kept checked and decompressed
+  std::uint64_t cache_bytes = 8 << 20;  ///< of program chunks kept checked and decompressed
+  /// Program text nearer than the database; null: none. It must outlive the store.
+  ContentCache* content_cache = nullptr;
   std::chrono::milliseconds wait{10000};  ///< at most for a connection or a lock, then Errc::Busy
   /// The place is another server's now, for good: called once, from any thread, and returns soon.
   std::function<void(const Error&)> on_lost{};

@@ -109,6 +109,19 @@ class ProgramStore {
   /// before a byte is returned. Errors: NotFound, Corrupt (the chunk is named).
   virtual Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
                                                       std::uint64_t length) = 0;
+  /// The same, of what needs no database and waits for none: it is in memory, or in the server's
+  /// own cache (content_cache.hpp). nullopt: some of it is not, or the store is another server's
+  /// now.
+  virtual std::optional<std::vector<std::byte>> near_content(const Digest& content,
+                                                             std::uint64_t offset,
+                                                             std::uint64_t length) = 0;
+  struct Fetched {
+    std::uint64_t bytes = 0;  ///< that the chunk takes in the cache; 0: it was not kept
+    bool is_end = false;      ///< there is no such chunk, or no cache
+  };
+  /// Brings the chunk at `position` (0, 1, 2 ...) into the server's own cache. Errors: those of
+  /// read_content.
+  virtual Result<Fetched> fetch_ahead(const Digest& content, std::uint64_t position) = 0;
   /// Whether the stored list of chunks is the one whose bytes were compared with `content`. Reads
   /// no bytes, except once all of a content that an older version stored. Errors: NotFound, Corrupt
   /// (the chunk is named).

@@ -45,8 +45,8 @@ class Deadline {
 }  // namespace
 
 struct SqliteStore::Parts {
-  Parts(std::unique_ptr<SqliteConnections> opened, const Clock& clock, std::uint64_t cache_bytes)
-      : connections(std::move(opened)), repositories(*connections, clock, cache_bytes) {}
+  Parts(std::unique_ptr<SqliteConnections> opened, const Clock& clock, const Caches& caches)
+      : connections(std::move(opened)), repositories(*connections, clock, caches) {}
 
   std::unique_ptr<SqliteConnections> connections;
   Repositories repositories;
@@ -56,8 +56,8 @@ Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions&
                                                        const Clock& clock) {
   auto connections = SqliteConnections::open(options);
   if (!connections) return fail(connections.error());
-  return std::unique_ptr<SqliteStore>(new SqliteStore(
-      std::make_unique<Parts>(std::move(*connections), clock, options.cache_bytes)));
+  return std::unique_ptr<SqliteStore>(new SqliteStore(std::make_unique<Parts>(
+      std::move(*connections), clock, Caches{.memory_bytes = options.cache_bytes})));
 }
 
 SqliteStore::SqliteStore(std::unique_ptr<Parts> parts)

@@ -22,9 +22,9 @@ namespace dripline::storage {
 
 /// Every interface of a store, over one engine's connections.
 struct Repositories {
-  /// Connections must outlive it. `cache_bytes`: of program chunks, kept checked.
-  Repositories(Connections& opened, const Clock& clock, std::uint64_t cache_bytes)
-      : programs(opened, clock, cache_bytes),
+  /// Connections must outlive it.
+  Repositories(Connections& opened, const Clock& clock, const Caches& caches)
+      : programs(opened, clock, caches),
         uploads(opened, clock),
         machines(opened),
         runs(opened, clock),

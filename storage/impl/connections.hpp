@@ -17,6 +17,9 @@ class Connections {
  public:
   virtual ~Connections() = default;
 
+  /// Asks no database. Errors: Io (what it is opened for is another's now, as far as is known).
+  virtual Result<void> check_place() const { return {}; }
+
   /// `action(database)` in one transaction, committed when it succeeds, undone when it fails. One
   /// writes at a time. The action may be called again from its beginning, when the engine undid
   /// what it did: it changes nothing outside the database but what its own beginning sets.

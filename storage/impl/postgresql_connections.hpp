@@ -36,6 +36,7 @@ class PostgresqlConnections final : public Connections {
   ~PostgresqlConnections() override;
 
   const std::string& label() const { return label_; }
+  Result<void> check_place() const override;
   /// Extends the place, in a transaction that is on disk when it returns.
   Result<void> renew();
 
@@ -56,7 +57,6 @@ class PostgresqlConnections final : public Connections {
   /// Opens it when it is not. Errors: Io, after trying for a moment.
   Result<void> connect(Slot& slot);
   void keep_place(const std::stop_token& stop);
-  Result<void> check_place() const;
   Error lost_error() const;
 
   const PostgresqlStoreOptions options_;

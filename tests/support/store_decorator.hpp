@@ -47,6 +47,13 @@ class ProgramStoreDecorator : public storage::ProgramStore {
                                               std::uint64_t length) override {
     return inner_.read_content(content, offset, length);
   }
+  std::optional<std::vector<std::byte>> near_content(const Digest& content, std::uint64_t offset,
+                                                     std::uint64_t length) override {
+    return inner_.near_content(content, offset, length);
+  }
+  Result<Fetched> fetch_ahead(const Digest& content, std::uint64_t position) override {
+    return inner_.fetch_ahead(content, position);
+  }
   Result<void> verify_content(const Digest& content) override {
     return inner_.verify_content(content);
   }

@@ -167,7 +167,7 @@ Result<CommittedChunk> load_committed_chunk(sql::Database& database, const Diges
       "content_chunk.position = ?2 LEFT JOIN chunk ON chunk.id = content_chunk.chunk "
       "WHERE content.sha256 = ?1",
       [&](const sql::Statement& row) -> Loaded {
-        CommittedChunk chunk{row.number(0), {}};
+        CommittedChunk chunk{row.number(0), {}, {}};
         if (position * kChunkBytes >= chunk.content_size) return chunk;
         if (position >= expected.size()) {
           return fail(Errc::Corrupt, "{}: chunk {} is more than it was stored with", label,
@@ -183,6 +183,8 @@ Result<CommittedChunk> load_committed_chunk(sql::Database& database, const Diges
                       bytes->size(), due);
         }
         chunk.bytes = *std::move(bytes);
+        const auto frame = row.blob(3);
+        chunk.frame.assign(frame.begin(), frame.end());
         return chunk;
       },
       std::span<const std::byte>(content.bytes), position);

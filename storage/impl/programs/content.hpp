@@ -14,15 +14,13 @@
 
 #include "protocol/base/digest.hpp"
 #include "storage/chunk_codec.hpp"
+#include "storage/content_cache.hpp"
 #include "storage/sql/query.hpp"
 
 /// Rows of content, content_chunk and chunk. Functions that write run inside the caller's
 /// transaction.
 
 namespace dripline::storage {
-
-/// Of the chunks of a content, in their order.
-using ChunkDigests = std::vector<Digest>;
 
 struct ContentRow {
   std::int64_t id = 0;
@@ -59,6 +57,7 @@ Result<std::vector<std::byte>> load_chunk(sql::Database& database, std::int64_t 
 struct CommittedChunk {
   std::uint64_t content_size = 0;
   std::vector<std::byte> bytes;
+  std::vector<std::byte> frame;  ///< the same as it is stored
 };
 Result<CommittedChunk> load_committed_chunk(sql::Database& database, const Digest& content,
                                             std::uint64_t position, const ChunkDigests& expected);

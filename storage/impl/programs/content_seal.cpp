@@ -94,9 +94,9 @@ Result<void> seal_content(sql::Database& database, const ContentRow& content,
                   std::span<const std::byte>(seal.bytes));
 }
 
-Result<std::shared_ptr<const ChunkDigests>> check_seal(sql::Database& database,
-                                                       const ContentRow& content,
-                                                       const Digest& digest) {
+Result<std::shared_ptr<const ContentList>> check_seal(sql::Database& database,
+                                                      const ContentRow& content,
+                                                      const Digest& digest) {
   const auto seal = sql::first_row(
       database, "SELECT seal FROM content WHERE id = ?1",
       [](const sql::Statement& row) {
@@ -104,7 +104,7 @@ Result<std::shared_ptr<const ChunkDigests>> check_seal(sql::Database& database,
       },
       content.id);
   if (!seal) return fail(seal.error());
-  if (!*seal || !**seal) return std::shared_ptr<const ChunkDigests>();
+  if (!*seal || !**seal) return std::shared_ptr<const ContentList>();
   if (auto places = check_places(database, content, digest); !places) return fail(places.error());
   auto chunks = read_list(database, content, digest);
   if (!chunks) return fail(chunks.error());
@@ -112,7 +112,7 @@ Result<std::shared_ptr<const ChunkDigests>> check_seal(sql::Database& database,
     return fail(Errc::Corrupt, "{}: the list of its chunks is not the one that was stored",
                 label_of(digest));
   }
-  return std::make_shared<const ChunkDigests>(*std::move(chunks));
+  return std::make_shared<const ContentList>(ContentList{content.size, *std::move(chunks)});
 }
 
 Result<void> compare_whole(sql::Database& database, const ContentRow& content,
@@ -129,25 +129,25 @@ Result<void> compare_whole(sql::Database& database, const ContentRow& content,
               found.hex());
 }
 
-std::shared_ptr<const ChunkDigests> SealedContents::find(const Digest& content) {
+std::shared_ptr<const ContentList> SealedContents::find(const Digest& content) {
   const std::lock_guard lock(mutex_);
   const auto found = std::ranges::find(entries_, content, &Entry::content);
   if (found == entries_.end()) return nullptr;
   entries_.splice(entries_.begin(), entries_, found);
-  return entries_.front().chunks;
+  return entries_.front().list;
 }
 
-void SealedContents::insert(const Digest& content, std::shared_ptr<const ChunkDigests> chunks) {
+void SealedContents::insert(const Digest& content, std::shared_ptr<const ContentList> list) {
   const std::lock_guard lock(mutex_);
   const auto known = std::ranges::find(entries_, content, &Entry::content);
   if (known != entries_.end()) {
-    digests_ -= known->chunks->size();
+    digests_ -= known->list->chunks.size();
     entries_.erase(known);
   }
-  digests_ += chunks->size();
-  entries_.push_front({content, std::move(chunks)});
+  digests_ += list->chunks.size();
+  entries_.push_front({content, std::move(list)});
   while (digests_ > kCapacity && entries_.size() > 1) {
-    digests_ -= entries_.back().chunks->size();
+    digests_ -= entries_.back().list->chunks.size();
     entries_.pop_back();
   }
 }

@@ -20,9 +20,9 @@ namespace dripline::storage {
 Result<void> seal_content(sql::Database& database, const ContentRow& content, const Digest& digest);
 
 /// Null: it is not sealed yet. Errors: Corrupt, naming the chunk where that is known.
-Result<std::shared_ptr<const ChunkDigests>> check_seal(sql::Database& database,
-                                                       const ContentRow& content,
-                                                       const Digest& digest);
+Result<std::shared_ptr<const ContentList>> check_seal(sql::Database& database,
+                                                      const ContentRow& content,
+                                                      const Digest& digest);
 
 /// Reads all bytes of a content that was committed before seals were known. Errors: Corrupt (they
 /// are not what `digest` says, or a chunk is damaged).
@@ -33,13 +33,13 @@ Result<void> compare_whole(sql::Database& database, const ContentRow& content,
 class SealedContents {
  public:
   static constexpr std::size_t kCapacity = 128 * 1024;  ///< 4 MiB; 32 GiB of programs
-  std::shared_ptr<const ChunkDigests> find(const Digest& content);
-  void insert(const Digest& content, std::shared_ptr<const ChunkDigests> chunks);
+  std::shared_ptr<const ContentList> find(const Digest& content);
+  void insert(const Digest& content, std::shared_ptr<const ContentList> list);
 
  private:
   struct Entry {
     Digest content;
-    std::shared_ptr<const ChunkDigests> chunks;
+    std::shared_ptr<const ContentList> list;
   };
   std::mutex mutex_;
   std::list<Entry> entries_;  // used last first

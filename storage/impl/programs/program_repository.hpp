@@ -8,10 +8,19 @@
 
 namespace dripline::storage {
 
+/// Where program text is nearer than in the database.
+struct Caches {
+  std::uint64_t memory_bytes = 0;   ///< of chunks, kept checked and decompressed
+  ContentCache* content = nullptr;  ///< null: none; must outlive the repository
+};
+
 class ProgramRepository final : public ProgramStore {
  public:
-  ProgramRepository(Connections& connections, const Clock& clock, std::uint64_t cache_bytes)
-      : connections_(connections), clock_(clock), cache_(cache_bytes) {}
+  ProgramRepository(Connections& connections, const Clock& clock, const Caches& caches)
+      : connections_(connections),
+        clock_(clock),
+        cache_(caches.memory_bytes),
+        near_(caches.content) {}
 
   using ProgramStore::list;
   Result<std::vector<ProgramSummary>> list(const ProgramFilter& filter, Page page) override;
@@ -29,20 +38,29 @@ class ProgramRepository final : public ProgramStore {
   Result<void> remove(const std::string& program) override;
   Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
                                               std::uint64_t length) override;
+  std::optional<std::vector<std::byte>> near_content(const Digest& content, std::uint64_t offset,
+                                                     std::uint64_t length) override;
+  Result<Fetched> fetch_ahead(const Digest& content, std::uint64_t position) override;
   Result<void> verify_content(const Digest& content) override;
 
  private:
   struct Sealed {
     ContentRow row;
-    std::shared_ptr<const ChunkDigests> chunks;  ///< null: not sealed yet
+    std::shared_ptr<const ContentList> list;  ///< null: not sealed yet
   };
   Result<Sealed> sealed(const Digest& content);
   Result<Sealed> seal(const Digest& content, const ContentRow& row);
-  Result<std::shared_ptr<const CachedChunk>> chunk(const Digest& content, std::uint64_t position);
+  using ChunkPointer = std::shared_ptr<const CachedChunk>;
+  /// All of them null where it is not there.
+  std::shared_ptr<const ContentList> near_list(const Digest& content);
+  ChunkPointer near_chunk(const Digest& content, std::uint64_t position);
+  Result<std::shared_ptr<const ContentList>> known_list(const Digest& content);
+  Result<ChunkPointer> chunk(const Digest& content, std::uint64_t position);
 
   Connections& connections_;
   const Clock& clock_;
   ChunkCache cache_;
+  ContentCache* const near_;  ///< null: none
   SealedContents sealed_;
 };
 
