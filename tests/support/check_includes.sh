@@ -18,6 +18,7 @@ storage/sql: protocol/base storage/sql
 storage/sqlite: protocol/base storage/sql storage/sqlite
 storage/postgresql: protocol/base storage/sql storage/postgresql
 storage/backup: protocol/base storage
+storage/cache: protocol/base storage
 storage/migration: protocol/base storage
 storage: protocol/base protocol/audit protocol/measurement storage
 gateway/interpreter/core: protocol/base gateway/interpreter/core
