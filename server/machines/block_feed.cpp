@@ -32,6 +32,11 @@ dds::BlockData answer_to(const dds::BlockRequest& request) {
   return data;
 }
 
+/// Of one turn.
+std::uint64_t wanted(const dds::BlockRequest& request, std::uint64_t size) {
+  return std::min<std::uint64_t>({request.length, size - request.offset, BlockFeed::kTurnBytes});
+}
+
 }  // namespace
 
 void BlockFeed::request(dds::BlockRequest request) {
@@ -51,7 +56,7 @@ void BlockFeed::request(dds::BlockRequest request) {
     lane.waiting.push_back(std::move(request));
     if (std::exchange(lane.is_scheduled, true)) return;
   }
-  pool_.post([this, machine] { serve(machine); });
+  parts_.near.post([this, machine] { serve(machine); });
 }
 
 void BlockFeed::drop(const std::string& machine, const std::string& run) {
@@ -73,7 +78,8 @@ void BlockFeed::serve(const std::string& machine) {
     lane.waiting.pop_front();
     lane.working = request;
   }
-  finish(machine, answer(request));
+  if (auto turn = answer_near(request)) return finish(machine, *std::move(turn));
+  parts_.store.post([this, machine, request] { finish(machine, answer(request)); });
 }
 
 void BlockFeed::finish(const std::string& machine, Turn turn) {
@@ -90,44 +96,68 @@ void BlockFeed::finish(const std::string& machine, Turn turn) {
     }
   }
   const auto again = [this, machine] { serve(machine); };
-  if (turn.must_pause) {
-    pool_.post_after(kPause, again);
+  if (turn.pause.count() > 0) {
+    parts_.near.post_after(turn.pause, again);
   } else {
-    pool_.post(again);
+    parts_.near.post(again);
   }
+}
+
+std::optional<BlockFeed::Turn> BlockFeed::answer_near(const dds::BlockRequest& request) {
+  const auto content = pinned(request);
+  if (!content || !content->is_noted || request.offset > content->size) return std::nullopt;
+  const auto bytes = parts_.sources.store.programs.near_content(content->digest, request.offset,
+                                                                wanted(request, content->size));
+  if (!bytes) return std::nullopt;
+  return send_bytes(request, *content, *bytes);
 }
 
 BlockFeed::Turn BlockFeed::answer(const dds::BlockRequest& request) {
   const auto content = this->content(request);
-  if (!content) {
-    if (content.error().error.code == Errc::Busy) return {.rest = request, .must_pause = true};
-    return refuse(request, content.error());
-  }
+  if (!content) return put_off(request, content.error());
   if (request.offset > content->size) {
     return refuse(request, {dds::BlockStatus::OutOfRange,
                             {Errc::LimitExceeded, fmt::format("offset {} is after the end at {}",
                                                               request.offset, content->size)}});
   }
-  return send_bytes(request, *content);
+  const auto bytes = parts_.sources.store.programs.read_content(content->digest, request.offset,
+                                                                wanted(request, content->size));
+  if (!bytes) return put_off(request, {status_of(bytes.error()), bytes.error()});
+  {
+    const std::lock_guard lock(mutex_);
+    lanes_[request.machine].away.reset();
+  }
+  return send_bytes(request, *content, *bytes);
+}
+
+BlockFeed::Turn BlockFeed::put_off(const dds::BlockRequest& request, const Refusal& refusal) {
+  if (refusal.error.code == Errc::Busy) return {.rest = request, .pause = kPause};
+  if (is_patient(request.machine, refusal.error)) return {.rest = request, .pause = kAwayPause};
+  return refuse(request, refusal);
+}
+
+bool BlockFeed::is_patient(const std::string& machine, const Error& error) {
+  if (error.code != Errc::Io && error.code != Errc::Timeout) return false;
+  const SteadyTime now = parts_.sources.clock.steady_now();
+  const std::lock_guard lock(mutex_);
+  auto& away = lanes_[machine].away;
+  if (!away || now - away->seen > kPatience) {  // what was seen long ago was another time
+    away = {.since = now, .seen = now};
+    process::log_warning("text waits for the store machine={}: {}", machine, error.what);
+  }
+  away->seen = now;
+  return now - away->since < kPatience;
 }
 
 /// One turn: whole pieces of at most kMaxBlockBytes until the request, the turn or the machine's
 /// queue is at its end.
-BlockFeed::Turn BlockFeed::send_bytes(dds::BlockRequest request, const Content& content) {
-  const std::uint64_t wanted =
-      std::min<std::uint64_t>(request.length, content.size - request.offset);
-  auto read = sources_.store.programs.read_content(content.digest, request.offset,
-                                                   std::min(wanted, kTurnBytes));
-  if (!read) {
-    if (read.error().code == Errc::Busy) return {.rest = std::move(request), .must_pause = true};
-    return refuse(request, {status_of(read.error()), read.error()});
-  }
-  if (read->size() < std::min<std::uint64_t>(wanted, 1)) {
+BlockFeed::Turn BlockFeed::send_bytes(dds::BlockRequest request, const Content& content,
+                                      std::span<const std::byte> bytes) {
+  if (bytes.empty() && wanted(request, content.size) > 0) {
     return refuse(request, {dds::BlockStatus::Corrupt,
                             {Errc::Corrupt, fmt::format("content {} has no bytes at {}",
                                                         content.digest.hex(), request.offset)}});
   }
-  std::span<const std::byte> bytes(*read);
   do {
     const auto piece = bytes.first(std::min(bytes.size(), dds::kMaxBlockBytes));
     dds::BlockData data = answer_to(request);
@@ -135,9 +165,9 @@ BlockFeed::Turn BlockFeed::send_bytes(dds::BlockRequest request, const Content& 
     if (!request.program.empty()) data.content = content.digest.hex();
     data.bytes.assign(piece.begin(), piece.end());
     data.ends = request.offset + piece.size() == content.size;
-    if (auto written = endpoint_.write(data); !written) {
+    if (auto written = parts_.endpoint.write(data); !written) {
       if (written.error().code == Errc::Timeout)
-        return {.rest = std::move(request), .must_pause = true};
+        return {.rest = std::move(request), .pause = kPause};
       return {};  // the machine is disconnected; it requests them again
     }
     request.offset += piece.size();
@@ -145,7 +175,7 @@ BlockFeed::Turn BlockFeed::send_bytes(dds::BlockRequest request, const Content& 
     bytes = bytes.subspan(piece.size());
   } while (!bytes.empty());
   if (request.length == 0 || request.offset == content.size) return {};
-  return {.rest = std::move(request), .must_pause = false};
+  return {.rest = std::move(request)};
 }
 
 BlockFeed::Turn BlockFeed::refuse(const dds::BlockRequest& request, const Refusal& refusal) {
@@ -156,22 +186,24 @@ BlockFeed::Turn BlockFeed::refuse(const dds::BlockRequest& request, const Refusa
   data.status = refusal.status;
   constexpr std::size_t kMaxReason = 256;
   data.reason = refusal.error.what.substr(0, kMaxReason);
-  const auto written = endpoint_.write(data);
+  const auto written = parts_.endpoint.write(data);
   const bool is_full = !written && written.error().code == Errc::Timeout;
-  if (is_full) return {.rest = request, .must_pause = true};
+  if (is_full) return {.rest = request, .pause = kPause};
   return {};
+}
+
+std::optional<BlockFeed::Content> BlockFeed::pinned(const dds::BlockRequest& request) {
+  const std::lock_guard lock(mutex_);
+  const Pinned& pinned = lanes_[request.machine].pinned;
+  if (pinned.run != request.run) return std::nullopt;
+  const auto found = pinned.programs.find(request.program);
+  if (found == pinned.programs.end()) return std::nullopt;
+  return found->second;
 }
 
 tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::content(
     const dds::BlockRequest& request) {
-  {
-    const std::lock_guard lock(mutex_);
-    const Pinned& pinned = lanes_[request.machine].pinned;
-    if (pinned.run == request.run) {
-      const auto found = pinned.programs.find(request.program);
-      if (found != pinned.programs.end()) return found->second;
-    }
-  }
+  if (auto known = pinned(request)) return *std::move(known);
   auto content = look_up(request);
   if (!content || !content->is_noted) return content;
   const std::lock_guard lock(mutex_);
@@ -191,7 +223,7 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
   const auto no_run = [&](std::string why) {
     return refuse_with(dds::BlockStatus::NoSuchRun, {Errc::NotFound, std::move(why)});
   };
-  const auto run = sources_.store.runs.find(request.run);
+  const auto run = parts_.sources.store.runs.find(request.run);
   if (!run && run.error().code == Errc::NotFound) return no_run(run.error().what);
   if (!run) return refuse_with(status_of(run.error()), run.error());
   if (run->machine != request.machine) {
@@ -203,7 +235,7 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
   if (request.program.empty() || request.program == run->program) {
     return Content{.digest = run->content, .size = run->size};
   }
-  const auto revision = resolve_called_program(sources_, *run, request.program);
+  const auto revision = resolve_called_program(parts_.sources, *run, request.program);
   if (!revision) {
     const bool is_missing = revision.error().code == Errc::NotFound;
     const auto status = is_missing ? dds::BlockStatus::NoSuchProgram : status_of(revision.error());
@@ -211,7 +243,7 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
   }
   // Before its first byte goes out, so that the run's attestation names all that it called. A disk
   // that is full stops no machine: the next request tries again.
-  const auto noted = sources_.store.runs.add_call(
+  const auto noted = parts_.sources.store.runs.add_call(
       run->id, {request.program, revision->program, revision->number, revision->content});
   if (!noted && noted.error().code != Errc::Io)
     return refuse_with(status_of(noted.error()), noted.error());
@@ -221,6 +253,7 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
   }
   process::log_info("pinned called program machine={} run={} program={} revision={}",
                     request.machine, run->id, revision->program, revision->number);
+  if (parts_.on_called) parts_.on_called(run->id, revision->content);
   return Content{
       .digest = revision->content, .size = revision->size, .is_noted = noted.has_value()};
 }

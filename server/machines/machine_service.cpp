@@ -9,7 +9,11 @@
 namespace dripline::machines {
 
 MachineService::Parts::Parts(MachineService& service, dds::ServerEndpoint& endpoint)
-    : blocks(service.sources_, endpoint, service.pool_),
+    : blocks({.sources = service.sources_,
+              .endpoint = endpoint,
+              .near = service.near_pool_,
+              .store = service.pool_,
+              .on_called = service.options_.on_called}),
       records({.store = service.store_,
                .endpoint = endpoint,
                .pool = service.pool_,
@@ -48,7 +52,8 @@ MachineService::MachineService(const RunSources& sources, Options options, Machi
       clock_(sources.clock),
       options_(std::move(options)),
       listener_(std::move(listener)),
-      pool_(options.workers),
+      pool_(options_.workers),
+      near_pool_(kNearWorkers),
       registry_({.machines = store_.machines,
                  .runs = store_.runs,
                  .clock = clock_,
@@ -127,6 +132,7 @@ void MachineService::stop_waiting() {
 void MachineService::end() {
   if (is_ending_.exchange(true)) return;
   stop_waiting();
+  near_pool_.stop();
   pool_.stop();
   registry_.save();
   endpoint_.reset();

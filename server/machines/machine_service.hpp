@@ -35,6 +35,8 @@ class MachineService final : public MachineControl {
     std::function<void(const std::string& machine, const std::string& fault)> on_fault = {};
     /// The status of a gateway beside a control, on a DDS thread: must return at once.
     std::function<void(const dds::Status&)> on_line = {};
+    /// A run has got a program that it called. Any thread, must return soon.
+    std::function<void(const std::string& run, const Digest& content)> on_called = {};
   };
   MachineService(const RunSources& sources, Options options, MachineListener listener);
   ~MachineService() override;
@@ -93,6 +95,8 @@ class MachineService final : public MachineControl {
   Result<void> check_restart(const StartRequest& request, const storage::Run& run);
   Result<storage::Run> conclude_start(const storage::Run& run, const Result<void>& outcome);
 
+  static constexpr unsigned kNearWorkers = 2;
+
   const RunSources sources_;
   const storage::Store& store_;
   const Clock& clock_;
@@ -100,6 +104,7 @@ class MachineService final : public MachineControl {
   const MachineListener listener_;
   std::mutex state_mutex_;  ///< held while the state of a run is changed
   WorkerPool pool_;
+  WorkerPool near_pool_;  ///< nothing on it waits for the store (BlockFeed)
   MachineRegistry registry_;
   std::unique_ptr<dds::ServerEndpoint> endpoint_;
   std::unique_ptr<Parts> owned_parts_;
