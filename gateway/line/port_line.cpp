@@ -297,6 +297,17 @@ void PortLine::watch_wait() {
 
 void PortLine::fetch(const SendJob& job, std::uint64_t offset) {
   Wanted wanted{.id = job.id, .source = job.source, .offset = offset, .size = job.size};
+  if (!parts_.post_near) return post_read(std::move(wanted));
+  parts_.post_near([weak = weak_from_this(), wanted = std::move(wanted)] {
+    const auto self = weak.lock();
+    if (!self) return;
+    std::string piece = wanted.source->near(wanted.offset, kFetchPiece);
+    if (piece.empty()) return self->post_read(wanted);
+    self->supply(wanted, std::move(piece));
+  });
+}
+
+void PortLine::post_read(Wanted wanted) {
   parts_.post([weak = weak_from_this(), wanted = std::move(wanted)] {
     if (const auto self = weak.lock()) self->read_piece(wanted);
   });
@@ -310,6 +321,10 @@ void PortLine::read_piece(const Wanted& wanted) {
     return;
   }
   wanted_.reset();
+  supply(wanted, std::move(piece));
+}
+
+void PortLine::supply(const Wanted& wanted, Result<std::string> piece) {
   // The driver is this object's own: no work outlives it.
   with_line([this, id = wanted.id, offset = wanted.offset, piece = std::move(piece)](
                 wire::Discipline& line, wire::LineTime now) {

@@ -43,6 +43,9 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
     /// Runs tasks one after the other, in the order of posting, never inside of the call. What is
     /// posted when the owner has stopped is dropped.
     PostTask post;
+    /// Likewise, for what never waits for storage: text that is near (TextSource::near). Empty: all
+    /// text is read by tasks of `post`.
+    PostTask post_near = {};
     LineOpener open;  ///< empty: serial::LineDriver::start
     FlightRecorder::Options recording;
     std::function<void(const PortTraffic&)> on_traffic;
@@ -113,7 +116,9 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
     std::shared_ptr<TextSource> source;
     std::uint64_t offset = 0, size = 0;
   };
+  void post_read(Wanted wanted);
   void read_piece(const Wanted& wanted);
+  void supply(const Wanted& wanted, Result<std::string> piece);
 
   void fetch(const SendJob& job, std::uint64_t offset) override;
   void on_sent(const SendEnd& end) override;

@@ -18,6 +18,11 @@ class TextSource {
   /// end. Empty: they have not come yet, PortLine::on_text asks again. Errors: it cannot be had;
   /// the job ends.
   virtual Result<std::string> read(std::uint64_t offset, std::uint64_t length) = 0;
+  /// The same of what can be had without waiting for the owner's storage; empty: not so.
+  virtual std::string near(std::uint64_t offset, std::uint64_t length) {
+    static_cast<void>(offset), static_cast<void>(length);
+    return {};
+  }
 };
 
 /// A text that is here as a whole.

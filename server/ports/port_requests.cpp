@@ -24,7 +24,7 @@ Result<PortTest> PortService::test(const std::string& name) {
   if (auto idle = check_idle(name); !idle) return fail(idle.error());
   if (entry->line) return line::examine(*entry->line);
   if (!entry->fault.empty()) return PortTest{.is_passed = false, .findings = {entry->fault}};
-  const auto line = make_line(*entry, Strand(pool_), no_listener());
+  const auto line = make_line(*entry, {Strand(pool_), Strand(near_pool_)}, no_listener());
   line->open();
   auto test = line::examine(*line);
   line->close("the test is over");

@@ -41,7 +41,8 @@ PortService::PortService(const machines::RunSources& sources, library::Programs&
       listener_(std::move(listener)),
       epoch_(next_epoch(store_, clock_)),
       line_machines_(sources, *this, listener_),
-      pool_(options_.workers) {}
+      pool_(options_.workers),
+      near_pool_(kNearWorkers) {}
 
 PortService::~PortService() {
   end();
@@ -95,6 +96,7 @@ void PortService::end() {
   for (const auto& [name, entry] : entries) {
     if (entry.line) entry.line->close("the server stopped");
   }
+  near_pool_.stop();
   // Everything posted before is done when this is.
   std::vector<std::future<void>> drained;
   for (const auto& [name, machine] : machines) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -27,6 +28,7 @@ namespace dripline::ports {
 class PortService final : public PortControl, private LineDirectory {
  public:
   static constexpr std::chrono::milliseconds kTick{200};
+  static constexpr unsigned kNearWorkers = 2;  ///< for what never waits for the store
   struct Options {
     unsigned workers = 2;
     std::filesystem::path recordings;  ///< folder; empty: in memory only
@@ -91,9 +93,15 @@ class PortService final : public PortControl, private LineDirectory {
   void put(Entry entry);
   void open(Entry& entry);
   PortListener listener_for(const Entry& entry, const Machine& machine);
-  std::shared_ptr<PortLine> make_line(const Entry& entry, const Strand& strand,
+  std::shared_ptr<PortLine> make_line(const Entry& entry, const Strands& strands,
                                       PortListener listener);
-  void tick(const std::weak_ptr<PortLine>& line, const Strand& strand, unsigned count);
+  /// Of an open line, some times a second: it goes on while the store is waited for.
+  struct Ticking {
+    std::weak_ptr<PortLine> line;
+    Strands strands;
+    std::shared_ptr<std::atomic<bool>> is_saving = std::make_shared<std::atomic<bool>>(false);
+  };
+  void tick(const Ticking& ticking, unsigned count);
   void tell_traffic(const PortTraffic& traffic) const;
   void note_transfer(const std::string& machine, const SendEnd& end);
   void on_stored(const storage::RecordBatch& batch);
@@ -115,7 +123,7 @@ class PortService final : public PortControl, private LineDirectory {
   bool is_ended_ = false;
   mutable std::mutex traffic_mutex_;
   std::function<void(const PortTraffic&)> on_traffic_;
-  machines::WorkerPool pool_;  // last: its tasks use the others
+  machines::WorkerPool pool_, near_pool_;  // last: their tasks use the others
 };
 
 }  // namespace dripline::ports

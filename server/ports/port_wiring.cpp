@@ -105,11 +105,11 @@ void PortService::open(Entry& entry) {
     return;
   }
   const Machine machine = machine_of(entry.port.machine, *epoch);
-  entry.line = make_line(entry, machine.strand, listener_for(entry, machine));
+  const Strands strands{machine.strand, Strand(near_pool_)};
+  entry.line = make_line(entry, strands, listener_for(entry, machine));
   entry.line->open();
-  machine.strand.post([this, line = std::weak_ptr<PortLine>(entry.line), strand = machine.strand] {
-    tick(line, strand, 0);
-  });
+  const Ticking ticking{.line = entry.line, .strands = strands};
+  strands.near.post([this, ticking] { tick(ticking, 0); });
 }
 
 PortListener PortService::listener_for(const Entry& entry, const Machine& machine) {
@@ -157,14 +157,15 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
       .on_change = [this, name] { line_machines_.on_change(name); }};
 }
 
-std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Strand& strand,
+std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Strands& strands,
                                                  PortListener listener) {
   const auto broken = broken_run(store_.runs, entry.port.machine, true);
   return PortLine::make(
       {.names = {entry.port.name, entry.port.machine, entry.port.address},
        .settings = entry.settings,
        .clock = clock_,
-       .post = [strand](line::Task task) { strand.post(std::move(task)); },
+       .post = [strand = strands.store](line::Task task) { strand.post(std::move(task)); },
+       .post_near = [strand = strands.near](line::Task task) { strand.post(std::move(task)); },
        .open = options_.open,
        .recording = {.port = entry.port.name, .folder = options_.recordings},
        .on_traffic = [this](const PortTraffic& traffic) { tell_traffic(traffic); },
@@ -172,12 +173,17 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
        .is_program_broken = broken && broken->has_value()});
 }
 
-void PortService::tick(const std::weak_ptr<PortLine>& weak, const Strand& strand, unsigned count) {
-  const auto line = weak.lock();
+void PortService::tick(const Ticking& ticking, unsigned count) {
+  const auto line = ticking.line.lock();
   if (!line) return;
   line->tick();
-  if (count % kTicksPerSave == 0) line_machines_.save_progress(*line);
-  strand.post_after(kTick, [this, weak, strand, count] { tick(weak, strand, count + 1); });
+  if (count % kTicksPerSave == 0 && !ticking.is_saving->exchange(true)) {
+    ticking.strands.store.post([this, weak = ticking.line, is_saving = ticking.is_saving] {
+      if (const auto saved = weak.lock()) line_machines_.save_progress(*saved);
+      *is_saving = false;
+    });
+  }
+  ticking.strands.near.post_after(kTick, [this, ticking, count] { tick(ticking, count + 1); });
 }
 
 void PortService::tell_traffic(const PortTraffic& traffic) const {

@@ -34,4 +34,9 @@ class Strand {
   std::shared_ptr<Lane> lane_;  ///< running tasks share it
 };
 
+/// Of a line: what waits for the store, and what never does.
+struct Strands {
+  Strand store, near;
+};
+
 }  // namespace dripline::ports

@@ -128,22 +128,36 @@ Result<void> ProgramStream::add(storage::ProgramStore& store, const storage::Rev
   return {};
 }
 
+const ProgramStream::Piece* ProgramStream::piece_at(std::uint64_t& offset) const {
+  for (const Piece& piece : pieces_) {
+    if (offset < piece.size) return &piece;
+    offset -= piece.size;
+  }
+  return nullptr;
+}
+
 Result<std::string> ProgramStream::read(storage::ProgramStore& store, std::uint64_t offset,
                                         std::uint64_t length) const {
-  for (const Piece& piece : pieces_) {
-    if (offset >= piece.size) {
-      offset -= piece.size;
-      continue;
-    }
-    const std::uint64_t wanted = std::min(length, piece.size - offset);
-    if (!piece.text.empty()) return piece.text.substr(offset, wanted);
-    auto text = text_of(store, piece.content, piece.first + offset, wanted);
-    if (text && text->empty()) {
-      return fail(Errc::Corrupt, "content {} is short", piece.content.hex());
-    }
-    return text;
+  const Piece* const piece = piece_at(offset);
+  if (piece == nullptr) return fail(Errc::Corrupt, "the text to be sent is short");
+  const std::uint64_t wanted = std::min(length, piece->size - offset);
+  if (!piece->text.empty()) return piece->text.substr(offset, wanted);
+  auto text = text_of(store, piece->content, piece->first + offset, wanted);
+  if (text && text->empty()) {
+    return fail(Errc::Corrupt, "content {} is short", piece->content.hex());
   }
-  return fail(Errc::Corrupt, "the text to be sent is short");
+  return text;
+}
+
+std::string ProgramStream::near(storage::ProgramStore& store, std::uint64_t offset,
+                                std::uint64_t length) const {
+  const Piece* const piece = piece_at(offset);
+  if (piece == nullptr) return {};
+  const std::uint64_t wanted = std::min(length, piece->size - offset);
+  if (!piece->text.empty()) return piece->text.substr(offset, wanted);
+  const auto bytes = store.near_content(piece->content, piece->first + offset, wanted);
+  if (!bytes) return {};
+  return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
 }
 
 namespace {
@@ -154,6 +168,9 @@ class StoredText final : public line::TextSource {
       : stream_(std::move(stream)), store_(store) {}
   Result<std::string> read(std::uint64_t offset, std::uint64_t length) override {
     return stream_.read(store_, offset, length);
+  }
+  std::string near(std::uint64_t offset, std::uint64_t length) override {
+    return stream_.near(store_, offset, length);
   }
 
  private:

@@ -27,6 +27,8 @@ class ProgramStream {
   /// At most `length` bytes from `offset`; fewer do not mean the end. Errors: those of the store.
   Result<std::string> read(storage::ProgramStore& store, std::uint64_t offset,
                            std::uint64_t length) const;
+  /// The same without the database (ProgramStore::near_content); empty: not so.
+  std::string near(storage::ProgramStore& store, std::uint64_t offset, std::uint64_t length) const;
 
  private:
   struct Piece {
@@ -34,6 +36,8 @@ class ProgramStream {
     std::uint64_t first = 0, size = 0;
     std::string text;
   };
+  /// The piece at `offset`, which becomes the offset in it. Null: after the end.
+  const Piece* piece_at(std::uint64_t& offset) const;
   void add(const Digest& content, std::uint64_t first, std::uint64_t size);
   void add(std::string text);
   Result<void> add(storage::ProgramStore& store, const storage::Revision& revision);
