@@ -39,6 +39,12 @@ struct ServerInfo {
     std::optional<Sparkplug> sparkplug;  ///< absent: it is not spoken
   };
   std::optional<Mqtt> mqtt;  ///< absent: there is no broker
+  struct ProgramCache {
+    std::uint64_t size_bytes = 0, used_bytes = 0;
+    std::uint64_t hits = 0, misses = 0, fetched = 0, damaged = 0;
+    std::string fault;
+  };
+  std::optional<ProgramCache> program_cache;  ///< absent: none on the server's own disk
 };
 
 /// The server's backups, newest first, and what it does with them now.

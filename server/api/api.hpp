@@ -35,6 +35,7 @@
 #include "server/paths/program_paths.hpp"
 #include "server/ports/port_control.hpp"
 #include "server/webhooks/webhooks.hpp"
+#include "storage/cache/disk_cache.hpp"
 
 namespace dripline::api {
 
@@ -76,6 +77,7 @@ struct Services {
   webhooks::Webhooks* webhooks = nullptr;              ///< null: a server without webhooks
   mqtt::Publisher* publisher = nullptr;                ///< null: a server without a broker
   mqtt::SparkplugNode* sparkplug = nullptr;            ///< null: it is not spoken
+  const cache::DiskCache* cache = nullptr;             ///< null: no program text on its own disk
   bool has_tls = false;                                ///< the sockets in front of it do
 };
 

@@ -30,6 +30,24 @@ Result<void> check_trail(const StateFolder& folder, storage::OpenedStore& store)
               folder.path().string());
 }
 
+/// Null: none is wanted, or it cannot be made, which keeps no server from working.
+std::unique_ptr<cache::DiskCache> open_cache(const StateFolder& folder, const Settings& settings) {
+  if (settings.program_cache_mb == 0) return nullptr;
+  constexpr unsigned kMega = 20;
+  auto opened =
+      cache::DiskCache::open({.folder = folder.cache(),
+                              .capacity = std::uint64_t{settings.program_cache_mb} << kMega,
+                              .on_fault = [](const std::string& fault) {
+                                process::log_warning(
+                                    "program text is not kept on this server's disk: {}; machines "
+                                    "are fed from the database alone",
+                                    fault);
+                              }});
+  if (opened) return *std::move(opened);
+  process::log_warning("program text is not kept on this server's disk: {}", opened.error().what);
+  return nullptr;
+}
+
 Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& settings,
                                   const Clock& clock, OnLost on_lost) {
   if (auto known = check_url(settings.store); !known) return fail(known.error());
@@ -56,14 +74,16 @@ Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& set
   if (!lock) return fail(lock.error());
   const auto holder = folder.server_id();
   if (!holder) return fail(holder.error());
+  auto cache = open_cache(folder, settings);
   auto store = storage::PostgresqlStore::open({.url = settings.store,
                                                .holder = *holder,
                                                .described = description(folder),
+                                               .content_cache = cache.get(),
                                                .on_lost = std::move(on_lost)},
                                               clock);
   if (!store) return fail(store.error());
   if (auto own = check_trail(folder, **store); !own) return fail(own.error());
-  return KeptStore{*std::move(lock), *std::move(store), ""};
+  return KeptStore{*std::move(lock), std::move(cache), *std::move(store), ""};
 }
 
 Result<KeptStore> open_sqlite(const StateFolder& folder, const Settings& settings,
@@ -72,7 +92,7 @@ Result<KeptStore> open_sqlite(const StateFolder& folder, const Settings& setting
     return fail(is_there.error());
   auto store = storage::SqliteStore::open({.file = folder.database()}, clock);
   if (!store) return fail(store.error());
-  return KeptStore{std::nullopt, *std::move(store), ""};
+  return KeptStore{std::nullopt, nullptr, *std::move(store), ""};
 }
 
 }  // namespace

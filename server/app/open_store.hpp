@@ -9,12 +9,14 @@
 #include "protocol/base/descriptor.hpp"
 #include "server/app/settings.hpp"
 #include "server/app/state_folder.hpp"
+#include "storage/cache/disk_cache.hpp"
 #include "storage/opened_store.hpp"
 
 namespace dripline::app {
 
 struct KeptStore {
-  std::optional<FileLock> folder_lock;  ///< of a database elsewhere; let go after the store
+  std::optional<FileLock> folder_lock;      ///< of a database elsewhere; let go after the store
+  std::unique_ptr<cache::DiskCache> cache;  ///< of such a one; null: none. Used by the store
   std::unique_ptr<storage::OpenedStore> store;
   std::string identity;
 };

@@ -45,6 +45,7 @@ Server::~Server() {
   parts_->check.request_stop();
   parts_->watch.reset();  // it may announce
   parts_->folder.withdraw();
+  if (parts_->fetcher) parts_->fetcher->end();
   parts_->machine_service.stop_waiting();
   parts_->measurements.end();  // it may hold a machine
   if (parts_->retention) parts_->retention->end();
@@ -124,6 +125,9 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!endpoint) return fail(endpoint.error());
   if (auto begun = parts.machine_service.begin(*std::move(endpoint)); !begun)
     return fail(begun.error());
+  if (parts.fetcher) {
+    if (auto begun = parts.fetcher->begin(); !begun) return fail(begun.error());
+  }
   server->tidy();
   parts.watch = std::make_unique<library::HealthWatch>(
       library::HealthWatch::Parts{.health = parts.health,

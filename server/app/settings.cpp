@@ -136,6 +136,7 @@ using process::yes_no_value;
 using Row = process::SettingRow<Settings>;
 
 constexpr std::uint64_t kHoursOfYear = 8760;
+constexpr std::uint32_t kMostCacheMb = 4'000'000;
 constexpr std::uint32_t kMostThousands = 4'000'000;
 constexpr std::uint64_t kLongestMs = 600'000;
 constexpr std::uint64_t kMaxConnections = 800;  ///< DDS waits with select(): below 1,000 files
@@ -147,6 +148,10 @@ constexpr std::array kRows{
         "PostgreSQL database that everything is kept in: postgresql://HOST:PORT/NAME; its password "
         "belongs in ~/.pgpass",
         text_value<&Settings::store>()},
+    Row{"program-cache-mb", "NUMBER", "MB", "",
+        "With --store: program text kept in the state folder too, from which machines are fed "
+        "while the database is away; 0: none",
+        number_value<0, kMostCacheMb, &Settings::program_cache_mb>()},
     Row{"http", "HOST:PORT", "", "", "Address of the REST API; port 0 takes a free one",
         text_value<&Settings::http>()},
     Row{"tls-certificate", "FILE", "", "",

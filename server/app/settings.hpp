@@ -17,6 +17,7 @@ namespace dripline::app {
 struct Settings {
   std::string state;  ///< default: default_state_folder (protocol/base/private_folder.hpp)
   std::string store;  ///< postgresql://...; empty: a SQLite file in `state`
+  std::uint32_t program_cache_mb = 4096;  ///< of a PostgreSQL database's program text; 0: none
   std::string http = "127.0.0.1:8430";
   std::string tls_certificate, tls_key;
   std::string tls_client_ca, tls_client_revoked;  ///< files; empty: none

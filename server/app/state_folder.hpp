@@ -59,6 +59,8 @@ class StateFolder {
   static std::vector<std::string> files() { return {kToken, kIdentity, kSigningKey}; }
   /// What passed over serial lines last.
   std::filesystem::path recordings() const { return path_ / "recordings"; }
+  /// Program text of a database elsewhere; it may be removed at any time.
+  std::filesystem::path cache() const { return path_ / "cache"; }
   std::filesystem::path token_file() const { return path_ / kToken; }
   /// The identity of the database that belongs here.
   std::filesystem::path identity_file() const { return path_ / kIdentity; }

@@ -41,6 +41,12 @@ void add_broker(Details& details, const client::ServerInfo::Mqtt& mqtt) {
   details.add("", fmt::format("{} messages published", mqtt.sparkplug->messages_published));
 }
 
+void add_cache(Details& details, const client::ServerInfo::ProgramCache& cache) {
+  details.add("text kept", fmt::format("{} of {}, {} hits, {} misses", bytes_text(cache.used_bytes),
+                                       bytes_text(cache.size_bytes), cache.hits, cache.misses));
+  if (!cache.fault.empty()) details.add("", printable(cache.fault));
+}
+
 int show_status(Context& context, client::Client& client) {
   auto server = client.server();
   if (const auto status = finished(context, server)) return *status;
@@ -58,6 +64,7 @@ int show_status(Context& context, client::Client& client) {
   details.add("runs active", std::to_string(server->runs_active));
   details.add("DDS", fmt::format("domain {}, {} messages rejected", server->dds.domain,
                                  server->dds.rejected));
+  if (server->program_cache) add_cache(details, *server->program_cache);
   if (server->mqtt) add_broker(details, *server->mqtt);
   context.print(details);
   return kExitOk;

@@ -46,11 +46,17 @@ void members(V& v, Is<ServerInfo::Mqtt> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<ServerInfo::ProgramCache> auto& x) {
+  DRIPLINE_MEMBERS(size_bytes, used_bytes, hits, misses, fetched, damaged, fault);
+}
+
+template <class V>
 void members(V& v, Is<ServerInfo> auto& x) {
   DRIPLINE_MEMBERS(name, version, started, uptime_s, data_dir, machines, machines_connected,
                    programs, runs_active);
   v.later("health", x.health);
   v.later("mqtt", x.mqtt);
+  v.later("program_cache", x.program_cache);
   DRIPLINE_MEMBERS(dds);
 }
 

@@ -139,6 +139,23 @@ void add_sparkplug(MetricsText& out, const mqtt::SparkplugNode& node) {
               static_cast<double>(state.messages));
 }
 
+void add_cache(MetricsText& out, const cache::DiskCache::State& state) {
+  out.gauge("dripline_cache_size_bytes", "What program text on the server's own disk may take.",
+            static_cast<double>(state.capacity));
+  out.gauge("dripline_cache_used_bytes", "What it takes.", static_cast<double>(state.bytes));
+  out.gauge("dripline_cache_ok", "1: text is kept there; 0: its disk is full or broken.",
+            number(state.fault.empty()));
+  out.counter("dripline_cache_hits_total", "Chunks of text that were on the server's own disk.",
+              static_cast<double>(state.hits));
+  out.counter("dripline_cache_misses_total", "Chunks of text that came from the database.",
+              static_cast<double>(state.misses));
+  out.counter("dripline_cache_fetched_total",
+              "Chunks of text that were fetched before a machine asked for them.",
+              static_cast<double>(state.ahead));
+  out.counter("dripline_cache_damaged_total", "Files there that were damaged, and fetched again.",
+              static_cast<double>(state.damaged));
+}
+
 void add_folders(MetricsText& out, const folders::Folders& all) {
   const auto states = all.states();
   if (states.empty()) return;
@@ -255,6 +272,7 @@ Response list_metrics(Services& services, const RequestTimes& times, const Reque
   if (services.webhooks != nullptr) add_webhooks(out, *services.webhooks);
   if (services.publisher != nullptr) add_publisher(out, *services.publisher);
   if (services.sparkplug != nullptr) add_sparkplug(out, *services.sparkplug);
+  if (services.cache != nullptr) add_cache(out, services.cache->state());
   if (services.folders != nullptr) add_folders(out, *services.folders);
   add_disk(out, services.facts.data_dir);
   add_process(out);

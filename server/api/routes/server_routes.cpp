@@ -62,6 +62,19 @@ nlohmann::json mqtt_json(const Services& services) {
           {"sparkplug", sparkplug_json(services)}};
 }
 
+/// Null: no program text on the server's own disk.
+nlohmann::json cache_json(const Services& services) {
+  if (services.cache == nullptr) return nullptr;
+  const auto state = services.cache->state();
+  return {{"size_bytes", state.capacity},
+          {"used_bytes", state.bytes},
+          {"hits", state.hits},
+          {"misses", state.misses},
+          {"fetched", state.ahead},
+          {"damaged", state.damaged},
+          {"fault", text_or_null(state.fault)}};
+}
+
 Response describe_server(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
@@ -88,6 +101,7 @@ Response describe_server(Services& services, const Request& request) {
             {"runs_active", *active},
             {"health", health_json(health_of(services), Audience::TokenHolder)},
             {"mqtt", mqtt_json(services)},
+            {"program_cache", cache_json(services)},
             {"dds", {{"domain", facts.dds_domain}, {"rejected", services.dds_rejected()}}}});
 }
 

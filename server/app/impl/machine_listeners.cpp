@@ -39,6 +39,7 @@ machines::MachineListener ServerParts::published() {
   };
   listener.on_run = [this, publish = listener.on_run](const storage::Run& run) {
     hold_reasons.note(run);
+    if (fetcher) fetcher->note(run);
     publish(run);
   };
   return listener;

@@ -36,7 +36,9 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
       revoked_file(settings.tls_client_revoked),
       folder(std::move(state_folder)),
       folder_lock(std::move(opened.folder_lock)),
+      cache(std::move(opened.cache)),
       store(std::move(opened.store)),
+      fetcher(make_fetcher()),
       health(clock),
       certificates(health, clock),
       audit(store->audit, clock),
@@ -152,6 +154,7 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
            .webhooks = &webhooks,
            .publisher = publisher.get(),
            .sparkplug = sparkplug.get(),
+           .cache = cache.get(),
            .has_tls = !settings.tls_key.empty()}),
       tidied(clock.steady_now()) {}
 
@@ -161,7 +164,18 @@ machines::MachineService::Options ServerParts::machine_options() {
   options.on_line = [this](const dds::Status& status) {
     if (are_lines_handled) gateway_lines.on_status(status);
   };
+  if (fetcher) {
+    options.on_called = [this](const std::string& run, const Digest& content) {
+      fetcher->add(run, content);
+    };
+  }
   return options;
+}
+
+/// A part of the cache is left to what is asked for now.
+std::unique_ptr<machines::ProgramFetcher> ServerParts::make_fetcher() const {
+  if (!cache) return nullptr;
+  return std::make_unique<machines::ProgramFetcher>(*store, cache->state().capacity / 4 * 3);
 }
 
 std::unique_ptr<library::Backups> ServerParts::make_backups(std::optional<backup::BackupFolder> to,

@@ -30,6 +30,7 @@
 #include "server/library/releases.hpp"
 #include "server/machines/held_machines.hpp"
 #include "server/machines/machine_service.hpp"
+#include "server/machines/program_fetcher.hpp"
 #include "server/measurements/measurements.hpp"
 #include "server/mqtt/publisher.hpp"
 #include "server/mqtt/sparkplug_node.hpp"
@@ -63,6 +64,7 @@ struct ServerParts {
               const Clock& system_clock, const Loaded& loaded, const DdsNetwork& setup);
 
   machines::MachineService::Options machine_options();
+  std::unique_ptr<machines::ProgramFetcher> make_fetcher() const;
   std::unique_ptr<library::Backups> make_backups(std::optional<backup::BackupFolder> to,
                                                  const Settings& settings);
   std::unique_ptr<library::Retention> make_retention(const Settings& settings,
@@ -110,8 +112,10 @@ struct ServerParts {
   std::optional<UtcTime> certificate_expires;      ///< nullopt: without TLS
   std::string revoked_file;                        ///< of clients' certificates; empty: none
   StateFolder folder;
-  std::optional<FileLock> folder_lock;  ///< of a database elsewhere; let go after the store
+  std::optional<FileLock> folder_lock;      ///< of a database elsewhere; let go after the store
+  std::unique_ptr<cache::DiskCache> cache;  ///< of program text; null: none. Used by the store
   std::unique_ptr<storage::OpenedStore> store;
+  std::unique_ptr<machines::ProgramFetcher> fetcher;  ///< null: there is no cache
   library::Health health;
   library::CertificateWatch certificates;
   library::DialectCatalog catalog;

@@ -32,6 +32,8 @@ TEST_F(OpenStore, IsAFileInTheFolderByDefault) {
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / StateFolder::kDatabase));
   EXPECT_EQ(kept->identity, kept->store->identity().value());
   EXPECT_FALSE(kept->folder_lock);
+  EXPECT_EQ(kept->cache, nullptr) << "its text is on this disk already";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "cache"));
 }
 
 TEST_F(OpenStore, OtherDatabasesAreRefusedWithoutRepeatingAPassword) {

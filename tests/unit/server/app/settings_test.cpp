@@ -135,6 +135,12 @@ TEST(Settings, WithWrongUseEndWithTwo) {
   }
 }
 
+TEST(Settings, TextOfADatabaseElsewhereIsKeptHereUnlessItIsSwitchedOff) {
+  EXPECT_EQ(read({}).settings.program_cache_mb, 4096u);
+  EXPECT_EQ(read({"--program-cache-mb", "0"}).settings.program_cache_mb, 0u);
+  EXPECT_EQ(read({"--program-cache-mb", "4000001"}).exit_code, 2);
+}
+
 TEST(StateFolder, MakesATokenOnceForItsOwnerAlone) {
   const test_support::TemporaryFolder parent;
   const auto folder = StateFolder::open(parent.path() / "a" / "state");
