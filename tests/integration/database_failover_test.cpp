@@ -1,0 +1,139 @@
+// The database is away for some seconds, or answers nothing: machines that run are fed from the
+// server's own disk, and what they report meanwhile is stored afterwards.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "tests/integration/system.hpp"
+#include "tests/support/postgresql/test_cluster.hpp"
+
+namespace dripline::integration {
+namespace {
+
+using std::chrono::seconds;
+using test_support::eventually;
+
+constexpr std::uint64_t kLines = 3000, kMovesPerLine = 400;
+/// A gateway holds no more text (PullFeedOptions::cache_bytes), and what is under way to it.
+constexpr std::uint64_t kMostHeld = 10 << 20;
+constexpr std::uint64_t kChunk = 256 << 10;
+
+/// As of a database that fails over: `DRIPLINE_OUTAGE_S=30`.
+seconds outage() {
+  const char* given = ::getenv("DRIPLINE_OUTAGE_S");
+  return given == nullptr ? seconds(3) : seconds(std::stoi(given));
+}
+
+/// Report lines far apart, without a loop: all of its text is needed once.
+std::string written_out() {
+  std::string text = "O0300\nG20 G93 G98\nG0 X2 Z0\nPOPEN P0\n";
+  for (std::uint64_t line = 1; line <= kLines; ++line) {
+    text += fmt::format("P1={}\n", line);
+    for (std::uint64_t i = 0; i < kMovesPerLine; ++i)
+      text += fmt::format("G1 X2.00{} Z-0.00{} F50\n", i % 2, i % 7);
+    text += "DPRNT [LINE #1[50]]\n";
+  }
+  return text + "PCLOS\nM30\n";
+}
+
+enum class Way { Stopped, Frozen };
+
+class DatabaseFailover : public testing::TestWithParam<Way> {
+ protected:
+  void SetUp() override {
+    cluster_ = test::TestCluster::make();
+    if (cluster_ == nullptr) GTEST_SKIP() << "PostgreSQL is not installed";
+    text_ = written_out();
+    ASSERT_GT(text_.size(), 2 * kMostHeld);
+  }
+  void start_shop(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"--store", cluster_->url()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    system_.emplace(
+        System::Options{.speed = "max", .server_arguments = arguments, .gateway_arguments = {}});
+    system_->start_server();
+    system_->start_gateway();
+    system_->wait_connected();
+    system_->push("O0300", text_);
+  }
+  void leave() { GetParam() == Way::Stopped ? cluster_->stop() : cluster_->freeze(); }
+  void come_back() { GetParam() == Way::Stopped ? cluster_->start() : cluster_->thaw(); }
+
+  std::uint64_t executed_lines() const { return system_->execution_probe().outputs_done; }
+  /// About, of the program's text.
+  std::uint64_t executed_bytes() const { return text_.size() / kLines * executed_lines(); }
+  nlohmann::json cache_state() const {
+    return system_->rest().get("/api/v1/server").json()["program_cache"];
+  }
+  std::uint64_t chunk_files() const {
+    std::error_code ec;
+    const std::filesystem::recursive_directory_iterator files(
+        system_->server_state() / "cache" / "chunks", ec);
+    return static_cast<std::uint64_t>(std::count_if(
+        begin(files), end(files),
+        [&](const std::filesystem::directory_entry& entry) { return entry.is_regular_file(ec); }));
+  }
+  void expect_whole(const std::string& id) {
+    EXPECT_EQ(system_->wait_ended(id, seconds(120)).value("state", ""), "completed");
+    const auto lines = system_->report_lines(id);
+    ASSERT_EQ(lines.size(), kLines);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      ASSERT_EQ(lines[i], fmt::format("LINE {:05}", i + 1));
+  }
+
+  std::unique_ptr<test::TestCluster> cluster_;
+  std::optional<System> system_;
+  std::string text_;
+};
+
+TEST_P(DatabaseFailover, AMachineIsFedAndNoLineIsLostOrDoubled) {
+  start_shop();
+  const std::string id = system_->start_run("O0300");
+  const std::uint64_t chunks = (text_.size() + kChunk - 1) / kChunk;
+  ASSERT_TRUE(eventually([&] { return chunk_files() == chunks; }))
+      << "the whole program comes near: " << cache_state();
+  const std::uint64_t before = executed_bytes();
+  ASSERT_LT(before + 2 * kMostHeld, text_.size()) << "too late: the gateway has nearly all of it";
+  leave();
+  const auto left = std::chrono::steady_clock::now();
+  EXPECT_TRUE(eventually([&] { return executed_lines() == kLines; }, seconds(60)))
+      << "from byte " << before << " to " << executed_bytes() << " of " << text_.size();
+  const auto fed = std::chrono::steady_clock::now() - left;
+  RecordProperty("fed_ms", std::to_string(fed / std::chrono::milliseconds(1)));
+  std::this_thread::sleep_until(left + outage());
+  come_back();
+  expect_whole(id);
+  const auto state = cache_state();
+  EXPECT_EQ(state["damaged"], 0);
+  EXPECT_GT(state["hits"], 0);
+  const auto metrics = system_->rest().get("/api/v1/metrics").body;
+  EXPECT_NE(metrics.find("\ndripline_cache_hits_total "), std::string::npos) << metrics;
+}
+
+/// What the one before would show if the cache did nothing.
+TEST_P(DatabaseFailover, WithoutACacheAMachineWaitsForTheDatabase) {
+  start_shop({"--program-cache-mb", "0"});
+  EXPECT_TRUE(cache_state().is_null());
+  const std::string id = system_->start_run("O0300");
+  ASSERT_TRUE(eventually([&] { return executed_lines() > 10; }));
+  leave();
+  const std::uint64_t before = executed_bytes();
+  std::this_thread::sleep_for(seconds(3));
+  EXPECT_LT(executed_bytes(), before + kMostHeld + 8 * kChunk);
+  EXPECT_LT(executed_lines(), kLines);
+  come_back();
+  expect_whole(id);
+  EXPECT_FALSE(std::filesystem::exists(system_->server_state() / "cache"));
+}
+
+INSTANTIATE_TEST_SUITE_P(, DatabaseFailover, testing::Values(Way::Stopped, Way::Frozen),
+                         [](const auto& i) {
+                           return i.param == Way::Stopped ? "Stopped" : "Frozen";
+                         });
+
+}  // namespace
+}  // namespace dripline::integration
