@@ -26,7 +26,7 @@ struct ContentList {
 /// Thread-safe.
 class ContentCache {
  public:
-  /// Why a chunk came from the database: somebody asked for it, or it may be asked for.
+  /// Why a chunk came from the database: someone asked for it, or it may be asked for.
   enum class Reason : std::uint8_t { Asked, Ahead };
   /// A chunk, and the content that it was asked for.
   struct Place {

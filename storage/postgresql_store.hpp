@@ -17,7 +17,7 @@ namespace dripline::storage {
 struct PostgresqlStoreOptions {
   std::string url;          ///< postgresql://...; the database must exist
   std::string holder{};     ///< what only one process at a time calls itself; empty: a random name
-  std::string described{};  ///< which server this is, for whoever is refused
+  std::string described{};  ///< which server this is, for anyone who is refused
   std::chrono::milliseconds wait_for_holder{12000};  ///< that another one's place ends, then Busy
   std::size_t readers = 4;                           ///< connections that read at the same time
   std::uint64_t cache_bytes = 8 << 20;  ///< of program chunks kept checked and decompressed
@@ -28,8 +28,8 @@ struct PostgresqlStoreOptions {
   std::function<void(const Error&)> on_lost{};
 };
 
-/// Of a URL: whether it has a password in it, which whoever sees the command line can read. Errors:
-/// Syntax.
+/// Of a URL: whether it has a password in it, which anyone who sees the command line can read.
+/// Errors: Syntax.
 Result<bool> holds_password(const std::string& url);
 
 /// The second Store: one PostgreSQL database, 15 or newer. What was stored is durable as PostgreSQL
@@ -38,13 +38,13 @@ Result<bool> holds_password(const std::string& url);
 /// reads nothing from when it knows (3 s at most), and is told by `on_lost`.
 /// A lost connection is opened again by the next call; what was not at its commit yet is done
 /// again, and so is what another transaction was in the way of. Errors besides those of Store:
-/// Timeout (the connection was lost at the commit, and nobody knows whether it was stored).
+/// Timeout (the connection was lost at the commit, and no one knows whether it was stored).
 class PostgresqlStore final : public OpenedStore {
  public:
   /// Takes the place, then creates or migrates the tables; on an error the place is free again.
   /// `clock` must outlive the store. Errors: Syntax (the URL), Io, Denied, Busy (another server
   /// uses the database, or another session has locked a table of it), Unsupported (an older
-  /// PostgreSQL, another encoding, a newer version's tables or somebody else's, a database of
+  /// PostgreSQL, another encoding, a newer version's tables or another's, a database of
   /// PostgreSQL's own, or one that is being migrated or was).
   static Result<std::unique_ptr<PostgresqlStore>> open(const PostgresqlStoreOptions& options,
                                                        const Clock& clock);

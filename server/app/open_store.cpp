@@ -58,10 +58,11 @@ Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& set
                 settings.backups);
   }
   if (settings.begin_empty) {
-    return fail(Errc::Unsupported,
-                "--begin-empty is for a SQLite file: to begin anew in PostgreSQL, make a database, "
-                "name it with --store, and remove {}",
-                folder.identity_file().string());
+    return fail(
+        Errc::Unsupported,
+        "--begin-empty is for a SQLite file: to begin again in PostgreSQL, make a database, "
+        "name it with --store, and remove {}",
+        folder.identity_file().string());
   }
   // Before the database is touched: a migration goes into an empty one.
   if (std::error_code ec; std::filesystem::exists(folder.database(), ec)) {

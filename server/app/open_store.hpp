@@ -31,7 +31,7 @@ using OnLost = std::function<void(const Error&)>;
 Result<KeptStore> open_store(const StateFolder& folder, const Settings& settings,
                              const Clock& clock, OnLost on_lost = {});
 
-/// "dncd 812 on srv-1, /var/lib/dripline": who uses a database, for whoever is refused.
+/// "dncd 812 on srv-1, /var/lib/dripline": who uses a database, for anyone who is refused.
 std::string description(const StateFolder& folder);
 
 /// Warns of a password in the URL. Errors: Unsupported (none of postgresql://), Syntax.

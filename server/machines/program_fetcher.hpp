@@ -20,7 +20,7 @@ namespace dripline::machines {
 /// them (ProgramStore::fetch_ahead): of each run its program, what its release pins, and what it
 /// has called so far. One thread, one chunk at a time, the runs in turn. All of them together get
 /// at most `room` bytes of the cache; of a program for which that is not enough the rest is left to
-/// the feed. Thread-safe; nobody but that thread waits for the store.
+/// the feed. Thread-safe; no one but that thread waits for the store.
 class ProgramFetcher {
  public:
   /// The store must outlive it. Nothing is fetched before begin().

@@ -95,7 +95,7 @@ class PortService final : public PortControl, private LineDirectory {
   PortListener listener_for(const Entry& entry, const Machine& machine);
   std::shared_ptr<PortLine> make_line(const Entry& entry, const Strands& strands,
                                       PortListener listener);
-  /// Of an open line, some times a second: it goes on while the store is waited for.
+  /// Of an open line, some times a second: it continues while the store is waited for.
   struct Ticking {
     std::weak_ptr<PortLine> line;
     Strands strands;

@@ -43,7 +43,7 @@ std::optional<Digest> digest_of(const fs::path& file) {
   return *digest;
 }
 
-/// A folder of somebody else's stays; everything in ours that is no folder goes.
+/// A folder of another's stays; everything in ours that is no folder goes.
 void remove_file(const fs::path& path) {
   std::error_code ec;
   if (!fs::is_directory(fs::symlink_status(path, ec))) fs::remove(path, ec);
@@ -120,7 +120,7 @@ void CacheFolder::discard(const fs::path& unfinished) {
 }
 
 std::optional<std::vector<std::byte>> CacheFolder::read(const FileKey& key) const {
-  // A pipe in a file's place keeps nobody waiting.
+  // A pipe in a file's place keeps no one waiting.
   const Descriptor file(
       ::open(path_of(key).c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat facts {};

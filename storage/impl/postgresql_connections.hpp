@@ -22,8 +22,8 @@ struct DatabaseUse {
   std::string source{};  ///< of Enter: the identity of the database that is moved
 };
 
-/// One connection that writes and some that read; a lost one is opened again by whoever needs it.
-/// The database has one holder (schema, store_holder): every transaction that writes locks the
+/// One connection that writes and some that read; a lost one is opened again by anyone who needs
+/// it. The database has one holder (schema, store_holder): every transaction that writes locks the
 /// holder's row and looks who it is, so a server that lost its place stores nothing any more, and
 /// once it knows that it reads nothing either: what it would do is another one's now. Thread-safe.
 class PostgresqlConnections final : public Connections {

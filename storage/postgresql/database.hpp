@@ -38,7 +38,7 @@ class Database final : public sql::Database {
   Result<void> begin();
   /// The next commit may be lost in a power cut of the database's server. Inside a transaction.
   void relax_commit();
-  /// On an error nothing was changed, unless the connection is not alive any more: then nobody
+  /// On an error nothing was changed, unless the connection is not alive any more: then no one
   /// knows.
   Result<void> commit();
   void roll_back();

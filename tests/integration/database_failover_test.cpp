@@ -18,7 +18,7 @@ using std::chrono::seconds;
 using test_support::eventually;
 
 constexpr std::uint64_t kLines = 3000, kMovesPerLine = 400;
-/// A gateway holds no more text (PullFeedOptions::cache_bytes), and what is under way to it.
+/// A gateway holds no more text (PullFeedOptions::cache_bytes), and what is in progress to it.
 constexpr std::uint64_t kMostHeld = 10 << 20;
 constexpr std::uint64_t kChunk = 256 << 10;
 

@@ -1,4 +1,4 @@
-// A shop moves from its SQLite file to PostgreSQL and back: everything is there, and it goes on,
+// A shop moves from its SQLite file to PostgreSQL and back: everything is there, and it continues,
 // whenever the moving is killed.
 #include <gtest/gtest.h>
 #include <chrono>
@@ -70,7 +70,7 @@ class Migration : public testing::Test {
         system_->folder() / "audit.out");
     EXPECT_EQ(verified.status, 0) << verified.output;
   }
-  /// The shop as it was, and as it goes on.
+  /// The shop as it was, and as it continues.
   void expect_shop() {
     EXPECT_EQ(system_->run(run_).value("state", ""), "completed");
     EXPECT_EQ(system_->report_lines(run_).size(), kLines);

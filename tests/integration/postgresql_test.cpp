@@ -54,7 +54,7 @@ class Postgresql : public testing::Test {
     text << std::ifstream(system_->folder() / "dncd.log").rdbuf();
     return text.str();
   }
-  /// As a database that is restarted, or fails over: whatever is under way is undone.
+  /// As a database that is restarted, or fails over: whatever is in progress is undone.
   void cut_off() {
     auto other = storage::postgresql::Database::connect({.url = database_->url()});
     ASSERT_TRUE(other) << other.error().what;

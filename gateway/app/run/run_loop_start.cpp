@@ -192,7 +192,7 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
   return fail(done.error().code, "the start cannot be kept: {}", done.error().what);
 }
 
-/// Modes that do not fit the machine any more would move it to a place that nobody meant.
+/// Modes that do not fit the machine any more would move it to a place that no one meant.
 const interpreter::Snapshot* RunLoop::modes_for(const StartOrigin& origin) {
   if ((!origin.from.is_mdi && !origin.from.part) || !modes_) return nullptr;
   const machine::MachineStatus now = parts_.machine.status();

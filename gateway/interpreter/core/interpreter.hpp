@@ -172,8 +172,8 @@ class Interpreter {
   /// again, counted from 1; a tape can hold several, and the reader is where it has stopped. May
   /// read on in the source.
   virtual std::uint32_t next_part() { return 1; }
-  /// After the end of a program: goes on with that one, if it comes after this one. Modes, position
-  /// and counters go on too. False: nothing follows.
+  /// After the end of a program: continues with that one, if it comes after this one. Modes,
+  /// position and counters go on too. False: nothing follows.
   virtual bool read_on() { return false; }
 
   /// Blocks finished so far: the *accepted* counter.

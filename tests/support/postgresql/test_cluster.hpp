@@ -17,7 +17,7 @@ class TestCluster {
 
   /// Of an empty database.
   std::string url() const;
-  /// It ends at once, and whatever is under way is undone.
+  /// It ends at once, and whatever is in progress is undone.
   void stop() { control("stop"); }
   void start() { control("start"); }
   /// It answers nothing, and closes nothing.

@@ -136,7 +136,7 @@ test('a tool is added in the table, and a change that another one overtook is re
   await page.getByText('From revision 1 to 3').waitFor();
 });
 
-test('which setup is in a control at the end of a line is said by whoever loaded it', async () => {
+test('which setup is in a control at the end of a line is said by anyone who loaded it', async () => {
   const control = await LineControl.listen();
   await shop.api('PUT', 'ports/line-5', { machine: 'mill-5', address: control.address, template: 'tnc155' });
   await shop.api('PUT', 'machines/mill-5/setup?control=tnc155', '[[tool]]\nnumber = 1\nlength = 100.0\n');

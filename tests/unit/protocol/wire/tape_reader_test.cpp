@@ -107,7 +107,7 @@ TEST_P(TapeReaderLine, ReadsTheNextProgramOfTheTape) {
   EXPECT_TRUE(wire.host().requests.empty());
   ASSERT_TRUE(wire.control().line->begin_receive("", wire.now()));
   wire.run(wire.now() + milliseconds(200));
-  EXPECT_EQ(wire.host().requests.size(), 1U) << "a looped tape goes on";
+  EXPECT_EQ(wire.host().requests.size(), 1U) << "a looped tape continues";
   ASSERT_TRUE(wire.host().send(first, wire.now()));
   wire.run(wire.now() + seconds(20));
   EXPECT_EQ(wire.control().received, first) << "the reader runs already";

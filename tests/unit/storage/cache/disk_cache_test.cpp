@@ -316,7 +316,7 @@ TEST_F(DiskCacheTest, KeepsItsBoundAndItsWordUnderConcurrentUse) {
         for (int n = 0; n < 1500; ++n) {
           state = state * 1664525 + 1013904223;
           const auto& chunk = chunks[(state >> 16) % chunks.size()];
-          if (n % 50 == 0) fs::remove(file_of(chunk));  // somebody tidies up
+          if (n % 50 == 0) fs::remove(file_of(chunk));  // someone tidies up
           if (!has(chunk)) keep(chunk);
           is_within = is_within && cache_->state().bytes <= kCapacity;
         }

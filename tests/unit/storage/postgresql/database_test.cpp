@@ -86,7 +86,7 @@ TEST_F(PostgresqlDatabase, NothingOfATransactionStaysUnlessItIsCommitted) {
   EXPECT_EQ(count(), 1);
 }
 
-/// Far more than may be under way at once.
+/// Far more than may be in progress at once.
 TEST_F(PostgresqlDatabase, WhatIsPostedIsThereAfterTheCommit) {
   make_table();
   ASSERT_TRUE(database_->begin());
@@ -186,11 +186,12 @@ TEST_F(PostgresqlDatabase, TheSchemaIsMadeOnceAndForeignTablesAreRefused) {
 }
 
 TEST(PostgresqlConnection, IsRefusedWithoutRepeatingAPassword) {
-  const auto nobody = Database::connect({.url = "postgresql://anna:secret@127.0.0.1:1/shop"});
-  ASSERT_FALSE(nobody);
-  EXPECT_EQ(nobody.error().code, Errc::Io);
-  EXPECT_NE(nobody.error().what.find("127.0.0.1:1/shop"), std::string::npos) << nobody.error().what;
-  EXPECT_EQ(nobody.error().what.find("secret"), std::string::npos) << nobody.error().what;
+  const auto unreachable = Database::connect({.url = "postgresql://anna:secret@127.0.0.1:1/shop"});
+  ASSERT_FALSE(unreachable);
+  EXPECT_EQ(unreachable.error().code, Errc::Io);
+  EXPECT_NE(unreachable.error().what.find("127.0.0.1:1/shop"), std::string::npos)
+      << unreachable.error().what;
+  EXPECT_EQ(unreachable.error().what.find("secret"), std::string::npos) << unreachable.error().what;
   const auto unreadable = Database::connect({.url = "postgresql://anna:secret@host:port:1/x"});
   ASSERT_FALSE(unreadable);
   EXPECT_EQ(unreadable.error().what.find("secret"), std::string::npos) << unreadable.error().what;

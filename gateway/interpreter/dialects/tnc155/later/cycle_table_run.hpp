@@ -24,7 +24,7 @@ enum Cycle : std::uint8_t {
   kBoreMill = 208,
   kChipTap = 209
 };
-/// The spindle turns with the feed, and the cycle starts it itself.
+/// The spindle runs with the feed, and the cycle starts it itself.
 constexpr bool is_rigid(int cycle) {
   return cycle == kRigidTap || cycle == kChipTap;
 }

@@ -38,7 +38,7 @@ void ream(const Table& table) {
 }
 
 /// Away from the wall, in the direction of Q214: 1 to 4 are the negative and positive first and
-/// second axis; see the README for the way back.
+/// second axis; see the README for the return path.
 PlaneVector disengagement(const Table& table, double distance) {
   const int direction = static_cast<int>(table.of(214));
   const double by = direction == 1 || direction == 2 ? -distance : distance;

@@ -98,7 +98,7 @@ BlockHead read_head(std::string_view block, Form form) {
 }
 
 /// A line of the block after its first one that sets a label: 0, or its place in `block`. With `~`
-/// at its end a line goes on in the next one.
+/// at its end a line continues in the next one.
 std::size_t continued_label(std::string_view block) {
   for (std::size_t end = block.find('\n'); end != std::string_view::npos;
        end = block.find('\n', end + 1)) {
