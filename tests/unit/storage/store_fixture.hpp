@@ -34,7 +34,6 @@ class TemporaryDirectory {
 };
 
 using test_support::ManualClock;
-};
 
 inline std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text));
