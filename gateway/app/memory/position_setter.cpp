@@ -113,6 +113,8 @@ Result<void> PositionSetter::check_frames(const Control& control,
   if (!what.empty())
     return fail(Errc::Conflict, "{} is in force at power on: take it out of the setup first", what);
   what = obstacle(parts_.run.frame_left);
+  if (what.empty() && parts_.run.was_shifted)
+    what = "a shift (G50, G52), a mirror image, a scaling or a rotation";
   if (!what.empty()) {
     return fail(Errc::Conflict,
                 "{} is in force since the last program: cancel it first (by MDI, or by a program)",

@@ -67,7 +67,7 @@ void EventTracker::add(double value) {
 }
 
 /// A move names the axes that take part in it and those before it; the values of all count.
-void EventTracker::move_to(const Position& to) {
+void EventTracker::move_to(const interpreter::Origin& origin, const Position& to) {
   for (const Axis axis : kAllAxes) {
     if (!to.has(axis)) continue;
     const double value = to.raw(axis);
@@ -76,8 +76,12 @@ void EventTracker::move_to(const Position& to) {
       state_.highest.set_raw(axis, value);
     state_.position.set_raw(axis, value);
   }
-  for (std::size_t i = 0; i < counts_.moves.size(); ++i)
-    counts_.moves[i] += to.has(static_cast<Axis>(i)) ? 1U : 0U;
+  for (std::size_t i = 0; i < moves_.axes.size(); ++i) {
+    if (!to.has(static_cast<Axis>(i))) continue;
+    Moves::Blocks& blocks = moves_.axes[i];
+    blocks.first = blocks.first == 0 ? origin.block : std::min(blocks.first, origin.block);
+    blocks.last = std::max(blocks.last, origin.block);
+  }
 }
 
 void EventTracker::measure_move(const interpreter::Origin& origin, const Position& to,
@@ -105,7 +109,7 @@ void EventTracker::measure_move(const interpreter::Origin& origin, const Positio
 void EventTracker::on_rapid(const interpreter::Rapid& event) {
   measure_move(event.origin, event.to, distance(state_.position, event.to));
   add(kRapid);
-  move_to(event.to);
+  move_to(event.origin, event.to);
   EventGate::on_rapid(event);
 }
 
@@ -113,7 +117,7 @@ void EventTracker::on_line(const interpreter::Line& event) {
   measure_move(event.origin, event.to, distance(state_.position, event.to));
   add(kLine);
   state_.feed = event.feed;
-  move_to(event.to);
+  move_to(event.origin, event.to);
   EventGate::on_line(event);
 }
 
@@ -125,7 +129,7 @@ void EventTracker::on_arc(const interpreter::Arc& event) {
   add(event.center_second.mm());
   add(event.sweep.degrees());
   state_.feed = event.feed;
-  move_to(event.to);
+  move_to(event.origin, event.to);
   EventGate::on_arc(event);
 }
 
@@ -135,7 +139,7 @@ void EventTracker::on_thread(const interpreter::Thread& event) {
   measure_move(event.origin, event.to, length);
   add(kThread);
   add(event.lead.mm());
-  move_to(event.to);
+  move_to(event.origin, event.to);
   EventGate::on_thread(event);
 }
 
@@ -164,7 +168,7 @@ void EventTracker::on_tool(const interpreter::ToolChange& event) {
   if (event.is_preselection) {
     state_.next_tool = event.number;
   } else {
-    ++counts_.tools;
+    moves_.has_tool = true;
     state_.tool = event.number;
     state_.next_tool.reset();
     state_.tool_shape = event.shape;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "gateway/app/restart/delivered_state.hpp"
 #include "gateway/interpreter/stages/event_filter.hpp"
@@ -33,13 +34,17 @@ class EventTracker final : public interpreter::EventGate {
     return one.block == block ? std::optional(one.length) : std::nullopt;
   }
 
-  /// How many moves of X, Y and Z and tool changes the interpreter has given, those of skipped
-  /// blocks included.
-  struct Counts {
-    std::array<std::uint64_t, 3> moves{};
-    std::uint64_t tools = 0;
+  /// What the interpreter has given, in skipped blocks too. A move may be given long after its
+  /// block: compensation waits for the next ones.
+  struct Moves {
+    struct Blocks {
+      std::uint64_t first = 0, last = 0;  ///< 0: none
+    };
+    std::array<Blocks, 3> axes{};  ///< of the moves of X, Y and Z
+    bool has_tool = false;         ///< a tool was changed
   };
-  const Counts& counts() const { return counts_; }
+  /// Since the last call.
+  Moves take_moves() { return std::exchange(moves_, {}); }
 
   /// From `state` on, nothing passes until the block `last` has ended; then `on_open` is called,
   /// with the sink that follows. Without `on_open` nothing passes at all.
@@ -98,7 +103,7 @@ class EventTracker final : public interpreter::EventGate {
   bool is_open() const override { return !is_closed_; }
   void add(double value);
   void add(std::uint64_t bits);
-  void move_to(const interpreter::Position& to);
+  void move_to(const interpreter::Origin& origin, const interpreter::Position& to);
   void measure_move(const interpreter::Origin& origin, const interpreter::Position& to,
                     double length);
   void note_code(int code);
@@ -115,7 +120,7 @@ class EventTracker final : public interpreter::EventGate {
   DeliveredState state_;
   std::unique_ptr<Paths> paths_;
   double length_ = 0;
-  Counts counts_;
+  Moves moves_;
   bool is_closed_ = false;
   std::uint64_t last_ = 0;
   OnOpen on_open_;

@@ -23,11 +23,13 @@ std::optional<interpreter::Diagnostic> ProgramCheck::found() const {
 }
 
 ProgramCheck::State ProgramCheck::work(SteadyTime now) {
-  constexpr std::uint64_t kBlocksAtOnce = 1024;
+  // A length is looked for after each block: the next one may end it while a motion still waits.
+  const std::uint64_t at_once = parts_.capabilities.tool_lengths ? 1024 : 1;
   if (is_over()) return state_;
   if (!began_) began_ = now;
   if (now - *began_ > kLimit) return state_ = State::Passed;
-  const StepState step = interpreter_->step(kBlocksAtOnce);
+  const StepState step = interpreter_->step(at_once);
+  (void)filter_.has_length(interpreter_->origin());
   if (const auto refusal = found()) {
     refusal_.origin.line = refusal->line;
     refusal_.diagnostic = *refusal;

@@ -34,7 +34,7 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
       return fail(restored.error());
   }
   session->begin_live();
-  session->tool_history_.begin(session->parts_.tool, session->interpreter_->modes(), {});
+  session->tool_history_.begin(session->parts_.tool, session->interpreter_->modes());
   session->note_modes();
   if (auto begun = session->begin_check(make, given); !begun) return fail(begun.error());
   if (!session->parts_.restart) return session;
@@ -131,6 +131,11 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
         ++blocks;
         note_modes();
         note_memory();
+        // Also of a motion that waits for the next blocks, which may end the length.
+        if (!events_.has_length(interpreter_->origin())) {
+          is_over_ = true;
+          return blocks;
+        }
         if (is_at_boundary_ && is_checkpoint_due()) take_checkpoint();
         break;
       case StepState::NeedsText:
@@ -163,7 +168,7 @@ void RunSession::note_modes() {
   }
   if (modes_.empty() || modes_.back().modes != modes)
     modes_.push_back({interpreter_->blocks(), modes});
-  tool_history_.note(interpreter_->blocks(), modes, tracker_.counts());
+  tool_history_.note(interpreter_->blocks(), modes, tracker_.take_moves());
 }
 
 namespace {

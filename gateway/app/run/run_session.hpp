@@ -215,6 +215,7 @@ struct CurrentRun {
   /// Of the last program of this process, at its end; nothing: none has run, or its control reports
   /// no coordinates.
   std::optional<interpreter::CoordinateFrame> frame_left = {};
+  bool was_shifted = false;  ///< at the same moment: ActiveModes::is_shifted
   ToolInPosition tool = {};  ///< between two runs
 
   /// Commands and motion apply to it.

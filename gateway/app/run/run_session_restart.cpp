@@ -66,7 +66,8 @@ void RunSession::end_rebuild() {
   next_answer_ = std::min<std::size_t>(setup_.answers.size(), rebuild_->answers().prompts);
   modes_.clear();
   frames_.clear();
-  tool_history_.begin(parts_.tool, interpreter_->modes(), tracker_.counts());
+  (void)tracker_.take_moves();
+  tool_history_.begin(parts_.tool, interpreter_->modes());
   note_modes();
   // What the skipped blocks have changed was executed, though a kill may have kept it from the
   // disk.

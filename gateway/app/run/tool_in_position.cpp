@@ -47,7 +47,8 @@ std::string ToolInPosition::length_fault(Axis axis) const {
   if (i >= unknown.size() || !unknown[i]) return {};
   return fmt::format(
       "a program was cut off while the tool's length along {} changed, or ended with a tilted "
-      "tool: which length is in the position is not certain. Run a program from its beginning "
+      "tool or in machine coordinates (G28, G53): which length is in the position is not certain. "
+      "Run a program from its beginning "
       "first",
       interpreter::letter(axis));
 }
@@ -82,12 +83,11 @@ void ToolInPosition::drop_tool(interpreter::Position& position) {
 }
 
 void ToolHistory::begin(const std::optional<ToolInPosition>& before,
-                        const interpreter::ActiveModes& modes, const EventTracker::Counts& counts) {
+                        const interpreter::ActiveModes& modes) {
   const ToolLengths in_force = lengths_of(modes);
   begun_ = before.value_or(ToolInPosition{});
   entries_.clear();
   tool_called_.reset();
-  counts_ = counts;
   entries_.push_back({.in_force = in_force,
                       .left_out_before = before ? before->left_out : in_force,
                       .is_plain = modes.is_length_plain,
@@ -98,38 +98,53 @@ void ToolHistory::begin(const std::optional<ToolInPosition>& before,
 ToolLengths ToolHistory::left_out(const Entry& entry, std::uint64_t block) const {
   ToolLengths lengths = entry.in_force;
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    const bool has_moved = entry.moved[i] && *entry.moved[i] <= block;
+    const bool has_moved = entry.moved[i].last != 0 && entry.moved[i].last <= block;
     if ((shifts_ || entry.is_at_beginning) && !has_moved) lengths[i] = entry.left_out_before[i];
   }
   return lengths;
 }
 
 void ToolHistory::note(std::uint64_t block, const interpreter::ActiveModes& modes,
-                       const EventTracker::Counts& counts) {
+                       const EventTracker::Moves& moves) {
   const Entry& last = entries_.back();
   const ToolLengths lengths = lengths_of(modes);
-  if (lengths != last.in_force || modes.is_length_plain != last.is_plain) {
-    entries_.push_back({.block = block,
-                        .in_force = lengths,
-                        .left_out_before = left_out(last, kLastBlock),
-                        .is_plain = modes.is_length_plain});
+  if (lengths != last.in_force || modes.is_length_plain != last.is_plain)
+    entries_.push_back({.block = block, .in_force = lengths, .is_plain = modes.is_length_plain});
+  for (std::size_t i = 0; i < moves.axes.size(); ++i)
+    if (moves.axes[i].last != 0) attribute(i, moves.axes[i]);
+  if (moves.has_tool && !tool_called_) tool_called_ = block;
+}
+
+/// To the entries under which the blocks run: a move may be given after the length has changed.
+void ToolHistory::attribute(std::size_t axis, EventTracker::Moves::Blocks blocks) {
+  for (std::size_t k = entries_.size(); k-- > 0;) {
+    Entry& entry = entries_[k];
+    const std::uint64_t begin = k == 0 ? 0 : entry.block;
+    if (blocks.last < begin) continue;
+    if (entry.moved[axis].last == 0)
+      entry.moved[axis] = {std::max(blocks.first, begin), blocks.last};
+    if (blocks.first >= begin) return;
+    blocks.last = begin - 1;
   }
-  auto& moved = entries_.back().moved;
-  for (std::size_t i = 0; i < moved.size(); ++i)
-    if (counts.moves[i] != counts_.moves[i] && !moved[i]) moved[i] = block;
-  if (counts.tools != counts_.tools && !tool_called_) tool_called_ = block;
-  counts_ = counts;
 }
 
 void ToolHistory::drop(std::uint64_t executing) {
-  while (entries_.size() > 1 && entries_[1].block + kUncertain < executing) entries_.pop_front();
+  while (entries_.size() > 1 && entries_[1].block + kUncertain < executing) {
+    entries_[1].left_out_before = left_out(entries_[0], kLastBlock);
+    entries_.pop_front();
+  }
 }
 
 ToolInPosition ToolHistory::at_end(const std::optional<std::uint64_t>& cut_off) const {
   const std::uint64_t block = cut_off.value_or(kLastBlock);
   std::size_t last = entries_.size() - 1;
   while (last > 0 && entries_[last].block > block) --last;
-  const Entry& entry = entries_[last];
+  Entry entry = entries_[0];
+  for (std::size_t k = 1; k <= last; ++k) {
+    const ToolLengths before = left_out(entry, kLastBlock);
+    entry = entries_[k];
+    entry.left_out_before = before;
+  }
   ToolInPosition end = begun_;
   end.in_force = entry.in_force;
   end.left_out = left_out(entry, block);
@@ -137,8 +152,8 @@ ToolInPosition ToolHistory::at_end(const std::optional<std::uint64_t>& cut_off) 
     // Within the first move under another length the position is somewhere between the two.
     const bool has_changed = !is_none(entry.in_force[i] - entry.left_out_before[i]);
     const auto& moved = entry.moved[i];
-    const bool is_between =
-        cut_off && has_changed && moved && *moved <= block && block <= *moved + kUncertain;
+    const bool is_between = cut_off && has_changed && moved.last != 0 && moved.first <= block &&
+                            block <= moved.last + kUncertain;
     if (!entry.is_plain || is_between) end.unknown.set(i);
   }
   const bool has_changed = last > 0 || entry.in_force != entry.left_out_before;

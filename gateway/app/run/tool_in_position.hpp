@@ -47,13 +47,12 @@ class ToolHistory {
  public:
   explicit ToolHistory(bool length_shifts_position) : shifts_(length_shifts_position) {}
 
-  /// `before` is how the position relates to the axes when the run begins, with these modes and
-  /// counts; nothing: the axes are at the start of the program.
-  void begin(const std::optional<ToolInPosition>& before, const interpreter::ActiveModes& modes,
-             const EventTracker::Counts& counts);
-  /// After each block, or a part of it.
+  /// `before` is how the position relates to the axes when the run begins, with these modes;
+  /// nothing: the axes are at the start of the program.
+  void begin(const std::optional<ToolInPosition>& before, const interpreter::ActiveModes& modes);
+  /// After each block, or a part of it; `moves` are those since the last call.
   void note(std::uint64_t block, const interpreter::ActiveModes& modes,
-            const EventTracker::Counts& counts);
+            const EventTracker::Moves& moves);
   /// The blocks before the one that is executed are over.
   void drop(std::uint64_t executing);
   /// The machine rests in `block`, which was cut off; nothing: all blocks were executed.
@@ -65,15 +64,15 @@ class ToolHistory {
     ToolLengths in_force{}, left_out_before{};
     bool is_plain = true;
     bool is_at_beginning = false;  ///< the axes have not moved: a length in force shows later
-    /// The first block that has moved X, Y, Z under it.
-    std::array<std::optional<std::uint64_t>, 3> moved{};
+    /// The first block that has moved X, Y, Z under it is one of these; 0: none.
+    std::array<EventTracker::Moves::Blocks, 3> moved{};
   };
   ToolLengths left_out(const Entry& entry, std::uint64_t block) const;
+  void attribute(std::size_t axis, EventTracker::Moves::Blocks blocks);
 
   bool shifts_;
   ToolInPosition begun_;
   std::deque<Entry> entries_;
-  EventTracker::Counts counts_;
   std::optional<std::uint64_t> tool_called_;  ///< the first block that has
 };
 

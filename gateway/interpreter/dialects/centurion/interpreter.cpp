@@ -269,6 +269,8 @@ ActiveModes CenturionInterpreter::modes() const {
     modes.tool_length_z = tool(ToolField::LengthZ);
   }
   modes.tool_radius = tool(ToolField::Radius);
+  modes.is_shifted =
+      state.local_zero != Point{} || state.floating_zero != Point{} || state.transformation.is_on();
   modes.feed = run_.active_feed();
   modes.cycle = cycle_of(run_);
   return modes;

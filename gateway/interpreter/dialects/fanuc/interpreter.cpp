@@ -196,6 +196,19 @@ Result<void> FanucInterpreter::take_answer(const Answer& answer) {
   return {};
 }
 
+namespace {
+
+/// Machine coordinates are those of the axes, those of a program leave the length out.
+bool is_placed(const ModalState& state, const ActiveModes& modes) {
+  const auto is_there = [&](Axis axis, Length length) {
+    return length != Length{} && state.placed.has(axis) &&
+           state.placed.raw(axis) == state.position.raw(axis);
+  };
+  return is_there(Axis::X, modes.tool_length_x) || is_there(modes.length_axis, modes.tool_length_z);
+}
+
+}  // namespace
+
 ActiveModes FanucInterpreter::modes() const {
   const ModalState& state = run_.state;
   ActiveModes modes;
@@ -215,7 +228,7 @@ ActiveModes FanucInterpreter::modes() const {
     modes.tool_length_z = Length::mm(state.length_offset);
     modes.length_axis = state.length_axis;
   }
-  modes.is_length_plain = !run_.tilted.is_on();
+  modes.is_length_plain = !run_.tilted.is_on() && !is_placed(state, modes);
   modes.tool_radius = Length::mm(radius_of_offset(run_, state.d_number));
   const Length feed = Length::mm(state.feed[state.is_per_revolution()]);
   modes.feed = state.is_per_revolution() ? Feed::per_revolution(feed) : Feed::per_minute(feed);

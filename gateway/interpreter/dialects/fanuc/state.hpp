@@ -232,6 +232,7 @@ struct ModalState {
   int d_number = 0;
   Axis length_axis = Axis::Z;
   double length_offset = 0;  ///< in force, signed
+  Position placed;           ///< where machine coordinates (G28, G30, G53) have brought an axis
   Parameters parameters;
   bool enters_parameters = false;  ///< G10 L50 to G11
   TurningData turning;

@@ -31,7 +31,7 @@ TEST(DeviceLength, InForceIsAnAlarmBeforeTheFirstMove) {
     auto shop = device(*control, kTool, true);
     EXPECT_THAT(shop->run(kWithLength),
                 AllOf(StartsWith("MCH0008"), HasSubstr("Z 50.000 mm is in force"),
-                      HasSubstr("(line 4, found before the first move)")))
+                      HasSubstr("(line 3, found before the first move)")))
         << control->name;
     EXPECT_EQ(shop->at(0), 0) << control->name;
   }
@@ -45,6 +45,18 @@ TEST(DeviceLength, IsAnAlarmInPlaceOfTheMove) {
   EXPECT_EQ(shop->at(2), 0);
   EXPECT_THAT(shop->mdi("G21 G90 G94 F600 G43 H1 G1 Z5.\n"), StartsWith("MCH0008"));
   EXPECT_EQ(shop->at(2), 0);
+}
+
+// Compensation holds the motion back until after the length has ended.
+TEST(DeviceLength, OfAMotionThatWaitsIsOneToo) {
+  const std::string tools = std::string(kTool) + "[[tool]]\nnumber = 30\nradius = 1.0\n";
+  for (const bool checks : {true, false}) {
+    auto shop = device(interpreter::kFanucDialect, tools, checks);
+    EXPECT_THAT(shop->run("G21 G90 G94 F600\nG1 X1. Y0 Z0\nG41 D30 X5.\nG43 H1 G1 Z-8.\nG49\n"
+                          "X30.\nG40 X40.\nM30\n"),
+                StartsWith("MCH0008"));
+    EXPECT_EQ(shop->at(2), 0);
+  }
 }
 
 TEST(DeviceLength, OfALatheIsOneToo) {

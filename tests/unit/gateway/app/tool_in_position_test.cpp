@@ -16,16 +16,24 @@ ActiveModes with_length(double z, bool is_plain = true) {
   return modes;
 }
 
+/// Of one axis, in one block.
+EventTracker::Moves moved(Axis axis, std::uint64_t block, bool has_tool = false) {
+  EventTracker::Moves moves;
+  moves.axes[static_cast<std::size_t>(axis)] = {block, block};
+  moves.has_tool = has_tool;
+  return moves;
+}
+
 /// Block 1 moves Z without a tool; 2 brings a length of 10; 3 moves X, 4 moves Z, 5 and 6 move X.
 ToolHistory history(bool shifts) {
   ToolHistory history(shifts);
-  history.begin(std::nullopt, with_length(0), {});
-  history.note(1, with_length(0), {{0, 0, 1}, 0});
-  history.note(2, with_length(10), {{0, 0, 1}, 0});
-  history.note(3, with_length(10), {{1, 0, 1}, 0});
-  history.note(4, with_length(10), {{1, 0, 2}, 0});
-  history.note(5, with_length(10), {{2, 0, 2}, 0});
-  history.note(6, with_length(10), {{3, 0, 2}, 0});
+  history.begin(std::nullopt, with_length(0));
+  history.note(1, with_length(0), moved(Axis::Z, 1));
+  history.note(2, with_length(10), {});
+  history.note(3, with_length(10), moved(Axis::X, 3));
+  history.note(4, with_length(10), moved(Axis::Z, 4));
+  history.note(5, with_length(10), moved(Axis::X, 5));
+  history.note(6, with_length(10), moved(Axis::X, 6));
   return history;
 }
 
@@ -66,24 +74,43 @@ INSTANTIATE_TEST_SUITE_P(, ToolHistoryOfARun,
                                          Case{"shift_completed", true, std::nullopt, 10, 10, true}),
                          [](const auto& i) { return i.param.name; });
 
+// The move of block 2, which brings the length, is given when block 4 has ended the length.
+TEST(ToolHistory, KnowsTheBlockOfAMoveThatHasWaited) {
+  for (const bool shifts : {false, true}) {
+    ToolHistory history(shifts);
+    history.begin(std::nullopt, with_length(0));
+    history.note(1, with_length(0), moved(Axis::Z, 1));
+    history.note(2, with_length(10), {});
+    history.note(3, with_length(10), {});
+    history.note(4, with_length(0), moved(Axis::Z, 2));
+    EXPECT_FALSE(history.at_end(2).length_fault(Axis::Z).empty()) << "in the middle of it";
+    EXPECT_FALSE(history.at_end(3).length_fault(Axis::Z).empty());
+    EXPECT_TRUE(history.at_end(4).length_fault(Axis::Z).empty());
+    EXPECT_EQ(history.at_end(4).left_out[2], shifts ? 10 : 0);
+    history.note(5, with_length(0), moved(Axis::Z, 5));
+    EXPECT_FALSE(history.at_end(5).length_fault(Axis::Z).empty());
+    EXPECT_EQ(history.at_end(std::nullopt).left_out[2], 0);
+  }
+}
+
 TEST(ToolHistory, GoesOverToTheNextRun) {
   ToolHistory first(true);
-  first.begin(std::nullopt, with_length(0), {});
+  first.begin(std::nullopt, with_length(0));
   first.note(1, with_length(10), {});
   const ToolInPosition between = first.at_end(std::nullopt);
   EXPECT_EQ(between.left_out[2], 0);
   EXPECT_FALSE(between.datum_fault(Axis::Z, false).empty()) << "the shift shows with the next move";
   ToolHistory second(true);
-  second.begin(between, with_length(10), {});
+  second.begin(between, with_length(10));
   EXPECT_EQ(second.at_end(std::nullopt).left_out[2], 0);
-  second.note(1, with_length(10), {{0, 0, 1}, 0});
+  second.note(1, with_length(10), moved(Axis::Z, 1));
   EXPECT_EQ(second.at_end(std::nullopt).left_out[2], 10);
 }
 
 TEST(ToolHistory, DoesNotKnowATiltedTool) {
   ToolHistory tilted(false);
-  tilted.begin(std::nullopt, with_length(0), {});
-  tilted.note(1, with_length(10, false), {{1, 1, 1}, 0});
+  tilted.begin(std::nullopt, with_length(0));
+  tilted.note(1, with_length(10, false), moved(Axis::X, 1));
   EXPECT_FALSE(tilted.at_end(std::nullopt).length_fault(Axis::X).empty());
 }
 
@@ -110,11 +137,11 @@ TEST(ToolInPosition, OfADroppedToolIsThatOfTheAxes) {
   EXPECT_EQ(tool.left_out, ToolLengths{});
   EXPECT_NE(tool.datum_fault(Axis::X, true).find("(X 4 mm)"), std::string::npos);
   ToolHistory next(false);
-  next.begin(tool, with_length(0), {});
-  next.note(1, with_length(0), {{1, 0, 0}, 0});
+  next.begin(tool, with_length(0));
+  next.note(1, with_length(0), moved(Axis::X, 1));
   EXPECT_FALSE(next.at_end(std::nullopt).datum_fault(Axis::X, true).empty())
       << "no tool was called";
-  next.note(2, with_length(0), {{1, 0, 0}, 1});
+  next.note(2, with_length(0), moved(Axis::X, 2, true));
   EXPECT_TRUE(next.at_end(std::nullopt).datum_fault(Axis::X, true).empty());
 }
 

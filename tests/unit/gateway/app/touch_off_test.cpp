@@ -189,6 +189,34 @@ TEST(TouchOffAfterAnAbort, IsRefusedWhereTheLengthWasChanging) {
               StartsWith("tool.3.length is -7.000 mm, it was 10.000"));
 }
 
+// Compensation gives the move to the machine when the next block is read.
+TEST(TouchOffAfterAnAbort, IsRefusedAlsoWhereTheMoveHasWaited) {
+  Shop shop(interpreter::kFanucDialect,
+            std::string(kWithLength) + "[[tool]]\nnumber = 30\nradius = 1.0\n", "1x");
+  EXPECT_EQ(shop.abort_when("G21 G90 G94 F6000\nG1 X1. Y0 Z0\nG41 D30 X5.\nG43 H3 G1 Z-180.\n"
+                            "X30.\nX35.\nG40 X40.\n",
+                            [&] { return shop.at(2) < -20; }),
+            "aborted by command");
+  EXPECT_THAT(shop.set("tool 3 Z 0 mm G54"),
+              AllOf(StartsWith("refused: "), HasSubstr("is not certain")));
+}
+
+// Machine coordinates are those of the axes, a program's leave the length out.
+TEST(TouchOffInMachineCoordinates, IsRefusedWithALengthInForce) {
+  for (const std::string back : {"G53 Z-100.\n", "G28 G91 Z0\nG90\n"}) {
+    Shop shop(interpreter::kFanucDialect, kWithLength);
+    ASSERT_EQ(shop.mdi("G21 G90 G43 H3 G0 Z-50.\n" + back), "completed");
+    EXPECT_THAT(shop.set("tool 3 Z 0 mm G54"),
+                AllOf(StartsWith("refused: "), HasSubstr("G28, G53")))
+        << back;
+    ASSERT_EQ(shop.mdi("G90 G0 Z-60.\n"), "completed");
+    EXPECT_THAT(shop.set("tool 3 Z 0 mm G54"), StartsWith("tool.3.length is -50.000 mm")) << back;
+  }
+  Shop without(interpreter::kFanucDialect, kWithLength);
+  ASSERT_EQ(without.mdi("G21 G90 G53 G0 Z-100.\n"), "completed");
+  EXPECT_THAT(without.set("tool 3 Z 0 mm G54"), StartsWith("tool.3.length is -100.000 mm"));
+}
+
 TEST(TouchOffAfterAnAbort, IsByTheLengthThatIsInForce) {
   Shop shop(interpreter::kFanucDialect, kWithLength, "1x");
   EXPECT_EQ(shop.abort_when("G21 G43 H3 G91 G1 Z-30. F9000\nG1 X1.\nG1 X500. F3000\n",

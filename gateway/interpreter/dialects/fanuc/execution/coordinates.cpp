@@ -249,6 +249,7 @@ bool return_to(Run& run, std::size_t point) {
   for (const Axis axis : kAllAxes) {
     if (!names_axis(run, axis)) continue;
     home.set_raw(axis, run.options.reference[point][static_cast<std::size_t>(axis)]);
+    state.placed.set_raw(axis, home.raw(axis));
   }
   return rapid_to(run, home);
 }

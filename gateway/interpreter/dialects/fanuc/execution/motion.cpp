@@ -330,6 +330,7 @@ bool move_in_machine_coordinates(Run& run) {
     if (!words.has(kWordOfAxis[i])) continue;
     const auto axis = static_cast<Axis>(i);
     to.set_raw(axis, run.coordinate(axis, words[kWordOfAxis[i]]));
+    run.state.placed.set_raw(axis, to.raw(axis));
   }
   return rapid_to(run, to);
 }
