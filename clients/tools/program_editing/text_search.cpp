@@ -16,9 +16,30 @@ bool is_word_character(char letter) {
   return (big >= 'A' && big <= 'Z') || (big >= '0' && big <= '9') || big == '_';
 }
 
+bool is_digit(char letter) {
+  return letter >= '0' && letter <= '9';
+}
+
+/// Whether what stands before `at` is the sign of a number there, and not an operator: "Y-1", "=-1"
+/// and not "P1-1".
+bool is_signed(std::string_view line, std::size_t at) {
+  if (line[at - 1] != '-' && line[at - 1] != '+') return false;
+  if (at == 1) return true;
+  const char before = line[at - 2];
+  return !is_digit(before) && before != '.' && before != ')' && before != ']';
+}
+
+/// A number is one word with its sign, its point and the digits behind it.
 bool is_whole(std::string_view line, std::size_t at, std::size_t size) {
-  const bool begins = at == 0 || !is_word_character(line[at - 1]);
-  return begins && (at + size == line.size() || !is_word_character(line[at + size]));
+  const std::size_t end = at + size;
+  if (at != 0) {
+    const char before = line[at - 1];
+    if (is_word_character(before)) return false;
+    const bool is_number = is_digit(line[at]) || line[at] == '.';
+    if (is_number && (before == '.' || is_signed(line, at))) return false;
+  }
+  if (end == line.size()) return true;
+  return !is_word_character(line[end]) && !(is_digit(line[end - 1]) && line[end] == '.');
 }
 
 std::size_t next_in(std::string_view line, const TextPattern& pattern, std::size_t from) {

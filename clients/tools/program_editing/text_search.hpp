@@ -20,7 +20,8 @@ inline constexpr std::size_t kMaxFindText = 67;
 struct TextPattern {
   std::string text;            ///< within one line
   bool ignores_case = false;   ///< the editor's option U; of A to Z
-  bool is_whole_word = false;  ///< W: no letter, digit or underscore on either side
+  bool is_whole_word = false;  ///< W: no letter, digit or underscore on either side,
+                               ///< and no part of a number
   std::optional<std::pair<std::int64_t, std::int64_t>> lines =
       {};  ///< L: the marked block, inclusive
 };

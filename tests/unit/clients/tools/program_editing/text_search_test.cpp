@@ -33,6 +33,28 @@ TEST(TextSearch, FindsTextsByCaseWordAndRange) {
   EXPECT_EQ(lines_with({.text = "P1", .is_whole_word = true}), Lines{5});
 }
 
+TEST(TextSearch, TakesANumberAsOneWord) {
+  const auto found = [](const std::string& line, const std::string& text) {
+    return !find_text(line, {.text = text, .is_whole_word = true}).value().empty();
+  };
+  for (const std::string line : {"X1.5", "X1.", "G0 X1. Y2", "X10", "X1.5 X1.25"}) {
+    EXPECT_FALSE(found(line, "X1")) << line;
+  }
+  for (const std::string line : {"X1", "G0 X1 Y2", "X1.5 X1", "(X1)"}) {
+    EXPECT_TRUE(found(line, "X1")) << line;
+  }
+  for (const std::string line : {"Y-1", "Y+1", "-1", "P1=-1", "Y.1", "Y0.1", "1.", "1.5"}) {
+    EXPECT_FALSE(found(line, "1")) << line;
+  }
+  for (const std::string line : {"P2=1", "P2=P3-1", "P2=(P3)+1", "LOOP 1"}) {
+    EXPECT_TRUE(found(line, "1")) << line;
+  }
+  EXPECT_FALSE(found("X1.5", "X1."));
+  EXPECT_TRUE(found("X1. Y2", "X1."));
+  EXPECT_TRUE(found("G0 Y-1", "Y-1"));
+  EXPECT_FALSE(found("F-.01", ".01"));
+}
+
 TEST(TextSearch, ChangesEveryOccurrenceAndKeepsLineEnds) {
   EXPECT_EQ(changed({.text = "P1", .is_whole_word = true}, "P11"),
             "O0001\r\nG1 X1. F.01\r\ng1 X1.5\r\n\r\nP10=P11+P11\r\n");
