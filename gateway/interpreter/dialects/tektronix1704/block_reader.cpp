@@ -248,10 +248,15 @@ ReadOutcome read_line(Run& run, std::string_view line) {
 }
 
 bool looks_like_block(std::string_view line) {
-  if (line.find(kRewindStop) != std::string_view::npos) return false;
   bool has_words = false, has_other = false, in_comment = false, in_name = false;
+  bool is_after_stop = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
+    if (c == kRewindStop) {
+      is_after_stop = true;
+      in_name = false;
+      continue;
+    }
     if (in_comment || c == '(') {
       in_comment = c != ')';
       continue;
@@ -259,8 +264,8 @@ bool looks_like_block(std::string_view line) {
     if (is_blank(c)) continue;
     const std::uint8_t index = address_of(c);
     const bool is_word = index != kNoAddress && !in_name && has_digits(line.substr(i + 1));
-    const bool is_axis = is_word && (bit(static_cast<Address>(index)) & kEndWords) != 0;
-    if (is_axis) return true;
+    const std::uint16_t of_blocks = kEndWords | (is_after_stop ? bit(Address::N) : 0);
+    if (is_word && (bit(static_cast<Address>(index)) & of_blocks) != 0) return true;
     in_name = is_letter(c) && !is_word;
     const bool is_of_number = is_digit(c) || c == '+' || c == '-' || c == '.';
     has_words |= is_word;

@@ -20,8 +20,8 @@ enum class ReadOutcome : std::uint8_t {
 /// blocks and words).
 ReadOutcome read_line(Run& run, std::string_view line);
 
-/// Whether a line of a leader could be a block: it has an axis word, or nothing but words. Titles
-/// and comments are none, and neither is anything on a line with the rewind stop code.
+/// Whether a line of a leader could be a block: it has an axis word, a block number behind the
+/// rewind stop code, or nothing but words beside that code. Titles and comments are none.
 bool looks_like_block(std::string_view line);
 
 }  // namespace dripline::interpreter::tektronix1704

@@ -57,7 +57,7 @@ BlockOutcome TektronixInterpreter::run_line() {
     case ReadOutcome::GoesOn:
       return BlockOutcome::NoBlock;
     case ReadOutcome::EndCode:
-      return end_of_data(true);
+      return has_words_at_stop(line.text) ? lose_block(line) : end_of_data(true);
     case ReadOutcome::Alarm:
       return BlockOutcome::Paused;
   }
@@ -68,6 +68,13 @@ BlockOutcome TektronixInterpreter::run_line() {
   if (run_.state.reader == ReaderState::Search) [[unlikely]]
     return search();
   return execute();
+}
+
+/// Of a line with the rewind stop code, of which what is before the code has been read.
+bool TektronixInterpreter::has_words_at_stop(std::string_view line) const {
+  const BlockInProgress& block = run_.state.block;
+  if (block.has_word || !block.words.empty()) return true;
+  return looks_like_block(line.substr(line.find(kRewindStop)));
 }
 
 BlockOutcome TektronixInterpreter::meet(LineState state) {
@@ -92,6 +99,7 @@ BlockOutcome TektronixInterpreter::hunt(const SourceLine& line) {
   State& state = run_.state;
   if (looks_like_block(line.text)) {
     begin_block(line.place);
+    if (line.text.find(kRewindStop) != std::string_view::npos) return lose_block(line);
     run_.fail(Fault::BlockInLeader, 1,
               fmt::format("{}: program {} of the tape has no rewind stop code and end of block "
                           "before it",
@@ -108,6 +116,14 @@ BlockOutcome TektronixInterpreter::hunt(const SourceLine& line) {
     warn_of_head(line.place.line);
   }
   return BlockOutcome::NoBlock;
+}
+
+/// Words before the rewind stop code have no end of block, those behind it are hunted over.
+BlockOutcome TektronixInterpreter::lose_block(const SourceLine& line) {
+  run_.fail(
+      Fault::BlockInLeader, 1,
+      fmt::format("{}: the line of the rewind stop code holds words of a block", shown(line.text)));
+  return BlockOutcome::Paused;
 }
 
 void TektronixInterpreter::warn_of_head(std::uint64_t line) {

@@ -40,6 +40,8 @@ class TektronixInterpreter final : public BlockInterpreter<TektronixInterpreter>
   bool has_more();
   void begin_block(const TextPlace& place);
   void begin_part();
+  BlockOutcome lose_block(const SourceLine& line);
+  bool has_words_at_stop(std::string_view line) const;
   void warn_of_head(std::uint64_t line);
   void close_block();
 

@@ -137,8 +137,33 @@ INSTANTIATE_TEST_SUITE_P(, TapeLeader,
                                          LeaderCase{"title", "PART NO 17 OF THE SERIES", false},
                                          LeaderCase{"name_with_digits", "MAX2 BY 3", false},
                                          LeaderCase{"comment", "(X3)", false},
-                                         LeaderCase{"stop_code", "N40X3 %", false}),
+                                         LeaderCase{"stop_code", "%", false},
+                                         LeaderCase{"title_before_code", "SPARE PART 7 %", false},
+                                         LeaderCase{"title_after_code", "% PART NO 17", false},
+                                         LeaderCase{"number_after_code", "%100", false},
+                                         LeaderCase{"comment_after_code", "%(X3)", false},
+                                         LeaderCase{"block_before_code", "N40X3 %", true},
+                                         LeaderCase{"block_after_code", "%N40X3F500", true},
+                                         LeaderCase{"after_code_and_blank", "% N40X3", true},
+                                         LeaderCase{"after_code_and_comment", "%(5)N40X3", true},
+                                         LeaderCase{"number_and_title", "%N40 AND MORE", true},
+                                         LeaderCase{"mode_after_code", "%G91", true}),
                          [](const auto& row) { return std::string(row.param.name); });
+
+// Words without an end of block before the code, and words that are hunted over behind it.
+TEST(TapePrograms, LoseNoBlockOnTheLineOfALaterStopCode) {
+  const std::string first = "%\nN10F500X10000\n";
+  for (const std::string line : {"N20X20000%", "N20X20000 %", "%N20X20000", "% (A) N20X20000"}) {
+    Reader reader(first + line + "\nN30Y10000\nN40M02\n");
+    EXPECT_EQ(reader.run(), StepState::Alarmed) << line;
+    EXPECT_THAT(reader.log(), HasSubstr("TEK0114")) << line;
+  }
+  for (const std::string line : {"%", "% PART NO 18", "(END) %"}) {
+    Reader reader(first + line + "\nN30Y10000\nN40M02\n");
+    EXPECT_EQ(reader.run(), StepState::Ended) << line;
+    EXPECT_THAT(reader.log(), testing::Not(HasSubstr("TEK0114"))) << line;
+  }
+}
 
 // What the gateway does at the next start: the modes of the program before, and the tape.
 TEST(TapePrograms, BeginWithTheModesOfTheOneBefore) {
