@@ -36,6 +36,10 @@ struct ToolName {
   std::int32_t number = 0;
 };
 
+struct Run;
+/// A Q parameter that the search for a start reads (start_search.hpp).
+[[gnu::cold]] void note_use(Run& run, std::int32_t parameter);
+
 /// One run: the state that the files of this folder work on. Functions that cannot continue return
 /// false and leave the reason in `pause`. Only the last action of a block may ask a question; that
 /// action is executed again once the answer is there.
@@ -76,18 +80,20 @@ struct Run : BlockRun {
     state.q[static_cast<std::size_t>(parameter)] = value;
     ++q_changes;
   }
-  /// The number of a word, or the value of its Q parameter; 0 for none.
-  double number(const Value& value) const {
+  /// The number of a word, or the value of its Q parameter; 0 for none. Every Q word is read here.
+  double number(const Value& value) {
     if (!value.is_q()) [[likely]]
       return value.amount();
+    if (state.start.is_searching) [[unlikely]]
+      note_use(*this, value.number);
     const double held = state.q[static_cast<std::size_t>(value.number)];
     return value.is_negated ? -held : held;
   }
   /// As millimeters, a rotary axis's as degrees.
-  double coordinate(Axis axis, const Value& value) const {
+  double coordinate(Axis axis, const Value& value) {
     return is_rotary(axis) ? number(value) : number(value) * state.mm_per_unit();
   }
-  double length(const Value& value) const { return number(value) * state.mm_per_unit(); }
+  double length(const Value& value) { return number(value) * state.mm_per_unit(); }
 
   const ControlOptions options;
   ProgramSource& source;

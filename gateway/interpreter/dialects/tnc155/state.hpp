@@ -156,7 +156,7 @@ struct StartState {
   std::int32_t contour_block = Block::kNone;  ///< that began it
   std::bitset<100> codes;                     ///< M functions of the machine that were not output
   std::vector<std::int32_t> assigned;         ///< Q parameters that the program has set; sorted
-  std::vector<std::int32_t> carried;          ///< or used in a computation before it set them
+  std::vector<std::int32_t> carried;          ///< or read before it set them
 };
 
 struct PolarData {

@@ -12,7 +12,7 @@ bool execute(Run& run, const Block& block);
 /// FN 0 to FN 8: sets a Q parameter. False after an alarm; the parameter keeps its value then.
 bool compute(Run& run, const Block& block);
 /// FN 9 to FN 12: whether the condition holds.
-bool is_true(const Run& run, const Block& block);
+bool is_true(Run& run, const Block& block);
 
 // Positioning blocks, with their feed (motion.cpp); M functions of the block are execution.cpp's,
 // except those that state how it moves.

@@ -69,7 +69,7 @@ bool compute(Run& run, const Block& block) {
   return true;
 }
 
-bool is_true(const Run& run, const Block& block) {
+bool is_true(Run& run, const Block& block) {
   const double a = run.number(block.first);
   const double b = run.number(block.second);
   switch (block.function) {

@@ -215,21 +215,20 @@ bool note_computation(Run& run, const Block& block) {
 }
 
 bool note_result(Run& run, const Block& block) {
+  return note_definition(run, block, block.target);
+}
+
+bool note_definition(Run& run, const Block& block, std::int32_t parameter) {
   StartState& start = run.state.start;
-  if (std::ranges::binary_search(start.carried, block.target)) {
+  if (!start.is_searching) return true;
+  if (std::ranges::binary_search(start.carried, parameter)) {
     return run.fail(ErrorCode::ProgramStartUndefined,
                     fmt::format("a start after {} would lose Q{}, whose value continues that of "
                                 "the run before",
-                                block_text(block.number), block.target));
+                                block_text(block.number), parameter));
   }
-  insert(start.assigned, block.target);
+  insert(start.assigned, parameter);
   return true;
-}
-
-void note_definition(Run& run, std::int32_t parameter) {
-  StartState& start = run.state.start;
-  if (!start.is_searching) return;
-  if (!std::ranges::binary_search(start.carried, parameter)) insert(start.assigned, parameter);
 }
 
 bool check_positions(Run& run, std::uint16_t named) {

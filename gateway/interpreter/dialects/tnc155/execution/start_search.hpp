@@ -42,12 +42,11 @@ bool is_contour_open(const State& state);
 /// After each block of the search: where the contour in force began.
 void note_contour_start(Run& run, std::int32_t number);
 
-/// Of a computation of the search: a Q parameter that it uses.
-void note_use(Run& run, std::int32_t parameter);
-/// After note_use: the one that it sets. False: its value depends on how often the program ran.
+/// After note_use (run.hpp) of what a computation of the search reads: the one that it sets. False:
+/// a block before has read the value that the last run has left, and it would be another one now.
 bool note_result(Run& run, const Block& block);
-/// A Q word of a cycle of the search, which the program gives a value.
-void note_definition(Run& run, std::int32_t parameter);
+/// The same of a Q word of a cycle, which gives its parameter a value; also without a search.
+bool note_definition(Run& run, const Block& block, std::int32_t parameter);
 /// FN 0 to FN 8 of the search.
 bool note_computation(Run& run, const Block& block);
 

@@ -189,17 +189,20 @@ bool define_table(Run& run, const Block& block) {
     if (preset != static_cast<int>(preset)) {
       return run.fail(ErrorCode::EntryOutOfRange, fmt::format("Q339 = {}", preset));
     }
+    if (!note_definition(run, block, 339)) return false;
     run.set_q(339, preset);
     return use_preset(run, static_cast<int>(preset));
   }
   if (is_pattern(block.cycle)) {
-    for (std::size_t i = 0; i < rows.size(); ++i) note_definition(run, rows[i].q);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!note_definition(run, block, rows[i].q)) return false;
+    }
     return run_pattern(run, block.cycle, values);
   }
   // The words of a definition are what the parameters hold from then on.
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!note_definition(run, block, rows[i].q)) return false;
     run.set_q(rows[i].q, values[i]);
-    note_definition(run, rows[i].q);
   }
   state.cycle_words = std::move(values);
   state.cycle.machining = MachiningCycle{};

@@ -94,7 +94,10 @@ bool read_parameter(Run& run, std::int32_t parameter, double& value) {
   const State& state = run.state;
   const double unit = state.mm_per_unit();
   value = state.q[static_cast<std::size_t>(parameter)];
-  if (!is_of_control(parameter)) return true;
+  if (!is_of_control(parameter)) {
+    if (state.start.is_searching) note_use(run, parameter);
+    return true;
+  }
   if (is_plane_angle(parameter)) return state.has_plane_angles || fail_plane_angle(run, parameter);
   if (parameter == kInchProgram) {
     value = state.units == Units::Inch ? 1 : 0;

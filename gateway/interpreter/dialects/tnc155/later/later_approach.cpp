@@ -91,7 +91,7 @@ PlaneVector begin_direction(Run& run, const Block& next, PlaneVector from) {
 
 /// From the contour's point to the auxiliary point, for the tool's center. `sign`: 1 after the end,
 /// -1 before the begin.
-PlaneVector offset(const Run& run, const Block& block, Compensation side, PlaneVector along,
+PlaneVector offset(Run& run, const Block& block, Compensation side, PlaneVector along,
                    double sign) {
   const State& state = run.state;
   const double distance = run.length(run.parts.later.length);

@@ -121,6 +121,15 @@ TEST(TncStart, RefusesWhatItWouldLose) {
               HasSubstr("the corner from block 1 on"));
   EXPECT_THAT(refusal(from_block(2, {"FN 1: Q1 = +Q1 + +1", "L X+1 Y+1 R0 F MAX"})),
               HasSubstr("lose Q1, whose value continues that of the run before"));
+  for (const std::string use :
+       {"FN 9: IF +Q1 EQU +9 GOTO LBL 1", "L X+Q1 Y+1 R0 F MAX", "L X+1 Y+1 R0 F+Q1", "CC X+Q1 Y+0",
+        "FN 0: Q2 = +Q1", "LP PR+10 PA+Q1 R0 F MAX"}) {
+    const std::vector<std::string> blocks{"CC X+0 Y+0", use, "LBL 1", "FN 0: Q1 = +5",
+                                          "L X+1 Y+1 R0 F MAX"};
+    EXPECT_THAT(refusal(from_block(5, blocks, "[[variable]]\nname = \"Q1\"\nvalue = 5.0")),
+                HasSubstr("a start after block 4 would lose Q1"))
+        << use;
+  }
   EXPECT_THAT(refusal(from_block(4, {"TOOL CALL 0 Z S100", "TCH PROBE 0.0 REF. PLANE Q5 Z-",
                                      "TCH PROBE 0.1 X+0 Y+0 Z+0", "L X+1 Y+1 R0 F MAX"})),
               HasSubstr("what the probe has measured"));
