@@ -275,6 +275,10 @@ CommandLine wrong_use(const Error& error) {
   return {.settings = {}, .print = "dncd: " + error.what + "\n", .exit_code = kUsageError};
 }
 
+std::string refuse_empty(const std::string& value) {
+  return value.empty() ? "a value is needed, this one is empty" : "";
+}
+
 }  // namespace
 
 Result<void> apply_toml(Settings& settings, std::string_view text, const std::string& folder) {
@@ -320,6 +324,9 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   program.add_flag("--json", line.settings.wants_json, "Report a migration as JSON");
   process::SettingsReader reader(std::span<const Row>(kRows), line.settings);
   reader.declare(program);
+  // An empty variable in a script would start a server instead, or on another database.
+  for (const char* name : {"--migrate-to", "--store"})
+    program.get_option(name)->check(CLI::Validator(refuse_empty, ""));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -14,6 +14,14 @@ struct MigrateCommand {
   std::string to, from;
 };
 
+/// An empty variable in a script would start a server instead, or leave another database.
+Check not_empty() {
+  return {[](const std::string& value) {
+            return std::string(value.empty() ? "a value is needed, this one is empty" : "");
+          },
+          ""};
+}
+
 /// Becomes `dncd`, which alone opens databases: beside this program, as they are installed. Returns
 /// when that is not possible.
 Error become_dncd(std::vector<std::string> words) {
@@ -48,10 +56,13 @@ void add_migrate_command(Command server, Context& context) {
       .add_option("--to", options->to,
                   "postgresql://HOST/NAME, an empty database; or the state folder, for a SQLite "
                   "file in it")
-      .required();
-  command.add_option("--from", options->from,
-                     "The PostgreSQL database to leave, for --to a folder (default: the SQLite "
-                     "file of --state)");
+      .required()
+      .check(not_empty());
+  command
+      .add_option("--from", options->from,
+                  "The PostgreSQL database to leave, for --to a folder (default: the SQLite "
+                  "file of --state)")
+      .check(not_empty());
   add_json_flag(command, context);
   command.footer(
       "Runs at the server's computer, as the user that dncd runs as, while dncd is stopped. Reads "

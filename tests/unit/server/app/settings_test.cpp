@@ -45,6 +45,18 @@ TEST(Settings, OfTheCommandLineWinOverTheFile) {
   EXPECT_EQ(line.settings.dds_tag, "shop");
 }
 
+/// An empty variable of a script must not start a server in place of a migration.
+TEST(Settings, ThatAreEmptyOnTheCommandLineAreAnErrorWhereTheyNameADatabase) {
+  for (const char* name : {"--migrate-to", "--store"}) {
+    const auto line = read({name, ""});
+    EXPECT_EQ(line.exit_code, 2) << name;
+    EXPECT_NE(line.print.find(std::string(name) + ": a value is needed"), std::string::npos)
+        << line.print;
+  }
+  EXPECT_EQ(read({"--store", "", "--migrate-to", "/state"}).exit_code, 2);
+  EXPECT_EQ(read({"--store", "postgresql://db-1/shop", "--migrate-to", "/state"}).print, "");
+}
+
 TEST(Settings, OfAFileAreCheckedByKeyTypeAndRange) {
   Settings settings;
   const auto says = [&](const char* toml) {
