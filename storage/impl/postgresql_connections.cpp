@@ -69,6 +69,8 @@ PostgresqlConnections::~PostgresqlConnections() {
 Result<void> PostgresqlConnections::prepare(Database& database, const DatabaseUse& use) {
   auto has_place = postgresql::has_table(database, "store_holder");
   if (has_place && !*has_place) {
+    if (!use.makes_tables)
+      return fail(Errc::NotFound, "database {} holds no store of Dripline", label_);
     auto made = postgresql::migrate(database, postgresql::schema(), use.begin);
     if (!made) {
       // Another server may have made them at the same moment.

@@ -18,8 +18,9 @@ namespace dripline::storage {
 struct DatabaseUse {
   enum class Kind : std::uint8_t { Serve, Leave, Enter };
   Kind kind = Kind::Serve;
-  std::string begin{};   ///< of Enter: SQL in the transaction that makes the tables
-  std::string source{};  ///< of Enter: the identity of the database that is moved
+  std::string begin{};       ///< of Enter: SQL in the transaction that makes the tables
+  std::string source{};      ///< of Enter: the identity of the database that is moved
+  bool makes_tables = true;  ///< false: a database without ours stays as it is
 };
 
 /// One connection that writes and some that read; a lost one is opened again by anyone who needs
@@ -29,7 +30,7 @@ struct DatabaseUse {
 class PostgresqlConnections final : public Connections {
  public:
   /// Takes the holder's place, and creates or migrates the schema. Errors: see
-  /// PostgresqlStore::open.
+  /// PostgresqlStore::open; NotFound (it has no tables of ours, and none are to be made).
   static Result<std::unique_ptr<PostgresqlConnections>> open(const PostgresqlStoreOptions& options,
                                                              const DatabaseUse& use = {});
   /// Gives the place back.

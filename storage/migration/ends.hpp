@@ -38,11 +38,14 @@ class Target {
 Result<std::unique_ptr<Source>> leave_sqlite(const std::filesystem::path& file);
 Result<std::unique_ptr<Source>> leave_postgresql(const storage::PostgresqlStoreOptions& options);
 
-/// `source`: its identity. Errors: also Conflict (it holds something, or another source's begun
-/// migration).
+/// `source`: its identity. `may_begin`: false where only a migration that was begun is continued,
+/// and nothing is made otherwise. Errors: also Conflict (it holds something, or another source's
+/// begun migration), and NotFound (none was begun, and none may be).
 Result<std::unique_ptr<Target>> enter_sqlite(const std::filesystem::path& file,
-                                             const Layout& layout, const std::string& source);
+                                             const Layout& layout, const std::string& source,
+                                             bool may_begin);
 Result<std::unique_ptr<Target>> enter_postgresql(const storage::PostgresqlStoreOptions& options,
-                                                 const Layout& layout, const std::string& source);
+                                                 const Layout& layout, const std::string& source,
+                                                 bool may_begin);
 
 }  // namespace dripline::migration

@@ -64,7 +64,8 @@ Result<bool> has_table(Connections& connections, const std::string& name) {
 }  // namespace
 
 Result<std::unique_ptr<Source>> leave_postgresql(const storage::PostgresqlStoreOptions& options) {
-  auto opened = PostgresqlConnections::open(options, {.kind = DatabaseUse::Kind::Leave});
+  auto opened = PostgresqlConnections::open(
+      options, {.kind = DatabaseUse::Kind::Leave, .makes_tables = false});
   if (!opened) return fail(opened.error());
   const auto is_left = has_table(**opened, "store_migrated");
   if (!is_left) return fail(is_left.error());
@@ -72,11 +73,13 @@ Result<std::unique_ptr<Source>> leave_postgresql(const storage::PostgresqlStoreO
 }
 
 Result<std::unique_ptr<Target>> enter_postgresql(const storage::PostgresqlStoreOptions& options,
-                                                 const Layout& layout, const std::string& source) {
+                                                 const Layout& layout, const std::string& source,
+                                                 bool may_begin) {
   auto opened = PostgresqlConnections::open(
       options, {.kind = DatabaseUse::Kind::Enter,
                 .begin = begin_sql(sql::Engine::Postgresql, layout, source),
-                .source = source});
+                .source = source,
+                .makes_tables = may_begin});
   if (!opened) return fail(opened.error());
   const auto is_begun = has_table(**opened, "store_migration");
   if (!is_begun) return fail(is_begun.error());

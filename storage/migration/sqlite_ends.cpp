@@ -128,12 +128,14 @@ Result<std::unique_ptr<Source>> leave_sqlite(const fs::path& file) {
 }
 
 Result<std::unique_ptr<Target>> enter_sqlite(const fs::path& file, const Layout& layout,
-                                             const std::string& source) {
+                                             const std::string& source, bool may_begin) {
   if (fs::exists(file)) {
     return fail(Errc::Conflict,
                 "{} is there already: a migration makes it, and takes none that holds something",
                 file.string());
   }
+  if (!may_begin && !fs::exists(entered_file(file)))
+    return fail(Errc::NotFound, "{} is missing", entered_file(file).string());
   auto opened = SqliteConnections::open({.file = entered_file(file)});
   if (!opened) return fail(opened.error());
   const auto begun = is_begun(**opened);

@@ -9,6 +9,13 @@
 namespace dripline::migration {
 namespace {
 
+Error migrated_elsewhere(const std::string& source, const std::string& target) {
+  return {Errc::Conflict,
+          fmt::format("{} was migrated before, and not to here ({}): it is not copied again, for a "
+                      "server may have stored more since where it was migrated to",
+                      source, target)};
+}
+
 /// One call: both ends, and how far it is.
 class Migration {
  public:
@@ -67,10 +74,8 @@ class Migration {
     const auto state = read_state(target_.connections());
     if (!state) return fail(state.error());
     if (!state->is_verified) {
-      return fail(Errc::Conflict,
-                  "{} was migrated before, and not to {}: it is not copied again, for a server may "
-                  "have stored more since where it was migrated to",
-                  source_.label(), target_.label());
+      return fail(
+          migrated_elsewhere(source_.label(), fmt::format("{} is not complete", target_.label())));
     }
     auto tables = read_verified(target_.connections());
     if (!tables) return fail(tables.error());
@@ -159,9 +164,14 @@ Result<Report> migrate(const Request& request) {
     if (auto known = request.is_expected(*identity, (*source)->label()); !known)
       return fail(known.error());
   }
-  const auto target = to_postgresql ? enter_postgresql(request.postgresql, *layout, *identity)
-                                    : enter_sqlite(request.file, *layout, *identity);
-  if (!target) return fail(target.error());
+  const bool may_begin = !(*source)->is_left();
+  const auto target = to_postgresql
+                          ? enter_postgresql(request.postgresql, *layout, *identity, may_begin)
+                          : enter_sqlite(request.file, *layout, *identity, may_begin);
+  if (!target) {
+    if (may_begin || target.error().code != Errc::NotFound) return fail(target.error());
+    return fail(migrated_elsewhere((*source)->label(), target.error().what));
+  }
   return Migration(request, *std::move(layout), **source, **target).run(*identity);
 }
 

@@ -23,6 +23,8 @@ std::string file_text(const std::string& path) {
   return text.str();
 }
 
+constexpr const char* kTables = "SELECT count(*) FROM pg_tables WHERE schemaname = 'public'";
+
 class StoreMigration : public testing::Test {
  protected:
   void SetUp() override {
@@ -231,7 +233,30 @@ TEST_F(StoreMigration, WhatWasLeftIsNotMigratedAnewElsewhere) {
   EXPECT_EQ(refused.error().code, Errc::Conflict);
   EXPECT_NE(refused.error().what.find("was migrated before"), std::string::npos)
       << refused.error().what;
-  EXPECT_EQ(in_postgresql("SELECT count(*) FROM machine"), 0);
+  EXPECT_EQ(in_postgresql(kTables), 0) << "it is as empty as it was";
+}
+
+/// Also on the way back: no file is made for what was left for another one.
+TEST_F(StoreMigration, WhatWasLeftForAnotherFileMakesNone) {
+  ASSERT_TRUE(enter());
+  ASSERT_TRUE(come_back());
+  std::filesystem::remove(file_);
+  const auto refused = come_back();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Conflict);
+  EXPECT_NE(refused.error().what.find("was migrated before"), std::string::npos)
+      << refused.error().what;
+  EXPECT_FALSE(std::filesystem::exists(entered_file(file_)));
+}
+
+TEST_F(StoreMigration, NothingIsMadeInADatabaseThatHoldsNoStore) {
+  std::filesystem::remove(file_);
+  const auto refused = come_back();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::NotFound);
+  EXPECT_NE(refused.error().what.find("holds no store"), std::string::npos) << refused.error().what;
+  EXPECT_EQ(in_postgresql(kTables), 0);
+  EXPECT_FALSE(std::filesystem::exists(entered_file(file_)));
 }
 
 TEST_F(StoreMigration, ASourceThatWasUsedMeanwhileIsCopiedAgain) {
@@ -292,7 +317,7 @@ TEST_F(StoreMigration, ASourceThatAServerUsesIsRefused) {
   const auto refused = enter();
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Busy);
-  EXPECT_EQ(in_postgresql("SELECT count(*) FROM pg_tables WHERE schemaname = 'public'"), 0);
+  EXPECT_EQ(in_postgresql(kTables), 0);
 }
 
 TEST_F(StoreMigration, ADatabaseThatAServerUsesIsNotLeft) {
