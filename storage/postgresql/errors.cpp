@@ -7,9 +7,6 @@
 namespace dripline::storage::postgresql {
 namespace {
 
-/// The beginning of long SQL is enough for a log.
-constexpr std::size_t kShown = 200;
-
 std::string one_line(const char* message) {
   std::string text = message == nullptr ? "" : message;
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
@@ -56,16 +53,16 @@ std::string_view state_of(pg_result* result) {
   return state == nullptr ? std::string_view() : state;
 }
 
-Error error_of(pg_conn* connection, pg_result* result, std::string_view subject) {
+Error error_of(pg_conn* connection, pg_result* result) {
   const std::string_view state = state_of(result);
   if (state.empty()) {
-    return {Errc::Io, fmt::format("the connection to PostgreSQL was lost: {} in: {}",
-                                  one_line(PQerrorMessage(connection)), subject.substr(0, kShown))};
+    return {Errc::Io, fmt::format("the connection to PostgreSQL was lost: {}",
+                                  one_line(PQerrorMessage(connection)))};
   }
   const std::string_view prefix = state == "53100" ? "disk full: " : "";
-  return {code_of(state), fmt::format("{}{} (PostgreSQL code {}) in: {}", prefix,
-                                      one_line(PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY)),
-                                      state, subject.substr(0, kShown))};
+  return {code_of(state),
+          fmt::format("{}{} (PostgreSQL code {})", prefix,
+                      one_line(PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY)), state)};
 }
 
 }  // namespace dripline::storage::postgresql

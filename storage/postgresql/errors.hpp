@@ -15,8 +15,9 @@ Errc code_of(std::string_view state);
 /// Another transaction was in the way, and this one was undone: it may be begun again.
 bool asks_to_repeat(std::string_view state);
 
-/// The refusal in `result`, which may be null when the connection was lost. `subject`: the SQL.
-Error error_of(pg_conn* connection, pg_result* result, std::string_view subject);
+/// The refusal in `result`, which may be null when the connection was lost. Without the SQL, which
+/// tells people nothing; PostgreSQL's own log has it.
+Error error_of(pg_conn* connection, pg_result* result);
 
 /// The five characters in `result`; empty: the connection was lost.
 std::string_view state_of(pg_result* result);

@@ -45,7 +45,7 @@ bool Link::is_alive() const {
 
 Error Link::refused(pg_result* result) {
   last_state_ = state_of(result);
-  return error_of(connection_, result, sent_.empty() ? "" : sent_.front());
+  return error_of(connection_, result);
 }
 
 void Link::set_hoarder(Hoarder* hoarder) {
@@ -158,7 +158,7 @@ Result<ResultPointer> Link::execute(const std::string& sql) {
   }
   last_state_ = state_of(result.get());
   if (last_state_.empty()) has_failed_ = true;
-  return fail(error_of(connection_, result.get(), sql));
+  return fail(error_of(connection_, result.get()));
 }
 
 }  // namespace dripline::storage::postgresql

@@ -37,12 +37,29 @@ Result<std::int64_t> version_of(Database& database, std::uint64_t newest) {
               database.label());
 }
 
+/// Asked before anything is made: what PostgreSQL says of it names neither user nor database.
+Result<void> check_right(Database& database) {
+  const auto has_right =
+      database.integer("SELECT coalesce(has_schema_privilege(current_schema(), 'CREATE'), false)");
+  if (!has_right) return fail(has_right.error());
+  if (*has_right != 0) return {};
+  const auto user = database.text("SELECT current_user::text");
+  const auto name = database.text("SELECT current_database()::text");
+  if (!user) return fail(user.error());
+  if (!name) return fail(name.error());
+  return fail(Errc::Denied,
+              "database {}: user {} may not make tables in database {}: create it with createdb "
+              "--owner={} --encoding=UTF8 --template=template0 {}",
+              database.label(), *user, *name, *user, *name);
+}
+
 Result<void> apply(Database& database, std::span<const Migration> migrations,
                    const std::string& also) {
   const auto version = version_of(database, migrations.size());
   if (!version) return fail(version.error());
   if (*version == static_cast<std::int64_t>(migrations.size())) return {};
   if (*version == 0) {
+    if (auto may = check_right(database); !may) return may;
     auto made = database.execute(
         "CREATE TABLE schema_version (version bigint NOT NULL); INSERT INTO schema_version VALUES "
         "(0)");

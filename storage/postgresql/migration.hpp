@@ -21,7 +21,7 @@ std::span<const Migration> schema();
 
 /// Brings the database to the newest version, all steps in one transaction, and runs `also` in it
 /// when something was to be done. Errors: Unsupported (it is of a newer version, or holds someone
-/// else's tables), and those of Database.
+/// else's tables), Denied (the user may not make tables), and those of Database.
 Result<void> migrate(Database& database, std::span<const Migration> migrations,
                      const std::string& also = "");
 
