@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "protocol/process/log.hpp"
+#include "storage/migration/files.hpp"
 #include "storage/postgresql_store.hpp"
 #include "storage/sqlite_store.hpp"
 
@@ -48,6 +49,17 @@ std::unique_ptr<cache::DiskCache> open_cache(const StateFolder& folder, const Se
   return nullptr;
 }
 
+/// A database that was left names the folder, and the folder has its file only after the last step.
+Error unfinished(const StateFolder& folder, const Error& error) {
+  const auto entered = migration::entered_file(folder.database());
+  std::error_code ec;
+  if (error.code != Errc::Conflict || !std::filesystem::exists(entered, ec)) return error;
+  return {error.code,
+          fmt::format("run the migration again (dnc server migrate --from URL --to {}): it was "
+                      "ended before its last step, and {} is not in use yet",
+                      folder.path().string(), entered.string())};
+}
+
 Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& settings,
                                   const Clock& clock, OnLost on_lost) {
   if (auto known = check_url(settings.store); !known) return fail(known.error());
@@ -82,7 +94,7 @@ Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& set
                                                .content_cache = cache.get(),
                                                .on_lost = std::move(on_lost)},
                                               clock);
-  if (!store) return fail(store.error());
+  if (!store) return fail(unfinished(folder, store.error()));
   if (auto own = check_trail(folder, **store); !own) return fail(own.error());
   return KeptStore{*std::move(lock), std::move(cache), *std::move(store), ""};
 }

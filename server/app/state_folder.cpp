@@ -102,6 +102,15 @@ Result<void> StateFolder::expect_database(bool begin_empty) const {
     return {};
   }
   if (is_there) return {};
+  if (const auto entered = migration::entered_file(database());
+      std::filesystem::exists(entered, ec)) {
+    return fail(
+        Errc::Conflict,
+        "{} is of a migration into this folder that was ended before its last step: run the "
+        "migration again (dnc server migrate --from URL --to {}), or go on with the "
+        "PostgreSQL database by --store",
+        entered.string(), path_.string());
+  }
   const auto left = migration::left_file(database());
   if (std::filesystem::exists(left, ec)) {
     return fail(Errc::Conflict,

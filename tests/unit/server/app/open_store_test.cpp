@@ -1,7 +1,10 @@
 #include "server/app/open_store.hpp"
 
 #include <gtest/gtest.h>
+#include <fstream>
 
+#include "storage/postgresql/database.hpp"
+#include "tests/support/postgresql/test_database.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::app {
@@ -76,6 +79,43 @@ TEST_F(OpenStore, AFileThatWasMigratedIsNotBegunAnew) {
   EXPECT_NE(refused.error().what.find("migrated to a PostgreSQL database"), std::string::npos)
       << refused.error().what;
   EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST_F(OpenStore, AMigrationIntoTheFolderThatWasEndedIsToBeRunAgain) {
+  ASSERT_TRUE(open({}));
+  const auto file = folder_.path() / StateFolder::kDatabase;
+  std::filesystem::rename(file, file.string() + ".migrated");
+  std::filesystem::copy_file(file.string() + ".migrated", file.string() + ".migrating");
+  const auto refused = open({});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Conflict);
+  EXPECT_NE(refused.error().what.find("run the migration again (dnc server migrate"),
+            std::string::npos)
+      << refused.error().what;
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+/// Killed between its last transaction and its last rename: the database names the folder.
+TEST_F(OpenStore, ADatabaseThatWasLeftForAFileWithoutItsNameSaysSo) {
+  const auto made = test::TestDatabase::make();
+  if (made == nullptr) GTEST_SKIP() << "PostgreSQL is not installed";
+  auto database = storage::postgresql::Database::connect({.url = made->url()});
+  ASSERT_TRUE(database) << database.error().what;
+  ASSERT_TRUE(database->execute(
+      "CREATE TABLE store_migrated (target text NOT NULL); INSERT INTO store_migrated VALUES "
+      "('/state/dripline.sqlite')"));
+  Settings settings;
+  settings.store = made->url();
+  const auto left = open(settings);
+  ASSERT_FALSE(left);
+  EXPECT_NE(left.error().what.find("was migrated to /state/dripline.sqlite"), std::string::npos)
+      << left.error().what;
+  std::ofstream(folder_.path() / (std::string(StateFolder::kDatabase) + ".migrating")) << "rows";
+  const auto refused = open(settings);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("it was ended before its last step"), std::string::npos)
+      << refused.error().what;
+  EXPECT_EQ(refused.error().what.find("DROP TABLE"), std::string::npos) << refused.error().what;
 }
 
 TEST_F(OpenStore, OneProcessUsesAFolderWithADatabaseElsewhere) {
