@@ -42,7 +42,7 @@ function Now({ name }: { name: string }) {
           {status && <Blocks status={status} />}
           {!hasRun && <NextJob key={`next ${name}`} name={name} />}
           {!hasRun && <StartForm key={name} machine={machine} />}
-          {!hasRun && <Mdi key={`mdi ${name}`} machine={machine} />}
+          <Mdi key={`mdi ${name}`} machine={machine} isShown={!hasRun} />
           {!hasRun && status && <SetPosition key={`set ${name}`} machine={machine} status={status} />}
           {hasPath && executing && <ExecutedPath key={executing.id} run={executing} status={status} />}
           {run && <RunRecords run={run.id} />}

@@ -7,14 +7,15 @@ import { SureButton } from '../parts/sure_button';
 import { texts } from '../texts/texts';
 import { keyIn } from './commands';
 
-export function Mdi({ machine }: { machine: Machine }) {
+/// Hidden while a run is active, and not taken away: its text and the answer to it stay.
+export function Mdi({ machine, isShown }: { machine: Machine; isShown: boolean }) {
   const t = texts().machine;
   const command = useCommand();
   const [text, setText] = useState('');
   const [notice, setNotice] = useState('');
   const lines = text.split('\n').filter((line) => line.trim() !== '');
   const most = machine.starts.mdi;
-  if (most === 0) return null;
+  if (most === 0 || !isShown) return null;
   return (
     <section class="panel" aria-labelledby="mdi">
       <h2 id="mdi">{t.mdi}</h2>

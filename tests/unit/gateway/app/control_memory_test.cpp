@@ -170,15 +170,17 @@ class CenturionStart : public testing::Test {
   dds::RunEndText run_from(const std::string& place) {
     dds::Command command = fixture.start_command("O1");
     command.argument = place;
+    const std::size_t ended = fixture.count(dds::RecordKind::RunEnded);
     const auto result = fixture.send(command);
     EXPECT_TRUE(result.accepted) << result.reason;
     // The approach stops for the operator.
-    EXPECT_TRUE(fixture.run_until([&] {
-      return fixture.status && (fixture.status->run.empty() ||
-                                fixture.status->execution == dds::Execution::ProgramStopped);
-    }));
-    if (!fixture.status->run.empty())
-      (void)fixture.send(fixture.command(dds::CommandAction::Resume));
+    const auto is_stopped = [&] {
+      return fixture.status && fixture.status->execution == dds::Execution::ProgramStopped;
+    };
+    const auto is_over = [&] { return fixture.count(dds::RecordKind::RunEnded) > ended; };
+    EXPECT_TRUE(fixture.run_until([&] { return is_stopped() || is_over(); }));
+    if (!is_over()) (void)fixture.send(fixture.command(dds::CommandAction::Resume));
+    EXPECT_TRUE(fixture.run_until(is_over));
     return fixture.ended();
   }
   std::string kept() {

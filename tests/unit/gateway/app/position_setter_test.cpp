@@ -177,7 +177,8 @@ TEST(PositionSetter, RefusesWhereTheLastTextHasLeftAShift) {
               AllOf(HasSubstr("a shift"), HasSubstr("since the last program")));
   EXPECT_TRUE(shop.memory_records().empty());
   Shop lathe(interpreter::kCenturionDialect, "units = \"mm\"\n");
-  ASSERT_EQ(lathe.mdi("G21 G98 G0 X10. Z5.\nG52 X5. Z7.\n"), "completed");
+  ASSERT_EQ(lathe.mdi("G21 G98 G0 X10. Z5.\n"), "completed");
+  ASSERT_EQ(lathe.mdi("G52 X5. Z7.\n"), "completed");
   EXPECT_THAT(lathe.set("tool 3 Z 0 mm G54"), HasSubstr("a shift (G50, G52)"));
   ASSERT_EQ(lathe.mdi("G52 X0 Z0\n"), "completed");
   EXPECT_THAT(lathe.set("tool 3 Z 0 mm G54"), testing::Not(HasSubstr("a shift")));

@@ -209,8 +209,8 @@ TEST(TouchOffInMachineCoordinates, IsRefusedWithALengthInForce) {
     EXPECT_THAT(shop.set("tool 3 Z 0 mm G54"),
                 AllOf(StartsWith("refused: "), HasSubstr("G28, G53")))
         << back;
-    ASSERT_EQ(shop.mdi("G90 G0 Z-60.\n"), "completed");
-    EXPECT_THAT(shop.set("tool 3 Z 0 mm G54"), StartsWith("tool.3.length is -50.000 mm")) << back;
+    ASSERT_EQ(shop.run("O1\nG21 G90 G0 Z-7.\nM30\n"), "completed");
+    EXPECT_THAT(shop.set("tool 3 Z 0 mm G54"), StartsWith("tool.3.length is -7.000 mm")) << back;
   }
   Shop without(interpreter::kFanucDialect, kWithLength);
   ASSERT_EQ(without.mdi("G21 G90 G53 G0 Z-100.\n"), "completed");
