@@ -63,9 +63,14 @@ TEST_F(LinuxCncSystem, BlocksKeyedInMoveTheMachineAndAnAbortStopsIt) {
   turn_on("end");
   EXPECT_EQ(system->wait_ended(start_run("end")).value("state", ""), "completed");
   const auto key_in = [&](const std::string& text) {
-    const auto reply = system->rest().post("/api/v1/machines/lathe-1/mdi", {{"text", text}});
-    EXPECT_EQ(reply.status, 201) << reply.body;
-    return reply.status == 201 ? reply.json().value("id", "") : std::string();
+    std::string id, answer;
+    EXPECT_TRUE(eventually([&] {  // LinuxCNC needs a moment to end its program
+      const auto reply = system->rest().post("/api/v1/machines/lathe-1/mdi", {{"text", text}});
+      answer = reply.body;
+      id = reply.status == 201 ? reply.json().value("id", "") : "";
+      return !id.empty();
+    })) << answer;
+    return id;
   };
   const double begun_at = linuxcnc->position()[0];
   EXPECT_EQ(system->wait_ended(key_in("G21 G91 G1 X20. F2400\n")).value("state", ""), "completed");
@@ -73,7 +78,7 @@ TEST_F(LinuxCncSystem, BlocksKeyedInMoveTheMachineAndAnAbortStopsIt) {
   EXPECT_EQ(system->wait_ended(key_in("X5.\n")).value("state", ""), "completed");
   EXPECT_NEAR(linuxcnc->position()[0], begun_at + 25, 0.001) << "G91 is in force";
   std::string answer;
-  EXPECT_TRUE(eventually([&] {  // LinuxCNC needs a moment to end its program
+  EXPECT_TRUE(eventually([&] {
     const auto datum = system->rest().post("/api/v1/machines/lathe-1/datum",
                                            {{"offset", "G54"}, {"axis", "X"}, {"value", 0}});
     answer = datum.body;
