@@ -34,8 +34,8 @@ Result<bool> holds_password(const std::string& url);
 
 /// The second Store: one PostgreSQL database, 15 or newer. What was stored is durable as PostgreSQL
 /// promises it (synchronous_commit, and with a synchronous standby there too). One server at a time
-/// uses a database, which is said in it (store_holder): who lost the place stores nothing more,
-/// reads nothing from when it knows (3 s at most), and is told by `on_lost`.
+/// uses a database, which it records (store_holder): who lost the place stores nothing more,
+/// reads nothing from when it knows (3 s at most), and is notified by `on_lost`.
 /// A lost connection is opened again by the next call; what was not at its commit yet is done
 /// again, and so is what another transaction was in the way of. Errors besides those of Store:
 /// Timeout (the connection was lost at the commit, and no one knows whether it was stored).

@@ -43,8 +43,10 @@ void DiskCache::make_room(std::uint64_t bytes) {
 }
 
 /// Hold the mutex.
-void DiskCache::use(const FileKey& key) {
-  if (files_.use(key) > 0) folder_.touch(key);
+std::uint64_t DiskCache::use(const FileKey& key) {
+  const std::uint64_t bytes = files_.use(key);
+  if (bytes > 0) folder_.touch(key);
+  return bytes;
 }
 
 void DiskCache::drop_damaged(const FileKey& key) {
@@ -103,11 +105,8 @@ void DiskCache::keep_chunk(const Digest& chunk, std::span<const std::byte> frame
 }
 
 std::uint64_t DiskCache::use_chunk(const Digest& chunk) {
-  const FileKey key{Kind::Chunk, chunk};
   const std::lock_guard lock(mutex_);
-  const std::uint64_t bytes = files_.use(key);
-  if (bytes > 0) folder_.touch(key);
-  return bytes;
+  return use({Kind::Chunk, chunk});
 }
 
 bool DiskCache::is_kept_or_paused(const FileKey& key) {

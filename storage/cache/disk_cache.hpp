@@ -60,7 +60,7 @@ class DiskCache final : public storage::ContentCache {
   Result<void> store(const FileKey& key, std::span<const std::byte> bytes);
   bool is_kept_or_paused(const FileKey& key);
   void make_room(std::uint64_t bytes);
-  void use(const FileKey& key);
+  std::uint64_t use(const FileKey& key);
   void drop_damaged(const FileKey& key);
   void note(const Result<void>& stored);
 

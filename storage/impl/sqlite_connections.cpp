@@ -1,20 +1,11 @@
 #include "storage/impl/sqlite_connections.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
+
+#include "protocol/base/durable_file.hpp"
 
 namespace dripline::storage {
 namespace {
-
-/// A new file's name is on disk only when its folder is.
-void sync_folder_of(const std::filesystem::path& file) {
-  const auto folder = std::filesystem::absolute(file).parent_path();
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // the file in it was just opened; some file systems refuse this
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
 
 sqlite::OpenOptions connection_options(const SqliteStoreOptions& options, sqlite::Access access) {
   sqlite::OpenOptions connection;
@@ -97,7 +88,8 @@ Result<std::unique_ptr<SqliteConnections>> SqliteConnections::open(
     if (!reader) return fail(reader.error());
     connections->readers_.add(std::move(*reader));
   }
-  sync_folder_of(options.file);
+  // A new file's name is on disk only when its folder is; some file systems refuse it.
+  sync_folder(std::filesystem::absolute(options.file).parent_path());
   return connections;
 }
 

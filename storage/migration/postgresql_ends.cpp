@@ -1,5 +1,6 @@
 #include "storage/impl/postgresql_connections.hpp"
 #include "storage/migration/ends.hpp"
+#include "storage/postgresql/migration.hpp"
 #include "storage/sql/query.hpp"
 
 namespace dripline::migration {
@@ -51,14 +52,8 @@ class PostgresqlTarget final : public Target {
 };
 
 Result<bool> has_table(Connections& connections, const std::string& name) {
-  return connections.read([&](sql::Database& database) -> Result<bool> {
-    const auto tables = database.integer(
-        "SELECT count(*) FROM information_schema.tables WHERE table_schema = current_schema() AND "
-        "table_name = '" +
-        name + "'");
-    if (!tables) return fail(tables.error());
-    return *tables > 0;
-  });
+  return connections.read(
+      [&](sql::Database& database) { return storage::postgresql::has_table(database, name); });
 }
 
 }  // namespace

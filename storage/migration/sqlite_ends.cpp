@@ -1,6 +1,4 @@
-#include <fcntl.h>
-#include <unistd.h>
-
+#include "protocol/base/durable_file.hpp"
 #include "storage/impl/sqlite_connections.hpp"
 #include "storage/migration/ends.hpp"
 #include "storage/migration/files.hpp"
@@ -20,10 +18,7 @@ Result<void> rename_file(const fs::path& from, const fs::path& to) {
   std::error_code ec;
   fs::rename(from, to, ec);
   if (ec) return fail(Errc::Io, "{} to {}: {}", from.string(), to.string(), ec.message());
-  const int folder = ::open(to.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return {};
-  ::fsync(folder);
-  ::close(folder);
+  sync_folder(to.parent_path());  // some file systems refuse it
   return {};
 }
 

@@ -13,7 +13,7 @@ namespace dripline::migration {
 
 using storage::Connections;
 
-/// SQL that makes the two tables, takes out what the schema itself has put in, and turns the
+/// SQL that makes the two tables, takes out what the schema itself has put in, and switches the
 /// triggers off. `source`: the identity of the database that is moved.
 std::string begin_sql(sql::Engine engine, const Layout& layout, const std::string& source);
 /// The opposite, when everything is there: the search index is due, triggers work again.

@@ -5,7 +5,7 @@
 
 namespace dripline::storage::postgresql {
 
-Result<bool> has_table(Database& database, const std::string& name) {
+Result<bool> has_table(sql::Database& database, const std::string& name) {
   const auto known = sql::first_row(
       database,
       "SELECT count(*) FROM information_schema.tables WHERE table_schema = current_schema() AND "

@@ -26,6 +26,6 @@ Result<void> migrate(Database& database, std::span<const Migration> migrations,
                      const std::string& also = "");
 
 /// Whether it has a table of that name.
-Result<bool> has_table(Database& database, const std::string& name);
+Result<bool> has_table(sql::Database& database, const std::string& name);
 
 }  // namespace dripline::storage::postgresql

@@ -103,15 +103,20 @@ ProgramRepository::ChunkPointer ProgramRepository::near_chunk(const Digest& cont
   return found;
 }
 
+Result<CommittedChunk> ProgramRepository::load_chunk(const Digest& content, std::uint64_t position,
+                                                     const ChunkDigests& digests) {
+  return connections_.read([&](sql::Database& database) {
+    return load_committed_chunk(database, content, position, digests);
+  });
+}
+
 Result<ProgramRepository::ChunkPointer> ProgramRepository::chunk(const Digest& content,
                                                                  std::uint64_t position) {
   if (auto near = near_chunk(content, position)) return near;
   const auto known = known_list(content);
   if (!known) return fail(known.error());
   const ChunkDigests& digests = (*known)->chunks;
-  auto read = connections_.read([&](sql::Database& database) {
-    return load_committed_chunk(database, content, position, digests);
-  });
+  auto read = load_chunk(content, position, digests);
   if (!read) return fail(read.error());
   if (near_ != nullptr && !read->bytes.empty())
     near_->keep_chunk(digests[position], read->frame, ContentCache::Reason::Asked);
@@ -151,9 +156,7 @@ Result<ProgramStore::Fetched> ProgramRepository::fetch_ahead(const Digest& conte
   if (position >= digests.size()) return Fetched{.is_end = true};
   const Digest& chunk = digests[position];
   if (const auto bytes = near_->use_chunk(chunk); bytes > 0) return Fetched{.bytes = bytes};
-  const auto read = connections_.read([&](sql::Database& database) {
-    return load_committed_chunk(database, content, position, digests);
-  });
+  const auto read = load_chunk(content, position, digests);
   if (!read) return fail(read.error());
   near_->keep_chunk(chunk, read->frame, ContentCache::Reason::Ahead);
   return Fetched{.bytes = near_->use_chunk(chunk)};

@@ -56,6 +56,8 @@ class ProgramRepository final : public ProgramStore {
   ChunkPointer near_chunk(const Digest& content, std::uint64_t position);
   Result<std::shared_ptr<const ContentList>> known_list(const Digest& content);
   Result<ChunkPointer> chunk(const Digest& content, std::uint64_t position);
+  Result<CommittedChunk> load_chunk(const Digest& content, std::uint64_t position,
+                                    const ChunkDigests& digests);
 
   Connections& connections_;
   const Clock& clock_;
