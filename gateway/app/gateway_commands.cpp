@@ -71,10 +71,10 @@ void Gateway::answer_query(const dds::Command& command) {
   const double first = std::clamp(command.value, 0.0, 1e9);
   dds::CommandResult result{
       .machine = parts_.options.machine, .id = command.id, .accepted = true, .reason = {}};
-  // Before the first run what its start would find.
-  const Result<ControlMemory> at_start = memory_.has_begun()
-                                             ? Result<ControlMemory>(fail(Errc::Busy, "begun"))
-                                             : positions_.memory_at_start(command.setup);
+  std::optional<ControlMemory> at_start;  // before the first run what its start would find
+  if (!memory_.has_begun()) {
+    if (auto found = positions_.memory_at_start(command.setup)) at_start.emplace(*std::move(found));
+  }
   result.values = control_values(
       {.beginning = command.argument, .passed_over = static_cast<std::size_t>(first)},
       at_start ? *at_start : memory_, recorder_, *machine_);

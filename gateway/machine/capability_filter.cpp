@@ -15,7 +15,7 @@ bool CapabilityFilter::has_feed(const interpreter::Origin& origin, Feed feed) {
   return false;
 }
 
-bool CapabilityFilter::has_length(const interpreter::Origin& origin) {
+bool CapabilityFilter::takes_length(const interpreter::Origin& origin) {
   if (capabilities_.tool_lengths) return true;
   const interpreter::ActiveModes modes = modes_();
   const bool is_plain = modes.is_length_plain;
@@ -32,21 +32,21 @@ bool CapabilityFilter::has_length(const interpreter::Origin& origin) {
 }
 
 void CapabilityFilter::on_rapid(const interpreter::Rapid& rapid) {
-  if (has_length(rapid.origin)) out().on_rapid(rapid);
+  if (takes_length(rapid.origin)) out().on_rapid(rapid);
 }
 
 void CapabilityFilter::on_line(const interpreter::Line& line) {
-  if (has_feed(line.origin, line.feed) && has_length(line.origin)) out().on_line(line);
+  if (has_feed(line.origin, line.feed) && takes_length(line.origin)) out().on_line(line);
 }
 
 void CapabilityFilter::on_arc(const interpreter::Arc& arc) {
   if (!capabilities_.arcs) return refuse(arc.origin, "move on arcs");
-  if (has_feed(arc.origin, arc.feed) && has_length(arc.origin)) out().on_arc(arc);
+  if (has_feed(arc.origin, arc.feed) && takes_length(arc.origin)) out().on_arc(arc);
 }
 
 void CapabilityFilter::on_thread(const interpreter::Thread& thread) {
   if (!capabilities_.threads) return refuse(thread.origin, "cut threads");
-  if (has_length(thread.origin)) out().on_thread(thread);
+  if (takes_length(thread.origin)) out().on_thread(thread);
 }
 
 void CapabilityFilter::on_dwell(const interpreter::Dwell& dwell) {

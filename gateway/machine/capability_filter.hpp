@@ -25,7 +25,7 @@ class CapabilityFilter final : public interpreter::EventFilter {
 
   /// False: an alarm. The positions of events leave a tool's length out, so a machine that takes
   /// none into account would move deeper by it.
-  bool has_length(const interpreter::Origin& origin);
+  bool takes_length(const interpreter::Origin& origin);
   /// The alarm of a missing capability, for what is asked of the owner instead (a probe).
   void refuse(const interpreter::Origin& origin, std::string_view what);
 

@@ -87,6 +87,14 @@ Result<PositionSetter::Control> PositionSetter::control_with(
   return control;
 }
 
+/// As at the start of a program: what is kept wins, except over what was changed in the setup.
+Result<std::vector<interpreter::VariableRecord>> PositionSetter::begin_memory(
+    ControlMemory& memory, const interpreter::Setup& setup) const {
+  const auto control = control_with(setup);
+  if (!control) return fail(control.error());
+  return memory.begin(control->memory->memory_cells(), control->numbers, setup);
+}
+
 Result<void> PositionSetter::check_rest() const {
   const machine::MotionBackend& machine = parts_.machine;
   if (machine.is_moving()) return fail(Errc::Busy, "the axes move");
@@ -127,7 +135,7 @@ Result<void> PositionSetter::check_frames(const Control& control,
 /// them in its memory would be right, and the machine's next motion would not.
 Result<void> PositionSetter::check_tool(Axis axis, Sets what) const {
   const bool is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe;
-  if (!parts_.machine.capabilities().places_axes) {
+  if (!parts_.machine.capabilities().tool_lengths) {
     if (what == Sets::Datum) return {};
     return fail(Errc::Unsupported,
                 "this machine moves by coordinates in which no tool has a length: one that is set "
@@ -145,7 +153,7 @@ interpreter::RestingPlace PositionSetter::place(const interpreter::Setup& setup)
   const interpreter::Position at = parts_.machine.status().position;
   for (const Axis axis : interpreter::kAllAxes)
     place.at[static_cast<std::size_t>(axis)] = at.raw(axis);
-  place.has_lengths = parts_.machine.capabilities().places_axes;
+  place.has_lengths = parts_.machine.capabilities().tool_lengths;
   if (place.has_lengths) place.length = parts_.run.tool.left_out;
   place.memory = setup.units.value_or(parts_.dialect.units);
   return place;
@@ -198,11 +206,7 @@ Result<PositionChange> PositionSetter::set(const std::string& argument, const st
   if (auto known = check_tool(setting->axis, what); !known) return fail(known.error());
   const interpreter::RestingPlace place = this->place(*setup);
 
-  // As at the start of a program: what is kept wins, except over what was changed in the setup.
-  auto alone = control_with(*setup);
-  if (!alone) return fail(alone.error());
-  const auto cells = alone->memory->memory_cells();
-  auto kept = parts_.memory.begin(cells, alone->numbers, *setup);
+  const auto kept = begin_memory(parts_.memory, *setup);
   if (!kept) return fail(kept.error());
   setup->variables.insert(setup->variables.end(), kept->begin(), kept->end());
   const auto present = control_with(*setup);
@@ -250,11 +254,8 @@ Result<PositionChange> PositionSetter::set(const std::string& argument, const st
 Result<ControlMemory> PositionSetter::memory_at_start(const std::string& server_setup) const {
   const auto setup = setup_of(server_setup);
   if (!setup) return fail(setup.error());
-  auto control = control_with(*setup);
-  if (!control) return fail(control.error());
   ControlMemory memory = parts_.memory;
-  const auto kept = memory.begin(control->memory->memory_cells(), control->numbers, *setup);
-  if (!kept) return fail(kept.error());
+  if (const auto kept = begin_memory(memory, *setup); !kept) return fail(kept.error());
   return memory;
 }
 
@@ -278,10 +279,8 @@ Result<std::string> PositionSetter::playback(const std::string& axes,
   }
   if (wanted.empty()) return fail(Errc::Syntax, "expected letters of axes");
   if (auto rests = check_rest(); !rests) return fail(rests.error());
-  const auto alone = control_with(*setup);
-  if (!alone) return fail(alone.error());
   ControlMemory memory = parts_.memory;  // which a question does not change
-  auto kept = memory.begin(alone->memory->memory_cells(), alone->numbers, *setup);
+  const auto kept = begin_memory(memory, *setup);
   if (!kept) return fail(kept.error());
   setup->variables.insert(setup->variables.end(), kept->begin(), kept->end());
   const auto control = control_with(*setup);

@@ -41,6 +41,8 @@ class PositionSetter {
   struct Control;
   Result<interpreter::Setup> setup_of(const std::string& setup) const;
   Result<Control> control_with(const interpreter::Setup& setup) const;
+  Result<std::vector<interpreter::VariableRecord>> begin_memory(
+      ControlMemory& memory, const interpreter::Setup& setup) const;
   Result<void> check_rest() const;
   enum class Sets { Length, Datum };
   Result<void> check_tool(interpreter::Axis axis, Sets what) const;

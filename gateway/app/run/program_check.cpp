@@ -29,7 +29,7 @@ ProgramCheck::State ProgramCheck::work(SteadyTime now) {
   if (!began_) began_ = now;
   if (now - *began_ > kLimit) return state_ = State::Passed;
   const StepState step = interpreter_->step(at_once);
-  (void)filter_.has_length(interpreter_->origin());
+  (void)filter_.takes_length(interpreter_->origin());
   if (const auto refusal = found()) {
     refusal_.origin.line = refusal->line;
     refusal_.diagnostic = *refusal;

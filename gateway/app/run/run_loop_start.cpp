@@ -92,7 +92,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   ToolInPosition tool = parts_.run.tool;
   interpreter::Position at = is_restart || goes_on ? parts_.machine.status().position
                                                    : setup->position.value_or(setup->start);
-  const bool drops_tool = is_mdi && modes == nullptr && parts_.machine.capabilities().places_axes;
+  const bool drops_tool = is_mdi && modes == nullptr && parts_.machine.capabilities().tool_lengths;
   if (drops_tool) tool.drop_tool(at);
   if (is_mdi) {
     setup->start = at;
@@ -264,7 +264,7 @@ void RunLoop::note_beginning(const StartOrigin& origin, bool has_modes) {
 std::string RunLoop::notice_of_mdi() const {
   const bool is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe;
   std::string lost = to_text(parts_.run.tool.left_out, is_lathe);
-  if (!parts_.machine.capabilities().places_axes) lost.clear();
+  if (!parts_.machine.capabilities().tool_lengths) lost.clear();
   return fmt::format(
       "MDI begins with the modes of power on, and without a tool: {}{}{}", why_no_modes_,
       lost.empty() ? "" : ". The axes stay; the position is that of no tool from here on: ", lost);

@@ -132,7 +132,7 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
         note_modes();
         note_memory();
         // Also of a motion that waits for the next blocks, which may end the length.
-        if (!events_.has_length(interpreter_->origin())) {
+        if (!events_.takes_length(interpreter_->origin())) {
           is_over_ = true;
           return blocks;
         }
@@ -254,7 +254,7 @@ bool RunSession::resolve(const interpreter::ProbeQuestion& question) {
     is_over_ = true;
     return false;
   }
-  if (!is_probing_ && !events_.has_length(question.probe.origin)) {
+  if (!is_probing_ && !events_.takes_length(question.probe.origin)) {
     is_over_ = true;
     return false;
   }

@@ -20,7 +20,7 @@ std::string to_text(const ToolLengths& lengths, bool is_lathe);
 /// How the reported position relates to the axes. A position leaves the length of the tool out: an
 /// axis is at position + length. So a length may only be set, and a position only be taken for that
 /// of another tool, where it is known which length the position leaves out. Of a machine that is
-/// moved by its program's coordinates alone (MotionCapabilities::places_axes).
+/// moved by its program's coordinates alone (MotionCapabilities::tool_lengths false).
 struct ToolInPosition {
   ToolLengths in_force{};  ///< at the control
   /// Of the position. Where a length shifts the position at once (Dialect), the shift shows with
