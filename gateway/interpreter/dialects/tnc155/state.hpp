@@ -215,8 +215,8 @@ struct State {
   double tool_feed = 0;             ///< F of TOOL CALL: F AUTO
   bool has_plane_angles = false;    ///< Q120 to Q122, which are 0: no plane is tilted
   bool takes_shorter_path = false;  ///< M126
-  bool is_rapid_next = false;       ///< the last positioning block had FMAX: the way to an approach
-  bool has_rounded = false;         ///< a comparison of a later control took two values as equal
+  bool is_rapid_next = false;  ///< the last positioning block had FMAX: the path to an approach
+  bool has_rounded = false;    ///< a comparison of a later control took two values as equal
   CycleState cycle;
   BlankState blank;
 

@@ -40,12 +40,7 @@ class Table {
         last_(last) {}
 
   /// As programmed; 0 for one that this control's definition has not.
-  double of(int q) const {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (rows_[i].q == q) return run_.state.cycle_words[i];
-    }
-    return 0;
-  }
+  double of(int q) const { return value_of(rows_, run_.state.cycle_words, q); }
   double mm(int q) const { return of(q) * unit_; }
   /// Millimeters per minute; F of an inch program is tenths of an inch.
   double feed(int q) const {

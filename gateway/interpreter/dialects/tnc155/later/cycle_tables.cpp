@@ -1,5 +1,7 @@
 #include "gateway/interpreter/dialects/tnc155/later/cycle_tables.hpp"
 
+#include <algorithm>
+
 #include <array>
 
 namespace dripline::interpreter::tnc155::later {
@@ -111,6 +113,11 @@ std::span<const CycleParameter> cycle_table(int cycle) {
     default:
       return {};
   }
+}
+
+double value_of(std::span<const CycleParameter> rows, std::span<const double> values, int q) {
+  const auto row = std::ranges::find(rows, q, &CycleParameter::q);
+  return row == rows.end() ? 0 : values[static_cast<std::size_t>(row - rows.begin())];
 }
 
 }  // namespace dripline::interpreter::tnc155::later

@@ -33,5 +33,7 @@ inline constexpr double kRapidFeed = 99'999;
 
 /// The parameters of a cycle; empty: it is none of those that are known.
 std::span<const CycleParameter> cycle_table(int cycle);
+/// Of `values`, which are in the order of `rows`; 0 for a parameter that is not among them.
+double value_of(std::span<const CycleParameter> rows, std::span<const double> values, int q);
 
 }  // namespace dripline::interpreter::tnc155::later

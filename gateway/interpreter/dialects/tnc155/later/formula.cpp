@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/core/language/expression.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
 
 namespace dripline::interpreter::tnc155::later {

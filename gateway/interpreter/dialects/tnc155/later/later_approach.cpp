@@ -9,7 +9,7 @@
 /// APPR and DEP on straight lines. Source: TNC 410, TNC 426 and iTNC 530, User's Manuals: contour
 /// approach and departure. The tool's center goes to the auxiliary point with the feed (or FMAX) of
 /// the block before, then to its own place at the first contour point with the feed of the block;
-/// LEN is the second of these ways, for LN after the tool's radius.
+/// LEN is the length of the second of these moves, for LN after the tool's radius.
 namespace dripline::interpreter::tnc155::later {
 namespace {
 
@@ -82,11 +82,11 @@ PlaneVector begin_direction(Run& run, const Block& next, PlaneVector from) {
     if (word.axis == axes.first) to.first = value + (word.is_incremental ? from.first : 0);
     if (word.axis == axes.second) to.second = value + (word.is_incremental ? from.second : 0);
   }
-  const PlaneVector way = to - from;
-  const double distance = length(way);
+  const PlaneVector path = to - from;
+  const double distance = length(path);
   constexpr double kNoTravel = 1e-6;
   if (distance < kNoTravel) return {};
-  return (1 / distance) * way;
+  return (1 / distance) * path;
 }
 
 /// From the contour's point to the auxiliary point, for the tool's center. `sign`: 1 after the end,

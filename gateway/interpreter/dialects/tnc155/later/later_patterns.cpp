@@ -22,11 +22,7 @@ class Pattern {
   Pattern(const Run& run, int cycle, const std::vector<double>& words)
       : rows_(cycle_table(cycle)), words_(words), unit_(run.state.mm_per_unit()) {}
 
-  double of(int q) const {
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (rows_[i].q == q) return words_[i];
-    return 0;
-  }
+  double of(int q) const { return value_of(rows_, words_, q); }
   double mm(int q) const { return of(q) * unit_; }
 
  private:

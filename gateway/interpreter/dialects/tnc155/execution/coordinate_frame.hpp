@@ -1,0 +1,11 @@
+#pragma once
+
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/dialects/tnc155/state.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// What the status window shows of datum, ROT, SCL, mirrored axes and the last CC.
+CoordinateFrame frame_of(const State& state);
+
+}  // namespace dripline::interpreter::tnc155
