@@ -20,7 +20,7 @@ bool is_digit(char letter) {
   return letter >= '0' && letter <= '9';
 }
 
-/// Whether what stands before `at` is the sign of a number there, and not an operator: "Y-1", "=-1"
+/// Whether what is before `at` is the sign of a number there, and not an operator: "Y-1", "=-1"
 /// and not "P1-1".
 bool is_signed(std::string_view line, std::size_t at) {
   if (line[at - 1] != '-' && line[at - 1] != '+') return false;
@@ -29,7 +29,7 @@ bool is_signed(std::string_view line, std::size_t at) {
   return !is_digit(before) && before != '.' && before != ')' && before != ']';
 }
 
-/// A number is one word with its sign, its point and the digits behind it.
+/// A number is one word with its sign, its point and the digits after it.
 bool is_whole(std::string_view line, std::size_t at, std::size_t size) {
   const std::size_t end = at + size;
   if (at != 0) {

@@ -20,7 +20,7 @@ enum class ReadOutcome : std::uint8_t {
 /// blocks and words).
 ReadOutcome read_line(Run& run, std::string_view line);
 
-/// Whether a line of a leader could be a block: it has an axis word, a block number behind the
+/// Whether a line of a leader could be a block: it has an axis word, a block number after the
 /// rewind stop code, or nothing but words beside that code. Titles and comments are none.
 bool looks_like_block(std::string_view line);
 

@@ -118,7 +118,7 @@ BlockOutcome TektronixInterpreter::hunt(const SourceLine& line) {
   return BlockOutcome::NoBlock;
 }
 
-/// Words before the rewind stop code have no end of block, those behind it are hunted over.
+/// Words before the rewind stop code have no end of block, those after it are hunted over.
 BlockOutcome TektronixInterpreter::lose_block(const SourceLine& line) {
   run_.fail(
       Fault::BlockInLeader, 1,
