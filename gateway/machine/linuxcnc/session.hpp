@@ -64,6 +64,7 @@ class Session final : public streamed::Device {
   std::uint64_t executed() const override { return executed_; }
   bool is_empty() const override { return in_flight_.empty(); }
   bool is_at_rest() const override;
+  bool finish(SteadyTime now) override;
   const Coordinates& position() const override { return position_; }
   bool keeps_position() const override {
     return keeps_position_ && status_ && status_->interpreter == InterpreterState::Idle;
@@ -123,6 +124,7 @@ class Session final : public streamed::Device {
   void watch_stall(SteadyTime now);
   void begin_stop(SteadyTime now);
   void abort(SteadyTime now);
+  void end_program(SteadyTime now);
   void end_feed();
   streamed::TextRules rules_of(const HelloReply& hello) const;
   Result<void> check_reference() const;

@@ -93,16 +93,30 @@ void Session::set_active(bool is_active, SteadyTime now) {
     return;
   }
   if (feed_ == Feed::Reading && in_flight_.empty() && !is_held_) {
-    text_ += kEnd;
-    line_ += 2;
-    feed_ = Feed::Ending;
-    feed_began_ = now;
+    end_program(now);
   } else if (feed_ == Feed::Wanted) {
     end_feed();
   } else if (has_feed() && feed_ != Feed::Ending && feed_ != Feed::Stopping) {
     abort(now);
   }
   is_held_ = is_resuming_ = false;
+}
+
+void Session::end_program(SteadyTime now) {
+  text_ += kEnd;
+  line_ += 2;
+  feed_ = Feed::Ending;
+  feed_began_ = now;
+}
+
+/// LinuxCNC needs some cycles for M2, and refuses what it is asked meanwhile.
+bool Session::finish(SteadyTime now) {
+  if (feed_ == Feed::Reading) end_program(now);
+  if (feed_ == Feed::Wanted) end_feed();
+  if (feed_ == Feed::None) return true;
+  if (feed_ == Feed::Ending && now - feed_began_ > limits_.answer)
+    raise("LCN0006", with_message("LinuxCNC does not end the program"), now);
+  return false;
 }
 
 void Session::end_feed() {

@@ -321,6 +321,7 @@ bool StreamedMachine::deliver_stop(Lock& lock) {
       tell(lock, [&](ExecutionSink& sink) { sink.on_stop(*stop); });
     }
   } else if (const auto* end = std::get_if<interpreter::End>(&action.body)) {
+    if (!device_.finish(now())) return false;
     // The end of the last block comes first, so that the counter is complete.
     if (queue_.size() > 1 && !action.ends_block) {
       queue_.front().ends_block = queue_[1].ends_block;

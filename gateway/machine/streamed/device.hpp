@@ -58,6 +58,9 @@ class Device {
   virtual bool is_empty() const = 0;
   /// A report made since shows the axes at rest: `position` can be compared.
   virtual bool is_at_rest() const = 0;
+  /// At the program's end, with everything executed: takes leave of it, so that the next one can
+  /// begin at once. False: not yet.
+  virtual bool finish(SteadyTime /*now*/) { return true; }
   /// In machine coordinates.
   virtual const Coordinates& position() const = 0;
   /// `position` is that of before the link was opened: neither lost nor taken for right.

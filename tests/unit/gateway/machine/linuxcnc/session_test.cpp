@@ -306,6 +306,47 @@ TEST(LinuxCncSession, EndsTheProgramInTheFifo) {
   EXPECT_FALSE(helper.session.wants_feed());
 }
 
+TEST(LinuxCncSession, IsReadyForTheNextProgramWhenItHasFinishedOne) {
+  FakeHelper helper;
+  helper.open();
+  EXPECT_FALSE(helper.session.finish(helper.now)) << "LinuxCNC has not read the end";
+  helper.pass(1ms, true);
+  EXPECT_EQ(helper.text, "M2\n%\n");
+  helper.report();
+  EXPECT_FALSE(helper.session.finish(helper.now));
+  helper.interpreter = 1;
+  helper.read = 0;
+  helper.report();
+  EXPECT_TRUE(helper.session.finish(helper.now));
+  EXPECT_TRUE(helper.session.check_ready().has_value());
+  helper.pass(1ms, true);
+  EXPECT_EQ(helper.text, "M2\n%\n") << "once";
+  EXPECT_EQ(helper.fault(), "");
+}
+
+TEST(LinuxCncSession, FinishesAProgramWithoutAnyLineAtOnce) {
+  FakeHelper helper;
+  helper.session.set_active(true, helper.now);
+  EXPECT_TRUE(helper.session.finish(helper.now));
+  EXPECT_FALSE(helper.session.prepare(helper.now));
+  EXPECT_TRUE(helper.session.finish(helper.now));
+  EXPECT_FALSE(helper.session.wants_feed());
+}
+
+TEST(LinuxCncSession, AnEndThatLinuxCncDoesNotTakeIsAnAlarm) {
+  FakeHelper helper;
+  helper.open();
+  EXPECT_FALSE(helper.session.finish(helper.now));
+  helper.pass(5s);
+  helper.report();
+  EXPECT_FALSE(helper.session.finish(helper.now));
+  EXPECT_EQ(helper.fault(), "");
+  helper.pass(2s);
+  helper.report();
+  EXPECT_FALSE(helper.session.finish(helper.now));
+  EXPECT_EQ(helper.fault(), "LCN0006");
+}
+
 TEST(LinuxCncSession, ReadsInputs) {
   const FakeHelper helper;
   EXPECT_TRUE(helper.session.input(0));
