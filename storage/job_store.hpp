@@ -71,7 +71,7 @@ class JobStore {
   /// At the end, or at `place` (1: the first). Errors: NotFound (machine, program, revision),
   /// LimitExceeded (more than kMaxJobs are open).
   virtual Result<Job> add(const Job& job, const Actor& who, std::optional<std::uint64_t> place) = 0;
-  /// To `place` among the open ones; behind the last one is at the end. Errors: NotFound, Conflict
+  /// To `place` among the open ones; after the last one is at the end. Errors: NotFound, Conflict
   /// (it is done or removed).
   virtual Result<Job> move(std::uint64_t id, std::uint64_t place, const Actor& who,
                            UtcTime time) = 0;

@@ -37,7 +37,7 @@ Result<bool> holds_password(const std::string& url);
 /// uses a database, which it records (store_holder): who lost the place stores nothing more,
 /// reads nothing from when it knows (3 s at most), and is notified by `on_lost`.
 /// A lost connection is opened again by the next call; what was not at its commit yet is done
-/// again, and so is what another transaction was in the way of. Errors besides those of Store:
+/// again, and so is what conflicted with another transaction. Errors besides those of Store:
 /// Timeout (the connection was lost at the commit, and no one knows whether it was stored).
 class PostgresqlStore final : public OpenedStore {
  public:

@@ -87,7 +87,7 @@ class AliveNotice {
 };
 
 /// Warns of the gateway's own certificate for DDS. When it expires DDS ends the connection without
-/// a word, so the gateway is told.
+/// a word, so the gateway is given it.
 class CertificateNotice {
  public:
   CertificateNotice(const GatewayOptions& options, Inbox& inbox, const Clock& clock)

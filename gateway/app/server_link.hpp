@@ -13,7 +13,7 @@
 
 namespace dripline::gateway {
 
-/// Every gateway's way to its server: whether it is there and commands this gateway, the
+/// Every gateway's link to its server: whether it is there and commands this gateway, the
 /// announcement it is due, the records that wait for it, the status, and what was dropped of its
 /// messages. One thread.
 class ServerLink {

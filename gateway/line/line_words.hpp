@@ -13,7 +13,7 @@ namespace dripline::line {
 
 enum class LineActivity : std::uint8_t { Ready, Waiting, Held, Active };
 LineActivity activity_of(const LineView& port, const std::optional<SendProgress>& progress);
-/// What it waits for, or why it does nothing; empty: nothing is to be said.
+/// What it waits for, or why it does nothing; empty: there is no text.
 std::string message_of(const LineView& port, const std::optional<SendProgress>& progress);
 
 /// The place an operator needs to continue from; `done`: what is known of it, "sent" or "accepted".

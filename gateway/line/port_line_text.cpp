@@ -1,4 +1,4 @@
-// The text of a job on its way to the line: what is near at once, the rest by the owner's tasks.
+// The text of a job that is sent to the line: what is near at once, the rest by the owner's tasks.
 #include <utility>
 
 #include "gateway/line/port_line.hpp"

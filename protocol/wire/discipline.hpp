@@ -60,7 +60,7 @@ struct TransferBegan {
 /// end.
 struct TransferEnded {
   bool is_receiving = false;
-  /// Silence ended what was received, or this end did: nothing said that its last line is whole.
+  /// Silence ended what was received, or this end did: nothing shows that its last line is whole.
   bool is_cut = false;
 };
 /// The other end holds us or releases us.

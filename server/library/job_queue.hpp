@@ -23,7 +23,7 @@ struct JobChange {
 std::string_view to_string(JobChange::Kind kind);  ///< added, moved, removed, held, released
 
 /// The job queues of machines. Nothing here starts a run: an operator takes a job, with his rights
-/// and by the usual way of starting. Any thread.
+/// and by a usual start. Any thread.
 class JobQueue {
  public:
   struct Parts {

@@ -29,7 +29,7 @@ class BlockFeed {
  public:
   static constexpr std::size_t kMaxWaiting = 64;  ///< requests of one machine
   static constexpr std::uint64_t kTurnBytes = 256 * 1024;
-  /// So long a machine waits for a store that is away (Io), before it is told that it failed; the
+  /// So long a machine waits for a store that is away (Io), before it learns that it failed; the
   /// store is asked every kAwayPause.
   static constexpr std::chrono::seconds kPatience{45};
   static constexpr std::chrono::milliseconds kAwayPause{500};

@@ -101,7 +101,7 @@ class RecordIngest {
     std::unique_ptr<RecordWriter> writer;
     std::deque<dds::Record> waiting;
     bool is_scheduled = false;
-    std::string own_run;      ///< of this machine, as the store has said
+    std::string own_run;      ///< of this machine, by the store
     std::string foreign_run;  ///< of another machine, named last
     dds::RecordAck ack;       ///< the last one to be sent
     bool ack_is_owed = false;

@@ -7,7 +7,7 @@
 
 namespace dripline::mtconnect {
 
-/// The memory that large documents on their way to clients may use together. Any thread.
+/// The memory that large documents that are sent to clients may use together. Any thread.
 class BodyBudget {
  public:
   static constexpr std::uint64_t kSmall = 256ull * 1024;  ///< smaller ones are not counted

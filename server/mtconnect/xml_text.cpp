@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-/// What stands for an ASCII character; empty: itself.
+/// The entity of an ASCII character; empty: itself.
 std::string_view entity_of(char c) {
   switch (c) {
     case '&':

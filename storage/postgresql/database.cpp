@@ -24,7 +24,7 @@ std::string label_of(PGconn* connection) {
                      text_of(PQport(connection)), text_of(PQdb(connection)));
 }
 
-/// What stands before the URL may be set in it.
+/// What is before the URL may be set in it.
 PGconn* open_connection(const ConnectOptions& options) {
   const std::string timeout = std::to_string(options.connect_timeout.count());
   const std::array keys{"connect_timeout",

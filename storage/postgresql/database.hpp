@@ -45,7 +45,7 @@ class Database final : public sql::Database {
 
   /// False: the connection was lost, and everything but its end is in vain.
   bool is_alive() const;
-  /// The transaction was undone because another was in its way (40001, 40P01): it may be begun
+  /// The transaction was undone because of a conflict with another (40001, 40P01): it may be begun
   /// again.
   bool was_in_the_way() const;
   /// The last error: a lock of another session did not come free in time (55P03).

@@ -12,11 +12,11 @@ namespace dripline::storage::postgresql {
 /// What PostgreSQL says of a refusal, by its five characters (SQLSTATE).
 Errc code_of(std::string_view state);
 
-/// Another transaction was in the way, and this one was undone: it may be begun again.
+/// A conflict with another transaction; this one was undone: it may be begun again.
 bool asks_to_repeat(std::string_view state);
 
 /// The refusal in `result`, which may be null when the connection was lost. Without the SQL, which
-/// tells people nothing; PostgreSQL's own log has it.
+/// is of no use to people; PostgreSQL's own log has it.
 Error error_of(pg_conn* connection, pg_result* result);
 
 /// The five characters in `result`; empty: the connection was lost.

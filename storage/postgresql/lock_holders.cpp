@@ -6,7 +6,7 @@ namespace dripline::storage::postgresql {
 namespace {
 
 /// Sessions with a lock on a table of ours, the oldest transaction first; readers of ours are in
-/// no one's way. What a user may not see of another one's session is NULL.
+/// no one else. What a user may not see of another one's session is NULL.
 constexpr const char* kHolders =
     "SELECT CAST(l.pid AS bigint), coalesce(CAST(a.usename AS text), ''), "
     "coalesce(a.application_name, ''), "

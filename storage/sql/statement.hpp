@@ -68,7 +68,7 @@ class Statement {
   Result<bool> step() { return cursor_->step(); }
   /// Steps to the end and resets, so that it can be bound and run again.
   Result<void> run() { return cursor_->run(); }
-  /// As run, for one of many that change rows: an engine behind a network does not wait for the
+  /// As run, for one of many that change rows: an engine across a network does not wait for the
   /// answer. An error may come from a later use of the connection instead, at the latest from the
   /// commit; `Database::changes` then says nothing. Only inside a transaction.
   Result<void> post() { return cursor_->post(); }

@@ -336,7 +336,7 @@ TEST_F(MdiSystem, NothingIsSetWhileAProgramRuns) {
   EXPECT_TRUE(system->rest().get("/api/v1/machines/lathe-1/memory").json()["memories"].empty());
 }
 
-/// A tool that is changed by hand: who waits for the end is told how to go on, and not for ever.
+/// A tool that is changed by hand: who waits for the end sees how to continue, and not for ever.
 TEST_F(MdiSystem, WhoWaitsAtAToolChangeIsToldHowToGoOn) {
   begin("max", "[[tool]]\nnumber = 2\nX = 1.0\n", "centurion");
   const auto dnc = [&](const std::string& arguments) {

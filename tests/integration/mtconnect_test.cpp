@@ -165,7 +165,7 @@ TEST_F(MtConnect, ASetupThatIsPushedChangesTools) {
       << "read from the store";
 }
 
-/// A machine at the end of a line, which a listening socket stands for.
+/// A machine at the end of a line, played by a listening socket.
 TEST_F(MtConnect, AMachineOnASerialLineIsADeviceUntilItsPortIsRemoved) {
   start();
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);

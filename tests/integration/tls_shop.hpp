@@ -10,7 +10,7 @@
 
 namespace dripline::integration {
 
-/// A server behind TLS, with an authority for people's certificates, made by openssl. `dnc` is what
+/// A server with TLS, with an authority for people's certificates, made by openssl. `dnc` is what
 /// its users type.
 class TlsShop {
  public:

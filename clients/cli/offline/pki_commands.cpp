@@ -69,7 +69,7 @@ std::string state_text(const Authority& authority, const Issued& issued, UtcTime
                                                                                       : "valid";
 }
 
-/// Which folder goes to which computer, and how the daemon there is told.
+/// Which folder goes to which computer, and which setting names it to the daemon there.
 std::string next_step(const Authority& authority, const Issued& issued) {
   const auto folder = fs::absolute(authority.folder_of(issued.holder)).string();
   const bool is_server = issued.holder.role == Role::Server;

@@ -5,8 +5,8 @@
 
 namespace dripline::cli {
 
-/// `dnc graphics` for a lathe's program: turns the bar, draws the part and the tool path. Returns
-/// the exit status.
+/// `dnc graphics` for a lathe's program: simulates the turned bar, draws the part and the tool
+/// path. Returns the exit status.
 int show_turned(Context& context, const GraphicsCommand& command, const OfflineProgram& program);
 
 }  // namespace dripline::cli

@@ -45,7 +45,7 @@ void CarriedComments::take_up_to(std::uint64_t offset, std::vector<std::string>&
   if (!has_parentheses_ && !has_semicolon_) return;
   const std::size_t end =
       std::min(text_.find('\n', std::min<std::size_t>(offset, text_.size())), text_.size());
-  const std::string_view part = text_.substr(0, end);  // nothing is looked for behind it
+  const std::string_view part = text_.substr(0, end);  // nothing after it is searched
   while (at_ < end) {
     at_ = part.find_first_of(has_semicolon_ ? "(;" : "(", at_);
     if (at_ >= end) {

@@ -82,7 +82,7 @@ class PostProcessor final : public interpreter::EventSink {
   std::string text_;
   interpreter::Position at_;
   std::array<std::int64_t, interpreter::kAxisCount> counts_{};  ///< where the target is
-  std::bitset<interpreter::kAxisCount> known_;  ///< axes whose place a word has said
+  std::bitset<interpreter::kAxisCount> known_;  ///< axes whose place a word has given
   std::optional<FeedWord> feed_;
   std::optional<interpreter::Spindle> spindle_;  ///< written last
   std::optional<interpreter::Coolant> coolant_;

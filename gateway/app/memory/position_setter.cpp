@@ -237,7 +237,7 @@ Result<PositionChange> PositionSetter::set(const std::string& argument, const st
     const double shown = frame->to_program(place.at)[axis] * (is_diameter ? 2 : 1);
     if (!is_off(shown - setting->canonical())) {
       return fail(Errc::Conflict,
-                  "{} would be {:.4f} then, not {:.4f}: something in the setup stands against it",
+                  "{} would be {:.4f} then, not {:.4f}: something in the setup prevents it",
                   interpreter::letter(setting->axis), shown, setting->canonical());
     }
   }

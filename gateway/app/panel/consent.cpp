@@ -7,7 +7,7 @@ namespace {
 
 /// Switching these off lets a machine continue where it would have stopped.
 bool lets_run_on(const dds::Command& command, const machine::OperatorPanel& panel) {
-  // These change what is executed, or how fast, both ways.
+  // These change what is executed, or how fast, up and down.
   if (command.argument.starts_with("block_skip") || command.argument == "dry_run") return true;
   if (command.value != 0) return false;
   if (command.argument == "machine_lock") return panel.machine_lock;

@@ -21,7 +21,7 @@ Position along(Axis axis, double value) {
 
 }  // namespace
 
-/// A feed per revolution needs a spindle that turns; a feed per move is of that move alone.
+/// A feed per revolution needs a spindle that rotates; a feed per move is of that move alone.
 Feed Approach::plunge_feed() const {
   const bool is_usable = feed &&
                          (feed->per() == Feed::Per::Minute ||

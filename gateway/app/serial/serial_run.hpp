@@ -17,7 +17,7 @@
 namespace dripline::gateway {
 
 /// The run of a machine whose control is at the end of the gateway's own line: its text from the
-/// server, its way over the line, its counters and its end. One thread, but `on_progress`.
+/// server, its progress over the line, its counters and its end. One thread, but `on_progress`.
 class SerialRun {
  public:
   struct Parts {
@@ -71,7 +71,7 @@ class SerialRun {
   bool is_ending() const { return current_ && current_->is_ending; }
   bool is_on_line() const { return current_ && current_->is_on_line; }
   const report::ActiveRun& run() const { return current_->run; }
-  /// What is known of its way; zero before it is on the line.
+  /// What is known of its progress; zero before it is on the line.
   line::SendProgress progress() const;
   /// Text that has come and has not left.
   std::uint64_t buffered_bytes() const;

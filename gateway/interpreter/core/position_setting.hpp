@@ -71,7 +71,7 @@ struct PositionRules {
   std::string_view tool_axes = {};   ///< letters; empty: no length of a tool is
   bool is_zero_only = false;         ///< a datum's value is 0
   /// Errors: NotFound (no such offset or tool), LimitExceeded (beyond what the memory takes),
-  /// Unsupported (something in the memory stands against it). The axis is one of those above.
+  /// Unsupported (something in the memory prevents it). The axis is one of those above.
   Result<std::vector<CellNumber>> (*changes)(const PositionSetting&, const RestingPlace&,
                                              const ReadCell&) = nullptr;
   /// The position (program coordinates, of these axes) as the words of a block that is being

@@ -147,7 +147,7 @@ class Executor {
   Planner planner_;
   OperatorPanel panel_;
   SpindleModel spindle_;
-  /// As programmed, in a dry run that it does not turn in; it turns again when a motion begins
+  /// As programmed, in a dry run that it does not turn in; it runs again when a motion begins
   /// after that.
   std::optional<interpreter::Spindle> withheld_spindle_;
 

@@ -12,7 +12,7 @@ class MotionQueueBuilder final : public interpreter::EventSink {
   MotionQueueBuilder(const MachineLimits& limits, ActionQueue& queue);
 
   void begin(const Coordinates& at);
-  /// After begin: it turns already.
+  /// After begin: it runs already.
   void continue_spindle(const interpreter::Spindle& spindle) { spindle_.set(spindle); }
   void begin_probe(const interpreter::Probe& probe);
   /// Where the open probe has ended; what follows starts there.

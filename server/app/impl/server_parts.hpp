@@ -100,7 +100,7 @@ struct ServerParts {
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
   /// again.
   Result<void> look();
-  /// What the file says now; of a file that cannot be read what it said last stays in force.
+  /// What the file has now; of a file that cannot be read what it had last stays in force.
   Result<void> revoke_certificates();
   /// The machines that are known and their tools, then the sockets.
   Result<void> open_mtconnect(const api::HttpOptions& options);

@@ -7,8 +7,8 @@
 
 #include "storage/sql/database.hpp"
 
-/// The full-text index, which each engine has in its own way: FTS5 in SQLite, `tsvector` with a GIN
-/// index in PostgreSQL. Words are those of storage/search_words.hpp, so neither engine's own
+/// The full-text index, of which each engine has its own kind: FTS5 in SQLite, `tsvector` with a
+/// GIN index in PostgreSQL. Words are those of storage/search_words.hpp, so neither engine's own
 /// tokenizer decides anything.
 namespace dripline::storage {
 

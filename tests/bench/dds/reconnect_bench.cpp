@@ -62,7 +62,7 @@ int serve(const char* domain, const std::string& folder) {
   return 0;
 }
 
-/// The server, until it is told to end.
+/// The server, until it is asked to end.
 class ServerProcess {
  public:
   ServerProcess(const char* domain, const std::string& folder) {

@@ -1,4 +1,4 @@
-// The MTConnect agent behind its sockets: 20 devices of which 500 statuses a second change five
+// The MTConnect agent at its sockets: 20 devices of which 500 statuses a second change five
 // values each. One client thread asks over four connections that stay open, or reads 100 streams
 // at 100 ms. Prints one JSON object per figure. Agent and client share the machine, so the figures
 // compare agents; they are no promise.

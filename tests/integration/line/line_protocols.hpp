@@ -7,7 +7,7 @@
 
 namespace dripline::integration {
 
-/// A way of feeding a control over a line: the server's ports and a gateway beside the control
+/// A method of feeding a control over a line: the server's ports and a gateway beside the control
 /// have to do the same.
 struct Protocol {
   const char* name;

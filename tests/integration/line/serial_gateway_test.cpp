@@ -98,7 +98,7 @@ TEST(SerialGateway, EndsTheRunAtAKnownBlockWhenItsCableIsPulled) {
   EXPECT_LE(sent, received + 64);
 }
 
-/// Both ways that a program can begin: the gateway sends at cycle start, or the control asks.
+/// Both starts of a program: the gateway sends at cycle start, or the control asks.
 TEST(SerialGatewayAttended, SendsNothingBeforeCycleStartAtItsPanel) {
   SerialSystem shop({.settings = {"flow=xonxoff"}, .is_unattended = false});
   const std::string text = "O0077\nG20 G98\nG1 X1. Z-1. F50.\nM30\n";

@@ -182,7 +182,7 @@ TEST_F(PostgresqlStoreTest, ALostConnectionIsOpenedAgain) {
 std::string failing_first(int times, const char* state) {
   return fmt::format(
       "CREATE SEQUENCE tries; CREATE FUNCTION fail_first() RETURNS trigger LANGUAGE plpgsql AS $$ "
-      "BEGIN IF NEW.number = 3 AND nextval('tries') <= {} THEN RAISE EXCEPTION 'in the way' USING "
+      "BEGIN IF NEW.number = 3 AND nextval('tries') <= {} THEN RAISE EXCEPTION 'a conflict' USING "
       "ERRCODE = '{}'; END IF; RETURN NEW; END $$; "
       "CREATE TRIGGER fail_first BEFORE INSERT ON record FOR EACH ROW EXECUTE FUNCTION "
       "fail_first()",

@@ -167,7 +167,7 @@ TEST_P(WebhookEvents, OfAPartComeAtItsVerdictOrItsEnd) {
   commit(2, measurement::Verdict::Rework, false);
   EXPECT_EQ(kinds(), "part ");
   commit(3, measurement::Verdict::Rework, true);
-  EXPECT_EQ(kinds(), "part ") << "said already";
+  EXPECT_EQ(kinds(), "part ") << "reported already";
   part.id = 2;
   part.ended.reset();
   commit(4, measurement::Verdict::Good, true);

@@ -39,7 +39,7 @@ TEST_P(ProgramClock, CountsTheMachinesTime) {
   const auto numbers = printed(GetParam(), kTenSeconds);
   ASSERT_EQ(numbers.size(), 1U);
   EXPECT_GE(numbers[0], 10'000);
-  EXPECT_LE(numbers[0], 13'000) << "a few turns of the gateway are more";
+  EXPECT_LE(numbers[0], 13'000) << "a few rounds of the gateway are more";
 }
 INSTANTIATE_TEST_SUITE_P(, ProgramClock, testing::Values("1x", "100x", "0.5x", "max"),
                          [](const auto& each) {

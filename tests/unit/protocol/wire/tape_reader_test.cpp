@@ -44,7 +44,7 @@ TEST_P(TapeReaderLine, ReadsTheProgramAndWindsBack) {
   EXPECT_EQ(wire.control().received, kProgram);
 }
 
-// A rewind stop behind the last program, and ends of block of two characters: after M30 nothing is
+// A rewind stop after the last program, and ends of block of two characters: after M30 nothing is
 // left that the control could have read.
 TEST_P(TapeReaderLine, IsReadWhereNoBlockIsLeft) {
   for (const std::string_view end : {"", "%\n", "\n%\n"}) {
@@ -113,7 +113,7 @@ TEST_P(TapeReaderLine, ReadsTheNextProgramOfTheTape) {
   EXPECT_EQ(wire.control().received, first) << "the reader runs already";
 }
 
-// The control has read the last block before the owner has said that it is the last.
+// The control has read the last block before the owner has marked it as the last.
 TEST_P(TapeReaderLine, LearnsLateThatNothingFollows) {
   for (const std::string_view end : {"M02", "M30"}) {
     const auto settings = settings_of(GetParam());

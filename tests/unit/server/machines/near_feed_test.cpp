@@ -143,7 +143,7 @@ TEST_F(NearFeedTest, AStoreThatIsAwayFailsNoRunWhenItReturnsInTime) {
   request(run_, 100, 900);
   clock_.advance(BlockFeed::kPatience - std::chrono::seconds(1));
   std::this_thread::sleep_for(3 * BlockFeed::kAwayPause);  // it is asked again meanwhile
-  EXPECT_EQ(answers(), 1u) << "not told that it failed";
+  EXPECT_EQ(answers(), 1u) << "no failure was reported";
   away_.set(Away::State::Answers);
   EXPECT_EQ(fed(2), text_.substr(0, 1000));
 }

@@ -61,7 +61,7 @@ class ProgramFetcherTest : public ServerTest {
     return run;
   }
   /// All that was there to be done is done.
-  void settle() {
+  void finish_all() {
     int before = -1;
     for (int now = 0; now != before;) {
       before = now;
@@ -97,7 +97,7 @@ TEST_F(ProgramFetcherTest, FetchesThoseOfARunThatBeginsAndWhatItCalls) {
   const auto other = push("O0200", "M30\n");
   fetcher.add("r1", other.content);
   EXPECT_TRUE(programs_.wait_fetched(8));
-  settle();
+  finish_all();
   fetcher.end();
   EXPECT_EQ(programs_.order.size(), 8u) << "once";
 }
@@ -117,7 +117,7 @@ TEST_F(ProgramFetcherTest, FetchesNoMoreThanItsRoomAndGetsItBack) {
   ProgramFetcher fetcher(with_, 3 * kChunk);
   ASSERT_TRUE(fetcher.begin());
   ASSERT_TRUE(programs_.wait_fetched(3));
-  settle();
+  finish_all();
   EXPECT_EQ(programs_.fetched.size(), 3u);
   Run ended = run;
   ended.state = storage::RunState::Completed;
@@ -125,7 +125,7 @@ TEST_F(ProgramFetcherTest, FetchesNoMoreThanItsRoomAndGetsItBack) {
   const Run next = active("r2", "O0200", "lathe-2");
   fetcher.note(next);
   EXPECT_TRUE(programs_.wait_fetched(6));
-  settle();
+  finish_all();
   fetcher.end();
   EXPECT_EQ(programs_.fetched.size(), 6u);
 }
@@ -140,7 +140,7 @@ TEST_F(ProgramFetcherTest, LeavesARunThatHasEnded) {
   fetcher.note(run);  // while it waits for the store
   std::this_thread::sleep_for(std::chrono::milliseconds(1200));
   fetcher.add("r1", run.content);
-  settle();
+  finish_all();
   fetcher.end();
   EXPECT_TRUE(programs_.fetched.empty());
 }
@@ -160,7 +160,7 @@ TEST_F(ProgramFetcherTest, GivesUpAProgramThatIsDamagedOrCannotBeKept) {
   ProgramFetcher fetcher(with_, 100 * kChunk);
   ASSERT_TRUE(fetcher.begin());
   ASSERT_TRUE(programs_.wait([&] { return programs_.asked == 1; }));
-  settle();
+  finish_all();
   EXPECT_EQ(programs_.asked, 1);
   {
     const std::lock_guard lock(programs_.mutex);
@@ -168,7 +168,7 @@ TEST_F(ProgramFetcherTest, GivesUpAProgramThatIsDamagedOrCannotBeKept) {
   }
   fetcher.note(active("r2", "O0200", "lathe-2"));
   ASSERT_TRUE(programs_.wait([&] { return programs_.asked == 2; }));
-  settle();
+  finish_all();
   EXPECT_EQ(programs_.asked, 2);
 }
 

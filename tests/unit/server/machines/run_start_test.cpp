@@ -1,4 +1,4 @@
-// Starting runs: what a gateway is told, and who refuses.
+// Starting runs: what a gateway gets, and who refuses.
 #include "server/machines/machine_registry.hpp"
 #include "tests/unit/server/machines/machine_fixture.hpp"
 

@@ -61,7 +61,7 @@ TEST_F(ArchivedMeasurements, AreNotDerivedAgain) {
   EXPECT_TRUE(later) << "archives of earlier records do not matter: " << later.error().what;
 }
 
-/// The clock of a gateway was an hour behind: by the times the archive is of before the run.
+/// The clock of a gateway was an hour late: by the times the archive is of before the run.
 TEST_F(ArchivedMeasurements, AreKnownByTheirRecords) {
   start();
   use(kBore);

@@ -1,4 +1,4 @@
-// The agent behind real sockets.
+// The agent at real sockets.
 #include "server/api/http_server.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/unit/server/api/raw_peer.hpp"
@@ -81,7 +81,7 @@ TEST_F(AgentHttp, AStreamThatAsksForTooMuchIsAnOrdinaryAnswer) {
   EXPECT_NE(answer.find("OUT_OF_RANGE"), std::string::npos);
 }
 
-/// It stops reading, the observations go on, and when it reads again it is told that it lost some.
+/// It stops reading, the observations go on, and when it reads again it learns that it lost some.
 TEST_F(AgentHttp, ASlowReaderIsToldAndHoldsUpNobody) {
   mtconnect::Agent::Options options;
   options.buffer_size = 256;

@@ -348,7 +348,7 @@ TEST_F(DiskCacheTest, ADiskThatIsFullOnlyEndsTheKeepingAndIsNamedOnce) {
 TEST_F(DiskCacheTest, KeepsAgainWhenItCan) {
   const fs::path unfinished = options_.folder / "unfinished";
   fs::remove(unfinished);
-  write(unfinished, "in the way");
+  write(unfinished, "an obstacle");
   keep(chunk_of(1));
   keep(chunk_of(2));
   EXPECT_EQ(faults_.size(), 1u);

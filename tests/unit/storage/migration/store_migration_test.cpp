@@ -33,7 +33,7 @@ class StoreMigration : public testing::Test {
     auto kept = storage::sqlite::Database::open(file_);
     ASSERT_TRUE(kept) << kept.error().what;
     ASSERT_TRUE(kept->execute(file_text("tests/golden/storage/v19.sql")));
-    // What the engines keep in their own ways: bytes that are no UTF-8, also in a key, a zero with
+    // What the engines keep differently: bytes that are no UTF-8, also in a key, a zero with
     // a sign, a number whose row is gone.
     const auto more = kept->execute(
         "INSERT INTO port VALUES (CAST(x'ff41' AS TEXT), 'm9', '/dev/ttyS9', '', '', 1), "
@@ -119,7 +119,7 @@ TEST_F(StoreMigration, TakesEveryTableAndTheShopContinues) {
   const auto text = (*store)->programs.read_content(run->content, 0, 1000);
   ASSERT_TRUE(text) << text.error().what;
   EXPECT_EQ(storage::text_of(*text), "G00 X1.\nM30\n");
-  // An upload that was half way, triggers, and numbers that were used.
+  // An upload that was half done, triggers, and numbers that were used.
   ASSERT_TRUE((*store)->uploads.append("u1", 5, storage::bytes_of("9.\n")));
   const auto revision = (*store)->uploads.commit("u1", sha256("G01 X9.\n"));
   ASSERT_TRUE(revision) << revision.error().what;
@@ -236,7 +236,7 @@ TEST_F(StoreMigration, WhatWasLeftIsNotMigratedAnewElsewhere) {
   EXPECT_EQ(in_postgresql(kTables), 0) << "it is as empty as it was";
 }
 
-/// Also on the way back: no file is made for what was left for another one.
+/// Also for the migration back: no file is made for what was left for another one.
 TEST_F(StoreMigration, WhatWasLeftForAnotherFileMakesNone) {
   ASSERT_TRUE(enter());
   ASSERT_TRUE(come_back());

@@ -34,7 +34,7 @@ void RotaryPath::end() {
   state_.plane.kind = RotaryPlane::Kind::None;
 }
 
-/// The rotary axis turns the short way from where it is.
+/// The rotary axis rotates in the shorter direction.
 Position RotaryPath::on_machine(const Position& flat) {
   const RotaryPlane& plane = state_.plane;
   const double across = flat.raw(plane.slot) - plane.zero_slot;
@@ -83,7 +83,7 @@ int RotaryPath::pieces_of_line(const Position& to) const {
   const PlaneVector along = end - from;
   const double size = dripline::interpreter::length(along);
   if (size == 0) return 1;
-  // Near the center the axis turns fast: the pieces are as short as they have to be there.
+  // Near the center the axis rotates fast: the pieces are as short as they have to be there.
   const double closest_at = std::clamp(-dot(from, along) / (size * size), 0.0, 1.0);
   const double closest = dripline::interpreter::length(from + closest_at * along);
   if (closest < kClosestToCenter) return kMaxPieces;

@@ -64,7 +64,7 @@ bool ask_time(Run& run, LocalTime& now) {
 constexpr double kTimerEnd = 2'147'483'648;  ///< #3001 begins again at 0
 
 /// Milliseconds since #3001 was 0; read for the first time, since midnight. A clock that was set
-/// back behind that begins again.
+/// back before that begins again.
 double timer_at(Run& run, const LocalTime& now) {
   double& base = run.state.counters[kClockBase];
   const auto time = static_cast<double>(milliseconds_of(now));

@@ -71,7 +71,7 @@ class Words {
     present_ |= set_of(address);
     word_[static_cast<std::size_t>(address)] = word;
   }
-  /// `word`, of another address, stands for that of `old`.
+  /// `word`, of another address, replaces that of `old`.
   void replace(Address old, Address address, const Word& word) {
     present_ &= ~set_of(old);
     set(address, word);

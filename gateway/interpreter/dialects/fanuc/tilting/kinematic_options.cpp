@@ -35,7 +35,7 @@ Result<void> read_axis(const Options& options, std::string_view name, RotaryAxis
   return {};
 }
 
-/// With parallel axes, or one that turns a table or a tool about the tool's own axis, there are
+/// With parallel axes, or one that rotates a table or a tool about the tool's own axis, there are
 /// directions that the tool cannot take.
 Result<void> check_axes(const Kinematics& machine) {
   if (machine.master.axis == machine.slave.axis) {

@@ -137,7 +137,7 @@ std::optional<Pose> aligned_pose(const Kinematics& machine, Pose zero, const Poi
   for (const double side : {1.0, -1.0}) {
     const Point3 v = along_p * p + along_q * q + side * std::sqrt(square) * cross(p, q);
     std::optional<double> master = angle_about(q, b, v);
-    // of two tables or heads the master turns v the other way
+    // of two tables or heads the master rotates v in the opposite direction
     if (master && machine.type != KinematicType::HeadTable) master = -*master;
     const auto at_master = reachable(machine.master, master, present.master);
     const auto at_slave = reachable(machine.slave, angle_about(p, a, v), present.slave);

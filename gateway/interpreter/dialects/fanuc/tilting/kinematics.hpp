@@ -27,7 +27,7 @@ struct RotaryAxis {
 
 enum class KinematicType : std::uint8_t { None, TableTable, HeadTable, HeadHead };
 
-/// The master turns the slave, where both are of the table or both of the head. Of a head and a
+/// The master rotates the slave, where both are of the table or both of the head. Of a head and a
 /// table, the head is the master.
 struct Kinematics {
   KinematicType type = KinematicType::None;

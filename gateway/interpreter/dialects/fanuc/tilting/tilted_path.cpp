@@ -152,11 +152,11 @@ void TiltedPath::deliver_straight(const Event& whole, void (EventSink::*deliver)
   const Position from = state_.flat;
   const Pose pose = pose_of(options_.kinematics, from);
   const Pose end = pose_of(options_.kinematics, whole.to);
-  const bool turns =
+  const bool rotates =
       std::fabs(end.master - pose.master) > kNoMove || std::fabs(end.slave - pose.slave) > kNoMove;
   Event piece = whole;
   if constexpr (std::is_same_v<Event, Line>) {
-    const bool is_timed = turns && whole.feed.per() == Feed::Per::Minute;
+    const bool is_timed = rotates && whole.feed.per() == Feed::Per::Minute;
     set_feed(piece, whole, pieces, is_timed ? minutes_of(whole) : 0);
   }
   for (int n = 1; n <= pieces; ++n) {

@@ -36,7 +36,7 @@ bool refuse_contour(Run& run, std::string_view why) {
   return run.fail(ErrorCode::IllegalContour, 0, why);
 }
 
-/// The modes that the blocks of a recorded contour must not leave behind.
+/// The modes that the blocks of a recorded contour must not leave in force.
 void take_back_modes(Run& run) {
   ModalState& state = run.state;
   const ModesBefore& before = state.modes_before;

@@ -122,7 +122,7 @@ bool begin_contour_cycle(Run& run, std::uint8_t code) {
   return true;
 }
 
-/// G74 pecks along Z and steps along X, G75 the other way.
+/// G74 pecks along Z and steps along X, G75 the reverse.
 bool cut_pecks(Run& run, bool along_z) {
   ModalState& state = run.state;
   const Words& words = run.block.words;

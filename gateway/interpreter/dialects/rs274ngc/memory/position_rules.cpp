@@ -25,8 +25,8 @@ Result<std::vector<CellNumber>> changes(const PositionSetting& setting, const Re
   const int first = first_of_system(static_cast<int>(found - kOffsets.begin()) + 1);
   const auto axis = static_cast<int>(setting.axis);
   const auto parameter = [](int number) { return fmt::format("#{}", number); };
-  const bool turns = setting.axis == Axis::X || setting.axis == Axis::Y;
-  if (turns && read(parameter(first + kSystemRotation)).value_or(0) != 0) {
+  const bool is_rotated = setting.axis == Axis::X || setting.axis == Axis::Y;
+  if (is_rotated && read(parameter(first + kSystemRotation)).value_or(0) != 0) {
     return fail(Errc::Unsupported,
                 "{} is rotated (#{}): an offset of X or Y alone cannot be set from the position",
                 setting.offset, first + kSystemRotation);

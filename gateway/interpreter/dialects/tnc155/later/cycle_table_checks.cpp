@@ -34,7 +34,7 @@ bool check_spindle(Run& run, int cycle) {
   return run.fail(ErrorCode::SpindleRotatesMissing, "M3 or M4 before a cycle");
 }
 
-/// The spindle stands at an angle of the machine, so the wall is left along its axes.
+/// The spindle is oriented to an angle of the machine, so the wall is left along its axes.
 bool check_disengagement(Run& run, const Table& table) {
   const double direction = table.of(214);
   const Transformation& now = run.state.transformation;

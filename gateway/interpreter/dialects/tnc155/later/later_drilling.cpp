@@ -166,7 +166,7 @@ void tap(const Table& table) {
   table.rapid(table.last());
 }
 
-/// The spindle stands still afterward.
+/// The spindle is stopped afterward.
 void tap_rigidly(const Table& table) {
   Run& run = table.run();
   const SpindleState in =
@@ -237,8 +237,8 @@ void mill_bore(const Table& table) {
   const PlaneVector wall = center + PlaneVector{radius, 0};
   const PlaneVector between = center + PlaneVector{radius / 2, 0};
   arc(wall, between, table.clearance(), kHalf);
-  const double turns = (table.clearance() - table.bottom()) / table.mm(334);
-  const double sweep = turns * kFull;
+  const double revolutions = (table.clearance() - table.bottom()) / table.mm(334);
+  const double sweep = revolutions * kFull;
   const double end = (turn == Turn::Counterclockwise ? 1 : -1) * sweep;
   const PlaneVector out = unit_vector(end);
   const PlaneVector at = center + radius * out;

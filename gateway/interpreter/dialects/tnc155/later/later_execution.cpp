@@ -104,18 +104,18 @@ bool use_tool_feed(Run& run) {
   return true;
 }
 
-/// M126: rotary axes go the shorter way around. Up to half a turn that is the way they go anyway;
-/// beyond it the turns of the axis would have to be known.
+/// M126: rotary axes rotate in the shorter direction. Up to half a turn that is what they do
+/// anyway; beyond it the turns of the axis would have to be known.
 bool check_shorter_path(Run& run, const Block& block) {
   constexpr double kHalfTurn = 180;
   for (const Coordinate& word : block.words()) {
     if (!is_rotary(word.axis)) continue;
     const double value = run.number(word.value);
-    const double way = word.is_incremental ? value : value - run.state.nominal_of(word.axis);
-    if (std::fabs(way) <= kHalfTurn) continue;
-    return run.fail(
-        ErrorCode::NotSupported,
-        fmt::format("M126 with {} going {:+.3f}, more than half a turn", letter(word.axis), way));
+    const double travel = word.is_incremental ? value : value - run.state.nominal_of(word.axis);
+    if (std::fabs(travel) <= kHalfTurn) continue;
+    return run.fail(ErrorCode::NotSupported,
+                    fmt::format("M126 with {} going {:+.3f}, more than half a turn",
+                                letter(word.axis), travel));
   }
   return true;
 }

@@ -50,7 +50,7 @@ struct Element {
   Line line;
   PlaneVector from, end;  ///< as programmed until its corners are decided
   PlaneVector center;     ///< of an arc
-  double side = 1;        ///< +1 turns to the left, -1 to the right
+  double side = 1;        ///< +1: to the left, -1: to the right
   double sweep = 0;       ///< radians, > 0
   Angle given_sweep;      ///< as programmed, exactly
   Announced announced;

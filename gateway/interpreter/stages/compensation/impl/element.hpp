@@ -36,7 +36,7 @@ struct Arch {
   PlaneVector center;
   double radius_in = 0;   ///< from the center to the start; differs from the end's by rounding
   double radius_out = 0;  ///< from the center to the end
-  double side = 1;        ///< +1 turns to the left, -1 to the right
+  double side = 1;        ///< +1: to the left, -1: to the right
   double sweep = 0;       ///< radians, > 0
 };
 

@@ -72,7 +72,8 @@ TEST(EventFile, DeletesNothingThatPostingThenMisses) {
             "pattern 1 has not ended: end_cycle is missing (numbered as it then is)");
   EXPECT_EQ(text_of(delete_events(file, 2, 4)), kFirstEvent + kPosition + kLastEvent);
   const std::string faulty = kFirstEvent + rough + kLastEvent;
-  EXPECT_EQ(text_of(delete_events(faulty, 1, 1)), kFirstEvent + kLastEvent) << "on the way to good";
+  EXPECT_EQ(text_of(delete_events(faulty, 1, 1)), kFirstEvent + kLastEvent)
+      << "a step to a good one";
 }
 
 TEST(EventFile, InsertsEventsBeforeOne) {

@@ -72,7 +72,7 @@ TEST(FitArc, RoundedArcsStayNearOnes) {
   EXPECT_GT(within, kArcs / 2);
 }
 
-/// Nearly a quarter of a step long: the rounded ends are one point, or lie the wrong way round.
+/// Nearly a quarter of a step long: the rounded ends are one point, or are in reverse order.
 TEST(FitArc, NeverMakesAWholeCircleOfALittleArc) {
   for (const double sweep : {0.001, 0.002, 0.004, 0.01}) {
     Position start;

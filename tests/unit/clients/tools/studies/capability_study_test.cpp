@@ -22,7 +22,7 @@ std::vector<measurement::Measurement> bores(std::initializer_list<double> actual
 
 TEST(CapabilityStudy, AppliesTheLimitsOfTheValues) {
   auto all = bores({40.01, 40.02, 39.99, 40.00, 39.98, 40.03});
-  all.front().characteristic.upper = 40.2 - 0.1;  // computed in another way
+  all.front().characteristic.upper = 40.2 - 0.1;  // computed differently
   const auto study = study_capability(all, {});
   ASSERT_TRUE(study) << study.error().what;
   EXPECT_EQ(study->tolerance.lower, 39.9);

@@ -30,7 +30,7 @@ class NetworkCut : public SerialGatewayTest {
     begin("line=9600n81\neob=lf\nflow=none");
     program_ = program_for(time);
     start(program_);
-    pass(60s);  // the buffer is filled, and the line well under way
+    pass(60s);  // the buffer is filled, and the line is busy
   }
   std::string program_;
 };
@@ -58,7 +58,7 @@ TEST_F(NetworkCut, OfTenMinutesIsNotFeltByTheControlAtAnyMomentOfTheRun) {
   EXPECT_EQ(as_program(wire_.sent), program_);
 }
 
-/// What the status states is kept to the second, and then the control is told nothing wrong: the
+/// What the status states is kept to the second, and then the control gets nothing wrong: the
 /// line waits, and continues without a gap when the server is back.
 TEST_F(NetworkCut, LastsAsLongAsWasSaidBeforehandAndThenTheLineWaits) {
   begin_run(30min);

@@ -31,7 +31,7 @@ void expect_axes(const Position& at, std::initializer_list<std::pair<Axis, doubl
 }
 
 /// A tilts by 30: the plane's normal goes to (0, -sin 30, cos 30). On the trunnion C stays, A goes
-/// to 30, and the plane's zero (10, 20, 5) turns by -30 about Y5 Z-40: with 15 and 45 from there
+/// to 30, and the plane's zero (10, 20, 5) rotates by -30 about Y5 Z-40: with 15 and 45 from there
 /// Y = 5 + 15 cos 30 + 45 sin 30 and Z = -40 - 15 sin 30 + 45 cos 30.
 TEST(TiltedPlane, OnATrunnionTheTableComesToTheTool) {
   const MachineLog log = run_on(
@@ -62,7 +62,7 @@ TEST(TiltedPlane, InG01TheToolAxisIsDirectedAtTheFeed) {
   EXPECT_EQ(moves[0].feed, Feed::per_minute(Length::mm(200)));
 }
 
-/// I90 J90 turns Z to +X, B goes to 90. As seen from the axis of B, which is at (3, 150) of the
+/// I90 J90 rotates Z to +X, B goes to 90. As seen from the axis of B, which is at (3, 150) of the
 /// gauge point, the tip of a tool of 100 is at (-3, -250), and at (-250, 3) when it is tilted. The
 /// gauge point is then (250 - 3, -150 - 3) from the tip, and the axes another 100 lower.
 TEST(TiltedPlane, OnAHeadTheAxesFollowTheTip) {

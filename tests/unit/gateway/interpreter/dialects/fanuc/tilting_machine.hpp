@@ -107,7 +107,7 @@ inline Link still(double, double) {
 }
 
 /// A trunnion: C on A, with axes that do not meet. Tables turn against their positive direction,
-/// as a table must for the tool to go the positive way round the workpiece.
+/// as a table must for the tool to go around in positive direction the workpiece.
 inline const TestMachine kTrunnion{
     "trunnion",
     "kinematics = \"table-table\"\nrotary_master = \"A-\"\nrotary_slave = \"C-\"\n"

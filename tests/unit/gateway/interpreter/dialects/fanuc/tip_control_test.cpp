@@ -33,7 +33,7 @@ Position between(const Position& from, const Position& to, double part) {
 }
 
 /// A quarter of C under a tip that rests at (112, 8, 0), 100 from the axis of C: the trunnion's
-/// table turns clockwise, the point and the axes with it go to (12, 8 - 100).
+/// table rotates clockwise, the point and the axes with it go to (12, 8 - 100).
 TEST(TipControl, OnATrunnionTheLinearAxesFollowTheTable) {
   const MachineLog log = run_on(kTrunnion, "G90 G00 X112. Y8. Z0\nG43.4 H1\nG01 C90. F500.\nM30\n");
   ASSERT_EQ(log.alarm, "");
@@ -60,13 +60,14 @@ TEST(TipControl, OnAHeadTheToolTurnsAboutItsTip) {
   EXPECT_NEAR(log.at().raw(Axis::Z), 20 - 237.5 - 3, kClose);
 }
 
-/// A90 lays the tool along -Y: its tip is 267.5 from the axis of A; C180 turns the fork about.
+/// A90 lays the tool along -Y: its tip is 267.5 from the axis of A; C180 rotates the fork by half a
+/// turn.
 TEST(TipControl, OnAForkBothAxesTurnTheTool) {
   const MachineLog log =
       run_on(kFork, "G90 G00 X0 Y0 Z0\nG43.4 H1\nG01 A90. C180. F500.\nM30\n", "", kTool);
   ASSERT_EQ(log.alarm, "");
-  // gauge to tip: A turns (0,-4,-267.5) to (0, 267.5,-4), at (0, 271.5, 176); C turns that about
-  // (2, -1.5) to (4, -3 - 271.5, 176)
+  // gauge to tip: A rotates (0,-4,-267.5) to (0, 267.5,-4), at (0, 271.5, 176); C rotates that
+  // about (2, -1.5) to (4, -3 - 271.5, 176)
   EXPECT_NEAR(log.at().raw(Axis::X), -4, kClose);
   EXPECT_NEAR(log.at().raw(Axis::Y), 274.5, kClose);
   EXPECT_NEAR(log.at().raw(Axis::Z), -176 - 87.5, kClose);
@@ -80,7 +81,7 @@ struct MachineCase {
 class TipControlMachines : public testing::TestWithParam<MachineCase> {};
 
 /// Over random moves: the tip ends on the point with the angles as programmed, no piece begins
-/// elsewhere than the last one ended, and on the way, between the ends of the pieces too, the tip
+/// elsewhere than the last one ended, and between them, between the ends of the pieces too, the tip
 /// is within the tolerance of its straight path and never goes back.
 TEST_P(TipControlMachines, KeepTheTipOnAStraightPath) {
   const MachineCase& each = GetParam();
@@ -215,7 +216,8 @@ TEST(TipControl, TheTablesFrameIsItsZeroOrItsStart) {
   EXPECT_NEAR(start.at().raw(Axis::Y), 0, kClose);
 }
 
-/// Nothing of a move goes out that would leave the limits on its way, though its ends are good.
+/// Nothing of a move goes out that would leave the limits between its ends, though its ends are
+/// good.
 TEST(TipControl, ALimitOnTheWayStopsTheMoveBeforeItBegins) {
   const MachineLog log = run_on(
       kTrunnion, "G90 G00 X112. Y8. Z0\nG43.4 H1\nG01 C180. F500.\nM30\n",

@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(, TapeLeader,
                                          LeaderCase{"mode_after_code", "%G91", true}),
                          [](const auto& row) { return std::string(row.param.name); });
 
-// Words without an end of block before the code, and words that are hunted over behind it.
+// Words without an end of block before the code, and words that are hunted over after it.
 TEST(TapePrograms, LoseNoBlockOnTheLineOfALaterStopCode) {
   const std::string first = "%\nN10F500X10000\n";
   for (const std::string line : {"N20X20000%", "N20X20000 %", "%N20X20000", "% (A) N20X20000"}) {

@@ -242,7 +242,7 @@ TEST(TncCompensation, APocketBeforeTheFirstBlockLeavesTheStartUpToIt) {
               ElementsAre("L X27 Y0 Z2 F200", "L X27 Y30 Z2 F200", "L X60 Y60 Z2 F200"));
 }
 
-// HD-184: a rotation of another plane turns the hole's path into the plane of the contour.
+// HD-184: a rotation of another plane rotates the hole's path into the plane of the contour.
 TEST(TncCompensation, AHoleUnderARotationOfAnotherPlaneIsNoElement) {
   const auto moves =
       path("+3", with_pecking({"TOOL CALL Y", "CYCL DEF 10.0 ROTATION", "CYCL DEF 10.1 ROT+30",
