@@ -14,9 +14,10 @@ void visit(Archive& archive, ModalState& state) {
           state.turning, state.box, state.contour, state.modes_before, state.rotary,
           state.parameters, state.enters_parameters, state.mirror, state.scaling, state.rotation,
           state.cycle, state.zone, state.intermediate, state.has_intermediate, state.imaginary,
-          state.held, state.skip, state.last, state.polar_angle, state.is_rigid_tapping,
-          state.locals, state.commons, state.kept, state.extra, state.counters, state.calls,
-          state.loops, state.modals, state.modal_active, state.jump, state.limits);
+          state.held, state.skip, state.last, state.polar_angle, state.polar_radius,
+          state.offset_list, state.is_rigid_tapping, state.locals, state.commons, state.kept,
+          state.extra, state.counters, state.calls, state.loops, state.modals, state.modal_active,
+          state.jump, state.limits);
 }
 
 namespace {
@@ -24,7 +25,7 @@ namespace {
 std::string_view dialect_of(const Run& run) {
   return run.options.is_lathe ? "fanuc-t" : "fanuc";
 }
-constexpr std::uint32_t kVersion = 10;
+constexpr std::uint32_t kVersion = 11;
 
 template <class Archive>
 void visit_memory(Archive& archive, Memory& memory) {

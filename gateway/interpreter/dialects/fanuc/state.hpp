@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -251,7 +252,9 @@ struct ModalState {
   AxisValues held{};                   ///< where the imaginary axes really stand
   AxisValues skip{};                   ///< work coordinates
   LastWords last;
-  double polar_angle = 0;         ///< degrees; where an angle of G16 in G91 counts from
+  double polar_angle = 0;              ///< degrees; where an angle of G16 in G91 counts from
+  std::optional<double> polar_radius;  ///< of G16, about the program's zero; none: not written yet
+  int offset_list = 0;  ///< of G10 in offset memory A: 10 or 11, whichever came first; 0: none
   bool is_rigid_tapping = false;  ///< M29, until the mode of hole cycles ends
 
   std::vector<Locals> locals{Locals{}};

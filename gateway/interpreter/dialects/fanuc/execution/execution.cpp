@@ -65,7 +65,10 @@ bool apply_modes(Run& run) {
   if (block.names(kFeedGroup) && state.is_inverse_time()) state.feed = {};  // F of G94 is gone
   if (block.names(kUnitsGroup)) change_units(run);
   if (block.names(kPathGroup)) show_override_inhibit(run);
-  if (block.names(kPolarGroup)) state.polar_angle = 0;
+  if (block.names(kPolarGroup)) {
+    state.polar_angle = 0;
+    state.polar_radius.reset();
+  }
   if (block.names(kPlaneGroup)) {
     if (state.is_compensating() && state.g[kPlaneGroup] != block.g[kPlaneGroup]) {
       return run.fail(ErrorCode::PlaneInCompensation, block.parts.g_column);

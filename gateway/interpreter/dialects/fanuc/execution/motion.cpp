@@ -21,9 +21,10 @@ bool refuse_range(Run& run, Axis axis, double value) {
                   fmt::format("{}{} is beyond the range", letter(axis), run.in_units(axis, value)));
 }
 
-/// G16: of the plane's two words the first is a radius, the second an angle, about the program's
-/// zero in G90, in G91 about the present place and on from the last angle.
-void place_by_angle(Run& run, Point3& point) {
+/// G16: of the plane's two words the first is a radius, the second an angle. A radius of G90 is
+/// about the program's zero, and stays; one of G91 is about the present place, for its block. An
+/// angle of G91 goes on from the last one.
+bool place_by_angle(Run& run, Point3& point) {
   ModalState& state = run.state;
   const Words& words = run.block.words;
   const PlaneAxes axes = axes_of(state.plane());
@@ -31,12 +32,19 @@ void place_by_angle(Run& run, Point3& point) {
   const auto second = static_cast<std::size_t>(axes.second);
   const Address radius_word = kWordOfAxis[first];
   const Address angle_word = kWordOfAxis[second];
-  if (!words.has(radius_word) && !words.has(angle_word)) return;
+  if (!words.has(radius_word) && !words.has(angle_word)) return true;
   const bool is_incremental = state.is_incremental();
-  const Point3 center = is_incremental ? point : Point3{};
+  if (is_incremental && !words.has(radius_word) && !state.polar_radius) {
+    return run.fail(ErrorCode::ImproperCommand, words.column(angle_word),
+                    fmt::format("an angle of G16 in G91 without a radius: {} in G90 comes before",
+                                letter(radius_word)));
+  }
+  const Point3 center = is_incremental && words.has(radius_word) ? point : Point3{};
   const PlaneVector out{point[first] - center[first], point[second] - center[second]};
-  const double radius =
-      words.has(radius_word) ? run.length(words[radius_word]) : dripline::interpreter::length(out);
+  const double present = state.polar_radius.value_or(dripline::interpreter::length(out));
+  const double radius = words.has(radius_word) ? run.length(words[radius_word]) : present;
+  state.polar_radius =
+      is_incremental && words.has(radius_word) ? std::nullopt : std::optional(radius);
   double angle =
       is_incremental ? state.polar_angle : std::atan2(out.second, out.first) * (180 / Angle::kPi);
   if (words.has(angle_word)) angle = run.angle(words[angle_word]) + (is_incremental ? angle : 0);
@@ -44,6 +52,7 @@ void place_by_angle(Run& run, Point3& point) {
   const double turn = angle * (Angle::kPi / 180);
   point[first] = center[first] + radius * std::cos(turn);
   point[second] = center[second] + radius * std::sin(turn);
+  return true;
 }
 
 /// Whether G16 reads the word as a radius or an angle.
@@ -63,7 +72,7 @@ bool read_transformed_target(Run& run, Position& to) {
     if (!(std::fabs(value) <= most)) return refuse_range(run, static_cast<Axis>(i), value);
     point[i] = run.state.is_incremental() ? before[i] + value : value;
   }
-  if (run.state.is_polar()) place_by_angle(run, point);
+  if (run.state.is_polar() && !place_by_angle(run, point)) return false;
   const Point3 work = run.state.is_transformed ? transform(run.state, point) : point;
   for (std::size_t i = 0; i < 3; ++i) {
     const double raw = run.state.origin[i] + work[i];

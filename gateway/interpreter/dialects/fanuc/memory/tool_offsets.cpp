@@ -140,8 +140,29 @@ bool read_offset_number(Run& run, Address address, int& number) {
   return true;
 }
 
+namespace {
+
+/// A program for another memory would put two values into one place.
+bool check_list(Run& run, int list) {
+  const OffsetMemory memory = run.options.offset_memory;
+  const auto refuse = [&](std::string_view why) {
+    return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column,
+                    fmt::format("L{} in offset memory {}: {} (offset_memory)", list,
+                                memory == OffsetMemory::A ? 'A' : 'B', why));
+  };
+  if (memory == OffsetMemory::C || list < 10) return true;
+  if (list > 11) return refuse("radii of their own are in memory C");
+  if (memory == OffsetMemory::B) return true;
+  int& first = run.state.offset_list;
+  if (first == 0) first = list;
+  return first == list || refuse("geometry and wear are apart in memories B and C");
+}
+
+}  // namespace
+
 bool set_offset_data(Run& run, int list) {
   const Words& words = run.block.words;
+  if (!check_list(run, list)) return false;
   if (!words.has(P))
     return run.fail(ErrorCode::IllegalOffsetNumber, run.block.parts.g_column, "no P");
   const double number = run.whole(words[P]);
