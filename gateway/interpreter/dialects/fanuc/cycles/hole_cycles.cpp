@@ -118,6 +118,12 @@ class Hole {
     at_[place(axes_.normal)] = level;
     return line_to(run_, machine_point(run_, at_), run_.active_feed());
   }
+  /// Q and the retractions of a peck are as long as they are written under G51, too.
+  double unscaled(double length) const {
+    const ModalState& state = run_.state;
+    if (state.g[kScalingGroup] != 51) return length;
+    return length / std::fabs(state.scaling.factor[place(axes_.normal)]);
+  }
   /// With rigid tapping the spindle leads: G94 gives the pitch as feed over speed.
   bool tap(double level) {
     if (!is_tapping(run_.state.g[kCycleGroup])) return feed(level);
@@ -136,11 +142,13 @@ class Hole {
         in == SpindleState::Clockwise ? SpindleState::Counterclockwise : SpindleState::Clockwise;
     const double travel = data().bottom - data().retract;
     const double sign = travel < 0 ? -1 : 1;
-    const double count = std::ceil(std::fabs(travel) / data().depth - 1e-9);
+    const double stroke = unscaled(data().depth);
+    const double count = std::ceil(std::fabs(travel) / stroke - 1e-9);
     for (double n = 1; n < count; ++n) {
-      const double depth = n * data().depth;
-      const double back =
-          run_.options.peck_tap_leaves ? depth : std::fmin(run_.options.peck_tap_return, depth);
+      const double depth = n * stroke;
+      const double back = run_.options.peck_tap_leaves
+                              ? depth
+                              : std::fmin(unscaled(run_.options.peck_tap_return), depth);
       if (!tap(data().retract + sign * depth)) return false;
       spindle(SpindleState::Off);
       spindle(out);
@@ -219,15 +227,16 @@ class Hole {
   bool peck(bool to_retract) {
     const double travel = data().bottom - data().retract;
     const double sign = travel < 0 ? -1 : 1;
-    const double back =
-        to_retract ? run_.state.parameters.peck_clearance : run_.state.parameters.peck_return;
-    const double count = std::ceil(std::fabs(travel) / data().depth - 1e-9);
+    const double back = unscaled(to_retract ? run_.state.parameters.peck_clearance
+                                            : run_.state.parameters.peck_return);
+    const double peck = unscaled(data().depth);
+    const double count = std::ceil(std::fabs(travel) / peck - 1e-9);
     for (double n = 1; n < count; ++n) {
-      const double depth = data().retract + sign * n * data().depth;
+      const double depth = data().retract + sign * n * peck;
       if (!feed(depth)) return false;
       if (to_retract && !rapid(data().retract)) return false;
       // Never above R: a clearance can be longer than the first peck.
-      const double above = std::fmin(back, n * data().depth);
+      const double above = std::fmin(back, n * peck);
       if (!rapid(depth - sign * above)) return false;
     }
     return feed(data().bottom);
@@ -333,7 +342,10 @@ bool check_pecks(Run& run, double repeats) {
   const CycleData& data = run.state.cycle;
   const std::uint8_t code = run.state.g[kCycleGroup];
   if (code != 73 && code != 83 && !pecks_in_tap(run)) return true;
-  const double pecks = std::fabs(data.bottom - data.retract) / data.depth * repeats;
+  const std::size_t normal = place(axes_of(run.state.plane()).normal);
+  const double scale =
+      run.state.g[kScalingGroup] == 51 ? std::fabs(run.state.scaling.factor[normal]) : 1;
+  const double pecks = std::fabs(data.bottom - data.retract) * scale / data.depth * repeats;
   if (pecks <= kMaxPecks) return true;
   return run.fail(ErrorCode::LoopLimit, run.block.words.column(Q),
                   fmt::format("{:.0f} pecks in one block", pecks));
