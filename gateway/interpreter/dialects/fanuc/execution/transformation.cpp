@@ -73,6 +73,10 @@ bool begin_rotation(Run& run) {
   const Words& words = run.block.words;
   const bool was_on = state.g[kRotationGroup] == 68;
   const PlaneAxes axes = axes_of(state.plane());
+  if (words.has_any(kCenterWords)) {
+    return run.fail(ErrorCode::ImproperG, words.first_column(kCenterWords),
+                    "G68 with I, J, K rotates about an axis in space: not supported");
+  }
   if (was_on && state.rotation.plane != state.plane()) {
     return run.fail(ErrorCode::RotationPlane, run.block.parts.g_column);
   }
