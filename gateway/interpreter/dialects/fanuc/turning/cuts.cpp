@@ -46,14 +46,16 @@ bool cut_thread_box(Run& run, const Position& cut, const Position& end, const Po
   const Length lead = lead_of_path(cut, end, run.state.feed[1]);
   const double out = run.state.turning.thread_chamfer * run.state.feed[1];
   const double along = end.raw(Axis::Z) - cut.raw(Axis::Z);
-  const double clear = start.raw(Axis::X) - end.raw(Axis::X);
-  if (out > 0 && std::fabs(along) > out && std::fabs(clear) >= out) {
-    // the pull-out of 45 degrees begins so far before the end
+  if (out > 0 && std::fabs(along) > out) {
+    // the pull-out of 45 degrees begins so far before the end, and ends where X began at the latest
     const double part = (std::fabs(along) - out) / std::fabs(along);
     const double x = cut.raw(Axis::X) + part * (end.raw(Axis::X) - cut.raw(Axis::X));
     const double z = cut.raw(Axis::Z) + part * along;
+    const double clear = start.raw(Axis::X) - x;
+    const double pull = std::fmin(out, std::fabs(clear));
     if (!thread_to(run, moved(cut, x, z), lead, angle)) return false;
-    const Position pulled = moved(end, x + std::copysign(out, clear), end.raw(Axis::Z));
+    const Position pulled =
+        moved(end, x + std::copysign(pull, clear), z + std::copysign(pull, along));
     if (!thread_to(run, pulled, lead_of_path(run.state.position, pulled, run.state.feed[1]), {}))
       return false;
   } else if (!thread_to(run, end, lead, angle)) {

@@ -239,16 +239,18 @@ class ThreadPasses {
   bool thread(const Position& cut, const Position& end) {
     const double chamfer = data_.thread_chamfer * run_.state.feed[1];
     const double along = end.raw(Axis::Z) - cut.raw(Axis::Z);
-    const double clear = std::fabs(start_.raw(Axis::X) - end.raw(Axis::X));
-    if (!(chamfer > 0 && chamfer < std::fabs(along) && chamfer <= clear)) {
+    if (!(chamfer > 0 && chamfer < std::fabs(along))) {
       return thread_to(run_, end, lead(cut, end), {});
     }
     const double part = 1 - chamfer / std::fabs(along);
     Position turn = end;
     turn.set_raw(Axis::X, cut.raw(Axis::X) + part * (end.raw(Axis::X) - cut.raw(Axis::X)));
     turn.set_raw(Axis::Z, cut.raw(Axis::Z) + part * along);
-    Position out = end;
-    out.set_raw(Axis::X, turn.raw(Axis::X) + out_ * chamfer);
+    // at 45 degrees, until X is where the pass began
+    const double pull = std::min(chamfer, std::fabs(start_.raw(Axis::X) - turn.raw(Axis::X)));
+    Position out = turn;
+    out.set_raw(Axis::X, turn.raw(Axis::X) + out_ * pull);
+    out.set_raw(Axis::Z, turn.raw(Axis::Z) + std::copysign(pull, along));
     return thread_to(run_, turn, lead(cut, turn), {}) && thread_to(run_, out, lead(turn, out), {});
   }
 
