@@ -338,6 +338,7 @@ constexpr std::array kLatheRows{
     row<&C::code_system>("code_system", "A|B|C", "which set of G codes the lathe has"),
     row<&C::x_is_diameter>("x_is_diameter", kFlag, "X and U are diameters", {}, "", "true"),
     row<&C::has_c_axis>("c_axis", kFlag, "the lathe has an axis C; without it C is an alarm"),
+    row<&C::has_y_axis>("y_axis", kFlag, "the lathe has an axis Y; without it Y is an alarm"),
     row<&C::turret_digits>("turret_digits", kWhole, "last digits of T that are the offset's number",
                            {1, 2}),
     row<&C::feed_unit_turn>("feed_unit_revolution", kNumber,

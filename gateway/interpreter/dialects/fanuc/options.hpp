@@ -23,6 +23,7 @@ struct ControlOptions {
   CodeSystem code_system = CodeSystem::A;  ///< of a lathe
   bool x_is_diameter = false;
   bool has_c_axis = false;    ///< of a lathe
+  bool has_y_axis = false;    ///< of a lathe
   int turret_digits = 2;      ///< of the offset number in T
   double feed_unit_turn = 0;  ///< of F without a point, per revolution; 0: an alarm
   double thread_chamfer = 0;  ///< of G92, in leads

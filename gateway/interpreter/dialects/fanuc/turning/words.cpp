@@ -32,6 +32,18 @@ bool resolve_increments(Run& run) {
     return run.fail(ErrorCode::ImproperCommand, words.column(C),
                     "C is no axis of this lathe (c_axis); a chamfer is written ,C");
   }
+  if (constexpr AddressSet kOthers = set_of(A, B); words.has_any(kOthers)) {
+    return run.fail(ErrorCode::ImproperCommand, words.first_column(kOthers),
+                    "A and B are no axes of this lathe; a line at an angle is not supported");
+  }
+  if (words.has_any(set_of(Y, V)) && !run.options.has_y_axis) {
+    return run.fail(ErrorCode::ImproperCommand, words.first_column(set_of(Y, V)),
+                    "Y is no axis of this lathe (y_axis)");
+  }
+  if (words.has(H) && !run.options.has_c_axis && !run.rotary.is_on()) {
+    return run.fail(ErrorCode::ImproperCommand, words.column(H),
+                    "H moves C, which is no axis of this lathe (c_axis)");
+  }
   if (!words.has_any(kWords)) return true;
   const std::uint8_t one_shot = run.block.parts.one_shot;
   if (run.options.code_system != CodeSystem::A || one_shot == 52 || one_shot == 53) {
