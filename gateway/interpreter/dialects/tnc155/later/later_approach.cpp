@@ -1,17 +1,25 @@
 #include <fmt/core.h>
 #include <cmath>
+#include <optional>
 
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
 
-/// APPR and DEP on straight lines. Source: TNC 410, TNC 426 and iTNC 530, User's Manuals: contour
-/// approach and departure. The tool's center goes to the auxiliary point with the feed (or FMAX) of
-/// the block before, then to its own place at the first contour point with the feed of the block;
-/// LEN is the length of the second of these moves, for LN after the tool's radius.
+/// APPR and DEP. Source: TNC 410, TNC 426 and iTNC 530, User's Manuals: contour approach and
+/// departure. The tool's center goes to the auxiliary point with the feed (or FMAX) of the block
+/// before, with LCT that of the block, then to its own place at the first contour point with the
+/// feed of the block. LEN is the length of the second of these moves, for LN after the tool's
+/// radius; R is the radius of its arc: the manuals' examples have R5 with tools of 7.5 to 12.5.
 namespace dripline::interpreter::tnc155::later {
 namespace {
+
+constexpr std::uint8_t kNormal = 1, kCircle = 2, kLineAndCircle = 3;
+
+bool is_by_circle(const Block& block) {
+  return block.part >= kCircle;
+}
 
 bool refuse(Run& run, std::string_view what) {
   return run.fail(ErrorCode::NotSupported, what);
@@ -64,6 +72,74 @@ bool check_modes(Run& run, const Block& block, std::string_view name) {
   return check_circle_plane(run);
 }
 
+/// The arc of the tool's center, tangential to the contour's element.
+struct TangentArc {
+  PlaneVector at;  ///< where it meets the contour
+  PlaneVector center;
+  double radius = 0;
+  Turn turn = Turn::Counterclockwise;
+  double sign() const { return turn == Turn::Counterclockwise ? 1 : -1; }
+};
+
+PlaneVector rotated(PlaneVector vector, double degrees) {
+  const PlaneVector along = unit_vector(degrees);
+  return along.first * vector + along.second * left_of(vector);
+}
+
+/// `from` is the contour's point, `along` its direction there. R above 0: from the side of the
+/// compensation; below 0: from the other.
+TangentArc tangent_arc(Run& run, const Block& block, Compensation side, PlaneVector from,
+                       PlaneVector along) {
+  const State& state = run.state;
+  const double tool = state.tool.data.radius / state.transformation.factor(state.plane);
+  const double radius = run.length(block.radius);
+  const bool is_left = side == Compensation::Left;
+  const PlaneVector normal = (is_left ? 1.0 : -1.0) * left_of(along);
+  TangentArc arc;
+  arc.at = from + tool * normal;
+  arc.center = arc.at + radius * normal;
+  arc.radius = std::fabs(radius);
+  arc.turn = is_left == (radius > 0) ? Turn::Counterclockwise : Turn::Clockwise;
+  return arc;
+}
+
+/// Where the straight line from `point` (`is_before`), or to it, touches the circle.
+std::optional<PlaneVector> tangent_point(const TangentArc& arc, PlaneVector point, bool is_before) {
+  constexpr double kSamePlace = 1e-6;
+  const PlaneVector out = point - arc.center;
+  const double distance = length(out);
+  if (distance < arc.radius - kSamePlace) return std::nullopt;
+  const double ratio = std::fmin(1, arc.radius / distance);
+  const double angle = std::acos(ratio) * (180 / Angle::kPi);
+  return arc.center + ratio * rotated(out, (is_before ? 1 : -1) * arc.sign() * angle);
+}
+
+double sweep_between(const TangentArc& arc, PlaneVector from, PlaneVector to) {
+  constexpr double kFull = 360;
+  constexpr double kNoAngle = 1e-7;
+  const PlaneVector begin = from - arc.center;
+  const PlaneVector end = to - arc.center;
+  double sweep = arc.sign() * std::atan2(cross(begin, end), dot(begin, end)) * (180 / Angle::kPi);
+  if (sweep < 0) sweep += kFull;
+  return sweep > kFull - kNoAngle ? 0 : sweep;
+}
+
+bool go_around(Run& run, const TangentArc& arc, PlaneVector to, double sweep, const Pace& pace) {
+  constexpr double kNoAngle = 1e-7;
+  if (sweep < kNoAngle) return true;
+  Block block;
+  block.clear(BlockKind::Arc);
+  block.compensation = Compensation::Off;
+  const ArcTarget target{target_in_plane(run.state, to), arc.center, arc.turn, sweep};
+  PlaneMove move = plane_move(run.state, target.to);
+  move.is_arc = move.has_any = move.has_both = move.has_travel = true;
+  move.center = arc.center;
+  move.turn = arc.turn;
+  if (!begin_move(run, block, move)) return false;
+  arc_to(run, target, pace);
+  return finish_move(run, block, move);
+}
+
 /// The direction in which the contour leaves `from`: of length 1; (0, 0) where it is not known.
 PlaneVector begin_direction(Run& run, const Block& next, PlaneVector from) {
   const State& state = run.state;
@@ -97,14 +173,30 @@ PlaneVector offset(Run& run, const Block& block, Compensation side, PlaneVector 
   const double distance = run.length(run.parts.later.length);
   const double radius = state.tool.data.radius / state.transformation.factor(state.plane);
   const PlaneVector normal = (side == Compensation::Left ? 1.0 : -1.0) * left_of(along);
-  if (block.part == 1) return (radius + distance) * normal;
+  if (block.part == kNormal) return (radius + distance) * normal;
   return radius * normal + (sign * distance) * along;
 }
 
-bool check_length(Run& run, std::string_view name) {
-  const double distance = run.length(run.parts.later.length);
-  return distance > 0 || run.fail(ErrorCode::EntryOutOfRange,
-                                  fmt::format("LEN {} of {} is not above 0", distance, name));
+bool check_sizes(Run& run, const Block& block, std::string_view name) {
+  const auto refuse_size = [&](std::string_view word, double value, std::string_view range) {
+    return run.fail(ErrorCode::EntryOutOfRange,
+                    fmt::format("{} {} of {} is not {}", word, value, name, range));
+  };
+  if (!is_by_circle(block)) {
+    const double distance = run.length(run.parts.later.length);
+    return distance > 0 || refuse_size("LEN", distance, "above 0");
+  }
+  const double radius = run.length(block.radius);
+  if (block.part == kLineAndCircle) return radius > 0 || refuse_size("R", radius, "above 0");
+  const double angle = run.number(run.parts.later.center_angle);
+  if (radius == 0) return refuse_size("R", radius, "above or below 0");
+  return (angle > 0 && angle <= 360) || refuse_size("CCA", angle, "above 0, up to 360");
+}
+
+bool refuse_within(Run& run, const TangentArc& arc, PlaneVector point, std::string_view what) {
+  return run.fail(ErrorCode::EntryOutOfRange,
+                  fmt::format("{} is {:.3f} from the center of the arc, within its R {:.3f}", what,
+                              length(point - arc.center), arc.radius));
 }
 
 Pace pace_before(const State& state) {
@@ -129,11 +221,78 @@ bool use_feed(Run& run, const Block& block, Pace& pace) {
   return read_feed(run, block) && pace_of(run, block, pace);
 }
 
+/// To the auxiliary point, down, and to the contour's point.
+bool approach_straight(Run& run, const Block& block, const Target& target, PlaneVector along,
+                       const Pace& before, bool has_height) {
+  State& state = run.state;
+  const PlaneVector begin = in_plane(state, target);
+  const PlaneVector to = begin + offset(run, block, block.compensation, along, -1);
+  if (!go(run, Compensation::Off, target_in_plane(state, to), before)) return false;
+  Pace pace;
+  if (!use_feed(run, block, pace)) return false;
+  if (has_height && !move_height(run, target, pace)) return false;
+  state.is_rapid_next = block.is_rapid;
+  return go(run, block.compensation, target_in_plane(state, begin), pace);
+}
+
+bool approach_by_circle(Run& run, const Block& block, const Target& target, PlaneVector along,
+                        const Pace& before, bool has_height) {
+  State& state = run.state;
+  const PlaneVector begin = in_plane(state, target);
+  const TangentArc arc = tangent_arc(run, block, block.compensation, begin, along);
+  Pace pace;
+  PlaneVector to;
+  double sweep = run.number(run.parts.later.center_angle);
+  if (block.part == kLineAndCircle) {
+    const PlaneVector from = nominal_in_plane(state);
+    const auto touched = tangent_point(arc, from, true);
+    if (!touched) return refuse_within(run, arc, from, "the start of APPR LCT");
+    to = *touched;
+    sweep = sweep_between(arc, to, arc.at);
+    if (!use_feed(run, block, pace)) return false;
+    if (!go(run, Compensation::Off, target_in_plane(state, to), pace)) return false;
+  } else {
+    to = arc.center + rotated(arc.at - arc.center, -arc.sign() * sweep);
+    if (!go(run, Compensation::Off, target_in_plane(state, to), before)) return false;
+    if (!use_feed(run, block, pace)) return false;
+  }
+  if (has_height && !move_height(run, target, pace)) return false;
+  state.is_rapid_next = block.is_rapid;
+  // Then the tool is beside the contour's point: the contour begins there without a move.
+  return go_around(run, arc, arc.at, sweep, pace) &&
+         go(run, block.compensation, target_in_plane(state, begin), pace);
+}
+
+bool depart_by_circle(Run& run, const Block& block, const Target& target, PlaneVector along,
+                      const Pace& pace) {
+  State& state = run.state;
+  const TangentArc arc =
+      tangent_arc(run, block, state.compensation, nominal_in_plane(state), along);
+  double sweep = run.number(run.parts.later.center_angle);
+  PlaneVector to = arc.center + rotated(arc.at - arc.center, arc.sign() * sweep);
+  if (block.part == kLineAndCircle) {
+    const PlaneVector end = in_plane(state, target);
+    const auto touched = tangent_point(arc, end, false);
+    if (!touched) return refuse_within(run, arc, end, "the end of DEP LCT");
+    to = *touched;
+    sweep = sweep_between(arc, arc.at, to);
+  }
+  // The contour ends beside its point without a move.
+  if (state.tool.data.radius == 0) {
+    end_contour(run, false);
+  } else if (!go(run, Compensation::Off, target_in_plane(state, arc.at), pace)) {
+    return false;
+  }
+  if (!go_around(run, arc, to, sweep, pace)) return false;
+  return block.part != kLineAndCircle ||
+         go(run, Compensation::Off, target_in_plane(state, in_plane(state, target)), pace);
+}
+
 }  // namespace
 
 bool approach(Run& run, const Block& block) {
   State& state = run.state;
-  if (!check_modes(run, block, "APPR") || !check_length(run, "APPR")) return false;
+  if (!check_modes(run, block, "APPR") || !check_sizes(run, block, "APPR")) return false;
   if (state.is_compensating() || state.is_parallel) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted, "APPR needs R0 before it");
   }
@@ -156,19 +315,14 @@ bool approach(Run& run, const Block& block) {
   if (!before.is_rapid && !(before.feed > 0)) {
     return run.fail(ErrorCode::FeedRateMissing, "no F above 0 before APPR");
   }
-  const PlaneVector to = begin + offset(run, block, block.compensation, along, -1);
-  if (!go(run, Compensation::Off, target_in_plane(state, to), before)) return false;
-  Pace pace;
-  if (!use_feed(run, block, pace)) return false;
-  if (has_height && !move_height(run, target, pace)) return false;
   state.polar.is_current = false;
-  state.is_rapid_next = block.is_rapid;
-  return go(run, block.compensation, target_in_plane(state, begin), pace);
+  return (is_by_circle(block) ? approach_by_circle : approach_straight)(run, block, target, along,
+                                                                        before, has_height);
 }
 
 bool depart(Run& run, const Block& block) {
   State& state = run.state;
-  if (!check_modes(run, block, "DEP") || !check_length(run, "DEP")) return false;
+  if (!check_modes(run, block, "DEP") || !check_sizes(run, block, "DEP")) return false;
   if (!state.is_compensating() || state.awaits_contour) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted, "DEP without a contour before it");
   }
@@ -176,8 +330,11 @@ bool depart(Run& run, const Block& block) {
   read_coordinates(run, block, target);
   bool has_height = false;
   if (!read_height(run, target, has_height)) return false;
-  if (target.named != 0 && !has_height) {
-    return run.fail(ErrorCode::BlockFormatIncorrect, "DEP LT and DEP LN have no end point");
+  const bool has_end = block.part == kLineAndCircle;
+  if (has_end ? !names_plane(state, target) : target.named != 0 && !has_height) {
+    return run.fail(ErrorCode::BlockFormatIncorrect,
+                    has_end ? "DEP LCT names both axes of the plane"
+                            : "DEP LT, DEP LN and DEP CT have no end point");
   }
   const PlaneVector along = end_direction(state.last);
   constexpr double kSamePlace = 1e-6;
@@ -185,11 +342,16 @@ bool depart(Run& run, const Block& block) {
       length(state.last.to - nominal_in_plane(state)) > kSamePlace) {
     return refuse(run, "DEP without an element of the contour directly before it");
   }
-  const PlaneVector to = nominal_in_plane(state) + offset(run, block, state.compensation, along, 1);
   Pace pace;
   if (!use_feed(run, block, pace)) return false;
   state.polar.is_current = false;
-  if (!go(run, Compensation::Off, target_in_plane(state, to), pace)) return false;
+  if (is_by_circle(block)) {
+    if (!depart_by_circle(run, block, target, along, pace)) return false;
+  } else {
+    const PlaneVector to =
+        nominal_in_plane(state) + offset(run, block, state.compensation, along, 1);
+    if (!go(run, Compensation::Off, target_in_plane(state, to), pace)) return false;
+  }
   return !has_height || move_height(run, target, pace);
 }
 

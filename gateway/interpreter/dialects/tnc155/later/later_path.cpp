@@ -180,20 +180,51 @@ bool read_path(Reading& in, BlockKind kind) {
   return is_complete(in);
 }
 
-bool read_contour_end(Reading& in, BlockKind kind, bool is_normal) {
+namespace {
+
+/// R5, not the R0, RL and RR of compensation.
+bool is_arc_radius_next(TextCursor& cursor) {
+  if (cursor.peek() != 'R') return false;
+  const char* next = cursor.at() + 1;
+  if (*next == '0') return TextCursor::is_digit(next[1]) || next[1] == '.' || next[1] == ',';
+  return (kCharacterBits[static_cast<unsigned char>(*next)] & kValueBit) != 0;
+}
+
+/// A word that only APPR and DEP have, into `value`; its name, or nothing.
+std::string_view take_contour_end_word(Reading& in, Value*& value) {
+  const bool is_by_circle = in.block.part >= 2;
+  if (is_by_circle && is_arc_radius_next(in.cursor)) {
+    in.cursor.advance();
+    value = &in.block.radius;
+    return "R";
+  }
+  const bool has_angle = in.block.part == 2;
+  if (has_angle && in.cursor.take("CCA")) return value = &in.words.center_angle, "CCA";
+  if (!is_by_circle && in.cursor.take("LEN")) return value = &in.words.length, "LEN";
+  return {};
+}
+
+}  // namespace
+
+bool read_contour_end(Reading& in) {
   Block& block = in.block;
-  block.kind = kind;
-  block.part = is_normal ? 1 : 0;
   while (!in.cursor.is_at_end()) {
-    const bool is_length = in.cursor.take("LEN");
-    if (is_length && in.words.length.is_programmed()) return in.cursor.wrong("LEN twice");
-    if (is_length ? !read_value(in, in.words.length, "LEN") : !read_path_word(in)) return false;
+    Value* value = nullptr;
+    const std::string_view name = take_contour_end_word(in, value);
+    if (value == nullptr) {
+      if (!read_path_word(in)) return false;
+      continue;
+    }
+    if (value->is_programmed()) return in.cursor.wrong(fmt::format("{} twice", name));
+    if (!read_value(in, *value, name)) return false;
   }
   const bool has_side =
       block.compensation == Compensation::Left || block.compensation == Compensation::Right;
-  if (!in.words.length.is_programmed()) return in.cursor.missing("LEN");
+  if (block.part < 2 && !in.words.length.is_programmed()) return in.cursor.missing("LEN");
+  if (block.part >= 2 && !block.radius.is_programmed()) return in.cursor.missing("R");
+  if (block.part == 2 && !in.words.center_angle.is_programmed()) return in.cursor.missing("CCA");
   if (block.turn) return in.cursor.wrong("DR is for circles");
-  if (kind == BlockKind::Approach) return has_side || in.cursor.wrong("APPR needs RL or RR");
+  if (block.kind == BlockKind::Approach) return has_side || in.cursor.wrong("APPR needs RL or RR");
   return block.compensation <= Compensation::Off || in.cursor.wrong("DEP ends RL and RR");
 }
 

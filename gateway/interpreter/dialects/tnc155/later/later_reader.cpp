@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <tuple>
+#include <array>
 
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
@@ -206,28 +206,26 @@ bool read_flat_plane(Reading& in, const char* start) {
   return true;
 }
 
-/// Those by circles are refused: whether R is the radius of the contour or of the tool's center is
-/// not stated.
-bool is_contour_end(Reading& in, BlockKind& kind, bool& is_normal) {
-  for (const auto& [word, its_kind, is_its_normal] :
-       {std::tuple("APPR LT", BlockKind::Approach, false),
-        std::tuple("APPR LN", BlockKind::Approach, true),
-        std::tuple("DEP LT", BlockKind::Departure, false),
-        std::tuple("DEP LN", BlockKind::Departure, true)}) {
-    kind = its_kind;
-    is_normal = is_its_normal;
-    if (in.cursor.take(word)) return true;
+bool is_contour_end(Reading& in) {
+  constexpr std::array kForms{" LT", " LN", " CT", " LCT"};
+  const char* start = in.cursor.at();
+  const bool is_approach = in.cursor.take("APPR");
+  if (!is_approach && !in.cursor.take("DEP")) return false;
+  for (std::size_t form = 0; form < kForms.size(); ++form) {
+    in.cursor.back_to(start);
+    in.cursor.take(is_approach ? "APPR" : "DEP");
+    if (!in.cursor.take(kForms[form] + 1)) continue;
+    in.block.kind = is_approach ? BlockKind::Approach : BlockKind::Departure;
+    in.block.part = static_cast<std::uint8_t>(form);
+    return true;
   }
+  in.cursor.back_to(start);
   return false;
 }
 
 bool read_keyword(Reading& in, const char* start) {
   TextCursor& cursor = in.cursor;
-  BlockKind contour_end{};
-  bool is_normal = false;
-  if (is_contour_end(in, contour_end, is_normal)) {
-    return read_contour_end(in, contour_end, is_normal);
-  }
+  if (is_contour_end(in)) return read_contour_end(in);
   if (cursor.take("TOOL CALL")) return read_tool_call(in);
   if (cursor.take("TOOL DEF")) return read_tool_definition(in);
   if (cursor.take("BEGIN PGM")) return read_frame(in, BlockKind::Begin);

@@ -39,8 +39,8 @@ bool read_feed(Reading& in, bool is_own);
 bool refuse(Reading& in, const char* start);
 
 bool read_path(Reading& in, BlockKind kind);  ///< after L, LP, C, CP, CT, CR
-/// After APPR LT, APPR LN, DEP LT, DEP LN.
-bool read_contour_end(Reading& in, BlockKind kind, bool is_normal);
+/// After APPR or DEP and LT, LN, CT or LCT.
+bool read_contour_end(Reading& in);
 bool read_corner(Reading& in, BlockKind kind);  ///< after RND, CHF
 bool read_center(Reading& in);                  ///< after CC
 bool read_call_at(Reading& in);                 ///< after CYCL CALL POS

@@ -79,7 +79,7 @@ struct LaterWords {
     m_count = 0;
     is_auto_feed = false;
     retracts = retracts_to_limit = is_plane = false;
-    tool = feed = retract = delta_length = delta_radius = length = Value{};
+    tool = feed = retract = delta_length = delta_radius = length = center_angle = Value{};
     name.clear();
     target.clear();
     formula.clear();
@@ -98,7 +98,7 @@ struct LaterWords {
   Value tool;                        ///< TOOL CALL Q1
   Value feed;                        ///< of this block alone: RND, CHF, CYCL CALL POS; TOOL CALL
   Value delta_length, delta_radius;  ///< TOOL CALL: DL, DR
-  Value length;                      ///< Approach, Departure: LEN
+  Value length, center_angle;        ///< Approach, Departure: LEN, CCA
   std::string name;                  ///< of a program, a label, a tool, a mask
   std::string target;                ///< Print: where it goes
   Formula formula, second;           ///< Assignment; Comparison: both sides

@@ -73,8 +73,8 @@ enum class BlockKind : std::uint8_t {
   CycleTable,   ///< CYCL DEF 200 and above
   CycleCallAt,  ///< CYCL CALL POS
   Print,        ///< FN 16
-  Approach,     ///< APPR LT, APPR LN
-  Departure,    ///< DEP LT, DEP LN
+  Approach,     ///< APPR LT, LN, CT, LCT
+  Departure,    ///< DEP LT, LN, CT, LCT
   Accepted,     ///< what says nothing about the path: a warning names it
 };
 
@@ -130,7 +130,7 @@ struct Block {
   std::uint8_t function = 0;    ///< of Function: 0-12
   std::uint8_t cycle = 0;       ///< CycleDefinition: 1-5, 7-12
   std::uint8_t part = 0;        ///< CycleDefinition: the digit after the point; Probe: 0, 1;
-                                ///< Approach, Departure: 1 along the normal
+                                ///< Approach, Departure: LT, LN, CT, LCT
   std::optional<Axis> axis;     ///< ToolCall (see is_fourth), BlankForm: spindle axis; Probe 0: its
                                 ///< axis; CycleDefinition 10: that of the plane an ISO block names
   bool is_fourth_axis = false;  ///< ToolCall: axis IV, whichever the machine has
