@@ -67,6 +67,7 @@ class Maker {
   void expressions();
 
   void small_things();
+  void saved_modes();
   /// One thing that is wrong, or looks so.
   void mistake();
 

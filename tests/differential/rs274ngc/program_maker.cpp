@@ -198,8 +198,23 @@ void Maker::part() {
   }
 }
 
+/// What is saved and comes back, and what does not: the motion mode.
+void Maker::saved_modes() {
+  constexpr std::array kChanges{"G0 X2",  "G1 Y3 F20", "G91",    "G18",       "G98",   "G59",
+                                "G92 X5", "G92.1",     "G92.2",  "G52 Y2",    "G49",   "G43 H2",
+                                "G7",     "G90.1",     "M3 S80", "G64 P0.02", "M8 M48"};
+  const auto change = [&] { line(one_of(kChanges)); };
+  for (std::uint64_t i = below(3); i > 0; --i) change();
+  line("M70");
+  for (std::uint64_t i = 1 + below(4); i > 0; --i) change();
+  line("M72");
+  line("X4 Z2");
+  line("Y5");
+  line("G8 G17 G90 G91.1 G99 G49 M3");
+}
+
 void Maker::small_things() {
-  switch (below(13)) {
+  switch (below(14)) {
     case 0:
       line("G49");
       line(below(2) == 0 ? "G20" : "G21");
@@ -258,6 +273,9 @@ void Maker::small_things() {
       line("G90 M3");
       break;
     case 11:
+      saved_modes();
+      break;
+    case 12:
       line("G95 F0.05");
       line("G1 X2");
       line("G94 F30");

@@ -127,6 +127,8 @@ struct SavedModes {
   SpindleModes spindle;
   bool flood = false, mist = false;
   Overrides overrides;
+  Side side = Side::Off;
+  bool has_length = false, has_g92 = false;
 };
 
 struct CallFrame {

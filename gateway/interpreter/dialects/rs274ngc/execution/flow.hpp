@@ -56,7 +56,7 @@ class Flow {
   bool refuse_missing_sub();
   const KnownLabel* find_label(Label scope, Label label);
   Label scope() const;
-  void return_from_call();
+  bool return_from_call();
   bool push_call(const TextPlace& entry, Label scope, bool is_fanuc, std::uint64_t passes);
   bool skip_to(SkipFor until, Label label);
   void land(const TextPlace& place);

@@ -1,6 +1,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
 #include <cmath>
 
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
@@ -157,8 +158,7 @@ bool apply_state_code(Run& run, int code) {
   const SavedModes& saved =
       run.state.calls.empty() ? run.state.saved : run.state.calls.back().modes;
   if (!saved.is_valid) return run.fail(ErrorCode::StateStack, 0, "M72");
-  restore_modes(run, saved);
-  return true;
+  return restore_modes(run, SavedModes{saved});
 }
 
 }  // namespace
@@ -286,20 +286,59 @@ bool apply_stops(Run& run) {
   }
 }
 
-void save_modes(const Run& run, SavedModes& saved) {
-  const State& state = run.state;
-  saved = {true,       false,         state.modes, state.units, state.system,
-           state.feed, state.spindle, state.flood, state.mist,  state.overrides};
+namespace {
+
+bool has_length(const State& state) {
+  return std::ranges::any_of(state.tool_length, [](double length) { return length != 0; });
 }
 
-void restore_modes(Run& run, const SavedModes& saved) {
+/// As LinuxCNC writes it: with the codes that differ, G41 to G43 for the tool in the spindle.
+bool restore_offsets(Run& run, const SavedModes& saved) {
+  const State& state = run.state;
+  if (saved.side != state.compensation.side) {
+    const int code = saved.side == Side::Off ? 400 : saved.side == Side::Left ? 410 : 420;
+    if (!switch_compensation(run, code)) return false;
+  }
+  if (saved.has_length != has_length(state) &&
+      !set_length_offset(run, saved.has_length ? 430 : 490))
+    return false;
+  if (saved.system != state.system) load_system(run, saved.system);
+  const bool has_g92 = run.parameters[kG92Active] != 0;
+  return saved.has_g92 == has_g92 || execute_one_shot(run, saved.has_g92 ? 923 : 922);
+}
+
+}  // namespace
+
+void save_modes(const Run& run, SavedModes& saved) {
+  const State& state = run.state;
+  saved = {true,
+           false,
+           state.modes,
+           state.units,
+           state.system,
+           state.feed,
+           state.spindle,
+           state.flood,
+           state.mist,
+           state.overrides,
+           state.compensation.side,
+           has_length(state),
+           run.parameters[kG92Active] != 0};
+}
+
+bool restore_modes(Run& run, const SavedModes& saved) {
   State& state = run.state;
+  if (saved.modes.plane != state.modes.plane && state.compensation.side != Side::Off)
+    return run.fail(ErrorCode::CompPlane, 0, "M70 to M73");
   if (saved.units != state.units) change_units(run, saved.units);
+  const std::int16_t motion = state.modes.motion;
+  const bool keeps_feed = saved.modes.feed == state.modes.feed;
   state.modes = saved.modes;
-  state.feed = saved.feed;
+  state.modes.motion = motion;
+  state.feed = keeps_feed ? saved.feed : 0;
   state.overrides = saved.overrides;
   if (state.has_header) run.events().on_override_inhibit(override_inhibit(run));
-  if (saved.system != state.system) load_system(run, saved.system);
+  if (!restore_offsets(run, saved)) return false;
   const SpindleState now = state.spindle.state;
   state.spindle = saved.spindle;
   state.spindle.state = now;
@@ -309,6 +348,7 @@ void restore_modes(Run& run, const SavedModes& saved) {
     state.mist = saved.mist;
     run.events().on_coolant({run.origin, state.flood, state.mist});
   }
+  return true;
 }
 
 }  // namespace dripline::interpreter::rs274ngc

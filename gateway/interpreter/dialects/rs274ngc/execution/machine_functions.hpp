@@ -25,6 +25,7 @@ bool apply_stops(Run& run);
 bool reset_at_end(Run& run);
 
 void save_modes(const Run& run, SavedModes& saved);
-void restore_modes(Run& run, const SavedModes& saved);
+/// Except for the motion mode. Errors: what of it compensation forbids.
+bool restore_modes(Run& run, const SavedModes& saved);
 
 }  // namespace dripline::interpreter::rs274ngc

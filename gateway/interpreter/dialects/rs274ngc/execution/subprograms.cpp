@@ -45,8 +45,7 @@ bool Flow::leave_sub(const OwordHead& head) {
   if (calls.empty()) return true;  // outside of a subprogram: nothing
   if (calls.back().is_fanuc) return refuse(ErrorCode::OwordMixed, head, "was called by M98");
   set_value(run_, value, has_value);
-  return_from_call();
-  return true;
+  return return_from_call();
 }
 
 bool Flow::end_sub(const OwordHead& head) {
@@ -57,15 +56,17 @@ bool Flow::end_sub(const OwordHead& head) {
   return leave_sub(head);
 }
 
-void Flow::return_from_call() {
+bool Flow::return_from_call() {
   State& state = run_.state;
   const CallFrame frame = state.calls.back();
-  if (frame.modes.is_valid && frame.modes.restores_at_return) restore_modes(run_, frame.modes);
+  const bool restores = frame.modes.is_valid && frame.modes.restores_at_return;
+  if (restores && !restore_modes(run_, frame.modes)) return false;
   state.frames.resize(frame.block_base);
   if (!frame.is_fanuc)
     std::copy(frame.saved.begin(), frame.saved.end(), run_.parameters.begin() + 1);
   run_.next = frame.back;
   state.calls.pop_back();
+  return true;
 }
 
 bool Flow::push_call(const TextPlace& entry, Label scope, bool is_fanuc, std::uint64_t passes) {
@@ -162,10 +163,7 @@ bool Flow::execute_fanuc(int m_code) {
   if (!frame.is_fanuc) {
     return run_.fail(ErrorCode::OwordMixed, 0, "M99 in a subprogram that was called by O call");
   }
-  if (frame.passes_left == 0) {
-    return_from_call();
-    return true;
-  }
+  if (frame.passes_left == 0) return return_from_call();
   --frame.passes_left;
   state.frames.resize(frame.block_base);
   run_.next = frame.entry;
