@@ -88,11 +88,10 @@ PlaneVector rotated(PlaneVector vector, double degrees) {
 
 /// `from` is the contour's point, `along` its direction there. R above 0: from the side of the
 /// compensation; below 0: from the other.
-TangentArc tangent_arc(Run& run, const Block& block, Compensation side, PlaneVector from,
-                       PlaneVector along) {
+TangentArc tangent_arc(Run& run, Compensation side, PlaneVector from, PlaneVector along) {
   const State& state = run.state;
   const double tool = state.tool.data.radius / state.transformation.factor(state.plane);
-  const double radius = run.length(block.radius);
+  const double radius = run.length(run.parts.later.arc_radius);
   const bool is_left = side == Compensation::Left;
   const PlaneVector normal = (is_left ? 1.0 : -1.0) * left_of(along);
   TangentArc arc;
@@ -140,24 +139,45 @@ bool go_around(Run& run, const TangentArc& arc, PlaneVector to, double sweep, co
   return finish_move(run, block, move);
 }
 
-/// The direction in which the contour leaves `from`: of length 1; (0, 0) where it is not known.
-PlaneVector begin_direction(Run& run, const Block& next, PlaneVector from) {
-  const State& state = run.state;
-  if (next.kind == BlockKind::Arc && state.has_pole) {
-    const PlaneVector out = from - pole_in_plane(state);
-    const double radius = length(out);
-    if (radius == 0) return {};
-    const double sign = next.turn == Turn::Clockwise ? -1 : 1;
-    return (sign / radius) * left_of(out);
-  }
-  if (next.kind != BlockKind::Line || next.m != Block::kNone) return {};
-  const PlaneAxes axes = axes_of(state.plane);
+/// Where LP leads from `from`.
+PlaneVector polar_end(Run& run, const Block& next, PlaneVector from) {
+  const PlaneVector pole = pole_in_plane(run.state);
+  const PlaneVector out = from - pole;
+  double radius = length(out);
+  double angle = std::atan2(out.second, out.first) * (180 / Angle::kPi);
+  if (next.radius.is_programmed())
+    radius = run.length(next.radius) + (next.is_radius_incremental ? radius : 0);
+  if (next.angle.is_programmed())
+    angle = run.number(next.angle) + (next.is_angle_incremental ? angle : 0);
+  return pole + radius * unit_vector(angle);
+}
+
+PlaneVector line_end(Run& run, const Block& next, PlaneVector from) {
+  const PlaneAxes axes = axes_of(run.state.plane);
   PlaneVector to = from;
   for (const Coordinate& word : next.words()) {
     const double value = run.coordinate(word.axis, word.value);
     if (word.axis == axes.first) to.first = value + (word.is_incremental ? from.first : 0);
     if (word.axis == axes.second) to.second = value + (word.is_incremental ? from.second : 0);
   }
+  return to;
+}
+
+/// The direction in which the contour leaves `from`: of length 1; (0, 0) where it is not known.
+PlaneVector begin_direction(Run& run, const Block& next, PlaneVector from) {
+  const State& state = run.state;
+  const bool is_arc = next.kind == BlockKind::Arc || next.kind == BlockKind::PolarArc;
+  const bool is_polar_line = next.kind == BlockKind::PolarLine;
+  if ((is_arc || is_polar_line) && !state.has_pole) return {};
+  if (is_arc) {
+    const PlaneVector out = from - pole_in_plane(state);
+    const double radius = length(out);
+    if (radius == 0) return {};
+    const double sign = next.turn == Turn::Clockwise ? -1 : 1;
+    return (sign / radius) * left_of(out);
+  }
+  if ((next.kind != BlockKind::Line && !is_polar_line) || next.m != Block::kNone) return {};
+  const PlaneVector to = is_polar_line ? polar_end(run, next, from) : line_end(run, next, from);
   const PlaneVector path = to - from;
   const double distance = length(path);
   constexpr double kNoTravel = 1e-6;
@@ -186,11 +206,28 @@ bool check_sizes(Run& run, const Block& block, std::string_view name) {
     const double distance = run.length(run.parts.later.length);
     return distance > 0 || refuse_size("LEN", distance, "above 0");
   }
-  const double radius = run.length(block.radius);
+  const double radius = run.length(run.parts.later.arc_radius);
   if (block.part == kLineAndCircle) return radius > 0 || refuse_size("R", radius, "above 0");
   const double angle = run.number(run.parts.later.center_angle);
   if (radius == 0) return refuse_size("R", radius, "above or below 0");
   return (angle > 0 && angle <= 360) || refuse_size("CCA", angle, "above 0, up to 360");
+}
+
+/// Coordinates, or PR and PA; LEN, R and CCA are read where they are used.
+bool read_point(Run& run, const Block& block, Target& target) {
+  if (!run.parts.later.is_polar) {
+    read_coordinates(run, block, target);
+    run.state.polar.is_current = false;
+    return true;
+  }
+  if (!run.state.has_pole) return run.fail(ErrorCode::AngleReferenceMissing, "no CC before");
+  const PlaneAxes axes = axes_of(run.state.plane);
+  if (block.names(axes.first) || block.names(axes.second)) {
+    return run.fail(ErrorCode::BlockFormatIncorrect, "coordinates of the plane beside PR and PA");
+  }
+  if (!read_polar(run, block, target)) return false;
+  name_plane(run.state, target);
+  return true;
 }
 
 bool refuse_within(Run& run, const TangentArc& arc, PlaneVector point, std::string_view what) {
@@ -239,7 +276,7 @@ bool approach_by_circle(Run& run, const Block& block, const Target& target, Plan
                         const Pace& before, bool has_height) {
   State& state = run.state;
   const PlaneVector begin = in_plane(state, target);
-  const TangentArc arc = tangent_arc(run, block, block.compensation, begin, along);
+  const TangentArc arc = tangent_arc(run, block.compensation, begin, along);
   Pace pace;
   PlaneVector to;
   double sweep = run.number(run.parts.later.center_angle);
@@ -266,8 +303,7 @@ bool approach_by_circle(Run& run, const Block& block, const Target& target, Plan
 bool depart_by_circle(Run& run, const Block& block, const Target& target, PlaneVector along,
                       const Pace& pace) {
   State& state = run.state;
-  const TangentArc arc =
-      tangent_arc(run, block, state.compensation, nominal_in_plane(state), along);
+  const TangentArc arc = tangent_arc(run, state.compensation, nominal_in_plane(state), along);
   double sweep = run.number(run.parts.later.center_angle);
   PlaneVector to = arc.center + rotated(arc.at - arc.center, arc.sign() * sweep);
   if (block.part == kLineAndCircle) {
@@ -297,7 +333,7 @@ bool approach(Run& run, const Block& block) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted, "APPR needs R0 before it");
   }
   Target target = here(state);
-  read_coordinates(run, block, target);
+  if (!read_point(run, block, target)) return false;
   bool has_height = false;
   if (!read_height(run, target, has_height)) return false;
   if (!names_plane(state, target)) {
@@ -307,15 +343,15 @@ bool approach(Run& run, const Block& block) {
   const PlaneVector along =
       run.contour_begin ? begin_direction(run, *run.contour_begin, begin) : PlaneVector{};
   if (length(along) == 0) {
-    return refuse(run,
-                  "APPR without L or C in the plane directly after it: its direction is not "
-                  "known");
+    return refuse(
+        run,
+        "APPR without L, LP, C or CP in the plane directly after it: its direction is not "
+        "known");
   }
   const Pace before = pace_before(state);
   if (!before.is_rapid && !(before.feed > 0)) {
     return run.fail(ErrorCode::FeedRateMissing, "no F above 0 before APPR");
   }
-  state.polar.is_current = false;
   return (is_by_circle(block) ? approach_by_circle : approach_straight)(run, block, target, along,
                                                                         before, has_height);
 }
@@ -327,7 +363,7 @@ bool depart(Run& run, const Block& block) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted, "DEP without a contour before it");
   }
   Target target = here(state);
-  read_coordinates(run, block, target);
+  if (!read_point(run, block, target)) return false;
   bool has_height = false;
   if (!read_height(run, target, has_height)) return false;
   const bool has_end = block.part == kLineAndCircle;
@@ -344,7 +380,6 @@ bool depart(Run& run, const Block& block) {
   }
   Pace pace;
   if (!use_feed(run, block, pace)) return false;
-  state.polar.is_current = false;
   if (is_by_circle(block)) {
     if (!depart_by_circle(run, block, target, along, pace)) return false;
   } else {

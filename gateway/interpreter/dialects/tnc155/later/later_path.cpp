@@ -88,7 +88,7 @@ bool read_compensation(Reading& in) {
 /// After the P of PR or PA.
 bool read_polar(Reading& in, bool is_incremental) {
   Block& block = in.block;
-  const bool is_line = block.kind == BlockKind::PolarLine;
+  const bool is_line = block.kind == BlockKind::PolarLine || in.words.is_polar;
   if (is_line && in.cursor.take('R')) {
     block.is_radius_incremental = is_incremental;
     return read_value(in, block.radius, "PR");
@@ -195,7 +195,7 @@ std::string_view take_contour_end_word(Reading& in, Value*& value) {
   const bool is_by_circle = in.block.part >= 2;
   if (is_by_circle && is_arc_radius_next(in.cursor)) {
     in.cursor.advance();
-    value = &in.block.radius;
+    value = &in.words.arc_radius;
     return "R";
   }
   const bool has_angle = in.block.part == 2;
@@ -221,7 +221,7 @@ bool read_contour_end(Reading& in) {
   const bool has_side =
       block.compensation == Compensation::Left || block.compensation == Compensation::Right;
   if (block.part < 2 && !in.words.length.is_programmed()) return in.cursor.missing("LEN");
-  if (block.part >= 2 && !block.radius.is_programmed()) return in.cursor.missing("R");
+  if (block.part >= 2 && !in.words.arc_radius.is_programmed()) return in.cursor.missing("R");
   if (block.part == 2 && !in.words.center_angle.is_programmed()) return in.cursor.missing("CCA");
   if (block.turn) return in.cursor.wrong("DR is for circles");
   if (block.kind == BlockKind::Approach) return has_side || in.cursor.wrong("APPR needs RL or RR");

@@ -207,16 +207,20 @@ bool read_flat_plane(Reading& in, const char* start) {
 }
 
 bool is_contour_end(Reading& in) {
-  constexpr std::array kForms{" LT", " LN", " CT", " LCT"};
+  constexpr std::array kForms{"LT", "LN", "CT", "LCT", "PLT", "PLN", "PCT", "PLCT"};
+  constexpr std::size_t kPolar = 4;
   const char* start = in.cursor.at();
   const bool is_approach = in.cursor.take("APPR");
   if (!is_approach && !in.cursor.take("DEP")) return false;
   for (std::size_t form = 0; form < kForms.size(); ++form) {
     in.cursor.back_to(start);
     in.cursor.take(is_approach ? "APPR" : "DEP");
-    if (!in.cursor.take(kForms[form] + 1)) continue;
+    if (!in.cursor.take(kForms[form])) continue;
+    const bool has_end = is_approach || form % kPolar == kPolar - 1;
+    if (form >= kPolar && !has_end) break;
     in.block.kind = is_approach ? BlockKind::Approach : BlockKind::Departure;
-    in.block.part = static_cast<std::uint8_t>(form);
+    in.block.part = static_cast<std::uint8_t>(form % kPolar);
+    in.words.is_polar = form >= kPolar;
     return true;
   }
   in.cursor.back_to(start);

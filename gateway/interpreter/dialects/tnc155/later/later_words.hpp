@@ -78,8 +78,9 @@ struct LaterWords {
   void clear() {
     m_count = 0;
     is_auto_feed = false;
-    retracts = retracts_to_limit = is_plane = false;
-    tool = feed = retract = delta_length = delta_radius = length = center_angle = Value{};
+    retracts = retracts_to_limit = is_plane = is_polar = false;
+    tool = feed = retract = delta_length = delta_radius = length = Value{};
+    center_angle = arc_radius = Value{};
     name.clear();
     target.clear();
     formula.clear();
@@ -99,6 +100,8 @@ struct LaterWords {
   Value feed;                        ///< of this block alone: RND, CHF, CYCL CALL POS; TOOL CALL
   Value delta_length, delta_radius;  ///< TOOL CALL: DL, DR
   Value length, center_angle;        ///< Approach, Departure: LEN, CCA
+  Value arc_radius;                  ///< Approach, Departure: R; PR is Block::radius
+  bool is_polar = false;             ///< Approach, Departure: PLT and the like
   std::string name;                  ///< of a program, a label, a tool, a mask
   std::string target;                ///< Print: where it goes
   Formula formula, second;           ///< Assignment; Comparison: both sides
