@@ -15,6 +15,19 @@ namespace {
 constexpr double kMaxInches = 99999.9999;
 constexpr double kMaxMillimeters = 99999.999;
 
+/// A move of no length is no event: a start that is looked for learns here that the program has
+/// the axes at this place.
+void stay(Run& run, AxesNamed named) {
+  ModalState& state = run.state;
+  if (!state.is_searching) return;
+  const Point at = machine_of(run, state.position);
+  const std::uint8_t axes = static_cast<std::uint8_t>((named.x ? 1 : 0) | (named.z ? 2 : 0));
+  const int fresh = axes & ~state.searched_axes;
+  if ((fresh & 1) != 0) state.searched_to.x = run.length(at.x).mm();
+  if ((fresh & 2) != 0) state.searched_to.z = run.length(at.z).mm();
+  state.searched_axes |= axes;
+}
+
 /// R and AB from a pole, which is the current point unless the block names one (manual: polar
 /// lines).
 bool read_polar_target(Run& run, Target& target) {
@@ -148,7 +161,10 @@ bool move(Run& run) {
     return true;
   }
   if (!check_feed(run)) return false;
-  if (target.to == run.state.position && !run.block.is_back_line()) return true;
+  if (target.to == run.state.position && !run.block.is_back_line()) {
+    stay(run, target.named);
+    return true;
+  }
   announce_line(run);
   run.events().on_line(
       {run.origin, event_position(run, target.to, target.named), run.active_feed(), run.rests()});
@@ -169,20 +185,20 @@ void finish_probe(Run& run, const ProbeResult& result) {
 }
 
 void rapid_to(Run& run, const Point& to, AxesNamed named) {
-  if (to == run.state.position) return;
+  if (to == run.state.position) return stay(run, named);
   run.events().on_rapid({run.origin, event_position(run, to, named)});
   arrive(run, to);
 }
 
 void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed) {
-  if (to == run.state.position) return;
+  if (to == run.state.position) return stay(run, named);
   run.events().on_line({run.origin, event_position(run, to, named), feed, run.rests()});
   arrive(run, to);
 }
 
 void machine_rapid_to(Run& run, const Point& machine, AxesNamed named) {
   const Point from = machine_of(run, run.state.position);
-  if (machine == from) return;
+  if (machine == from) return stay(run, named);
   const Position at = marked_position(run, from, machine, named);
   run.machine_events().on_rapid({run.origin, at});
   arrive(run, programmed_of(run, machine));
@@ -190,7 +206,7 @@ void machine_rapid_to(Run& run, const Point& machine, AxesNamed named) {
 
 void machine_feed_to(Run& run, const Point& machine, AxesNamed named) {
   const Point from = machine_of(run, run.state.position);
-  if (machine == from) return;
+  if (machine == from) return stay(run, named);
   const Position at = marked_position(run, from, machine, named);
   run.machine_events().on_line({run.origin, at, run.active_feed(), run.rests()});
   arrive(run, programmed_of(run, machine));

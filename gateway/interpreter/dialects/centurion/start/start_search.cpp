@@ -143,6 +143,7 @@ bool StartSearch::begin_here(Run& run) {
   run.flush_path();  // moves that wait belong to the part before; the block's end reports
                      // faults
   state.is_searching = false;
+  (void)run.events();  // the header comes before what the start itself does
   const std::string withheld = withheld_text(run.start);
   if (!withheld.empty()) {
     run.scratch = fmt::format("{}: withheld before it: {}", start_.text, withheld);
