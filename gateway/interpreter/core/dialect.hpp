@@ -51,7 +51,9 @@ struct TextForm {
   Kind kind = Kind::Words;
   std::span<const int> motion_codes = {};  ///< G codes that move besides G0 to G3, in tenths
   bool has_diameter_codes = false;         ///< G7 and G8 choose diameters and radii
-  bool is_all_programs = false;            ///< the control sends programs and prints nothing
+  /// Whether a G code (in tenths) is of its block alone; null: as most controls have them.
+  bool (*is_one_shot)(int code) = nullptr;
+  bool is_all_programs = false;  ///< the control sends programs and prints nothing
 };
 
 /// What program storage refuses and what controls have a message for too.

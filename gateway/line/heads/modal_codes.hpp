@@ -24,12 +24,17 @@ enum class ModalGroup : std::uint8_t {
   Scale,
   Mirror,
   Rotation,
+  Interpolation,
+  StrokeZone,
   Polar,
   PathMode,
+  LookAhead,
   ModalCall,
+  SpeedLimit,
   SpeedMode,
   Motion,
   Cycle,
+  RigidTapping,
   Overrides,
   Tool,
   NextTool,
@@ -40,6 +45,7 @@ enum class ModalGroup : std::uint8_t {
   Speed,
   Spindle,
   Coolant,
+  Mist,
 };
 
 /// How what a word put in force can be put in force again.
@@ -57,7 +63,10 @@ struct ModalCode {
   std::string_view with = {};
 };
 
-/// nullptr: the code sets nothing that stays.
+/// nullptr: no modal code that is known.
 const ModalCode* find_modal_code(int code);
+/// The code is of its block alone, as most controls have it. Of a code that is neither modal nor
+/// this nothing is known: what it leaves in force cannot be sent again.
+bool is_one_shot_code(int code);
 
 }  // namespace dripline::line

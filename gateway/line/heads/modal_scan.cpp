@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include "gateway/interpreter/registry.hpp"
+#include "gateway/line/heads/scan_text.hpp"
 
 namespace dripline::line {
 
@@ -15,29 +14,7 @@ using TextKind = interpreter::TextForm::Kind;
 
 constexpr std::uint64_t kMaxLooked = 5000;
 constexpr std::size_t kMaxUnknown = 8;
-
-char upper(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-bool is_letter(char c) {
-  return upper(c) >= 'A' && upper(c) <= 'Z';
-}
-bool is_of_number(char c) {
-  return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
-}
-
-std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// A block without the N number at its beginning.
-std::string_view without_number(std::string_view block) {
-  if (block.empty() || upper(block.front()) != 'N') return block;
-  const auto end = block.find_first_not_of("0123456789", 1);
-  return end == std::string_view::npos ? std::string_view() : trim(block.substr(end));
-}
+constexpr std::size_t kMaxAppended = 16;
 
 /// These print or open what is printed on: nothing of them stays in force.
 bool is_printing(std::string_view block) {
@@ -46,12 +23,23 @@ bool is_printing(std::string_view block) {
          bare.starts_with("PCLOS");
 }
 
-/// G54.1 is 541; -1: no code.
-int tenths(std::string_view value) {
-  double number = 0;
-  const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
-  if (read.ec != std::errc{} || number < 0 || number > 999) return -1;
-  return static_cast<int>(std::lround(number * 10));
+/// G50 S2000, or G92 S2000.
+template <class Block>
+std::string limit_text(const Block& block) {
+  std::string text;
+  for (const auto& word : block) {
+    const int code = word.letter == 'G' && word.is_number ? tenths(word.value) : -1;
+    if (code != 500 && code != 920 && word.letter != 'S') continue;
+    text += (text.empty() ? "" : " ") + word.text();
+  }
+  return text;
+}
+
+template <class Block>
+bool has_any(const Block& block, std::string_view letters) {
+  return std::ranges::any_of(block, [letters](const auto& word) {
+    return letters.find(word.letter) != std::string_view::npos;
+  });
 }
 
 interpreter::TextForm text_form(std::string_view control) {
@@ -61,7 +49,10 @@ interpreter::TextForm text_form(std::string_view control) {
 
 }  // namespace
 
-ModalScan::ModalScan(std::string_view control) : text_(text_form(control)) {}
+ModalScan::ModalScan(std::string_view control)
+    : text_(text_form(control)),
+      is_fanuc_(control.starts_with("fanuc")),
+      is_rs274ngc_(control == "rs274ngc") {}
 
 /// Words at depth 0: a letter and everything up to the next one. Comments are left out.
 ModalScan::Block ModalScan::read(std::string_view text) {
@@ -87,14 +78,55 @@ ModalScan::Block ModalScan::read(std::string_view text) {
   return block;
 }
 
-const ModalCode* ModalScan::code_of(const Word& word) const {
-  static constexpr ModalCode kOtherMotion{0, ModalGroup::Motion};
-  if (word.letter != 'G' || !word.is_number) return nullptr;
+/// Codes whose meaning other words of the block decide: G50 and G92 with axes are a coordinate
+/// system that begins where the machine is, with S alone a limit of the spindle; G5 and G8 of a
+/// Fanuc are look-ahead, G5 of LinuxCNC moves.
+std::optional<ModalCode> ModalScan::code_of(const Word& word, const Block& block) const {
+  using enum ModalGroup;
+  if (word.letter != 'G' || !word.is_number) return std::nullopt;
   const int code = tenths(word.value);
-  if (std::ranges::find(text_.motion_codes, code) != text_.motion_codes.end()) return &kOtherMotion;
+  if (std::ranges::find(text_.motion_codes, code) != text_.motion_codes.end())
+    return ModalCode{code, Motion};
+  if (text_.is_one_shot != nullptr && text_.is_one_shot(code)) return std::nullopt;
+  const bool moves = has_any(block, "XYZABCUVW");
+  if (code == 500 || code == 920) {
+    if (moves) return ModalCode{code, Shift, Resend::Never};
+    if (has_any(block, "S")) return ModalCode{code, SpeedLimit, Resend::Word, "S"};
+  }
+  const bool is_path = code == 50 || code == 51;
+  if (is_path && (moves || has_any(block, "IJ"))) return ModalCode{code, Motion, Resend::Never};
+  if (code == 80 && !text_.has_diameter_codes)
+    return ModalCode{code, LookAhead, moves ? Resend::Never : Resend::Block};
   const auto* found = find_modal_code(code);
-  const bool is_diameter = found != nullptr && found->group == ModalGroup::Diameter;
-  return is_diameter && !text_.has_diameter_codes ? nullptr : found;
+  const bool is_of_lathe = found != nullptr && found->group == Diameter;
+  if (found == nullptr || (is_of_lathe && !text_.has_diameter_codes)) return std::nullopt;
+  return *found;
+}
+
+bool ModalScan::is_known_one_shot(int code) const {
+  return text_.is_one_shot != nullptr ? text_.is_one_shot(code) : is_one_shot_code(code);
+}
+
+/// A center that is not written is where the machine was.
+bool ModalScan::can_be_sent(const ModalCode& row, const Block& block) const {
+  if (row.resend == Resend::Never) return false;
+  const auto axes = std::ranges::count_if(block, [](const Word& word) {
+    return std::string_view("XYZ").find(word.letter) != std::string_view::npos;
+  });
+  if (row.code == 680) return axes >= 2 && !has_any(block, "IJK");
+  if (row.code == 510) return axes >= 3;
+  return row.code != 431 || is_rs274ngc_;
+}
+
+/// Codes that set one axis after the other: all their blocks together are what is in force.
+void ModalScan::append(ModalGroup group, std::string words) {
+  const auto before = in_force_.find(group);
+  if (before == in_force_.end()) {
+    appended_[group] = 1;
+    return set(group, std::move(words));
+  }
+  const bool fits = ++appended_[group] <= kMaxAppended;
+  set(group, fits ? before->second.words + "\n" + words : before->second.words, fits);
 }
 
 void ModalScan::set(ModalGroup group, std::string words, bool can_be_sent) {
@@ -127,25 +159,32 @@ void ModalScan::skip(std::string_view text) {
   if (is_computed || is_statement) return name_unknown(bare);
   for (const Word& word : block) skip_word(word, block, bare);
   skip_tool(block);
+  skip_length(block);
 }
 
 void ModalScan::skip_word(const Word& word, const Block& block, std::string_view text) {
   using enum ModalGroup;
   if (word.letter == 'F') return set(Feed, word.text());
-  if (word.letter == 'S') return set(Speed, word.text());
-  if (word.letter == 'M') {
-    const int code = tenths(word.value) / 10;
-    if (code >= 3 && code <= 5) set(Spindle, word.text());
-    if (code >= 7 && code <= 9) set(Coolant, word.text());
-    if (code == 48 || code == 49) set(Overrides, word.text());
+  if (word.letter == 'M') return skip_function(word, block);
+  if (word.letter == 'S') {
+    const bool is_limit = std::ranges::any_of(block, [&](const Word& other) {
+      return other.letter == 'G' && (tenths(other.value) == 500 || tenths(other.value) == 920);
+    });
+    return set(is_limit ? SpeedLimit : Speed, is_limit ? limit_text(block) : word.text());
+  }
+  if (word.letter != 'G') return;
+  const auto row = code_of(word, block);
+  if (!row) {
+    if (!is_known_one_shot(tenths(word.value))) name_unknown(without_number(text));
     return;
   }
-  const ModalCode* row = code_of(word);
-  if (row == nullptr) return;
+  if (row->group == SpeedLimit) return;  // with its S
   if (row->group == Motion) {
     drop(Cycle);
+    drop(RigidTapping);
     is_moving_ = word.value.find_first_not_of("0.") != std::string::npos;
   }
+  if (row->code == 800) drop(RigidTapping);
   std::string words =
       row->resend == Resend::Block ? std::string(without_number(text)) : word.text();
   for (const Word& other : block) {
@@ -153,7 +192,36 @@ void ModalScan::skip_word(const Word& word, const Block& block, std::string_view
       words += " " + other.text();
     }
   }
-  set(row->group, std::move(words), row->resend != Resend::Never);
+  if (row->group == LocalSystem || row->group == Mirror) return append(row->group, words);
+  set(row->group, std::move(words), can_be_sent(*row, block));
+}
+
+/// M functions that are known to stay in force.
+void ModalScan::skip_function(const Word& word, const Block& block) {
+  using enum ModalGroup;
+  const int code = tenths(word.value) / 10;
+  const auto speed = std::ranges::find(block, 'S', &Word::letter);
+  if (code >= 3 && code <= 5) set(Spindle, word.text());
+  if (code == 7) set(Mist, word.text());
+  if (code == 8 || code == 9) set(Coolant, word.text());
+  if (code == 9) drop(Mist);
+  if (code == 48 || code == 49) set(Overrides, word.text());
+  if (code == 29 && is_fanuc_) {
+    set(RigidTapping, speed == block.end() ? word.text() : word.text() + " " + speed->text(),
+        false);
+  }
+  if (!is_rs274ngc_) return;
+  if (code >= 50 && code <= 53) name_unknown(word.text());
+  const auto tool = std::ranges::find(block, 'Q', &Word::letter);
+  if (code == 61 && tool != block.end()) set(Tool, word.text() + " " + tool->text(), false);
+}
+
+/// H alone is another length where one is in force.
+void ModalScan::skip_length(const Block& block) {
+  const auto number = std::ranges::find(block, 'H', &Word::letter);
+  const auto length = in_force_.find(ModalGroup::Length);
+  if (number == block.end() || length == in_force_.end() || length->second.line == line_) return;
+  set(ModalGroup::Length, length->second.words + " " + number->text(), false);
 }
 
 /// A T that no M6 followed is the next tool, or on a lathe the tool.
@@ -169,68 +237,12 @@ void ModalScan::skip_tool(const Block& block) {
   drop(ModalGroup::NextTool);
 }
 
-/// ProtoTRAK: what comes before the first event is the header; events carry F, T and TC,
-/// and begin where the one before ended.
-void ModalScan::skip_event(std::string_view text, const Block& block) {
-  const bool is_event = std::ranges::any_of(
-      block, [](const Word& word) { return word.letter == 'G' && tenths(word.value) >= 1000; });
-  has_events_ = has_events_ || is_event;
-  const std::string_view bare = trim(text);
-  if (!has_events_) {
-    if (block.empty() || bare.starts_with('%')) return;
-    const auto before = in_force_.find(ModalGroup::Header);
-    set(ModalGroup::Header, before == in_force_.end()
-                                ? std::string(bare)
-                                : before->second.words + "\n" + std::string(bare));
-    return;
-  }
-  for (const Word& word : block) {
-    if (word.letter == 'F') set(ModalGroup::Feed, word.text(), false);
-    if (word.letter == 'T' && word.is_number && !word.value.empty()) {
-      set(ModalGroup::Tool, word.text(), false);
-    }
-    if (word.letter == 'C' && &word != block.data() && (&word)[-1].letter == 'T') {
-      set(ModalGroup::EventOffset, "T" + word.text(), false);
-    }
-  }
-  if (is_event)
-    set(ModalGroup::EventBegin, "the end of the event, where the next one begins", false);
-}
-
-/// A TNC's program is one from its first block to its END line: nothing of it is sent again.
-void ModalScan::skip_plain_language(std::string_view text) {
-  std::string_view bare = trim(text.substr(0, text.find(';')));
-  const auto first = bare.find_first_not_of("0123456789 ");
-  if (first == std::string_view::npos) return;
-  const std::string_view words = bare.substr(first);
-  if (words.starts_with("BEGIN PGM") || bare.starts_with('%')) {
-    return set(ModalGroup::Header, std::string(words), false);
-  }
-  if (words.starts_with("TOOL CALL")) return set(ModalGroup::Tool, std::string(words), false);
-  if (words.starts_with("CC") || words.starts_with("FN") || words.starts_with("CYCL DEF") ||
-      words.starts_with("CALL") || words.starts_with("G")) {
-    return name_unknown(words);
-  }
-  for (std::size_t at = 0; at < words.size();) {
-    const auto end = std::min(words.find(' ', at), words.size());
-    const std::string_view word = words.substr(at, end - at);
-    if (word == "R0" || word == "RL" || word == "RR" || word == "R") {
-      set(ModalGroup::Compensation, std::string(word), false);
-    }
-    if (word.size() > 1 && word[0] == 'F') set(ModalGroup::Feed, std::string(word), false);
-    if (word == "M3" || word == "M4" || word == "M5" || word == "M03" || word == "M04") {
-      set(ModalGroup::Spindle, std::string(word), false);
-    }
-    at = end + 1;
-  }
-}
-
 bool ModalScan::look(std::string_view text) {
   if (text_.kind == TextKind::PlainLanguage || in_force_.empty() || ++looked_ > kMaxLooked)
     return false;
   const Block block = read(text);
   if (text_.kind == TextKind::Events) return look_event(block);
-  for (const Word& word : block) look_word(word);
+  for (const Word& word : block) look_word(word, block);
   const bool changes = std::ranges::any_of(
       block, [](const Word& word) { return word.letter == 'M' && tenths(word.value) == 60; });
   const bool has_tool =
@@ -245,29 +257,38 @@ bool ModalScan::look(std::string_view text) {
   return !in_force_.empty();
 }
 
-void ModalScan::look_word(const Word& word) {
+void ModalScan::look_word(const Word& word, const Block& block) {
   using enum ModalGroup;
   if (word.letter == 'F') drop(Feed);
-  if (word.letter == 'S') drop(Speed);
-  if (word.letter == 'M' && word.is_number) {
-    const int code = tenths(word.value) / 10;
-    if (code >= 3 && code <= 5) drop(Spindle);
-    if (code >= 7 && code <= 9) drop(Coolant);
-    if (code == 48 || code == 49) drop(Overrides);
-  }
-  const ModalCode* row = code_of(word);
-  if (row == nullptr) return;
-  drop(row->group);
+  if (word.letter == 'M' && word.is_number) look_function(tenths(word.value) / 10);
+  const auto row = code_of(word, block);
+  const bool is_limit = std::ranges::any_of(block, [&](const Word& other) {
+    const auto code = code_of(other, block);
+    return code && code->group == SpeedLimit;
+  });
+  if (word.letter == 'S') drop(is_limit ? SpeedLimit : Speed);
+  if (!row) return;
+  // One axis more is no new beginning of these.
+  if (row->group != LocalSystem && row->group != Mirror) drop(row->group);
   if (row->group != Motion) return;
   drop(Cycle);
   is_moving_ = word.value.find_first_not_of("0.") != std::string::npos;
 }
 
+void ModalScan::look_function(int code) {
+  using enum ModalGroup;
+  if (code >= 3 && code <= 5) drop(Spindle);
+  if (code == 7 || code == 9) drop(Mist);
+  if (code == 8 || code == 9) drop(Coolant);
+  if (code == 48 || code == 49) drop(Overrides);
+  if (code == 29) drop(RigidTapping);
+}
+
 bool ModalScan::is_feed_move(const Block& block) const {
   const bool drills = in_force_.contains(ModalGroup::Cycle);
   const bool begins_cycle = std::ranges::any_of(block, [&](const Word& word) {
-    const ModalCode* row = code_of(word);
-    return row != nullptr && row->group == ModalGroup::Cycle && row->resend == Resend::Never;
+    const auto row = code_of(word, block);
+    return row && row->group == ModalGroup::Cycle && row->resend == Resend::Never;
   });
   return is_moving_ || drills || begins_cycle;
 }
@@ -285,22 +306,6 @@ void ModalScan::decide(bool is_feed_move) {
     word = in_force_.erase(word);
   }
   is_axis_decided_ = true;
-}
-
-/// The header is always needed: a program without it is read in other units.
-bool ModalScan::look_event(const Block& block) {
-  bool is_event = false, has_begin = false;
-  for (const Word& word : block) {
-    if (word.letter == 'G' && tenths(word.value) >= 1000) is_event = true;
-    if (word.letter == 'B' && &word != block.data() && (&word)[-1].letter == 'X') has_begin = true;
-    if (word.letter == 'F') drop(ModalGroup::Feed);
-    if (word.letter == 'T' && !word.value.empty()) drop(ModalGroup::Tool);
-    if (word.letter == 'C' && &word != block.data() && (&word)[-1].letter == 'T') {
-      drop(ModalGroup::EventOffset);
-    }
-  }
-  if (has_begin) drop(ModalGroup::EventBegin);
-  return !is_event;
 }
 
 std::vector<ModalWord> ModalScan::relied_on() const {

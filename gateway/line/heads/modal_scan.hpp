@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,26 +51,34 @@ class ModalScan {
   using Block = std::vector<Word>;
 
   Block read(std::string_view text);
-  const ModalCode* code_of(const Word& word) const;
+  std::optional<ModalCode> code_of(const Word& word, const Block& block) const;
+  bool is_known_one_shot(int code) const;
+  bool can_be_sent(const ModalCode& row, const Block& block) const;
+  void append(ModalGroup group, std::string words);
   void set(ModalGroup group, std::string words, bool can_be_sent = true);
   void skip_word(const Word& word, const Block& block, std::string_view text);
+  void skip_function(const Word& word, const Block& block);
   void skip_tool(const Block& block);
+  void skip_length(const Block& block);
   void skip_event(std::string_view text, const Block& block);
   void skip_plain_language(std::string_view text);
   void name_unknown(std::string_view text);
   void drop(ModalGroup group) { in_force_.erase(group); }
-  void look_word(const Word& word);
+  void look_word(const Word& word, const Block& block);
+  void look_function(int code);
   bool look_event(const Block& block);
   bool is_feed_move(const Block& block) const;
   void decide(bool is_feed_move);
 
   const interpreter::TextForm text_;
+  const bool is_fanuc_, is_rs274ngc_;
   std::uint64_t line_ = 0;
   std::uint64_t looked_ = 0;
   bool is_moving_ = false;  ///< G0 to G3: the last motion code of all is not G0
   bool is_axis_decided_ = false;
   bool has_events_ = false;
-  std::map<ModalGroup, ModalWord> in_force_;  ///< of the skipped part, not yet programmed again
+  std::map<ModalGroup, ModalWord> in_force_;    ///< of the skipped part, not yet programmed again
+  std::map<ModalGroup, std::size_t> appended_;  ///< blocks that a group's words consist of
   std::vector<ModalWord> relied_, unknown_;
 };
 

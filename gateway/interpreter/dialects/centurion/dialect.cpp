@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "gateway/interpreter/dialects/centurion/codes/g_codes.hpp"
 #include "gateway/interpreter/dialects/centurion/errors.hpp"
 #include "gateway/interpreter/dialects/centurion/interpreter.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
@@ -84,6 +85,18 @@ std::string refusal_words(Refusal refusal) {
   return {};
 }
 
+/// Floating zero, local coordinates and files of parameters stay, though their codes are of one
+/// block.
+bool is_one_shot(int tenths) {
+  if (tenths < 0 || tenths % 10 != 0) return false;
+  const unsigned code = static_cast<unsigned>(tenths) / 10;
+  const std::uint8_t index = centurion::g_row_index(code);
+  if (index == centurion::kNoRow) return false;
+  const centurion::GRow& row = centurion::g_row(index);
+  const bool stays = code == 12 || code == 49 || code == 50 || code == 52 || code == 65;
+  return row.group == centurion::ModalGroup::OneShot && !stays && code < 990;
+}
+
 constexpr std::array kStatusFields{status_field::kCompensation, status_field::kToolLengthX,
                                    status_field::kToolLengthZ,  status_field::kToolRadius,
                                    status_field::kWorkSystem,   status_field::kIncremental,
@@ -105,6 +118,7 @@ const Dialect kCenturionDialect{
     .panel_tables = &read_panel_tables,
     .options = &list_options,
     .refusal_words = &refusal_words,
+    .text = {.is_one_shot = &is_one_shot},
     .status_fields = kStatusFields};
 
 }  // namespace dripline::interpreter

@@ -1,6 +1,7 @@
 #include "gateway/line/heads/modal_scan.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 namespace dripline::line {
 namespace {
@@ -75,7 +76,45 @@ INSTANTIATE_TEST_SUITE_P(
                   {"N001G20X1000I500"},
                   {"N002X2000"},
                   "G20 (line 1)"},
-        ModalCase{"no_diameter_on_a_mill", "fanuc", {"G7.1", "G8 P1"}, {"X1."}, ""},
+        ModalCase{
+            "look_ahead", "fanuc", {"G8 P1", "G5.1 Q1"}, {"X1."}, "G5.1 Q1 (line 2)", "G5.1 Q1\n"},
+        ModalCase{"speed_limit_beside_the_speed",
+                  "fanuc-t",
+                  {"G50 S2000", "G96 S150 M3"},
+                  {"G1 X1. F.2"},
+                  "G50 S2000 (line 1), G96 S150 (line 2), S150 (line 2), M3 (line 2)",
+                  "G50 S2000\nG96 S150 M3\n"},
+        ModalCase{"speed_limit_of_g92",
+                  "fanuc-t",
+                  {"G92 S2000", "G92 S1500"},
+                  {"G1 X1."},
+                  "G92 S1500 (line 2)"},
+        ModalCase{"local_system_axis_by_axis",
+                  "fanuc",
+                  {"G52 X10.", "G52 Y5."},
+                  {"G0 X1."},
+                  "G52 X10. G52 Y5. (line 2)",
+                  "G52 X10.\nG52 Y5.\n"},
+        ModalCase{"mirrors_axis_by_axis",
+                  "fanuc",
+                  {"G51.1 X0", "G51.1 Y0", "G50.1 X0"},
+                  {"G0 X1."},
+                  "G51.1 X0 G51.1 Y0 G50.1 X0 (line 3)",
+                  "G51.1 X0\nG51.1 Y0\nG50.1 X0\n"},
+        ModalCase{"a_further_axis_does_not_end_a_mirror",
+                  "fanuc",
+                  {"G51.1 X0"},
+                  {"G51.1 Y0", "G0 X1."},
+                  "G51.1 X0 (line 1)"},
+        ModalCase{"limit_of_g96",
+                  "rs274ngc",
+                  {"G96 D2500 S150"},
+                  {"G1X1."},
+                  "G96 D2500 S150 (line 1), S150 (line 1)",
+                  "G96 D2500 S150\n"},
+        ModalCase{"flood_and_mist", "fanuc", {"M8", "M7"}, {"G1X1."}, "M8 (line 1), M7 (line 2)"},
+        ModalCase{"coolants_off", "fanuc", {"M8", "M7", "M9"}, {"G1X1."}, "M9 (line 3)"},
+        ModalCase{"mist_in_the_rest", "fanuc", {"M8"}, {"M7", "G1X1."}, "M8 (line 1)"},
         ModalCase{"diameter", "rs274ngc", {"G7"}, {"X1."}, "G7 (line 1)"},
         ModalCase{"prototrak_header",
                   "prototrak-plus",
@@ -109,6 +148,79 @@ TEST(ModalScan, KnowsWhatCannotBeSentByItself) {
   EXPECT_TRUE(words[0].can_be_sent);
   EXPECT_FALSE(words[1].can_be_sent);
   EXPECT_FALSE(words[2].can_be_sent);
+}
+
+struct UnsendableCase {
+  const char* name;
+  const char* control;
+  const char* block;
+};
+
+class UnsendableTest : public testing::TestWithParam<UnsendableCase> {};
+
+TEST_P(UnsendableTest, IsNamedAndNotSentAgain) {
+  ModalScan scan(GetParam().control);
+  scan.skip("X30. Y40.");
+  scan.skip(GetParam().block);
+  scan.look("G1 X1. F5");
+  const auto words = scan.relied_on();
+  EXPECT_TRUE(std::ranges::any_of(words, [](const ModalWord& word) {
+    return word.line == 2 && !word.can_be_sent;
+  })) << words_text(words);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , UnsendableTest,
+    testing::Values(UnsendableCase{"tilted_plane", "fanuc", "G68.2 X0 Y0 Z0 I0 J30. K0"},
+                    UnsendableCase{"tip_control", "fanuc", "G43.4 H1"},
+                    UnsendableCase{"polar_interpolation", "fanuc", "G12.1"},
+                    UnsendableCase{"cylinder", "fanuc", "G7.1 C20."},
+                    UnsendableCase{"preset_of_a_lathe", "fanuc-t", "G50 X200. Z100."},
+                    UnsendableCase{"preset_with_a_limit", "fanuc-t", "G50 X200. Z100. S2000"},
+                    UnsendableCase{"preset_of_a_centurion", "centurion", "G50 X2. Z3."},
+                    UnsendableCase{"mirror_of_a_centurion", "centurion", "G511 X0"},
+                    UnsendableCase{"local_system_of_a_centurion", "centurion", "G12"},
+                    UnsendableCase{"rotation_without_center", "fanuc", "G68 R45."},
+                    UnsendableCase{"rotation_in_space", "fanuc", "G68 X0 Y0 I1 J0 K0 R45."},
+                    UnsendableCase{"scaling_without_center", "fanuc", "G51 P2000"},
+                    UnsendableCase{"rigid_tapping", "fanuc", "M29 S500"},
+                    UnsendableCase{"length_on_length", "rs274ngc", "G43.2 H2"},
+                    UnsendableCase{"tool_without_a_change", "rs274ngc", "M61 Q4"},
+                    UnsendableCase{"feed_override_locked", "rs274ngc", "M50 P0"},
+                    UnsendableCase{"length_of_another_control", "fanuc", "G43.1 Z5."},
+                    UnsendableCase{"polar_coordinates", "fanuc", "G16"},
+                    UnsendableCase{"stroke_zone", "fanuc", "G22 X1. Y1. Z1. I0 J0 K0"},
+                    UnsendableCase{"unknown_code", "fanuc", "G123"}),
+    [](const auto& i) { return std::string(i.param.name); });
+
+TEST(ModalScan, NothingStaysOfCodesOfOneBlock) {
+  ModalScan fanuc("fanuc");
+  for (const char* block : {"G28 Z0", "G4 P500", "G53 X0", "G9 X1.", "G31 X5.", "G30 Z0"})
+    fanuc.skip(block);
+  fanuc.look("G1 X1.");
+  EXPECT_EQ(words_text(fanuc.relied_on()), "");
+  ModalScan centurion("centurion");
+  for (const char* block : {"G28 X0", "G4 X1", "G90 X1 Z2", "G76 X1 Z2", "G45"})
+    centurion.skip(block);
+  centurion.look("G1 X1.");
+  EXPECT_EQ(words_text(centurion.relied_on()), "");
+}
+
+TEST(ModalScan, ALengthByItsNumberAloneIsNotSent) {
+  ModalScan scan("fanuc");
+  for (const char* block : {"G43 H2 Z5.", "X1.", "H3"}) scan.skip(block);
+  scan.look("G0 X1.");
+  ASSERT_EQ(words_text(scan.relied_on()), "G43 H2 H3 (line 3)");
+  EXPECT_FALSE(scan.relied_on().front().can_be_sent);
+}
+
+/// More blocks than are kept.
+TEST(ModalScan, ALongChainOfLocalSystemsIsNotSent) {
+  ModalScan scan("fanuc");
+  for (int i = 0; i < 40; ++i) scan.skip("G52 X1.");
+  scan.look("G1 X1.");
+  ASSERT_EQ(scan.relied_on().size(), 1u);
+  EXPECT_FALSE(scan.relied_on().front().can_be_sent);
 }
 
 }  // namespace
