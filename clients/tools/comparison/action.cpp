@@ -127,6 +127,16 @@ std::string spindle_text(const Action& action) {
   return text + fmt::format(", {:g} rpm", action.numbers[0]);
 }
 
+/// Of an axis that moves: one that stays does not take in a length that has come into force.
+bool has_other_length(const Action& a, const Action& b, double tolerance) {
+  for (std::size_t i = 0; i < a.lengths.size(); ++i) {
+    const auto axis = static_cast<Axis>(i);
+    const bool moves = a.from.raw(axis) != a.to.raw(axis) || b.from.raw(axis) != b.to.raw(axis);
+    if (moves && !(std::abs(a.lengths[i] - b.lengths[i]) <= tolerance)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string_view word_of(Difference difference) {
@@ -149,8 +159,9 @@ double path_distance(const Action& a, const Action& b) {
 
 bool is_alike(const Action& a, const Action& b, const Agreement& agreement) {
   if (a.kind != b.kind) return false;
-  return differences(a, b, agreement)
-      .is_within(Differences(Difference::Feed) | Difference::ExactStop);
+  Differences allowed = Differences(Difference::Feed) | Difference::ExactStop;
+  if (is_move(a.kind)) allowed |= Difference::Offset;
+  return differences(a, b, agreement).is_within(allowed);
 }
 
 Differences differences(const Action& a, const Action& b, const Agreement& agreement) {
@@ -163,6 +174,7 @@ Differences differences(const Action& a, const Action& b, const Agreement& agree
       found |= Difference::Path;
     if (!is_equal(a.feed, b.feed)) found |= Difference::Feed;
     if (a.rests != b.rests && !agreement.across_controls) found |= Difference::ExactStop;
+    if (has_other_length(a, b, agreement.tolerance)) found |= Difference::Offset;
     return found;
   }
   const bool is_end = a.kind == ActionKind::End;

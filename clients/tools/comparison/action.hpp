@@ -49,6 +49,7 @@ struct Action {
   interpreter::Turn turn = interpreter::Turn::Clockwise;
   Place place;
   interpreter::Position from, to;   ///< moves
+  std::array<double, 3> lengths{};  ///< moves: of the tool in force, which both leave out; X Y Z
   std::array<double, 2> center{};   ///< along the plane's axes
   double sweep = 0;                 ///< radians
   Feed feed;                        ///< lines, arcs, probes
@@ -113,7 +114,8 @@ struct Agreement {
 /// two senses, or revolutions that differ by more than a quarter.
 double path_distance(const Action& a, const Action& b);
 
-/// The same action but for its feed and whether the axes rest: what aligns two programs.
+/// The same action but for its feed, a move's tool length and whether the axes rest: what aligns
+/// two programs.
 bool is_alike(const Action& a, const Action& b, const Agreement& agreement);
 
 /// What differs between two actions of one kind; empty: nothing.

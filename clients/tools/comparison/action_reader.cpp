@@ -36,6 +36,7 @@ Result<void> ActionReader::begin(const MotionOptions& options) {
       {.max_blocks = options.max_blocks, .max_repeated_blocks = options.max_repeated_blocks});
   if (!run) return fail(run.error());
   run_.emplace(*std::move(run));
+  recorder_.watch(run_->interpreter());
   return {};
 }
 
@@ -69,6 +70,16 @@ void ActionReader::drop(std::size_t count) {
   last_place_ = queue_[count - 1].place;
   queue_.drop(count);
   dropped_ += count;
+}
+
+ActionReader::Kept ActionReader::kept() {
+  Kept kept;
+  auto* memory = dynamic_cast<interpreter::RetainedMemory*>(&run_->interpreter());
+  if (memory == nullptr) return kept;
+  kept.cells = memory->memory_cells();
+  kept.values.resize(kept.cells.size(), interpreter::kVacant);
+  memory->read_memory(kept.values);
+  return kept;
 }
 
 void ActionReader::add_conditions(bool is_second, std::vector<Condition>& conditions) const {

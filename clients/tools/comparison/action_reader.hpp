@@ -6,6 +6,7 @@
 
 #include "clients/tools/comparison/action_recorder.hpp"
 #include "clients/tools/comparison/motion_comparison.hpp"
+#include "gateway/interpreter/core/retained_memory.hpp"
 
 namespace dripline::comparison {
 
@@ -31,6 +32,12 @@ class ActionReader {
   std::uint64_t blocks() const { return recorder_.blocks(); }
   /// What the comparison depends on besides program and setup; when the program is over.
   void add_conditions(bool is_second, std::vector<Condition>& conditions) const;
+  /// What the control keeps when the program is over; empty where it keeps nothing.
+  struct Kept {
+    std::vector<interpreter::MemoryCell> cells;
+    std::vector<double> values;
+  };
+  Kept kept();
   /// Of the last action that was dropped.
   const Place& last_place() const { return last_place_; }
 

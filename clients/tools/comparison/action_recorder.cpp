@@ -43,6 +43,7 @@ Action& ActionRecorder::move(ActionKind kind, const interpreter::Origin& origin,
   Action& action = push(kind, origin);
   action.from = at_;
   action.to = to;
+  if (interpreter_ != nullptr) action.lengths = interpreter_->modes().lengths();
   at_ = to;
   return action;
 }
@@ -89,6 +90,7 @@ void ActionRecorder::on_probe(const interpreter::Probe& event) {
   action.to = event.to;
   action.feed = event.feed;
   action.code = static_cast<int>(event.until);
+  if (interpreter_ != nullptr) action.lengths = interpreter_->modes().lengths();
   at_ = event.result->at;
 }
 

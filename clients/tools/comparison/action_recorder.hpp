@@ -6,6 +6,7 @@
 
 #include "clients/tools/comparison/action.hpp"
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/core/interpreter.hpp"
 
 namespace dripline::comparison {
 
@@ -34,6 +35,8 @@ class ActionRecorder final : public interpreter::EventSink {
   ActionRecorder(ActionQueue& queue, const interpreter::Position& start, bool across_controls)
       : queue_(queue), at_(start), across_controls_(across_controls) {}
 
+  /// Whose modes say which length of the tool is in force. It must outlive the events.
+  void watch(const interpreter::Interpreter& interpreter) { interpreter_ = &interpreter; }
   std::uint64_t blocks() const { return blocks_; }
   /// How many texts had a block that was executed: the program and those it calls.
   interpreter::ProgramIndex programs() const { return programs_; }
@@ -72,6 +75,7 @@ class ActionRecorder final : public interpreter::EventSink {
   bool is_repeated(const Action& state, Action& last, bool& is_known);
 
   ActionQueue& queue_;
+  const interpreter::Interpreter* interpreter_ = nullptr;
   interpreter::Position at_;
   bool across_controls_;
   std::uint64_t blocks_ = 0;

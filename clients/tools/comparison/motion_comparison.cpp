@@ -1,5 +1,6 @@
 #include "clients/tools/comparison/motion_comparison.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -94,6 +95,7 @@ class Pass {
   bool is_permuted(const Gap& gap) const;
   void report_pair(std::size_t i, std::size_t j);
   void report_between(const Gap& from, const Gap& to);
+  void compare_kept();
   void add(MotionPlace place);
   MotionPlace place_at(std::size_t i, std::size_t j, const Gap& gap);
 
@@ -107,6 +109,7 @@ bool Pass::step() {
   for (std::size_t i = 0; i < kStride; ++i) {
     const std::size_t a = first_.fill(1), b = second_.fill(1);
     if (a == 0 && b == 0) {
+      compare_kept();
       first_.add_conditions(false, result_.conditions);
       second_.add_conditions(true, result_.conditions);
       return true;
@@ -264,6 +267,30 @@ void Pass::report_between(const Gap& from, const Gap& to) {
   for (std::size_t j = from.second; j < to.second; ++j)
     place.differences |= difference_of(second_[j].kind);
   add(std::move(place));
+}
+
+/// Variables and offsets that stay: the next program moves by them.
+void Pass::compare_kept() {
+  if (agreement_.across_controls) return;
+  const ActionReader::Kept first = first_.kept(), second = second_.kept();
+  const bool has_same_cells =
+      std::ranges::equal(first.cells, second.cells, {}, &interpreter::MemoryCell::name,
+                         &interpreter::MemoryCell::name);
+  if (!has_same_cells) return;
+  for (std::size_t i = 0; i < first.values.size(); ++i) {
+    const double a = first.values[i], b = second.values[i];
+    if (a == b || (std::isnan(a) && std::isnan(b))) continue;
+    MotionPlace place = place_at(0, 0, {});
+    place.differences = Difference::Function;
+    place.first_actions = place.second_actions = 1;
+    const auto left = [&](double value) {
+      return std::isnan(value) ? fmt::format("leaves {} empty", first.cells[i].name)
+                               : fmt::format("leaves {} = {:.6g}", first.cells[i].name, value);
+    };
+    place.first_text = left(a);
+    place.second_text = left(b);
+    add(std::move(place));
+  }
 }
 
 void Pass::add(MotionPlace place) {

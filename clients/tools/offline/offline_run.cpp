@@ -183,6 +183,10 @@ Result<bool> OfflineRun::step(std::uint64_t max_blocks) {
   return parts_->step(max_blocks);
 }
 
+Interpreter& OfflineRun::interpreter() {
+  return *parts_->interpreter;
+}
+
 OfflineOutcome OfflineRun::outcome() const {
   return {.ended = parts_->has_ended,
           .has_stopped = parts_->gate.has_stopped(),

@@ -94,6 +94,8 @@ class OfflineRun {
   /// Executes up to `max_blocks`. True: the run is over. Errors: as run_offline; it is over then.
   Result<bool> step(std::uint64_t max_blocks);
   OfflineOutcome outcome() const;
+  /// Of this run; between two calls of `step`, and within one for what an event needs.
+  Interpreter& interpreter();
 
  private:
   struct Parts;

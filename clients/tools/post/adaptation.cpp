@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "clients/tools/post/arc_fit.hpp"
@@ -89,6 +90,26 @@ bool Adaptation::check_target(const Origin& origin, const Position& to) {
   return true;
 }
 
+/// The program that is written calls each tool with its own length, from its first move of Z on.
+bool Adaptation::check_length(const Origin& origin, const Position& to) {
+  if (source_ == nullptr || target().is_lathe) return true;
+  const auto lengths = source_->modes().lengths();
+  std::array<double, 3> written{};
+  const auto tool = std::ranges::find(*tools_, tool_, &interpreter::ToolRecord::number);
+  if (tool_ != 0 && tool != tools_->end())
+    written[2] = tool->length.raw(Axis::Z) + tool->wear.raw(Axis::Z);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const auto axis = static_cast<Axis>(i);
+    const bool moves = to.has(axis) && to.raw(axis) != at_.raw(axis);
+    if (!moves || std::fabs(lengths[i] - written[i]) <= options_.tolerance) continue;
+    refuse(origin, fmt::format("a move of {} with a length of {:.4f} mm in force: the program for "
+                               "{} has that of tool {}, {:.4f} mm",
+                               letter(axis), lengths[i], target().name, tool_, written[i]));
+    return false;
+  }
+  return true;
+}
+
 /// What F means when a rotary axis moves differs between controls, even where the number is one.
 bool Adaptation::check_feed_axes(const Origin& origin, const Position& to) {
   for (const Axis axis : interpreter::kAllAxes) {
@@ -150,6 +171,7 @@ std::optional<Feed> Adaptation::feed_of(const Origin& origin, Feed feed, double 
 
 void Adaptation::on_rapid(const interpreter::Rapid& event) {
   if (!is_open() || !check_target(event.origin, event.to)) return;
+  if (!check_length(event.origin, event.to)) return;
   if (is_short(event.to)) {
     if (!event.to.same_point(at_)) ++counts_.short_moves;
     return;
@@ -162,6 +184,7 @@ void Adaptation::on_rapid(const interpreter::Rapid& event) {
 
 void Adaptation::move_line(const Line& line) {
   if (!is_open() || !check_target(line.origin, line.to)) return;
+  if (!check_length(line.origin, line.to)) return;
   if (is_short(line.to)) {
     if (!line.to.same_point(at_)) ++counts_.short_moves;
     return;
@@ -184,6 +207,7 @@ void Adaptation::on_line(const Line& event) {
 /// Pieces of the sweep that the target has in one arc.
 void Adaptation::on_arc(const Arc& event) {
   if (!is_open() || !check_target(event.origin, event.to)) return;
+  if (!check_length(event.origin, event.to)) return;
   if (!check_feed_axes(event.origin, event.to)) return;
   if (event.rests) ++counts_.exact_stops;
   constexpr double kNoise = 1e-9;
@@ -257,6 +281,7 @@ bool Adaptation::can_be_arc(const Arc& arc, std::string& reason) const {
 
 void Adaptation::arc_piece(const Arc& arc) {
   if (!is_open() || !check_target(arc.origin, arc.to)) return;
+  if (!check_length(arc.origin, arc.to)) return;
   const bool is_closed = is_short(arc.to);
   const double from_chord = distance_from_chord(at_, arc);
   const double unseen = std::min(options_.tolerance, grid_.center_step()) / 2;

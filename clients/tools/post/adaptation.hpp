@@ -2,8 +2,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "clients/tools/post/grid.hpp"
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/stages/event_filter.hpp"
 
 namespace dripline::post {
@@ -47,6 +50,13 @@ class Adaptation final : public interpreter::EventGate {
   Adaptation(interpreter::EventSink& out, const Grid& grid, const AdaptationOptions& options,
              const interpreter::Position& start);
 
+  /// Whose modes say which length is in force, and the tools of the target, which calls each with
+  /// its own. Both must outlive the events; without them lengths are not looked at.
+  void watch(const interpreter::Interpreter& source,
+             const std::vector<interpreter::ToolRecord>& tools) {
+    source_ = &source;
+    tools_ = &tools;
+  }
   const std::optional<Refusal>& refusal() const { return refusal_; }
   const AdaptationCounts& counts() const { return counts_; }
 
@@ -75,6 +85,7 @@ class Adaptation final : public interpreter::EventGate {
   const Target& target() const { return grid_.target(); }
   bool is_short(const interpreter::Position& to) const;
   bool check_target(const interpreter::Origin& origin, const interpreter::Position& to);
+  bool check_length(const interpreter::Origin& origin, const interpreter::Position& to);
   bool check_feed_axes(const interpreter::Origin& origin, const interpreter::Position& to);
   std::optional<double> rounded(const interpreter::Origin& origin, std::string_view name,
                                 double value, const NumberRange& range, std::string_view unit,
@@ -86,6 +97,9 @@ class Adaptation final : public interpreter::EventGate {
   void move_line(const interpreter::Line& line);
 
   Grid grid_;
+  const interpreter::Interpreter* source_ = nullptr;
+  const std::vector<interpreter::ToolRecord>* tools_ = nullptr;
+  int tool_ = 0;
   AdaptationOptions options_;
   interpreter::Position start_;
   interpreter::Position at_;  ///< the last that passed

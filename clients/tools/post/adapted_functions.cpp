@@ -126,6 +126,7 @@ void Adaptation::on_coolant(const interpreter::Coolant& event) {
 
 void Adaptation::on_tool(const interpreter::ToolChange& event) {
   if (event.is_preselection || !is_open()) return;
+  tool_ = event.number;
   if (target().max_tool == 0 || event.number < 0 || event.number > target().max_tool) {
     return refuse(event.origin,
                   target().max_tool == 0

@@ -130,6 +130,8 @@ tl::expected<void, NotConverted> run_source(const SourceProgram& source, const S
                                             const ConversionOptions& options) {
   auto run = interpreter::OfflineRun::begin(source.dialect, setup, source.source, adaptation);
   if (!run) return refused(run.error());
+  const auto& tools = options.target_setup.tools.empty() ? setup.tools : options.target_setup.tools;
+  adaptation.watch(run->interpreter(), tools);
   for (bool is_over = false; !is_over;) {
     if (options.is_to_stop && options.is_to_stop()) return refused(Errc::Timeout, "interrupted");
     const auto stepped = run->step(kStepBlocks);

@@ -27,8 +27,11 @@ Result<comparison::MotionResult> prove(const SourceProgram& source, const Writte
       [&](EventSink& out, const Position& start) -> std::unique_ptr<EventSink> {
         return std::make_unique<Adaptation>(out, written.grid, written.adaptation, start);
       }};
+  // Where the target's tools are not known, they are those of the source.
+  interpreter::Setup target_setup = written.target_setup;
+  if (target_setup.tools.empty()) target_setup.tools = written.source_setup.tools;
   const comparison::MotionSide second{
-      **dialect, written.target_setup, text,
+      **dialect, target_setup, text,
       [&](EventSink& out, const Position& start) -> std::unique_ptr<EventSink> {
         return std::make_unique<TargetView>(out, written.grid.target(), start);
       }};

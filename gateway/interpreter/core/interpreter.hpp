@@ -81,6 +81,13 @@ struct ActiveModes {
   std::string_view cycle;           ///< static storage; empty: no cycle
   std::optional<Axis> tool_axis;    ///< the spindle's, where programs choose it
   std::uint32_t frame_changes = 0;  ///< another number: Interpreter::frame has changed
+  /// Of the tool, along X (a lathe's as a radius), Y and Z, mm.
+  std::array<double, 3> lengths() const {
+    std::array<double, 3> lengths{tool_length_x.mm(), tool_length_y.mm(), 0};
+    const auto axis = static_cast<std::size_t>(length_axis);
+    if (axis < lengths.size()) lengths[axis] += tool_length_z.mm();
+    return lengths;
+  }
   friend bool operator==(const ActiveModes&, const ActiveModes&) = default;
 };
 

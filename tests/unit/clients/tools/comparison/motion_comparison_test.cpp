@@ -120,6 +120,64 @@ INSTANTIATE_TEST_SUITE_P(
         OneChange{"order", "X10.\nY10.\nM5\n", "X10.\nM5\nY10.\n", "order"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
+/// Tools 1 and 2 of length 50 and 80.
+interpreter::Setup with_tools() {
+  interpreter::Setup setup;
+  for (const auto& [number, length] : {std::pair(1, 50.0), std::pair(2, 80.0)}) {
+    interpreter::ToolRecord tool;
+    tool.number = number;
+    tool.length.set(interpreter::Axis::Z, Length::mm(length));
+    setup.tools.push_back(tool);
+  }
+  return setup;
+}
+
+class LengthDifference : public testing::TestWithParam<OneChange> {};
+TEST_P(LengthDifference, IsAnOffsetOfEachMoveOfItsAxis) {
+  const std::string part = "G21 G90\nT1 M6\nG0 X0 Y0\nG43 H1 Z10.\nG1 Z-5. F100.\nX5.\nM30\n";
+  const auto result = compare(
+      {"fanuc", part}, {"fanuc", replaced(part, GetParam().from, GetParam().to)}, {}, with_tools());
+  EXPECT_FALSE(result.is_same);
+  EXPECT_EQ(words_of(result), Words{GetParam().expected});
+}
+INSTANTIATE_TEST_SUITE_P(, LengthDifference,
+                         testing::Values(OneChange{"none", "G43 H1 Z10.", "Z10.", "offset"},
+                                         OneChange{"subtracted", "G43", "G44", "offset"},
+                                         OneChange{"of_another_tool", "H1", "H2", "offset"},
+                                         OneChange{"dropped", "G1 Z-5.", "G49 G1 Z-5.", "offset"}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(MotionComparison, ALengthThatNoMoveTakesInIsNoDifference) {
+  const std::string part = "G21 G90\nT1 M6\nG43 H1 Z10.\nG49\nX5.\nM30\n";
+  EXPECT_TRUE(
+      compare({"fanuc", part}, {"fanuc", replaced(part, "G49\n", "")}, {}, with_tools()).is_same);
+}
+
+TEST(MotionComparison, ToolCallsDifferByTheirLengths) {
+  const std::string part =
+      "BEGIN PGM A MM\nTOOL DEF 1 L+10 R+3\nTOOL CALL 1 Z S1000\nL Z+5 R0 FMAX\nL X+5 F100\n"
+      "END PGM A MM\n";
+  const auto longer = compare({"itnc", part}, {"itnc", replaced(part, "S1000", "S1000 DL+3")});
+  EXPECT_EQ(words_of(longer), Words{"offset"});
+  const auto other = compare({"itnc", part}, {"itnc", replaced(part, "1 Z S", "1 Y S")});
+  EXPECT_FALSE(other.is_same);
+}
+
+/// The next program moves by them.
+TEST(MotionComparison, WhatTheControlKeepsIsCompared) {
+  const std::string part = "G21\n#501=3.\nG0 X1.\nM30\n";
+  const auto result = compare_fanuc(part, replaced(part, "=3.", "=4."));
+  EXPECT_EQ(words_of(result), Words{"function"});
+  ASSERT_EQ(result.places.size(), 1u);
+  EXPECT_EQ(result.places[0].first_text, "leaves #501 = 3");
+  EXPECT_EQ(result.places[0].second_text, "leaves #501 = 4");
+  const auto without = compare_fanuc(part, replaced(part, "#501=3.\n", ""));
+  EXPECT_EQ(without.places.at(0).second_text, "leaves #501 empty");
+  const auto ngc =
+      compare({"rs274ngc", "G21\n#5161=7\nG0 X1\nM2\n"}, {"rs274ngc", "G21\n#5161=8\nG0 X1\nM2\n"});
+  EXPECT_FALSE(ngc.is_same);
+}
+
 TEST(MotionComparison, APathWithinTheToleranceIsTheSame) {
   const std::string other = replaced(kPart, "X10.\n", "X10.001\n");
   EXPECT_TRUE(compare_fanuc(kPart, other, {.tolerance = 0.0011}).is_same);

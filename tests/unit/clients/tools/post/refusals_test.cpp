@@ -108,6 +108,54 @@ TEST(AsSetUp, DoesNotWriteWhatOnlyTheMachineKnows) {
   EXPECT_FALSE(converted.is_proved);
 }
 
+constexpr std::string_view kTools =
+    "[[tool]]\nnumber = 1\nlength = 50.0\n[[tool]]\nnumber = 12\nlength = 120.0\n";
+
+struct LengthCase {
+  const char* name;
+  const char* control;
+  const char* text;
+  const char* reason;  ///< empty: converted
+};
+
+class Lengths : public testing::TestWithParam<LengthCase> {};
+
+/// A program that is written calls each tool with its own length.
+TEST_P(Lengths, AreThoseOfTheToolOrRefused) {
+  auto setup = setup_from(kTools);
+  ConversionOptions options;
+  options.is_as_set_up = true;
+  for (const char* target : {"fanuc", "linuxcnc", "tnc155"}) {
+    const auto converted = convert({GetParam().control, GetParam().text, setup}, target, options);
+    const std::string reason = converted.reason();
+    if (*GetParam().reason == '\0') {
+      EXPECT_TRUE(converted.is_proved) << target << ": " << reason;
+    } else {
+      EXPECT_NE(reason.find(GetParam().reason), std::string::npos) << target << ": " << reason;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , Lengths,
+    testing::Values(
+        LengthCase{"its_own", "fanuc", "O1\nT1 M6\nG0 X0 Y0\nG43 H1 Z10.\nG1 Z-5. F100.\nM30\n",
+                   ""},
+        LengthCase{"of_another_number", "fanuc", "O1\nT1 M6\nG43 H12 Z10.\nG1 Z-5. F100.\nM30\n",
+                   "a length of 120.0000 mm in force"},
+        LengthCase{"subtracted", "fanuc", "O1\nT1 M6\nG44 H1 Z10.\nM30\n",
+                   "a length of -50.0000 mm in force"},
+        LengthCase{"never_called", "fanuc", "O1\nT1 M6\nG0 Z10.\nM30\n",
+                   "a length of 0.0000 mm in force"},
+        LengthCase{"canceled", "fanuc", "O1\nT1 M6\nG43 H1 Z10.\nG49 G0 Z100.\nM30\n",
+                   "a length of 0.0000 mm in force"},
+        LengthCase{"by_itself", "rs274ngc",
+                   "T1 M6\nG43 H1\nG0 X0 Y0 Z10\nG43.1 Z7\nG1 Z-5 F100\nM2\n", "line"},
+        LengthCase{"corrected", "itnc",
+                   "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 DL+3\nL Z+5 R0 FMAX\nEND PGM A MM\n",
+                   "a length of 53.0000 mm in force"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
 TEST(FindTarget, NamesWhatCanBeWritten) {
   const auto unknown = find_target("sinumerik");
   ASSERT_FALSE(unknown);
