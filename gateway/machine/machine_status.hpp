@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/machine/tool_lengths.hpp"
 
 namespace dripline::machine {
 
@@ -28,7 +29,10 @@ enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, Countercloc
 
 struct MachineStatus {
   MachineState state = MachineState::Idle;
-  interpreter::Position position;      ///< actual
+  interpreter::Position position;  ///< actual
+  /// What `position` and `target` leave out: an axis is at position + length. None where `begin`
+  /// places the axes.
+  ToolLengths lengths{};
   interpreter::Position target;        ///< where the present move ends; at rest: the position
   double feed_per_minute = 0;          ///< actual speed along the path, mm or degrees
   double spindle_rpm = 0;              ///< actual; negative: counterclockwise
@@ -43,6 +47,9 @@ struct MachineStatus {
   std::optional<int> tool, next_tool, tool_offset;  ///< as far as programs have named them
   interpreter::Spindle spindle;                     ///< as programmed
   bool flood = false, mist = false;
+
+  /// Where the axes are.
+  interpreter::Position axes() const { return plus(position, lengths); }
 };
 
 }  // namespace dripline::machine

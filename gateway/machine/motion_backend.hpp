@@ -34,6 +34,9 @@ struct MotionCapabilities {
       false;                  ///< `poll` lets machine time pass: another speed than 1x is possible
   bool places_axes = false;   ///< `begin` puts the axes where it is asked to
   bool tool_lengths = false;  ///< a tool's length in force is taken into account
+  /// ... by axes of its own, which go to the program's position + length (`set_lengths`). False:
+  /// the axes are those of the program, and a length has no place.
+  bool adds_lengths = false;
 };
 
 /// What a back end without signals answers.
@@ -46,6 +49,8 @@ class MotionCheck {
  public:
   virtual ~MotionCheck() = default;
   virtual interpreter::EventSink& events() = 0;
+  /// As MotionBackend's.
+  virtual void set_lengths(const ToolLengths&) {}
   /// The first thing that the machine cannot do, with its line.
   virtual const std::optional<interpreter::Diagnostic>& refusal() const = 0;
 };
@@ -68,8 +73,8 @@ class MotionBackend {
 
   virtual const MotionCapabilities& capabilities() const = 0;
 
-  /// Whether a program can begin with the axes at `at`. Errors: Conflict (they are elsewhere, and
-  /// this back end cannot place them), Busy (an alarm, no link).
+  /// Whether a program can begin with the axes at `at`, lengths of tools included. Errors: Conflict
+  /// (they are elsewhere, and this back end cannot place them), Busy (an alarm, no link).
   virtual Result<void> check_begin(const interpreter::Position& at) const = 0;
   /// For a look through a program that begins at `at`, before its first move. Null: what the
   /// machine cannot do is found at its place only.
@@ -79,6 +84,8 @@ class MotionBackend {
   /// A new program that begins at `at`: clears queue, stops, alarm, hold and spindle; keeps the
   /// panel.
   virtual void begin(const interpreter::Position& at) = 0;
+  /// After `begin`: the position of the program leaves these lengths out.
+  virtual void begin_lengths(const ToolLengths&) {}
 
   /// The same for a text that the control continues with (MDI): spindle and coolant run on, and the
   /// tool is shown.
@@ -87,6 +94,9 @@ class MotionBackend {
   // -- what the interpreter does --------------------------------------------------------------
   /// Hand this to the interpreter. Events after an alarm or abort are dropped until `begin`.
   virtual interpreter::EventSink& events() = 0;
+  /// The positions of the events and probes that follow leave these lengths out. Between two
+  /// moves; with `adds_lengths` only.
+  virtual void set_lengths(const ToolLengths&) {}
   /// One more block fits: the limit of the read-ahead. Step one block, then ask again.
   virtual bool has_room() const = 0;
   /// Queues the probe move of an open ProbeQuestion. Its end comes as ExecutionSink::on_probed.

@@ -98,7 +98,7 @@ Result<std::vector<interpreter::VariableRecord>> PositionSetter::begin_memory(
 Result<void> PositionSetter::check_rest() const {
   const machine::MotionBackend& machine = parts_.machine;
   if (machine.is_moving()) return fail(Errc::Busy, "the axes move");
-  if (auto ready = machine.check_begin(machine.status().position); !ready)
+  if (auto ready = machine.check_begin(machine.status().axes()); !ready)
     return fail(ready.error().code, "the position is not known for certain: {}",
                 ready.error().what);
   return {};

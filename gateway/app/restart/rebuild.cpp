@@ -32,7 +32,7 @@ Rebuild::Rebuild(Parts parts) : parts_(std::move(parts)) {
   report_.at = parts_.plan.at;
   report_.cut_off_at = parts_.plan.ending.executed.executed;
   report_.on_record = parts_.plan.on_record;
-  report_.machine = parts_.machine.status().position;
+  report_.machine = parts_.machine.status().axes();
   report_.stopped_at = parts_.plan.ending.stopped_at;
 }
 
@@ -276,7 +276,20 @@ Rebuild::State Rebuild::advance() {
   return State::Working;
 }
 
+/// From here on positions are those of the program, which leave its lengths out. Where the control
+/// has read ahead over another change of them, the approach is refused (AxisLengths).
+void Rebuild::take_lengths() {
+  if (!parts_.machine.capabilities().adds_lengths) return;
+  if (parts_.interpreter.origin().block <= target_)
+    lengths_ = machine::axis_lengths_of(parts_.interpreter.modes());
+  const machine::ToolLengths lengths = lengths_.value_or(parts_.machine.status().lengths);
+  report_.machine = machine::minus(report_.machine, lengths);
+  if (report_.stopped_at) report_.stopped_at = machine::minus(*report_.stopped_at, lengths);
+  parts_.begin_lengths(report_.machine, lengths);
+}
+
 void Rebuild::on_open(interpreter::EventSink& out) {
+  take_lengths();
   report_.delivered = parts_.tracker.delivered();
   report_.after = parts_.tracker.delivered().ended;
   report_.has_ended = parts_.tracker.has_ended();
@@ -295,7 +308,7 @@ void Rebuild::on_open(interpreter::EventSink& out) {
   approach.spindle_turns = report_.delivered.spindle.state != interpreter::SpindleState::Off;
   report_.approach = approach.plan();
   write_approach(report_.approach, report_.delivered, report_.after, out);
-  const auto& stopped_at = parts_.plan.ending.stopped_at;
+  const auto& stopped_at = report_.stopped_at;
   const bool is_end = report_.after.block == parts_.plan.ending.executed.executed;
   parts_.tracker.measure(report_.after.block + 1,
                          is_end && stopped_at ? *stopped_at : report_.machine);
@@ -309,6 +322,7 @@ Rebuild::State Rebuild::open() {
     if (step == Step::Failed) return State::Failed;
     if (step == Step::NeedsText) return State::NeedsText;
     if (parts_.interpreter.blocks() == target_) {
+      lengths_ = machine::axis_lengths_of(parts_.interpreter.modes());
       report_.modes = parts_.interpreter.modes();
       report_.frame = parts_.interpreter.frame();
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +30,8 @@ class Rebuild {
     storage::sqlite::Database& database;
     const machine::MotionBackend& machine;
     bool is_lathe = false;
+    /// The axes are at the program's position + these lengths: before the approach.
+    std::function<void(const interpreter::Position&, const machine::ToolLengths&)> begin_lengths;
   };
   /// All references must outlive it.
   explicit Rebuild(Parts parts);
@@ -77,6 +80,7 @@ class Rebuild {
   Step run_to(std::uint64_t block, bool may_lack_answers = false);
   bool answer();
   void on_open(interpreter::EventSink& out);
+  void take_lengths();
   Result<void> compare_ending() const;
 
   Parts parts_;
@@ -95,6 +99,8 @@ class Rebuild {
   GivenAnswers used_;
   interpreter::StepState last_step_ = interpreter::StepState::Ran;
   std::optional<interpreter::Axis> tool_axis_;
+  /// Of the last block that is not executed again.
+  std::optional<machine::ToolLengths> lengths_;
   std::size_t preview_steps_ = 0;
   RestartReport report_;
 };

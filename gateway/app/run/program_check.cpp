@@ -5,6 +5,7 @@
 namespace dripline::gateway {
 
 using interpreter::StepState;
+using machine::ToolLengths;
 
 void ProgramCheck::Refusals::on_alarm(const interpreter::Alarm& alarm) {
   if (!first && alarm.diagnostic.id.starts_with("MCH")) first = alarm.diagnostic;
@@ -14,7 +15,15 @@ void ProgramCheck::Refusals::on_alarm(const interpreter::Alarm& alarm) {
 ProgramCheck::ProgramCheck(Parts parts)
     : parts_(std::move(parts)),
       refusals_(parts_.machine->events()),
-      filter_(parts_.capabilities, refusals_, [this] { return interpreter_->modes(); }) {}
+      filter_(parts_.capabilities, refusals_,
+              [this] {
+                return machine::CapabilityFilter::Now{interpreter_->modes(),
+                                                      interpreter_->origin().block};
+              },
+              {parts_.dialect.length_shifts_position, parts_.dialect.moves_with_length,
+               [this](const ToolLengths& lengths) { parts_.machine->set_lengths(lengths); }}) {
+  filter_.begin(parts_.at, parts_.lengths);
+}
 
 std::optional<interpreter::Diagnostic> ProgramCheck::found() const {
   const auto& refused = parts_.machine->refusal();
@@ -24,12 +33,11 @@ std::optional<interpreter::Diagnostic> ProgramCheck::found() const {
 
 ProgramCheck::State ProgramCheck::work(SteadyTime now) {
   // A length is looked for after each block: the next one may end it while a motion still waits.
-  const std::uint64_t at_once = parts_.capabilities.tool_lengths ? 1024 : 1;
   if (is_over()) return state_;
   if (!began_) began_ = now;
   if (now - *began_ > kLimit) return state_ = State::Passed;
-  const StepState step = interpreter_->step(at_once);
-  (void)filter_.takes_length(interpreter_->origin());
+  const StepState step = interpreter_->step(1);
+  (void)filter_.note_block(interpreter_->origin());
   if (const auto refusal = found()) {
     refusal_.origin.line = refusal->line;
     refusal_.diagnostic = *refusal;

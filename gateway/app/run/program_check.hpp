@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/interpreter.hpp"
 #include "gateway/machine/capability_filter.hpp"
 #include "protocol/base/clock.hpp"
@@ -19,7 +20,10 @@ class ProgramCheck {
   struct Parts {
     std::unique_ptr<machine::MotionCheck> machine;
     const machine::MotionCapabilities& capabilities;  ///< of the machine, which outlives the check
-    std::vector<std::string> answers;                 ///< of the setup, to the program's prompts
+    const interpreter::Dialect& dialect;
+    interpreter::Position at = {};      ///< of the program at its beginning, which
+    machine::ToolLengths lengths = {};  ///< leaves these out
+    std::vector<std::string> answers;   ///< of the setup, to the program's prompts
   };
   explicit ProgramCheck(Parts parts);
   ProgramCheck(const ProgramCheck&) = delete;

@@ -16,7 +16,7 @@ Conditions RunLoop::conditions_of(const StartOrigin& origin) const {
   if (!origin.setup.empty()) conditions.server_setup = sha256(origin.setup).hex();
   conditions.gateway_setup = parts_.setup_digest;
   conditions.block_skip = parts_.machine.panel().block_skip;
-  conditions.begun_at = parts_.machine.status().position;
+  conditions.begun_at = parts_.machine.status().axes();
   if (!origin.from.place.empty() || origin.from.part) conditions.start = origin.argument;
   return conditions;
 }
@@ -110,7 +110,7 @@ void RunLoop::resolve_interrupted(const std::string& run, RunEnding& ending) {
     (void)parts_.machine.poll(machine::Seconds{0}, 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  if (at) ending.stopped_at = parts_.machine.status().position;
+  if (at) ending.stopped_at = parts_.machine.status().axes();
   (void)resolve(ending.in_hand, at, ending.executed);
 }
 
@@ -124,7 +124,7 @@ void RunLoop::stage_ending(dds::RunOutcome outcome) {
   ending.executed = parts_.recorder.reached();
   ending.time_us = parts_.clock.now().time_since_epoch().count();
   ending.is_completed = is_completed;
-  ending.stopped_at = parts_.machine.status().position;
+  ending.stopped_at = parts_.machine.status().axes();
   ending.memory = parts_.memory.digest();
   const std::string& run = session.run().run;
   if (!is_completed) ending.in_hand = in_hand(run, ending.executed.executed);

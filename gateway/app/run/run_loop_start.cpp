@@ -43,7 +43,7 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
   setup.switches.dry_run = false;
   // Axes that nothing places begin where they are, unless the setup names a start to compare with.
   if (!parts_.machine.capabilities().places_axes && setup.start == interpreter::Position{}) {
-    setup.start = restart ? restart->conditions.begun_at : parts_.machine.status().position;
+    setup.start = restart ? restart->conditions.begun_at : parts_.machine.status().axes();
     setup.start.unmark_all();
   }
   if (origin.from.is_mdi) {
@@ -62,7 +62,7 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
     const bool is_former = from.memory == StartMemory::Begin;
     setup.control.set("start_memory", {std::string(is_former ? "begin" : "now"), 0});
   }
-  setup.position = restart ? restart->conditions.begun_at : parts_.machine.status().position;
+  setup.position = restart ? restart->conditions.begun_at : parts_.machine.status().axes();
   return setup;
 }
 
@@ -94,15 +94,19 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
                                                    : setup->position.value_or(setup->start);
   const bool drops_tool = is_mdi && modes == nullptr && parts_.machine.capabilities().tool_lengths;
   if (drops_tool) tool.drop_tool(at);
+  // A program that does not continue with the modes begins without a tool.
+  const bool keeps_tool = is_restart || (goes_on && !drops_tool);
+  const ToolLengths lengths = keeps_tool ? parts_.machine.status().lengths : ToolLengths{};
+  const interpreter::Position axes = machine::plus(at, lengths);
   if (is_mdi) {
     setup->start = at;
     setup->start.unmark_all();
   }
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
   if (is_restart) conditions.restart_of = origin.from.restart->run;
-  if (auto done = parts_.machine.check_begin(at); !done) return done;
+  if (auto done = parts_.machine.check_begin(axes); !done) return done;
   // A line cannot be read again, and the run of a restart was looked through before.
-  auto check = is_restart || !parts_.keeps_checkpoints ? nullptr : parts_.machine.make_check(at);
+  auto check = is_restart || !parts_.keeps_checkpoints ? nullptr : parts_.machine.make_check(axes);
   auto session = RunSession::make(
       {.run = run,
        .feed = std::move(feed),
@@ -118,6 +122,8 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
        .is_mdi = is_mdi,
        .modes = modes,
        .tool = stays ? std::optional(tool) : std::nullopt,
+       .at = at,
+       .lengths = lengths,
        .dry_run = dry_run()},
       parts_.dialect, *setup);
   if (!session) {
@@ -137,7 +143,8 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   setup_given_ = sha256(origin.setup).hex();
   modes_.reset();
   why_no_modes_ = "the last run was cut off";
-  goes_on ? parts_.machine.begin_next(at) : parts_.machine.begin(at);
+  goes_on ? parts_.machine.begin_next(axes) : parts_.machine.begin(axes);
+  parts_.machine.begin_lengths(lengths);
   parts_.run.session = std::move(*session);
   parts_.run.session->size_feed(parts_.options.speed.factor);
   parts_.run.last_message.clear();
@@ -233,6 +240,10 @@ void RunLoop::note_left() {
   parts_.run.frame_left = session.frame_at(block);
   parts_.run.was_shifted = session.modes_at(block).is_shifted;
   parts_.run.tool = session.tool_at_end(has_ended_itself ? std::nullopt : std::optional(block));
+  if (!parts_.machine.capabilities().adds_lengths) return;
+  // Such a machine knows where its axes are, wherever it was cut off.
+  parts_.run.tool.left_out = parts_.machine.status().lengths;
+  parts_.run.tool.unknown.reset();
 }
 
 /// Before the session is gone.

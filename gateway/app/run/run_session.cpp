@@ -80,6 +80,9 @@ Result<void> RunSession::begin_check(const Make& make, const interpreter::Setup&
   auto check = std::make_unique<ProgramCheck>(
       ProgramCheck::Parts{.machine = std::move(parts_.check),
                           .capabilities = parts_.machine.capabilities(),
+                          .dialect = dialect_,
+                          .at = parts_.at,
+                          .lengths = parts_.lengths,
                           .answers = setup_.answers});
   auto made = make(setup, check->events());
   if (!made) return fail(made.error());
@@ -106,10 +109,17 @@ RunSession::RunSession(Parts parts, const interpreter::Dialect& dialect,
     : parts_(std::move(parts)),
       setup_(setup),
       begun_ms_(milliseconds(parts_.clock.now())),
+      dialect_(dialect),
       events_(parts_.machine.capabilities(), parts_.machine.events(),
-              [this] { return interpreter_->modes(); }),
+              [this] {
+                return machine::CapabilityFilter::Now{interpreter_->modes(),
+                                                      interpreter_->origin().block};
+              },
+              {dialect.length_shifts_position, dialect.moves_with_length,
+               [this](const ToolLengths& lengths) { parts_.machine.set_lengths(lengths); }}),
       tracker_(front_of(dry_run_, parts_.dry_run, events_)),
       tool_history_(dialect.length_shifts_position) {
+  events_.begin(parts_.at, parts_.lengths);
   if (parts_.checkpoints != nullptr)
     checkpoints_.emplace(parts_.run.run, *parts_.checkpoints, parts_.clock);
 }
@@ -132,7 +142,7 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
         note_modes();
         note_memory();
         // Also of a motion that waits for the next blocks, which may end the length.
-        if (!events_.takes_length(interpreter_->origin())) {
+        if (!events_.note_block(interpreter_->origin())) {
           is_over_ = true;
           return blocks;
         }
@@ -254,7 +264,7 @@ bool RunSession::resolve(const interpreter::ProbeQuestion& question) {
     is_over_ = true;
     return false;
   }
-  if (!is_probing_ && !events_.takes_length(question.probe.origin)) {
+  if (!is_probing_ && !events_.takes_probe(question.probe)) {
     is_over_ = true;
     return false;
   }
@@ -265,6 +275,7 @@ bool RunSession::resolve(const interpreter::ProbeQuestion& question) {
   const auto probed = parts_.recorder.take_probed();
   if (!probed || !probed->result) return false;
   is_probing_ = false;
+  events_.note_probed(probed->result->at);
   return give(*probed->result);
 }
 

@@ -45,6 +45,8 @@ class RunSession {
         nullptr;  ///< in which the control is; null: as at power on
     /// How the position relates to the axes; nothing: these are at the start of the program.
     std::optional<ToolInPosition> tool = {};
+    interpreter::Position at = {};  ///< of the program at its beginning, which
+    ToolLengths lengths = {};       ///< leaves these out (MotionCapabilities::adds_lengths)
     /// In a dry run of a machine that knows none: the events' own feeds change.
     std::optional<interpreter::PanelTables::DryRun> dry_run = {};
   };
@@ -164,6 +166,7 @@ class RunSession {
   std::uint64_t timed_ = 0;
   double clock_ahead_ = 0;     ///< of the computer's clock, seconds: machine time that was faster
   std::int64_t begun_ms_ = 0;  ///< since 1970, by the computer's clock
+  const interpreter::Dialect& dialect_;
   machine::CapabilityFilter events_;  ///< from the tracker to the machine
   std::optional<interpreter::DryRun> dry_run_;
   EventTracker tracker_;  ///< from the interpreter

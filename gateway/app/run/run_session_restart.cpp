@@ -28,14 +28,18 @@ void RunSession::take_checkpoint() {
 Result<void> RunSession::begin_rebuild() {
   if (parts_.checkpoints == nullptr)
     return fail(Errc::Unsupported, "a restart: this gateway keeps no checkpoints");
-  rebuild_ =
-      std::make_unique<Rebuild>(Rebuild::Parts{.plan = *std::exchange(parts_.restart, std::nullopt),
-                                               .interpreter = *interpreter_,
-                                               .tracker = tracker_,
-                                               .feed = feed(),
-                                               .database = parts_.checkpoints->database(),
-                                               .machine = parts_.machine,
-                                               .is_lathe = parts_.is_lathe});
+  rebuild_ = std::make_unique<Rebuild>(
+      Rebuild::Parts{.plan = *std::exchange(parts_.restart, std::nullopt),
+                     .interpreter = *interpreter_,
+                     .tracker = tracker_,
+                     .feed = feed(),
+                     .database = parts_.checkpoints->database(),
+                     .machine = parts_.machine,
+                     .is_lathe = parts_.is_lathe,
+                     .begin_lengths = [this](const auto& at, const auto& lengths) {
+                       parts_.machine.begin_lengths(lengths);
+                       events_.begin(at, lengths);
+                     }});
   if (rebuild_->state() == Rebuild::State::Failed)
     return fail(Errc::Corrupt, "{}", rebuild_->fault());
   return {};

@@ -24,13 +24,6 @@ constexpr std::uint64_t kLastBlock = std::numeric_limits<std::uint64_t>::max();
 
 }  // namespace
 
-ToolLengths lengths_of(const interpreter::ActiveModes& modes) {
-  ToolLengths lengths{modes.tool_length_x.mm(), modes.tool_length_y.mm(), 0};
-  const auto axis = static_cast<std::size_t>(modes.length_axis);
-  if (axis < lengths.size()) lengths[axis] += modes.tool_length_z.mm();
-  return lengths;
-}
-
 std::string to_text(const ToolLengths& lengths, bool is_lathe) {
   std::string text;
   for (std::size_t i = 0; i < lengths.size(); ++i) {

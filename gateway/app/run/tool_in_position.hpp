@@ -8,19 +8,18 @@
 
 #include "gateway/app/restart/event_tracker.hpp"
 #include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/machine/tool_lengths.hpp"
 
 namespace dripline::gateway {
 
-/// Lengths of a tool along X (a lathe's as a radius), Y and Z, mm.
-using ToolLengths = std::array<double, 3>;
-ToolLengths lengths_of(const interpreter::ActiveModes& modes);
+using machine::lengths_of;
+using machine::ToolLengths;
 /// "X 10, Z 25.4 mm"; empty: there is none. A diameter where `is_lathe`.
 std::string to_text(const ToolLengths& lengths, bool is_lathe);
 
 /// How the reported position relates to the axes. A position leaves the length of the tool out: an
 /// axis is at position + length. So a length may only be set, and a position only be taken for that
-/// of another tool, where it is known which length the position leaves out. Of a machine that is
-/// moved by its program's coordinates alone (MotionCapabilities::tool_lengths false).
+/// of another tool, where it is known which length the position leaves out.
 struct ToolInPosition {
   ToolLengths in_force{};  ///< at the control
   /// Of the position. Where a length shifts the position at once (Dialect), the shift shows with

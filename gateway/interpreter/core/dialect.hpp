@@ -137,6 +137,9 @@ struct Dialect {
   /// A tool's length that comes into force shifts the position at once, while the axes stay; else
   /// the position stays, and the axes follow.
   bool length_shifts_position = false;
+  /// It is certain for each move which length an axis of a real machine takes in: machines with
+  /// axes of their own move with lengths in force (machine::AxisLengths).
+  bool moves_with_length = false;
 };
 
 }  // namespace dripline::interpreter

@@ -75,6 +75,9 @@ struct ActiveModes {
   Length tool_length_z;           ///< wear included; along `length_axis`
   Axis length_axis = Axis::Z;     ///< of a mill that takes its length along another axis too
   bool is_length_plain = true;    ///< an axis is at position + length; false: not so simple
+  /// Bit 0 = X: what makes it not so simple is alone that these axes were brought to machine
+  /// coordinates, where they are without the length.
+  std::uint8_t bare_axes = 0;
   bool is_shifted = false;  ///< coordinates are not those of the datum; where no frame says so
   Length tool_radius;
   Feed feed;                        ///< as programmed

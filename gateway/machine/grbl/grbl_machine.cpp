@@ -20,7 +20,9 @@ constexpr MotionCapabilities kCapabilities{.axes = {},
                                            .single_block = true,
                                            .handwheel = false,
                                            .simulated_time = false,
-                                           .places_axes = false};
+                                           .places_axes = false,
+                                           .tool_lengths = true,
+                                           .adds_lengths = true};
 
 std::unique_ptr<streamed::CommandWriter> make_commands() {
   return std::make_unique<BoardCommands>();

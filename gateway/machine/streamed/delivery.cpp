@@ -182,6 +182,7 @@ bool StreamedMachine::deliver_motion(Lock& lock) {
     is_released_ = true;
     pump(lock);
   }
+  shown_.lengths = action.lengths;
   const bool is_executed =
       motion.sent == motion.lines.size() && device_.executed() >= motion.last_serial;
   if (!is_executed) return false;
@@ -280,8 +281,10 @@ bool StreamedMachine::deliver_probe(Lock& lock) {
   if (!check_position(end)) return device_.fault().has_value();
   interpreter::Probe probe = move.probe;
   interpreter::Position at = probe.to;
+  const ToolLengths lengths = queue_.front().lengths;
   for (std::size_t i = 0; i < kMaxAxes; ++i)
-    if (const auto axis = static_cast<interpreter::Axis>(i); at.has(axis)) at.set_raw(axis, end[i]);
+    if (const auto axis = static_cast<interpreter::Axis>(i); at.has(axis))
+      at.set_raw(axis, end[i] - (i < lengths.size() ? lengths[i] : 0));
   probe.result = interpreter::ProbeResult{tripped, at};
   (void)finish_front(lock);
   tell(lock, [&](ExecutionSink& sink) { sink.on_probed(probe); });
@@ -341,6 +344,7 @@ bool StreamedMachine::finish_front(Lock& lock) {
   const bool ends_block = action.ends_block;
   const bool may_stop = action.may_stop_after;
   const double seconds = action.seconds;
+  shown_.lengths = action.lengths;
   queued_seconds_ = queue_.size() == 1 ? 0 : std::max(0.0, queued_seconds_ - action.seconds);
   if (const auto* motion = std::get_if<Motion>(&action.body)) queued_lines_ -= motion->lines.size();
   queue_.pop_front();

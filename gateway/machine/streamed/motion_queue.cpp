@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/machine/streamed/arc_path.hpp"
 
 namespace dripline::machine::streamed {
@@ -21,12 +22,27 @@ GivenAction::Arc shape_of(const ArcPath& path) {
           .sweep = path.sweep};
 }
 
+template <class Event>
+Event on_axes(Event event, const ToolLengths& lengths) {
+  event.to = plus(event.to, lengths);
+  return event;
+}
+
+interpreter::Arc on_axes(interpreter::Arc arc, const ToolLengths& lengths) {
+  const interpreter::PlaneAxes axes = axes_of(arc.plane);
+  arc.to = plus(arc.to, lengths);
+  arc.center_first += Length::mm(lengths[static_cast<std::size_t>(axes.first)]);
+  arc.center_second += Length::mm(lengths[static_cast<std::size_t>(axes.second)]);
+  return arc;
+}
+
 }  // namespace
 
 void QueueBuilder::begin(const TextRules& rules, const Coordinates& at) {
   commands_->begin(rules);
   motion_ = MotionWriter(rules);
   motion_.begin(at);
+  lengths_ = {};
   made_.clear();
   lines_ = 0;
   inhibit_ = {};
@@ -40,6 +56,7 @@ Action* QueueBuilder::add(const Origin& origin) {
   Action& action = made_.emplace_back();
   action.origin = origin;
   action.may_stop_after = !inhibit_.single_block;
+  action.lengths = lengths_;
   return &action;
 }
 
@@ -82,14 +99,15 @@ void QueueBuilder::add_command(const Event& event, std::optional<Refusal> (Comma
 }
 
 void QueueBuilder::on_rapid(const interpreter::Rapid& event) {
-  add_motion(event, MotionKind::Rapid, &MotionWriter::rapid);
+  add_motion(on_axes(event, lengths_), MotionKind::Rapid, &MotionWriter::rapid);
 }
 
 void QueueBuilder::on_line(const interpreter::Line& event) {
-  add_motion(event, MotionKind::Line, &MotionWriter::line);
+  add_motion(on_axes(event, lengths_), MotionKind::Line, &MotionWriter::line);
 }
 
-void QueueBuilder::on_arc(const interpreter::Arc& event) {
+void QueueBuilder::on_arc(const interpreter::Arc& given) {
+  const interpreter::Arc event = on_axes(given, lengths_);
   const bool is_clockwise = event.turn == interpreter::Turn::Clockwise;
   const Coordinates from = motion_.at();
   const std::size_t before = made_.size();
@@ -198,7 +216,7 @@ void QueueBuilder::begin_probe(const interpreter::Probe& probe) {
   if (is_closed_) return;
   ProbeMove move{.probe = probe, .text = {}};
   move.probe.result.reset();
-  if (auto refusal = motion_.probe(probe, move.text))
+  if (auto refusal = motion_.probe(on_axes(probe, lengths_), move.text))
     return refuse(probe.origin, *std::move(refusal));
   Action* action = add(probe.origin);
   action->seconds = move.text.seconds;
@@ -209,6 +227,7 @@ void QueueBuilder::on_block_end(const Origin& origin) {
   if (is_closed_) return;
   if (!made_.empty() && !made_.back().ends_block && made_.back().origin.block == origin.block) {
     made_.back().ends_block = true;
+    made_.back().lengths = lengths_;
     made_.back().origin = origin;
     return;
   }

@@ -57,13 +57,15 @@ struct Action {
   bool ends_block = false;
   bool may_stop_after = true;  ///< single block is not inhibited
   double seconds = 0;          ///< at 100 % override
+  ToolLengths lengths{};       ///< the program's position leaves them out
   std::variant<BlockEnd, Motion, Command, ProbeMove, TextEvent, interpreter::Stop,
                interpreter::OverrideInhibit, interpreter::End, AlarmEvent>
       body;
 };
 
 /// Makes actions of the interpreter's events, on the owner's thread. What the device cannot do
-/// becomes an alarm in its place; after it nothing is taken.
+/// becomes an alarm in its place; after it nothing is taken. Events have positions of the program,
+/// actions those of the axes: here the lengths of tools are added.
 class QueueBuilder final : public interpreter::EventSink {
  public:
   explicit QueueBuilder(std::unique_ptr<CommandWriter> commands)
@@ -71,6 +73,7 @@ class QueueBuilder final : public interpreter::EventSink {
 
   void begin(const TextRules& rules, const Coordinates& at);
   void close() { is_closed_ = true; }
+  void set_lengths(const ToolLengths& lengths) { lengths_ = lengths; }
   /// For a check: actions are made and dropped.
   void keep_nothing() { keeps_actions_ = false; }
   /// What the device cannot do, after which nothing is taken.
@@ -125,6 +128,7 @@ class QueueBuilder final : public interpreter::EventSink {
   void add_text(const interpreter::Origin& origin, TextEvent text);
 
   MotionWriter motion_;
+  ToolLengths lengths_{};
   std::unique_ptr<CommandWriter> commands_;
   std::deque<Action> made_;
   std::size_t lines_ = 0;

@@ -22,6 +22,7 @@ class Check final : public MotionCheck {
     builder_.keep_nothing();
   }
   interpreter::EventSink& events() override { return builder_; }
+  void set_lengths(const ToolLengths& lengths) override { builder_.set_lengths(lengths); }
   const std::optional<interpreter::Diagnostic>& refusal() const override {
     return builder_.refusal();
   }
@@ -91,6 +92,12 @@ void StreamedMachine::begin(const Position& at) {
   origin_ = {};
   executed_ = 0;
   set_active(false);
+}
+
+void StreamedMachine::begin_lengths(const ToolLengths& lengths) {
+  const Lock lock(mutex_);
+  builder_.set_lengths(lengths);
+  shown_.lengths = lengths;
 }
 
 void StreamedMachine::set_active(bool is_active) {
@@ -278,11 +285,11 @@ MachineStatus StreamedMachine::status() const {
   const TextRules& rules = device_.rules();
   MachineStatus status = shown_;
   status.state = current_state();
-  status.position = position_of(device_.position(), rules);
+  status.position = minus(position_of(device_.position(), rules), status.lengths);
   status.target = status.position;
   if (!queue_.empty())
     if (const auto* motion = std::get_if<Motion>(&queue_.front().body))
-      status.target = position_of(motion->end, rules);
+      status.target = minus(position_of(motion->end, rules), queue_.front().lengths);
   if (device_.is_moving()) status.feed_per_minute = device_.feed_per_minute();
   const bool is_reversed = shown_.spindle.state == interpreter::SpindleState::Counterclockwise;
   status.spindle_rpm = is_reversed ? -device_.spindle_rpm() : device_.spindle_rpm();

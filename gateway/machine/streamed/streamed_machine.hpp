@@ -35,7 +35,9 @@ class StreamedMachine : public MotionBackend {
   Result<void> check_begin(const interpreter::Position& at) const override;
   std::unique_ptr<MotionCheck> make_check(const interpreter::Position& at) const override;
   void begin(const interpreter::Position& at) override;
+  void begin_lengths(const ToolLengths& lengths) override;
   interpreter::EventSink& events() override { return builder_; }
+  void set_lengths(const ToolLengths& lengths) override { builder_.set_lengths(lengths); }
   bool has_room() const override;
   void begin_probe(const interpreter::Probe& probe) override { builder_.begin_probe(probe); }
   bool input(int pin) const override;

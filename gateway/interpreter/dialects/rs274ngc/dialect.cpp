@@ -108,6 +108,7 @@ const Dialect kRs274NgcDialect{.name = "rs274ngc",
                                .options = &list_options,
                                .text = {.has_diameter_codes = true},
                                .status_fields = kStatusFields,
-                               .length_shifts_position = true};
+                               .length_shifts_position = true,
+                               .moves_with_length = true};
 
 }  // namespace dripline::interpreter

@@ -95,6 +95,7 @@ bool GatewayFixture::run_until(const std::function<bool()>& done, milliseconds s
   const SteadyTime limit = clock.steady + std::chrono::minutes(1);
   while (clock.steady < limit) {
     gateway->turn(clock.steady);
+    if (each_turn) each_turn();
     serve();
     if (done()) return true;
     clock.steady += step;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -89,6 +90,7 @@ class GatewayFixture : public dds::GatewayEndpoint {
   std::string setup_digest = std::string(64, 'b');  ///< as if a file had its text
   machine::MotionFactory motion;  ///< empty: the simulated machine; from the next gateway on
   std::unique_ptr<Gateway> gateway;
+  std::function<void()> each_turn;  ///< of `run_until`: what a device does meanwhile
   std::filesystem::path folder() const { return folder_.path(); }
   ExecutionProbe::Counts execution_probe() const;
 

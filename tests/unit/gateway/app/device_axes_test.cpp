@@ -1,0 +1,142 @@
+// Axes of a real machine, a board of the Grbl class, with lengths of tools: they are at the
+// program's position + length, and everything that the gateway shows and keeps agrees with it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gateway/machine/grbl/grbl_machine.hpp"
+#include "tests/support/grbl/board.hpp"
+#include "tests/unit/gateway/app/position_fixture.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+using interpreter::Dialect;
+using machine::grbl::GrblMachine;
+using test_support::GrblBoard;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr const char* kTools =
+    "[[tool]]\nnumber = 1\nlength = 50.0\n[[tool]]\nnumber = 2\nlength = 80.0\n";
+
+class Axes : public testing::Test {
+ protected:
+  void start(const Dialect& control, const std::string& toml = kTools,
+             GrblBoard::Options options = {}) {
+    board.emplace(std::move(options));
+    shop = std::make_unique<Shop>(control, toml, "1x");
+    shop->motion = [this](machine::ExecutionSink& sink) {
+      auto made = std::make_unique<GrblMachine>(GrblMachine::Settings{
+          .sink = sink, .clock = std::shared_ptr<const Clock>(&shop->clock, [](const auto*) {})});
+      machine = made.get();
+      machine->line_opened();
+      return made;
+    };
+    shop->each_turn = [this] {
+      for (int i = 0; i < 10; ++i) {
+        board->pass(0.001);
+        const std::string in = board->take_output();
+        const auto out = machine->exchange(std::as_bytes(std::span(in)));
+        board->receive(out.real_time + out.lines);
+      }
+    };
+    shop->restart_gateway();
+    ASSERT_TRUE(shop->run_until([&] { return shop->status && machine->notice().empty(); }));
+  }
+  /// Of the axes' moves so far.
+  std::vector<std::string> moves() const {
+    std::vector<std::string> moves;
+    for (const std::string& line : board->lines)
+      if (line.starts_with("G0") || line.starts_with("G1") || line.starts_with("G38"))
+        moves.push_back(line);
+    return moves;
+  }
+  double z() const { return board->position()[2]; }
+  double shown_z() {
+    (void)shop->run_until([&] { return false; }, std::chrono::milliseconds(5000));
+    return shop->at(2);
+  }
+
+  std::optional<GrblBoard> board;
+  std::unique_ptr<Shop> shop;
+  GrblMachine* machine = nullptr;
+};
+
+TEST_F(Axes, AreAtPositionAndLengthWhileThePositionIsTheProgram) {
+  start(interpreter::kRs274NgcDialect);
+  EXPECT_EQ(shop->run("G21 G90 F600\nG43 H1\nG0 X3 Z-20\nM2\n"), "completed");
+  EXPECT_NEAR(z(), 30, 1e-3);
+  EXPECT_NEAR(shown_z(), -20, 1e-3);
+  EXPECT_NEAR(shop->at(0), 3, 1e-3);
+}
+
+TEST_F(Axes, StayWhenALengthAloneComesIntoForceOrEnds) {
+  start(interpreter::kRs274NgcDialect);
+  ASSERT_EQ(shop->run("G21 G90 F600\nG0 Z40\nG43 H1\nM2\n"), "completed");
+  EXPECT_NEAR(z(), 40, 1e-3);
+  EXPECT_NEAR(shown_z(), -10, 1e-3) << "as the control shows it at once";
+  ASSERT_EQ(shop->mdi("G49\n"), "completed");
+  EXPECT_NEAR(z(), 40, 1e-3);
+  EXPECT_NEAR(shown_z(), 40, 1e-3);
+}
+
+TEST_F(Axes, GoOnFromWhereTheyAreWhenMdiContinuesWithTheLength) {
+  start(interpreter::kRs274NgcDialect);
+  ASSERT_EQ(shop->run("G21 G90 F600\nG43 H1\nG0 Z-20\nM2\n"), "completed");
+  ASSERT_EQ(shop->mdi("G91 G0 Z-1\n"), "completed");
+  EXPECT_NEAR(z(), 29, 1e-3);
+  ASSERT_EQ(shop->mdi("G90 G43 H2 G0 Z5\n"), "completed");
+  EXPECT_NEAR(z(), 85, 1e-3);
+}
+
+// A program begins with no length: its first positions are those of the axes.
+TEST_F(Axes, BeginAProgramWithoutTheToolOfTheLast) {
+  start(interpreter::kRs274NgcDialect);
+  ASSERT_EQ(shop->run("G21 G90 F600\nG43 H1\nG0 Z-20\nM2\n"), "completed");
+  ASSERT_EQ(shop->run("G21 G91\nG0 Z1\nM2\n"), "completed");
+  EXPECT_NEAR(z(), 31, 1e-3);
+  EXPECT_NEAR(shown_z(), 31, 1e-3);
+}
+
+// Tip positions are inside the travel.
+TEST_F(Axes, AreInsideTheirTravelWithTheLength) {
+  GrblBoard::Options options;
+  options.settings = {{20, "1"}, {132, "100"}, {22, "1"}};
+  options.start = {0, 0, -1, 0};
+  start(interpreter::kRs274NgcDialect, kTools, options);
+  EXPECT_THAT(
+      shop->run("G21 G90 F600\nG0 Z-70\nG43 H1\nG0 Z-49\nM2\n"),
+      AllOf(StartsWith("MCH0001"), HasSubstr("Z 1 mm"), HasSubstr("before the first move")));
+  EXPECT_TRUE(moves().empty());
+}
+
+// The contact is where the tip is: #5063 and the record.
+TEST_F(Axes, GiveTheContactOfAProbeAsThePositionOfTheTip) {
+  GrblBoard::Options options;
+  options.surface_z = 37.5;
+  options.start = {0, 0, 90, 0};
+  start(interpreter::kRs274NgcDialect, kTools, options);
+  ASSERT_EQ(shop->run("G21 G90 F600\nG43 H1\nG0 Z20\nG38.2 Z-30 F300\n#1=#5063\nG0 Z[#1+7]\nM2\n"),
+            "completed");
+  EXPECT_NEAR(z(), 44.5, 1e-3) << "7 above the contact, whatever the length is";
+  const auto probed = std::ranges::find(shop->records, dds::RecordKind::Probe, &dds::Record::kind);
+  ASSERT_NE(probed, shop->records.end());
+  EXPECT_THAT(probed->text, HasSubstr("-12.5"));
+}
+
+TEST_F(Axes, AreLeftByAnAbortWithTheirLength) {
+  start(interpreter::kRs274NgcDialect);
+  ASSERT_THAT(shop->abort_when("G21 G90 F600 G43 H1\nG1 X50 Z100\n",
+                               [&] { return board->position()[0] > 20; }),
+              StartsWith("aborted"));
+  const double rests = z();
+  EXPECT_GT(rests, 20);
+  EXPECT_NEAR(shown_z(), rests - 50, 1e-3);
+  EXPECT_THAT(shop->set("tool 2 Z 0 mm G54"), StartsWith(fmt::format("tool.2.Z is {:.3f}", rests)))
+      << "from the axes";
+}
+
+}  // namespace
+}  // namespace dripline::gateway

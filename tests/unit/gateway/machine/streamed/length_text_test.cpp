@@ -1,0 +1,144 @@
+// The text that a machine's axes get for a program with lengths of tools: interpreter, filter and
+// queue as a gateway has them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gateway/interpreter/core/dialects.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
+#include "gateway/machine/capability_filter.hpp"
+#include "gateway/machine/streamed/motion_queue.hpp"
+
+namespace dripline::machine::streamed {
+namespace {
+
+using interpreter::Dialect;
+using interpreter::StepState;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Lines = std::vector<std::string>;
+
+constexpr const char* kTools =
+    "[[tool]]\nnumber = 1\nlength = 50.0\n[[tool]]\nnumber = 2\nlength = 80.0\nradius = 4.0\n";
+
+class NoCommands final : public CommandWriter {
+ public:
+  std::optional<Refusal> tool(const interpreter::ToolChange&, Lines&) override { return {}; }
+  std::optional<Refusal> miscellaneous(const interpreter::Miscellaneous&, Lines&) override {
+    return {};
+  }
+  std::optional<Refusal> pin(const interpreter::PinChange&, Lines&) override { return {}; }
+};
+
+TextRules rules() {
+  TextRules rules;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rules.axes[i] = TextRules::AxisRules{};
+    rules.axes[i]->travel = TextRules::Range{-500, 500};
+  }
+  return rules;
+}
+
+/// What the device gets, and the alarm that ends it.
+class Written {
+ public:
+  Written(const Dialect& dialect, const std::string& text, const std::string& setup = kTools)
+      : source_(text), builder_(std::make_unique<NoCommands>()) {
+    builder_.begin(rules(), {});
+    capabilities_.arcs = capabilities_.probing = capabilities_.tool_lengths = true;
+    capabilities_.adds_lengths = true;
+    CapabilityFilter filter(
+        capabilities_, builder_,
+        [this] {
+          return CapabilityFilter::Now{interpreter_->modes(), interpreter_->origin().block};
+        },
+        {dialect.length_shifts_position, dialect.moves_with_length,
+         [this](const ToolLengths& lengths) { builder_.set_lengths(lengths); }});
+    filter.begin({}, {});
+    auto made = dialect.make(interpreter::parse_setup(setup).value(), source_, filter);
+    EXPECT_TRUE(made) << made.error().what;
+    interpreter_ = *std::move(made);
+    while (interpreter_->step(1) == StepState::Ran)
+      if (!filter.note_block(interpreter_->origin())) break;
+    for (const Action& action : builder_.take()) {
+      if (const auto* motion = std::get_if<Motion>(&action.body))
+        for (const std::string& line : motion->lines) lines.push_back(line);
+      if (const auto* end = std::get_if<AlarmEvent>(&action.body))
+        alarm = end->diagnostic.id.data() + (": " + end->diagnostic.text);
+      last = action.lengths;
+    }
+  }
+  std::vector<std::string> lines;
+  std::string alarm;
+  ToolLengths last{};  ///< of the last action
+
+ private:
+  interpreter::MemorySource source_;
+  QueueBuilder builder_;
+  MotionCapabilities capabilities_;
+  std::unique_ptr<interpreter::Interpreter> interpreter_;
+};
+
+// -- RS274/NGC: the position is shifted, and no axis moves --------------------------------------
+
+TEST(LengthTextOfNgc, IsAddedToEveryMoveOfTheAxis) {
+  const Written it(interpreter::kRs274NgcDialect,
+                   "G21 F600\nG0 Z20\nG43 H1\nX5\nZ10\nG1 Z-3\nG49\nX0\nG0 Z100\nM2\n");
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_EQ(it.lines, (Lines{"G0Z20", "G0X5", "G0Z60", "G1Z47F600", "G1X0", "G0Z100"}));
+}
+
+TEST(LengthTextOfNgc, IsInBothEndsOfAHelixAndItsCenterInThePlaneOfTheLength) {
+  const Written it(interpreter::kRs274NgcDialect,
+                   "G21 F600\nG43 H1\nG1 X10 Z0\nG2 X-10 I-10 J0 Z-5\nG18 G2 X0 Z-15 I10 K0\nM2\n");
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_THAT(it.lines, ElementsAre("G1X10Z50F600", "G17G2X-10Z45Y0I-10J0", "G18G2X0Z35K0I10"));
+}
+
+TEST(LengthTextOfNgc, IsLeftOutOfMachineCoordinates) {
+  const Written it(interpreter::kRs274NgcDialect,
+                   "G21\nG43 H1\nG0 Z10\nG53 G0 Z200\nG28 Z5\nG0 Z10\nM2\n");
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_THAT(it.lines, ElementsAre("G0Z60", "G0Z200", "G0Z55", "G0Z0", "G0Z60"))
+      << "G28: by Z5 of the program to the axis' own zero";
+}
+
+TEST(LengthTextOfNgc, HasTheCyclesOfATool) {
+  const Written it(interpreter::kRs274NgcDialect,
+                   "G21 F100\nG43 H2\nG0 Z20\nG98 G81 X5 Y5 Z-4 R2\nX8\nG80\nM2\n");
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_THAT(it.lines, ElementsAre("G0Z100", "G0X5Y5", "G0Z82", "G1Z76F100", "G0Z100", "G0X8",
+                                    "G0Z82", "G1Z76", "G0Z100"));
+}
+
+// The tip is inside the travel, the axis is not.
+TEST(LengthTextOfNgc, IsInTheTravel) {
+  const Written it(interpreter::kRs274NgcDialect, "G21\nG43 H1\nG0 Z449\nZ451\nM2\n");
+  EXPECT_THAT(it.lines, ElementsAre("G0Z499"));
+  EXPECT_THAT(it.alarm, AllOf(HasSubstr("MCH0001"), HasSubstr("Z 501")));
+}
+
+TEST(LengthTextOfNgc, OfAnotherAxisIsRefused) {
+  const std::string setup = "[control]\nprofile = \"linuxcnc\"\naxes = \"XYZABCUVW\"\n";
+  const Written it(interpreter::kRs274NgcDialect, "G21\nG43.1 W5\nG0 X1\nM2\n", setup);
+  EXPECT_THAT(it.lines, IsEmpty());
+  EXPECT_THAT(it.alarm, HasSubstr("MCH0008: this machine cannot take a length into account that"));
+}
+
+TEST(LengthTextOfNgc, IsKnownToABlockWithoutAMove) {
+  const Written it(interpreter::kRs274NgcDialect, "G21\nG43 H1\n(x)\nM0\n");
+  EXPECT_EQ(it.last, (ToolLengths{0, 0, 50}));
+}
+
+// A datum and a rotation come before the length.
+TEST(LengthTextOfNgc, LiesAlongTheMachinesAxes) {
+  const Written it(interpreter::kRs274NgcDialect,
+                   "G21 G10 L2 P1 X100 Z-30 R90\nG54\nG43.1 X7 Z50\nG0 X10 Y0 Z5\nM2\n",
+                   "[control]\nprofile = \"linuxcnc\"\n");
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_THAT(it.lines, ElementsAre("G0X107Y10Z25"));
+}
+
+}  // namespace
+}  // namespace dripline::machine::streamed
