@@ -33,11 +33,11 @@ bool CapabilityFilter::is_without_length(const Origin& origin) {
   return false;
 }
 
-bool CapabilityFilter::is_plain(const Origin& origin, const interpreter::ActiveModes& modes) {
-  if (modes.is_length_plain || modes.bare_axes != 0) return true;
+bool CapabilityFilter::is_certain(const Origin& origin, const interpreter::ActiveModes& modes) {
+  if (modes.is_length_certain) return true;
   refuse(origin,
-         "take a length into account that is tilted, of other axes than X, Y and Z, or that "
-         "machine coordinates leave out in compensation");
+         "take the length of a tool into account that is tilted or of other axes than X, Y and Z, "
+         "or of an axis whose coordinates are in doubt after machine coordinates (G28, G30, G53)");
   return false;
 }
 
@@ -52,7 +52,7 @@ bool CapabilityFilter::takes_motion(const Origin& origin, const interpreter::Pos
                                     bool is_arc) {
   if (!adds_lengths()) return is_without_length(origin);
   const Now now = now_();
-  if (!is_plain(origin, now.modes)) return false;
+  if (!is_certain(origin, now.modes)) return false;
   lengths_.note(now.modes, now.block);
   if (const auto fault = lengths_.take({to, origin.block, is_arc})) {
     refuse(origin, *fault);

@@ -57,7 +57,7 @@ class CapabilityFilter final : public interpreter::EventFilter {
   bool takes_motion(const interpreter::Origin& origin, const interpreter::Position& to,
                     bool is_arc = false);
   bool is_without_length(const interpreter::Origin& origin);
-  bool is_plain(const interpreter::Origin& origin, const interpreter::ActiveModes& modes);
+  bool is_certain(const interpreter::Origin& origin, const interpreter::ActiveModes& modes);
   bool adds_lengths() const { return capabilities_.adds_lengths && rule_.is_certain; }
 
   const MotionCapabilities& capabilities_;

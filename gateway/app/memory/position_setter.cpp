@@ -135,11 +135,11 @@ Result<void> PositionSetter::check_frames(const Control& control,
 /// them in its memory would be right, and the machine's next motion would not.
 Result<void> PositionSetter::check_tool(Axis axis, Sets what) const {
   const bool is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe;
-  if (!parts_.machine.capabilities().tool_lengths) {
+  if (!moves_with_lengths()) {
     if (what == Sets::Datum) return {};
     return fail(Errc::Unsupported,
-                "this machine moves by coordinates in which no tool has a length: one that is set "
-                "would not be in its motion. Set the datum with each tool instead");
+                "this machine moves by coordinates in which no tool of this control has a length: "
+                "one that is set would not be in its motion. Set the datum with each tool instead");
   }
   const ToolInPosition& tool = parts_.run.tool;
   const std::string why =
@@ -148,12 +148,17 @@ Result<void> PositionSetter::check_tool(Axis axis, Sets what) const {
   return {};
 }
 
+bool PositionSetter::moves_with_lengths() const {
+  const machine::MotionCapabilities& machine = parts_.machine.capabilities();
+  return machine.tool_lengths && (!machine.adds_lengths || parts_.dialect.moves_with_length);
+}
+
 interpreter::RestingPlace PositionSetter::place(const interpreter::Setup& setup) const {
   interpreter::RestingPlace place;
   const interpreter::Position at = parts_.machine.status().position;
   for (const Axis axis : interpreter::kAllAxes)
     place.at[static_cast<std::size_t>(axis)] = at.raw(axis);
-  place.has_lengths = parts_.machine.capabilities().tool_lengths;
+  place.has_lengths = moves_with_lengths();
   if (place.has_lengths) place.length = parts_.run.tool.left_out;
   place.memory = setup.units.value_or(parts_.dialect.units);
   return place;

@@ -48,6 +48,7 @@ class PositionSetter {
   Result<void> check_tool(interpreter::Axis axis, Sets what) const;
   Result<void> check_axis(interpreter::Axis axis, const interpreter::Setup& setup) const;
   Result<void> check_frames(const Control& control, const interpreter::Setup& setup) const;
+  bool moves_with_lengths() const;
   interpreter::RestingPlace place(const interpreter::Setup& setup) const;
 
   Parts parts_;

@@ -75,8 +75,9 @@ struct ActiveModes {
   Length tool_length_z;           ///< wear included; along `length_axis`
   Axis length_axis = Axis::Z;     ///< of a mill that takes its length along another axis too
   bool is_length_plain = true;    ///< an axis is at position + length; false: not so simple
-  /// Bit 0 = X: what makes it not so simple is alone that these axes were brought to machine
-  /// coordinates, where they are without the length.
+  /// For axes of a real machine, which are at position + length but for those that were brought to
+  /// machine coordinates, bit 0 = X: these are without. False: tilted, of other axes, in doubt.
+  bool is_length_certain = true;
   std::uint8_t bare_axes = 0;
   bool is_shifted = false;  ///< coordinates are not those of the datum; where no frame says so
   Length tool_radius;

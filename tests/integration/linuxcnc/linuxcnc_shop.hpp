@@ -23,6 +23,7 @@ class LinuxCncTest : public testing::Test {
     if (const std::string missing = LinuxCnc::missing(); !missing.empty())
       GTEST_SKIP() << "skipped: " << missing;
     linuxcnc.emplace();
+    if (!table.empty()) linuxcnc->set_tools(table);
     linuxcnc->start();
     connect();
     turn_on();
@@ -93,6 +94,7 @@ class LinuxCncTest : public testing::Test {
     return {};
   }
 
+  std::string table;                ///< LinuxCNC's tools; empty: those of the example
   interpreter::MachineData stated;  ///< by the setup
   bool runs = false;
   machine::test::Recorder recorder;

@@ -65,6 +65,10 @@ LinuxCnc::~LinuxCnc() {
   stop();
 }
 
+void LinuxCnc::set_tools(const std::string& table) const {
+  write_file(folder_.path() / "tool.tbl", table);
+}
+
 void LinuxCnc::stop() {
   if (!process_) return;
   const std::string pid = read_file(folder_.path() / "display.pid");

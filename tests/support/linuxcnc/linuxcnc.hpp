@@ -26,6 +26,8 @@ class LinuxCnc {
   LinuxCnc(const LinuxCnc&) = delete;
   LinuxCnc& operator=(const LinuxCnc&) = delete;
 
+  /// The tool table, before the start.
+  void set_tools(const std::string& table) const;
   /// Waits until it is up; failures are those of gtest. Once more after its end.
   void start();
   void stop();

@@ -130,7 +130,8 @@ const Dialect kFanucDialect{.name = "fanuc",
                             .waits_at_tool_change = true,
                             .panel_tables = &read_panel_tables,
                             .options = &list_options,
-                            .status_fields = kStatusFields};
+                            .status_fields = kStatusFields,
+                            .moves_with_length = true};
 
 const Dialect kFanucLatheDialect{.name = "fanuc-t",
                                  .title = "Fanuc 0-T, 16/18/21-T, 0i-T, 30i-T (lathe)",
@@ -141,6 +142,7 @@ const Dialect kFanucLatheDialect{.name = "fanuc-t",
                                  .mdi_blocks = kMdiBlocks,
                                  .panel_tables = &read_lathe_panel_tables,
                                  .options = &list_lathe_options,
-                                 .status_fields = kLatheStatusFields};
+                                 .status_fields = kLatheStatusFields,
+                                 .moves_with_length = true};
 
 }  // namespace dripline::interpreter

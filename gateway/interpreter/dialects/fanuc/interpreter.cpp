@@ -5,6 +5,7 @@
 #include "gateway/interpreter/dialects/fanuc/execution/execution.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/flow.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/length_in_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
 
@@ -229,6 +230,8 @@ ActiveModes FanucInterpreter::modes() const {
     modes.length_axis = state.length_axis;
   }
   modes.is_length_plain = !run_.tilted.is_on() && !is_placed(state, modes);
+  modes.is_length_certain = !run_.tilted.is_on() && !is_length_doubtful(state, modes);
+  modes.bare_axes = bare_axes(state, modes);
   modes.tool_radius = Length::mm(radius_of_offset(run_, state.d_number));
   const Length feed = Length::mm(state.feed[state.is_per_revolution()]);
   modes.feed = state.is_per_revolution() ? Feed::per_revolution(feed) : Feed::per_minute(feed);

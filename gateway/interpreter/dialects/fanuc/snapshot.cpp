@@ -11,13 +11,14 @@ void visit(Archive& archive, ModalState& state) {
           state.is_transformed, state.uses_compensator, state.uses_blender, state.is_special,
           state.units, state.feed, state.inverse_feed, state.spindle, state.coolant, state.tool,
           state.h_number, state.d_number, state.length_axis, state.length_offset, state.placed,
-          state.turning, state.box, state.contour, state.modes_before, state.rotary,
-          state.parameters, state.enters_parameters, state.mirror, state.scaling, state.rotation,
-          state.cycle, state.zone, state.intermediate, state.has_intermediate, state.imaginary,
-          state.held, state.skip, state.last, state.polar_angle, state.polar_radius,
-          state.offset_list, state.is_rigid_tapping, state.locals, state.commons, state.kept,
-          state.extra, state.counters, state.calls, state.loops, state.modals, state.modal_active,
-          state.jump, state.limits);
+          state.length_in_axes.taken, state.length_in_axes.bare, state.length_in_axes.doubtful,
+          state.length_in_axes.is_even, state.turning, state.box, state.contour, state.modes_before,
+          state.rotary, state.parameters, state.enters_parameters, state.mirror, state.scaling,
+          state.rotation, state.cycle, state.zone, state.intermediate, state.has_intermediate,
+          state.imaginary, state.held, state.skip, state.last, state.polar_angle,
+          state.polar_radius, state.offset_list, state.is_rigid_tapping, state.locals,
+          state.commons, state.kept, state.extra, state.counters, state.calls, state.loops,
+          state.modals, state.modal_active, state.jump, state.limits);
 }
 
 namespace {
@@ -25,7 +26,7 @@ namespace {
 std::string_view dialect_of(const Run& run) {
   return run.options.is_lathe ? "fanuc-t" : "fanuc";
 }
-constexpr std::uint32_t kVersion = 11;
+constexpr std::uint32_t kVersion = 12;
 
 template <class Archive>
 void visit_memory(Archive& archive, Memory& memory) {

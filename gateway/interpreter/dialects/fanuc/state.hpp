@@ -38,6 +38,15 @@ inline constexpr std::size_t kWorkCount = 7 + kMoreWorkCount;
 /// A macro variable that holds nothing.
 inline constexpr double kNull = std::numeric_limits<double>::quiet_NaN();
 
+/// See memory/length_in_axes.hpp; of X, Y and Z, bit 0 = X.
+struct LengthInAxes {
+  using Lengths = std::array<double, 3>;
+  Lengths taken{};            ///< in force when the program has moved the axis last
+  std::uint8_t bare = 0;      ///< placed by machine coordinates since
+  std::uint8_t doubtful = 0;  ///< what its coordinates mean
+  bool is_even = false;       ///< no axis is bare, and all have taken what is in force
+};
+
 struct SpindleModes {
   SpindleState state = SpindleState::Off;
   double revolutions = 0;   ///< last S under G97
@@ -234,6 +243,7 @@ struct ModalState {
   Axis length_axis = Axis::Z;
   double length_offset = 0;  ///< in force, signed
   Position placed;           ///< where machine coordinates (G28, G30, G53) have brought an axis
+  LengthInAxes length_in_axes;
   Parameters parameters;
   bool enters_parameters = false;  ///< G10 L50 to G11
   TurningData turning;

@@ -241,6 +241,7 @@ ActiveModes Rs274NgcInterpreter::modes() const {
   modes.tool_length_z = Length::mm(state.tool_length[index_of(Axis::Z)]);
   const auto others = std::span(state.tool_length).subspan(index_of(Axis::Z) + 1);
   modes.is_length_plain = std::ranges::all_of(others, [](double length) { return length == 0; });
+  modes.is_length_certain = modes.is_length_plain;
   modes.tool_radius = Length::mm(state.compensation.radius);
   const bool is_inverse = state.modes.feed == FeedMode::InverseTime;
   modes.feed = is_inverse ? Feed::inverse_time(state.feed) : run_.modal_feed();

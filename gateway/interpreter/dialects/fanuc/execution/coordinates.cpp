@@ -8,6 +8,7 @@
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/length_in_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
@@ -136,6 +137,7 @@ bool set_position(Run& run) {
   run.ledger.take(kAxisWords);
   if (state.is_transformed) return refuse_transformed(run, ErrorCode::PositionUnderTransform);
   interrupt_compensation(run);
+  note_set_axes(run);
   Coordinates& all = run.memory.coordinates;
   each_axis_word(run, [&](std::size_t i, double value) {
     const auto axis = static_cast<Axis>(i);
@@ -251,6 +253,7 @@ bool return_to(Run& run, std::size_t point) {
     home.set_raw(axis, run.options.reference[point][static_cast<std::size_t>(axis)]);
     state.placed.set_raw(axis, home.raw(axis));
   }
+  note_machine_axes(run);
   return rapid_to(run, home);
 }
 

@@ -12,6 +12,7 @@
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/rotary_plane.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/length_in_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/tilting/tilting.hpp"
@@ -290,6 +291,15 @@ bool check_old_corners(Run& run) {
                   "corners are written ,R and ,C");
 }
 
+/// Data are no move, and G53 is in machine coordinates.
+bool moves_in_program(const Block& block) {
+  const std::uint8_t one_shot = block.parts.one_shot;
+  const bool is_reference = one_shot >= 27 && one_shot <= 31;
+  const bool is_cycle = one_shot >= kTurningCycles && one_shot <= kTurningCycles + 6;
+  return !words_are_data(block) &&
+         (!is_data_code(one_shot) || is_reference || is_cycle || one_shot == 37);
+}
+
 bool execute_motion(Run& run) {
   Block& block = run.block;
   if (block.names(kInterpolationGroup)) return set_polar_plane(run);
@@ -299,6 +309,8 @@ bool execute_motion(Run& run) {
   }
   if (block.parts.corner != CornerKind::None && (!check_corner(run) || !announce_corner(run)))
     return false;
+  run.state.length_in_axes.is_even = false;
+  if (moves_in_program(block)) note_programmed_axes(run);
   if (is_data_code(block.parts.one_shot)) return execute_one_shot(run);
   if (words_are_data(block)) {
     run.ledger.take_all();

@@ -6,6 +6,7 @@
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/rotary_plane.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/length_in_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/tilting/tilting.hpp"
 #include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
@@ -253,9 +254,13 @@ bool execute_plain(Run& run) {
   if (run.state.g[kMotionGroup] > 1) {
     if (!words.has_any(kAxisWords | kCenterWords) && words.has(R)) [[unlikely]]
       run.warn(WarningCode::UnusedWord, words.column(R), "R");
+    if (!run.state.length_in_axes.is_even) [[unlikely]]
+      note_programmed_axes(run);
     return move_on_arc(run);
   }
   if (!words.has_any(kAxisWords)) return true;
+  if (!run.state.length_in_axes.is_even) [[unlikely]]
+    note_programmed_axes(run);
   Line line{run.origin, run.state.position, {}};
   if (!read_target(run, line.to)) return false;
   if (run.state.position.same_point(line.to)) return true;
@@ -341,6 +346,7 @@ bool move_in_machine_coordinates(Run& run) {
     to.set_raw(axis, run.coordinate(axis, words[kWordOfAxis[i]]));
     run.state.placed.set_raw(axis, to.raw(axis));
   }
+  note_machine_axes(run);
   return rapid_to(run, to);
 }
 

@@ -123,7 +123,9 @@ TEST(LengthTextOfNgc, OfAnotherAxisIsRefused) {
   const std::string setup = "[control]\nprofile = \"linuxcnc\"\naxes = \"XYZABCUVW\"\n";
   const Written it(interpreter::kRs274NgcDialect, "G21\nG43.1 W5\nG0 X1\nM2\n", setup);
   EXPECT_THAT(it.lines, IsEmpty());
-  EXPECT_THAT(it.alarm, HasSubstr("MCH0008: this machine cannot take a length into account that"));
+  EXPECT_THAT(
+      it.alarm,
+      HasSubstr("MCH0008: this machine cannot take the length of a tool into account that"));
 }
 
 TEST(LengthTextOfNgc, IsKnownToABlockWithoutAMove) {
@@ -138,6 +140,91 @@ TEST(LengthTextOfNgc, LiesAlongTheMachinesAxes) {
                    "[control]\nprofile = \"linuxcnc\"\n");
   EXPECT_EQ(it.alarm, "");
   EXPECT_THAT(it.lines, ElementsAre("G0X107Y10Z25"));
+}
+
+// -- Fanuc: the position stays, and an axis follows with its own next move -----------------------
+
+constexpr const char* kBegin = "O1\nG21 G90 G94 G17 F600\n";
+
+Written fanuc(const std::string& text) {
+  return {interpreter::kFanucDialect, kBegin + text + "M30\n"};
+}
+
+TEST(LengthTextOfFanuc, IsTakenInByTheMoveOfItsAxis) {
+  const Written it = fanuc("G0 Z20.\nG43 H1 Z30.\nX5.\nG1 Z-3.\nG44 H1 Z0\nG49 Z100.\n");
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_THAT(it.lines, ElementsAre("G0Z20", "G0Z80", "G0X5", "G1Z47F600", "G1Z-50", "G1Z100"));
+}
+
+// G43 alone in a block moves the axis by the length, or not, by a parameter.
+TEST(LengthTextOfFanuc, IsAnAlarmWhereItsAxisIsNotMovedFirst) {
+  for (const std::string move : {"X5.", "X5. Z20.", "G2 X5. Y5. I5."}) {
+    const Written it = fanuc("G0 Z20.\nG43 H1\n" + move + "\n");
+    EXPECT_THAT(it.lines, ElementsAre("G0Z20")) << move;
+    EXPECT_THAT(it.alarm, AllOf(HasSubstr("MCH0008"), HasSubstr("Z is 50.000 mm and was 0.000")))
+        << move;
+  }
+  EXPECT_THAT(fanuc("G0 X3. Y4. Z20.\nG43 H1 G2 X5. Y6. Z10. I2.\n").alarm, HasSubstr("arc"));
+}
+
+TEST(LengthTextOfFanuc, IsLeftOutAtTheReferencePointAndInMachineCoordinates) {
+  const Written it =
+      fanuc("G43 H1 Z30.\nG91 G28 Z0\nG90 X40.\nG43 H2 Z2.\nG53 Z300.\nX0\nZ2.\nG28 Z5.\nX1.\n");
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_THAT(it.lines, ElementsAre("G0Z80", "G0Z0", "G0X40", "G0Z82", "G0Z300", "G0X0", "G0Z82",
+                                    "G0Z85", "G0Z0", "G0X1"));
+}
+
+// Z0 of the program is another place for the axis than the reference point Z0.
+TEST(LengthTextOfFanuc, IsMissedByAMoveThatSeemsToBeNone) {
+  const Written it = fanuc("G43 H1 Z30.\nG28 Z30.\nZ0\nX40.\n");
+  EXPECT_THAT(it.lines, ElementsAre("G0Z80", "G0Z0"));
+  EXPECT_THAT(it.alarm, HasSubstr("MCH0008"));
+}
+
+// What present position does G92 name: that of the axis, or that of the tip?
+TEST(LengthTextOfFanuc, IsInDoubtWhereCoordinatesAreSetWithoutIt) {
+  for (const std::string before : {"G43 H1 Z30.\nG28 Z30.\n", "G0 Z30.\nG43 H1\n"}) {
+    const Written it = fanuc(before + "G92 Z0\nG0 Z7.\n");
+    EXPECT_THAT(it.alarm, HasSubstr("in doubt")) << before;
+  }
+  const Written it = fanuc("G43 H1 Z30.\nG92 Z0\nZ7.\n");
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_THAT(it.lines, ElementsAre("G0Z80", "G0Z87"));
+}
+
+TEST(LengthTextOfFanuc, IsInDoubtAtTheReferencePointInCompensation) {
+  const Written it = fanuc("G43 H1 Z30.\nG1 G41 D2 X10. Y5.\nX30.\nG28 Z40.\nX50.\nG40 X60.\n");
+  EXPECT_THAT(it.alarm, HasSubstr("in doubt"));
+}
+
+TEST(LengthTextOfFanuc, OfAMoveThatCompensationHoldsBackIsTheOneOfItsBlock) {
+  const Written held =
+      fanuc("G43 H1 Z30.\nG1 G41 D2 X10. Y5.\nX30.\nZ-8.\nG49 Z9.\nX50.\nG40 X60.\n");
+  EXPECT_THAT(held.alarm, HasSubstr("after the length of the tool has changed"));
+  const Written plain = fanuc("G43 H1 Z30.\nG1 G41 D2 X10. Y5.\nX30.\nZ-8.\nX50.\nG40 X60.\n");
+  EXPECT_EQ(plain.alarm, "");
+  EXPECT_THAT(plain.lines, testing::Contains("G1Z42"));
+}
+
+TEST(LengthTextOfFanuc, IsInTheHolesOfACycle) {
+  const Written it = fanuc("G0 Z99.\nG43 H1\nG81 X5. Z-4. R2.\nX8.\nG80\n");
+  EXPECT_THAT(it.alarm, HasSubstr("MCH0008")) << "the cycle begins with X";
+  const Written named = fanuc("G43 H1 Z20.\nG81 X5. Z-4. R2.\nG80\n");
+  EXPECT_EQ(named.alarm, "");
+  EXPECT_THAT(named.lines, ElementsAre("G0Z70", "G0X5", "G0Z52", "G1Z46F600", "G0Z70"));
+}
+
+TEST(LengthTextOfALathe, IsTakenInByBothAxes) {
+  const std::string tools = "[[tool]]\nnumber = 3\nX = 10.0\nZ = -20.0\n";
+  const Written it(
+      interpreter::kFanucLatheDialect,
+      "O1\nG21 G98 F600\nG0 X40. Z5.\nT0303\nG0 X60. Z2.\nG1 Z-8.\nT0300 X90. Z50.\nM30\n", tools);
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_THAT(it.lines, ElementsAre("G0X20Z5", "G0X40Z-18", "G1Z-28F600", "G1X45Z50"));
+  const Written one(interpreter::kFanucLatheDialect,
+                    "O1\nG21 G98 F600\nG0 X40. Z5.\nT0303\nG0 X60.\nM30\n", tools);
+  EXPECT_THAT(one.alarm, HasSubstr("Z is -20.000 mm and was 0.000"));
 }
 
 }  // namespace
