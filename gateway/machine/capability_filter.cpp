@@ -22,7 +22,9 @@ bool CapabilityFilter::has_feed(const Origin& origin, Feed feed) {
 bool CapabilityFilter::is_without_length(const Origin& origin) {
   if (capabilities_.tool_lengths && !capabilities_.adds_lengths) return true;
   const interpreter::ActiveModes modes = now_().modes;
-  if (modes.is_length_plain && lengths_of(modes) == ToolLengths{}) return true;
+  const bool has_none = modes.tool_length_x == Length{} && modes.tool_length_y == Length{} &&
+                        modes.tool_length_z == Length{};
+  if (modes.is_length_plain && has_none) return true;
   refuse(origin,
          fmt::format("take the length of a tool into account{}: X {:.3f}, Y {:.3f}, Z {:.3f} mm"
                      "{} is in force. Lengths must be 0 here, and each tool needs a datum "
@@ -34,10 +36,12 @@ bool CapabilityFilter::is_without_length(const Origin& origin) {
 }
 
 bool CapabilityFilter::is_certain(const Origin& origin, const interpreter::ActiveModes& modes) {
-  if (modes.is_length_certain) return true;
-  refuse(origin,
-         "take the length of a tool into account that is tilted or of other axes than X, Y and Z, "
-         "or of an axis whose coordinates are in doubt after machine coordinates (G28, G30, G53)");
+  const bool is_along_other = modes.length_axis > interpreter::Axis::Z;
+  if (modes.is_length_certain && !(is_along_other && modes.tool_length_z != Length{})) return true;
+  refuse(
+      origin,
+      "take the length of a tool into account that is tilted or of other axes than X, Y and Z, "
+      "or of an axis whose coordinates are in doubt by machine coordinates (G28, G30, G53, M91)");
   return false;
 }
 

@@ -215,7 +215,8 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              .options = &list_options,
                              .text = {.kind = TextForm::Kind::PlainLanguage},
                              .status_fields = kStatusFields,
-                             .screen = &screen};
+                             .screen = &screen,
+                             .moves_with_length = true};
 
 const Dialect kItncDialect{.name = "itnc",
                            .title = "HEIDENHAIN TNC 426/430, iTNC 530 (plain language)",
@@ -224,6 +225,7 @@ const Dialect kItncDialect{.name = "itnc",
                            .waits_at_tool_change = true,
                            .options = &list_later_options,
                            .text = {.kind = TextForm::Kind::PlainLanguage},
-                           .status_fields = kStatusFields};
+                           .status_fields = kStatusFields,
+                           .moves_with_length = true};
 
 }  // namespace dripline::interpreter

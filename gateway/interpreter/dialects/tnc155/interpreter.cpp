@@ -310,6 +310,7 @@ ActiveModes TncInterpreter::modes() const {
   if (state.compensation == Compensation::Right) modes.compensation = CompensationSide::Right;
   modes.tool_length_z = Length::mm(state.tool.data.length);
   if (state.tool.is_called) modes.length_axis = state.tool.axis;
+  modes.is_length_certain = !run_.is_length_doubtful;
   modes.tool_radius = Length::mm(state.tool.data.radius);
   modes.feed = Feed::per_minute(Length::mm(state.feed));
   if (state.tool.is_called) modes.tool_axis = state.tool.axis;

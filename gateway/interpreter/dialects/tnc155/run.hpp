@@ -115,7 +115,10 @@ struct Run : BlockRun {
   language::LoopGuard loops;
   language::WordLedger ledger;  ///< of the part being executed: its coordinates, by their place
   bool is_in_block = false;     ///< read, and not finished
-  bool is_measuring = false;    ///< moves are checked against the limits and not made
+  /// Machine coordinates (M91, M92) were named along the tool axis with a length in force: until
+  /// the next tool. A machine that adds lengths has ended the program there.
+  bool is_length_doubtful = false;
+  bool is_measuring = false;           ///< moves are checked against the limits and not made
   std::optional<Block> contour_begin;  ///< the block after Approach, where it can be read
   bool blend_follows = false;          ///< RND or a chamfer follows the current part
   bool starts_contour = false;         ///< the part being executed is the first with RL or RR

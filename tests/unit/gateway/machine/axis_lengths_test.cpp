@@ -1,4 +1,5 @@
 #include "gateway/machine/axis_lengths.hpp"
+#include "gateway/machine/capability_filter.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -107,6 +108,27 @@ TEST_F(AxisLengthsTest, ContinueWithWhatTheAxesHave) {
   follows.note(with_length(60), 2);
   EXPECT_THAT(take(follows, at(7, 4), 2), HasSubstr("Z is 60.000 mm and was 50.000 mm"))
       << "a probe has moved Z to 4";
+}
+
+// A spindle along U.
+TEST(CapabilityFilter, AddsNoLengthToAnAxisBeyondZ) {
+  class Alarms final : public interpreter::EventSink {
+   public:
+    void on_rapid(const interpreter::Rapid&) override { text += "moves"; }
+    void on_alarm(const interpreter::Alarm& alarm) override { text += alarm.diagnostic.text; }
+    std::string text;
+  } sink;
+  MotionCapabilities capabilities;
+  capabilities.tool_lengths = capabilities.adds_lengths = true;
+  ActiveModes modes = with_length(7);
+  modes.length_axis = Axis::U;
+  CapabilityFilter filter(capabilities, sink,
+                          [&] {
+                            return CapabilityFilter::Now{modes, 1};
+                          },
+                          {.shifts = false, .is_certain = true, .set = [](const ToolLengths&) {}});
+  filter.on_rapid({.origin = {}, .to = at(1, 2)});
+  EXPECT_THAT(sink.text, HasSubstr("of other axes than X, Y and Z"));
 }
 
 TEST(ToolLengths, OfAnotherAxisAreAddedThere) {

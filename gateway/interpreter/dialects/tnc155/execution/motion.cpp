@@ -27,6 +27,9 @@ Target machine_target(Run& run, const Block& block) {
       value += run.options.m92_position.raw(word.axis);
     }
     target.set(word.axis, value);
+    // Whether the length is in machine coordinates, no manual at hand decides.
+    const ActiveTool& tool = run.state.tool;
+    run.is_length_doubtful |= tool.data.length != 0 && word.axis == tool.axis;
   }
   return target;
 }

@@ -74,6 +74,7 @@ bool refuse_in_transfer(Run& run, int number) {
 
 bool choose(Run& run, int number) {
   ActiveTool& tool = run.state.tool;
+  run.is_length_doubtful = false;
   if (number == 0) {
     tool.number = 0;
     tool.data = {};

@@ -215,6 +215,49 @@ TEST(LengthTextOfFanuc, IsInTheHolesOfACycle) {
   EXPECT_THAT(named.lines, ElementsAre("G0Z70", "G0X5", "G0Z52", "G1Z46F600", "G0Z70"));
 }
 
+Written tnc(const std::string& blocks, const Dialect& dialect = interpreter::kTnc155Dialect) {
+  std::string text = "0 BEGIN PGM 1 MM\n";
+  int number = 1;
+  for (std::size_t at = 0, end; (end = blocks.find('\n', at)) != std::string::npos; at = end + 1)
+    text += fmt::format("{} {}\n", number++, blocks.substr(at, end - at));
+  return {dialect, text + fmt::format("{} END PGM 1 MM\n", number), ""};
+}
+
+constexpr const char* kCall = "TOOL DEF 1 L+50 R+5\nTOOL DEF 2 L-7.5 R+5\nTOOL CALL 1 Z S2000\n";
+
+TEST(LengthTextOfTnc, IsTakenInByTheMoveOfTheToolAxis) {
+  const Written it = tnc(std::string(kCall) +
+                         "L X+0 Y+0 Z+20 R0 FMAX\nL X+5 FMAX\nL Z-3 F600\nCC X+5 Y+10\nCP IPA+180 "
+                         "IZ-4 DR+\nTOOL CALL 2 Z\nL Z+30 FMAX\nTOOL CALL 0 Z\nL Z+100 FMAX\n");
+  EXPECT_EQ(it.alarm, "");
+  EXPECT_THAT(it.lines,
+              ElementsAre("G0Z70", "G0X5", "G1Z47F600", "G17G3Y20Z43X5I0J10", "G0Z22.5", "G0Z100"));
+}
+
+TEST(LengthTextOfTnc, IsAnAlarmWhereItsAxisIsNotMovedFirst) {
+  EXPECT_THAT(tnc(std::string(kCall) + "L X+5 Y+6 R0 FMAX\n").alarm,
+              HasSubstr("Z is 50.000 mm and was 0.000"));
+}
+
+TEST(LengthTextOfTnc, IsInDoubtInMachineCoordinatesOfItsAxis) {
+  for (const Dialect* dialect : {&interpreter::kTnc155Dialect, &interpreter::kItncDialect}) {
+    const std::string begin = std::string(kCall) + "L X+1 Y+0 Z+20 R0 FMAX\n";
+    EXPECT_THAT(tnc(begin + "L Z+90 R0 FMAX M91\n", *dialect).alarm, HasSubstr("in doubt"));
+    EXPECT_EQ(tnc(begin + "L X+90 R0 FMAX M91\n", *dialect).alarm, "");
+    const Written none = tnc(begin + "TOOL CALL 0 Z\nL Z+90 R0 FMAX M91\n", *dialect);
+    EXPECT_EQ(none.alarm, "");
+    EXPECT_THAT(none.lines, testing::Contains("G0Z90"));
+  }
+}
+
+// Its lengths in machine coordinates are not decided by a manual.
+TEST(LengthTextOfACenturion, IsAnAlarm) {
+  const Written it(interpreter::kCenturionDialect, "O1\nG21 G98\nT0303 M6\nG0 X60. Z2.\nM30\n",
+                   "units = \"mm\"\n[[tool]]\nnumber = 3\nX = 10.0\n");
+  EXPECT_THAT(it.lines, IsEmpty());
+  EXPECT_THAT(it.alarm, AllOf(HasSubstr("MCH0008"), HasSubstr("with this control: X 10.000")));
+}
+
 TEST(LengthTextOfALathe, IsTakenInByBothAxes) {
   const std::string tools = "[[tool]]\nnumber = 3\nX = 10.0\nZ = -20.0\n";
   const Written it(
