@@ -82,10 +82,16 @@ TEST_F(LinuxCncSystem, BlocksKeyedInMoveTheMachineAndAnAbortStopsIt) {
   EXPECT_EQ(datum.status, 200) << datum.body;
   const auto length =
       system->rest().post("/api/v1/machines/lathe-1/touch-off",
-                          {{"tool", 1}, {"offset", "G54"}, {"axis", "Z"}, {"value", 0}});
-  EXPECT_EQ(length.status, 409) << length.body;
-  EXPECT_NE(length.body.find("would not be in its motion"), std::string::npos) << length.body;
+                          {{"tool", 1}, {"offset", "G54"}, {"axis", "Z"}, {"value", -20}});
+  EXPECT_EQ(length.status, 200) << length.body;
   EXPECT_TRUE(comes_to(begun_at + 25)) << "nothing moves";
+  const double touched_at = linuxcnc->position()[2];
+  EXPECT_EQ(system->wait_ended(key_in("G21 G90 G54 G43 H1 G1 Z-15. F2400\n")).value("state", ""),
+            "completed");
+  EXPECT_TRUE(eventually([&] {
+    return std::fabs(linuxcnc->position()[2] - touched_at - 5) < 0.001;
+  })) << "5 above the place where the tip was -20: "
+      << linuxcnc->position()[2];
   EXPECT_EQ(system->wait_ended(key_in("G21 G90 G54 G1 X-3. F2400\n")).value("state", ""),
             "completed");
   EXPECT_TRUE(comes_to(begun_at + 22)) << "by the datum that was set";

@@ -126,6 +126,75 @@ TEST_F(Axes, GiveTheContactOfAProbeAsThePositionOfTheTip) {
   EXPECT_THAT(probed->text, HasSubstr("-12.5"));
 }
 
+// The lengths of a Fanuc control: an axis takes them in with its own next move.
+TEST_F(Axes, OfAFanucTakeALengthInWhenTheirOwnMoveComes) {
+  start(interpreter::kFanucDialect);
+  EXPECT_EQ(shop->run("O1\nG21 G90 F600\nG0 X3. Z9.\nG43 H1 Z-20.\nG91 G28 Z0\nM30\n"),
+            "completed");
+  EXPECT_NEAR(z(), 0, 1e-3) << "the reference point is one of the axes";
+  EXPECT_NEAR(shown_z(), 0, 1e-3);
+  EXPECT_THAT(shop->run("O1\nG21 G90 F600\nG43 H1\nG0 X8.\nM30\n"),
+              AllOf(StartsWith("MCH0008"), HasSubstr("Z is 50.000 mm and was 0.000 mm"),
+                    HasSubstr("(line 4, found before the first move)")));
+  EXPECT_NEAR(board->position()[0], 3, 1e-3);
+}
+
+TEST_F(Axes, OfAFanucKeepTheLengthThatMdiContinuesWith) {
+  start(interpreter::kFanucDialect);
+  ASSERT_EQ(shop->run("O1\nG21 G90 F600\nG43 H1 G0 Z-20.\nM30\n"), "completed");
+  ASSERT_EQ(shop->mdi("G0 X7.\n"), "completed");
+  EXPECT_NEAR(z(), 30, 1e-3);
+  // The MDI that brings a length, and the next that does not move its axis.
+  ASSERT_EQ(shop->mdi("G43 H2\n"), "completed");
+  EXPECT_THAT(shop->mdi("G0 X8.\n"), AllOf(StartsWith("MCH0008"), HasSubstr("Z is 80.000 mm")));
+  EXPECT_NEAR(z(), 30, 1e-3);
+}
+
+TEST_F(Axes, AreWhereAToolTouchesOff) {
+  start(interpreter::kFanucDialect);
+  ASSERT_EQ(shop->mdi("G21 G90 G43 H1 G0 Z-20.\n"), "completed");
+  EXPECT_THAT(shop->set("tool 2 Z -5 mm G54"), StartsWith("tool.2.length is 35.000 mm"))
+      << "the axis is at 30";
+  ASSERT_EQ(shop->run("O1\nG21 G90\nG43 H2 G0 Z1.\nM30\n"), "completed");
+  EXPECT_NEAR(z(), 36, 1e-3);
+  EXPECT_THAT(shop->set("datum G54 Z 0 mm"), StartsWith("G54.Z is 1.000")) << "of the tip";
+  ASSERT_EQ(shop->run("O1\nG21 G90\nG43 H2 G0 Z2.\nM30\n"), "completed");
+  EXPECT_NEAR(z(), 38, 1e-3);
+}
+
+// What a restart shows and does is by the tip; the axes go with the length.
+TEST_F(Axes, AreBroughtBackWithTheLengthByARestart) {
+  start(interpreter::kRs274NgcDialect);
+  shop->set_checkpoint_interval(std::chrono::milliseconds(50));
+  shop->push("P", "G21 G90 F1200\nG43 H1\nG0 Z-20\nG1 X30\nY20\nX60\nG49\nG0 Z70\nM2\n");
+  const auto first = shop->start_command("P");
+  ASSERT_TRUE(shop->send(first).accepted);
+  ASSERT_TRUE(shop->run_until([&] { return board->position()[1] > 10; }));
+  dds::Command abort = shop->command(dds::CommandAction::Abort);
+  abort.run = first.run;
+  ASSERT_TRUE(shop->send(abort).accepted);
+  ASSERT_TRUE(shop->run_until([&] { return shop->gateway->status().run.empty(); }));
+  EXPECT_NEAR(z(), 30, 1e-3);
+  board->done.clear();
+  dds::Command again = shop->start_command("P");
+  again.argument = "restart=" + first.run + " at=executed";
+  ASSERT_TRUE(shop->send(again).accepted) << shop->results.at(again.id).reason;
+  const std::size_t before = shop->count(dds::RecordKind::RunEnded);
+  ASSERT_TRUE(shop->run_until([&] {
+    dds::Command resume = shop->command(dds::CommandAction::Resume);
+    resume.run = again.run;
+    (void)shop->send(resume);
+    return shop->count(dds::RecordKind::RunEnded) > before;
+  }));
+  EXPECT_EQ(dds::decode_run_end(shop->records.back().text)->outcome, dds::RunOutcome::Completed)
+      << shop->records.back().text;
+  ASSERT_FALSE(board->done.empty());
+  for (const auto& done : board->done)
+    EXPECT_GE(done.at[2], 30 - 1e-3) << "no axis is lower than the program's tip + 50";
+  EXPECT_NEAR(z(), 70, 1e-3);
+  EXPECT_NEAR(board->position()[0], 60, 1e-3);
+}
+
 TEST_F(Axes, AreLeftByAnAbortWithTheirLength) {
   start(interpreter::kRs274NgcDialect);
   ASSERT_THAT(shop->abort_when("G21 G90 F600 G43 H1\nG1 X50 Z100\n",
