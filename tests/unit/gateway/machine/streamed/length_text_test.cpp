@@ -80,7 +80,7 @@ class Written {
   std::unique_ptr<interpreter::Interpreter> interpreter_;
 };
 
-// -- RS274/NGC: the position is shifted, and no axis moves --------------------------------------
+// -- RS274/NGC: the position is shifted, and no axis moves (NGC-039) ----------------------------
 
 TEST(LengthTextOfNgc, IsAddedToEveryMoveOfTheAxis) {
   const Written it(interpreter::kRs274NgcDialect,
@@ -142,7 +142,7 @@ TEST(LengthTextOfNgc, LiesAlongTheMachinesAxes) {
   EXPECT_THAT(it.lines, ElementsAre("G0X107Y10Z25"));
 }
 
-// -- Fanuc: the position stays, and an axis follows with its own next move -----------------------
+// -- Fanuc: the position stays, and an axis follows with its own next move (FAN-034) -------------
 
 constexpr const char* kBegin = "O1\nG21 G90 G94 G17 F600\n";
 
@@ -215,6 +215,7 @@ TEST(LengthTextOfFanuc, IsInTheHolesOfACycle) {
   EXPECT_THAT(named.lines, ElementsAre("G0Z70", "G0X5", "G0Z52", "G1Z46F600", "G0Z70"));
 }
 
+// HD-129
 Written tnc(const std::string& blocks, const Dialect& dialect = interpreter::kTnc155Dialect) {
   std::string text = "0 BEGIN PGM 1 MM\n";
   int number = 1;
