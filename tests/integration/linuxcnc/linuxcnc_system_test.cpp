@@ -80,9 +80,9 @@ TEST_F(LinuxCncSystem, BlocksKeyedInMoveTheMachineAndAnAbortStopsIt) {
   const auto datum = system->rest().post("/api/v1/machines/lathe-1/datum",
                                          {{"offset", "G54"}, {"axis", "X"}, {"value", 0}});
   EXPECT_EQ(datum.status, 200) << datum.body;
-  const auto length =
-      system->rest().post("/api/v1/machines/lathe-1/touch-off",
-                          {{"tool", 1}, {"offset", "G54"}, {"axis", "Z"}, {"value", -20}});
+  const auto length = system->rest().post(
+      "/api/v1/machines/lathe-1/touch-off",
+      {{"tool", 1}, {"offset", "G54"}, {"axis", "Z"}, {"value", -20}, {"unit", "mm"}});
   EXPECT_EQ(length.status, 200) << length.body;
   EXPECT_TRUE(comes_to(begun_at + 25)) << "nothing moves";
   const double touched_at = linuxcnc->position()[2];

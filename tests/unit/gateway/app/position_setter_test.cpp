@@ -255,5 +255,16 @@ TEST(Playback, ReadsBackAsABlock) {
   EXPECT_NEAR(shop.at(0), 41.25, 1e-9);
 }
 
+// G92 of RS274/NGC is kept in its parameters: the setup has none.
+TEST(PositionSetter, SaysWhetherSetupOrMemoryHasWhatStandsAgainstIt) {
+  Shop shop(interpreter::kRs274NgcDialect);
+  ASSERT_EQ(shop.run("G21\nG92 X5\nM2\n"), "completed");
+  shop.restart_gateway();
+  EXPECT_THAT(shop.set("datum G54 X 0 mm"), AllOf(HasSubstr("the control's memory has kept it"),
+                                                  Not(HasSubstr("out of the setup"))));
+  Shop other(interpreter::kRs274NgcDialect, "[[offset]]\nname = \"G92\"\nX = 5.0\n");
+  EXPECT_THAT(other.set("datum G54 X 0 mm"), HasSubstr("take it out of the setup first"));
+}
+
 }  // namespace
 }  // namespace dripline::gateway
