@@ -114,12 +114,21 @@ Result<void> PositionSetter::check_axis(Axis axis, const interpreter::Setup& set
   return fail(Errc::Unsupported, "this machine has no axis {}", interpreter::letter(axis));
 }
 
-Result<void> PositionSetter::check_frames(const Control& control,
-                                          const interpreter::Setup& setup) const {
+Result<void> PositionSetter::check_frames(const Control& control, const interpreter::Setup& setup,
+                                          std::size_t kept) const {
   std::string what = obstacle(control.interpreter->frame());
   if (what.empty()) what = obstacle(setup);
-  if (!what.empty())
-    return fail(Errc::Conflict, "{} is in force at power on: take it out of the setup first", what);
+  if (!what.empty()) {
+    interpreter::Setup alone = setup;
+    alone.variables.resize(alone.variables.size() - kept);
+    const auto control_alone = control_with(alone);
+    const bool is_of_setup = !obstacle(setup).empty() || !control_alone ||
+                             !obstacle(control_alone->interpreter->frame()).empty();
+    return fail(Errc::Conflict, "{} is in force at power on: {} first", what,
+                is_of_setup
+                    ? "take it out of the setup"
+                    : "the control's memory has kept it, cancel it (by MDI, or by a program)");
+  }
   what = obstacle(parts_.run.frame_left);
   if (what.empty() && parts_.run.was_shifted)
     what = "a shift (G50, G52), a mirror image, a scaling or a rotation";
@@ -216,7 +225,8 @@ Result<PositionChange> PositionSetter::set(const std::string& argument, const st
   setup->variables.insert(setup->variables.end(), kept->begin(), kept->end());
   const auto present = control_with(*setup);
   if (!present) return fail(present.error());
-  if (auto is_plain = check_frames(*present, *setup); !is_plain) return fail(is_plain.error());
+  if (auto is_plain = check_frames(*present, *setup, kept->size()); !is_plain)
+    return fail(is_plain.error());
   const interpreter::ReadCell read = [&](const std::string& name) -> std::optional<double> {
     const auto at = parts_.memory.place_of(name);
     return at ? std::optional(present->numbers.at(*at)) : std::nullopt;
@@ -290,7 +300,8 @@ Result<std::string> PositionSetter::playback(const std::string& axes,
   setup->variables.insert(setup->variables.end(), kept->begin(), kept->end());
   const auto control = control_with(*setup);
   if (!control) return fail(control.error());
-  if (auto is_plain = check_frames(*control, *setup); !is_plain) return fail(is_plain.error());
+  if (auto is_plain = check_frames(*control, *setup, kept->size()); !is_plain)
+    return fail(is_plain.error());
   const auto frame = control->interpreter->frame();
   if (!frame) return fail(Errc::Unsupported, "the control reports no coordinates");
   return rules.playback(frame->to_program(place(*setup).at), wanted);

@@ -47,7 +47,9 @@ class PositionSetter {
   enum class Sets { Length, Datum };
   Result<void> check_tool(interpreter::Axis axis, Sets what) const;
   Result<void> check_axis(interpreter::Axis axis, const interpreter::Setup& setup) const;
-  Result<void> check_frames(const Control& control, const interpreter::Setup& setup) const;
+  /// `kept`: so many variables at the end of the setup are those of the memory.
+  Result<void> check_frames(const Control& control, const interpreter::Setup& setup,
+                            std::size_t kept) const;
   bool moves_with_lengths() const;
   interpreter::RestingPlace place(const interpreter::Setup& setup) const;
 
