@@ -212,7 +212,7 @@ Result<interpreter::PositionSetting> decode_position_setting(std::string_view bo
   const std::string letter = object->required_text("axis", 1);
   const auto value = object->optional_number("value");
   const auto unit = object->optional_text("unit", 3);
-  const std::string offset = object->optional_text("offset", 16).value_or("");
+  std::string offset = object->optional_text("offset", 16).value_or("");
   if (auto good = object->finish(); !good) return fail(good.error());
   const auto axis = letter.size() == 1 ? interpreter::axis_of(letter[0]) : std::nullopt;
   if (!axis) return fail(Errc::Syntax, "axis '{}' is none of X Y Z A B C U V W", letter);
@@ -228,6 +228,10 @@ Result<interpreter::PositionSetting> decode_position_setting(std::string_view bo
     return fail(Errc::Syntax, "value {} needs a unit: mm or in", *value);
   if (is_tool && (tool == 0 || tool > kMaxTool))
     return fail(Errc::Syntax, "tool is missing, or not 1 to {}", kMaxTool);
+  const auto capital = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; };
+  std::ranges::transform(offset, offset.begin(), capital);  // as controls show them
+  if (offset.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.") != std::string::npos)
+    return fail(Errc::Syntax, "offset '{}' is no name of one: G54, G54.1P7, G59.3", offset);
   const interpreter::PositionSetting setting{
       .tool = static_cast<int>(tool),
       .offset = offset,

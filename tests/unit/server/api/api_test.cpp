@@ -145,6 +145,8 @@ TEST_F(ApiHandlers, SetADatumAndALengthFromThePosition) {
   EXPECT_EQ(turned.status, 200) << turned.body;
   EXPECT_TRUE(json(turned)["cells"].empty());
   EXPECT_TRUE(json(turned)["length"].is_null());
+  EXPECT_EQ(post(datum, {{"offset", "g54.1p7"}, {"axis", "X"}, {"value", 0}}).status, 200);
+  EXPECT_EQ(machines_.positions.back().argument, "datum G54.1P7 X 0 mm");
   const std::size_t sent = machines_.positions.size();
   for (const char* unit : {"mm", "in"}) {
     expect_error(post(datum, {{"axis", "C"}, {"value", 90}, {"unit", unit}}), 400, "syntax",
@@ -158,7 +160,7 @@ TEST_F(ApiHandlers, SetADatumAndALengthFromThePosition) {
                "1000000000");
   expect_error(post(datum, {{"axis", "X"}, {"value", 1}, {"unit", "m"}}), 400, "syntax", "'m'");
   expect_error(post(datum, {{"axis", "X"}, {"value", 0}, {"offset", "G54 X"}}), 400, "syntax",
-               "expected");
+               "offset 'G54 X' is no name of one: G54");
   expect_error(post(datum, {{"axis", "X"}, {"value", 0}, {"tool", 3}}), 400, "syntax", "tool");
   expect_error(post(touch, {{"axis", "X"}, {"value", 0}}), 400, "syntax", "tool is missing");
   EXPECT_EQ(post("/api/v1/machines/nowhere/datum", {{"axis", "X"}, {"value", 0}}).status, 404);
