@@ -28,11 +28,6 @@ client::Reply<client::ControlValues> all_values(client::Client& client,
   return all;
 }
 
-/// As short as it can be read back.
-std::string control_value_text(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : "vacant";
-}
-
 int show_parameters(Context& context, client::Client& client, const ValuesCommand& command) {
   auto all = all_values(client, command);
   if (all && !command.is_all)

@@ -73,6 +73,10 @@ double seconds_between(std::string_view from, std::string_view to) {
   return std::chrono::duration<double>(*second - *first).count();
 }
 
+std::string control_value_text(const std::optional<double>& value) {
+  return value ? fmt::format("{:.10g}", *value) : "vacant";
+}
+
 std::string short_id(std::string_view id) {
   return std::string(id.substr(0, 8));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,9 @@ std::string time_text(std::string_view iso8601);
 std::string clock_text(std::string_view iso8601);
 /// Seconds between two such times; 0 when one is not a time.
 double seconds_between(std::string_view from, std::string_view to);
+/// Of a control's variable, an offset or a table: to ten digits, so without what converting inches
+/// leaves in the last ones; JSON has all of them. Nothing: "vacant".
+std::string control_value_text(const std::optional<double>& value);
 /// The first eight characters of a run's id or a digest: enough for people, and `dnc` takes it.
 std::string short_id(std::string_view id);
 

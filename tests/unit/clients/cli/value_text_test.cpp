@@ -96,6 +96,14 @@ TEST(TimeText, ShowsLocalTime) {
   EXPECT_EQ(time_text(""), "");
 }
 
+TEST(ControlValueText, LeavesOutTheNoiseOfConverting) {
+  EXPECT_EQ(control_value_text(25.4 * 0.7 / 25.4), "0.7");
+  EXPECT_EQ(control_value_text(17.779999999999998), "17.78");
+  EXPECT_EQ(control_value_text(-0.00012), "-0.00012");
+  EXPECT_EQ(control_value_text(1234567.891), "1234567.891");
+  EXPECT_EQ(control_value_text(std::nullopt), "vacant");
+}
+
 TEST(SecondsBetween, CountsFractions) {
   EXPECT_DOUBLE_EQ(seconds_between("2026-11-21T07:40:06.5Z", "2026-11-21T07:41:06.75Z"), 60.25);
   EXPECT_EQ(seconds_between("", "2026-11-21T07:41:06Z"), 0);
