@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "gateway/app/run/run_loop.hpp"
+#include "gateway/interpreter/core/option_rows.hpp"
 #include "protocol/process/log.hpp"
 
 /// How a run begins.
@@ -10,6 +12,12 @@ namespace dripline::gateway {
 using machine::MachineState;
 
 namespace {
+
+bool begins_in_middle(const interpreter::Dialect& dialect) {
+  if (dialect.options == nullptr) return true;  // its own make() decides
+  const auto options = dialect.options();
+  return std::ranges::any_of(options, [](const auto& one) { return one.key.key == "start_at"; });
+}
 
 bool is_there(const interpreter::Position& a, const interpreter::Position& b) {
   constexpr double kSamePlace = 1e-6;
@@ -56,6 +64,12 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
   const StartArgument& from = *begun;
   if (from.part) setup.control.set("part", {std::int64_t{*from.part}, 0});
   if (from.place.empty()) return setup;
+  if (!begins_in_middle(parts_.dialect)) {
+    return fail(Errc::Unsupported,
+                "control {} begins no program in its middle (at {}): its state is known at the "
+                "first block only. A run that was cut off is continued by a restart",
+                parts_.dialect.name, from.place);
+  }
   setup.control.set("start_at", {from.place, 0});
   if (from.pass) setup.control.set("start_pass", {std::int64_t{*from.pass}, 0});
   if (from.memory != StartMemory::Ask) {

@@ -182,5 +182,22 @@ TEST(Resume, IsOnlyForAStartInTheMiddle) {
   }
 }
 
+TEST(StartInTheMiddle, IsRefusedWithTheReasonWhereTheControlHasNone) {
+  for (const interpreter::Dialect* control :
+       {&interpreter::kFanucDialect, &interpreter::kRs274NgcDialect}) {
+    GatewayFixture fixture(*control, {}, "max");
+    fixture.push("P", "G21\nN30 G0 X1\nM2\n");
+    dds::Command start = fixture.start_command("P");
+    start.argument = "N30";
+    const auto reply = fixture.send(start);
+    EXPECT_FALSE(reply.accepted);
+    EXPECT_EQ(
+        reply.reason,
+        fmt::format("control {} begins no program in its middle (at N30): its state is known "
+                    "at the first block only. A run that was cut off is continued by a restart",
+                    control->name));
+  }
+}
+
 }  // namespace
 }  // namespace dripline::gateway
