@@ -1,6 +1,7 @@
 #include "gateway/app/memory/position_change.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -53,6 +54,18 @@ std::string text_of(const Basis& basis, const PositionSetting& setting) {
   return text.empty() ? text : " (" + text + ")";
 }
 
+/// A mill's wear stays when the length is measured, and is added to it; empty: there is none.
+std::string wear_left(const PositionToShow& shown) {
+  if (shown.setting.tool == 0) return {};
+  const std::string name = shown.changes.front().name + "_wear";
+  if (std::ranges::find(shown.changes, name, &CellNumber::name) != shown.changes.end()) return {};
+  const auto wear = shown.before(name);
+  if (!wear || !std::isfinite(*wear) || std::fabs(*wear) < 1e-9) return {};
+  const CellUnit unit = shown.changes.front().unit;
+  return fmt::format("; {} stays, {} {}: the length in force will be the sum", name,
+                     shown_number(wear, unit), to_text(unit));
+}
+
 json number_json(const std::optional<double>& number) {
   return number && std::isfinite(*number) ? json(*number) : json(nullptr);
 }
@@ -74,7 +87,7 @@ PositionChange shown_change(const PositionToShow& shown) {
                      {"value", cell.value},
                      {"unit", to_text(cell.unit)}});
   }
-  change.text += text_of(basis, shown.setting);
+  change.text += wear_left(shown) + text_of(basis, shown.setting);
   const json length = number_json(basis.length), zero = number_json(basis.zero);
   change.details = json{{"cells", std::move(cells)}, {"length", length}, {"zero", zero}}.dump();
   const double at = shown.place.at[static_cast<std::size_t>(shown.setting.axis)];

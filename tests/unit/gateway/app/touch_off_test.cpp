@@ -50,6 +50,18 @@ INSTANTIATE_TEST_SUITE_P(
                   "tool 4 Z -3 in G54", "tool.4.Z is 25.400 mm, it was 25.400"}),
     [](const auto& i) { return i.param.name; });
 
+// [MEASUR] of a mill's geometry leaves the wear; a lathe's is 0 then.
+TEST(TouchOffByFanuc, NamesTheWearThatStays) {
+  Shop mill(interpreter::kFanucDialect,
+            "[control]\noffset_memory = \"C\"\n[[tool]]\nnumber = 3\nlength = 10.0\n");
+  ASSERT_EQ(mill.mdi("G21 G91 G1 Z-20. F9000\n"), "completed");
+  EXPECT_THAT(mill.set("tool 3 Z -60 mm G54"), Not(HasSubstr("wear")));
+  ASSERT_EQ(mill.mdi("G90 G10 L11 P3 R-0.25\n"), "completed");
+  EXPECT_THAT(mill.set("tool 3 Z -60 mm G54"),
+              AllOf(StartsWith("tool.3.length is 40.000 mm"),
+                    HasSubstr("tool.3.length_wear stays, -0.250 mm: the length in force will be")));
+}
+
 // The control's own arithmetic with the length that was set comes to the coordinate.
 TEST(TouchOffByFanuc, IsTheLengthOfG43) {
   Shop shop(interpreter::kFanucDialect, "[[offset]]\nname = \"G54\"\nZ = -300.0\n");
