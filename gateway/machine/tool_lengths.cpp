@@ -5,15 +5,8 @@ namespace dripline::machine {
 using interpreter::Axis;
 using interpreter::Position;
 
-ToolLengths lengths_of(const interpreter::ActiveModes& modes) {
-  ToolLengths lengths{modes.tool_length_x.mm(), modes.tool_length_y.mm(), 0};
-  const auto axis = static_cast<std::size_t>(modes.length_axis);
-  if (axis < lengths.size()) lengths[axis] += modes.tool_length_z.mm();
-  return lengths;
-}
-
 ToolLengths axis_lengths_of(const interpreter::ActiveModes& modes) {
-  ToolLengths lengths = lengths_of(modes);
+  ToolLengths lengths = modes.lengths();
   for (std::size_t i = 0; i < lengths.size(); ++i)
     if ((modes.bare_axes >> i & 1) != 0) lengths[i] = 0;
   return lengths;

@@ -8,8 +8,6 @@ namespace dripline::machine {
 
 /// Lengths of a tool along X (a lathe's as a radius), Y and Z, mm.
 using ToolLengths = std::array<double, 3>;
-/// Those that the control has in force.
-ToolLengths lengths_of(const interpreter::ActiveModes& modes);
 /// Those that an axis of a real machine takes in: none that machine coordinates have placed.
 ToolLengths axis_lengths_of(const interpreter::ActiveModes& modes);
 

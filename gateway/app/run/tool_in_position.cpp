@@ -77,7 +77,7 @@ void ToolInPosition::drop_tool(interpreter::Position& position) {
 
 void ToolHistory::begin(const std::optional<ToolInPosition>& before,
                         const interpreter::ActiveModes& modes) {
-  const ToolLengths in_force = lengths_of(modes);
+  const ToolLengths in_force = modes.lengths();
   begun_ = before.value_or(ToolInPosition{});
   entries_.clear();
   tool_called_.reset();
@@ -100,7 +100,7 @@ ToolLengths ToolHistory::left_out(const Entry& entry, std::uint64_t block) const
 void ToolHistory::note(std::uint64_t block, const interpreter::ActiveModes& modes,
                        const EventTracker::Moves& moves) {
   const Entry& last = entries_.back();
-  const ToolLengths lengths = lengths_of(modes);
+  const ToolLengths lengths = modes.lengths();
   if (lengths != last.in_force || modes.is_length_plain != last.is_plain)
     entries_.push_back({.block = block, .in_force = lengths, .is_plain = modes.is_length_plain});
   for (std::size_t i = 0; i < moves.axes.size(); ++i)

@@ -12,7 +12,6 @@
 
 namespace dripline::gateway {
 
-using machine::lengths_of;
 using machine::ToolLengths;
 /// "X 10, Z 25.4 mm"; empty: there is none. A diameter where `is_lathe`.
 std::string to_text(const ToolLengths& lengths, bool is_lathe);

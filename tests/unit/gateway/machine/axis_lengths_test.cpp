@@ -135,7 +135,7 @@ TEST(ToolLengths, OfAnotherAxisAreAddedThere) {
   ActiveModes modes = with_length(7);
   modes.length_axis = Axis::X;
   modes.tool_length_x = Length::mm(1);
-  EXPECT_EQ(lengths_of(modes), (ToolLengths{8, 0, 0}));
+  EXPECT_EQ(modes.lengths(), (ToolLengths{8, 0, 0}));
   modes.bare_axes = 1;
   EXPECT_EQ(axis_lengths_of(modes), ToolLengths{});
 }
