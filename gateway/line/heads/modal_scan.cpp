@@ -52,7 +52,9 @@ interpreter::TextForm text_form(std::string_view control) {
 ModalScan::ModalScan(std::string_view control)
     : text_(text_form(control)),
       is_fanuc_(control.starts_with("fanuc")),
-      is_rs274ngc_(control == "rs274ngc") {}
+      is_lathe_(control == "fanuc-t"),
+      is_rs274ngc_(control == "rs274ngc"),
+      is_tektronix_(control == "tektronix-1704") {}
 
 /// Words at depth 0: a letter and everything up to the next one. Comments are left out.
 ModalScan::Block ModalScan::read(std::string_view text) {
@@ -93,6 +95,11 @@ std::optional<ModalCode> ModalScan::code_of(const Word& word, const Block& block
     if (moves) return ModalCode{code, Shift, Resend::Never};
     if (has_any(block, "S")) return ModalCode{code, SpeedLimit, Resend::Word, "S"};
   }
+  if (is_tektronix_ && code == 940) return ModalCode{code, Shift, Resend::Never};
+  // Cycles of one cut and threads, in one G-code system or the other.
+  const bool is_box = code == 900 || code == 940 || (code >= 770 && code <= 790);
+  if (is_lathe_ && is_box && moves) return ModalCode{code, Motion, Resend::Never};
+  if (is_lathe_ && (code == 320 || code == 340)) return ModalCode{code, Motion};
   const bool is_path = code == 50 || code == 51;
   if (is_path && (moves || has_any(block, "IJ"))) return ModalCode{code, Motion, Resend::Never};
   if (code == 80 && !text_.has_diameter_codes)
@@ -155,7 +162,8 @@ void ModalScan::skip(std::string_view text) {
   // `#100=5`, IF, WHILE, GOTO, CALL and O words have words that are no numbers, or a `#` or `=`.
   const std::string_view bare = trim(text.substr(0, text.find_first_of("(;")));
   if (bare.find('%') != std::string_view::npos || is_printing(bare)) return;
-  const bool is_statement = bare.find_first_of("#=[") != std::string_view::npos;
+  const bool is_statement = bare.find_first_of("#=[") != std::string_view::npos ||
+                            without_number(bare).starts_with('/');  // the panel decides on it
   if (is_computed || is_statement) return name_unknown(bare);
   for (const Word& word : block) skip_word(word, block, bare);
   skip_tool(block);
@@ -211,7 +219,7 @@ void ModalScan::skip_function(const Word& word, const Block& block) {
         false);
   }
   if (!is_rs274ngc_) return;
-  if (code >= 50 && code <= 53) name_unknown(word.text());
+  if ((code >= 50 && code <= 53) || (code >= 70 && code <= 73)) name_unknown(word.text());
   const auto tool = std::ranges::find(block, 'Q', &Word::letter);
   if (code == 61 && tool != block.end()) set(Tool, word.text() + " " + tool->text(), false);
 }

@@ -71,7 +71,7 @@ class ModalScan {
   void decide(bool is_feed_move);
 
   const interpreter::TextForm text_;
-  const bool is_fanuc_, is_rs274ngc_;
+  const bool is_fanuc_, is_lathe_, is_rs274ngc_, is_tektronix_;
   std::uint64_t line_ = 0;
   std::uint64_t looked_ = 0;
   bool is_moving_ = false;  ///< G0 to G3: the last motion code of all is not G0

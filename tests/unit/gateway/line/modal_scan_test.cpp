@@ -162,7 +162,7 @@ TEST_P(UnsendableTest, IsNamedAndNotSentAgain) {
   ModalScan scan(GetParam().control);
   scan.skip("X30. Y40.");
   scan.skip(GetParam().block);
-  scan.look("G1 X1. F5");
+  scan.look("X1. F5");
   const auto words = scan.relied_on();
   EXPECT_TRUE(std::ranges::any_of(words, [](const ModalWord& word) {
     return word.line == 2 && !word.can_be_sent;
@@ -190,8 +190,23 @@ INSTANTIATE_TEST_SUITE_P(
                     UnsendableCase{"length_of_another_control", "fanuc", "G43.1 Z5."},
                     UnsendableCase{"polar_coordinates", "fanuc", "G16"},
                     UnsendableCase{"stroke_zone", "fanuc", "G22 X1. Y1. Z1. I0 J0 K0"},
+                    UnsendableCase{"zero_of_a_tektronix", "tektronix-1704", "N3G94X0"},
+                    UnsendableCase{"turning_cycle", "fanuc-t", "G90 X30. Z-20. F.2"},
+                    UnsendableCase{"facing_cycle", "fanuc-t", "G94 X30. Z-20. F.2"},
+                    UnsendableCase{"turning_cycle_of_system_b", "fanuc-t", "G77 X30. Z-20. F.2"},
+                    UnsendableCase{"skipped_by_the_panel", "fanuc", "/G20"},
+                    UnsendableCase{"skipped_by_the_panel_with_a_number", "fanuc", "N7 /2 G20"},
+                    UnsendableCase{"restored_modes", "rs274ngc", "M72"},
                     UnsendableCase{"unknown_code", "fanuc", "G123"}),
     [](const auto& i) { return std::string(i.param.name); });
+
+TEST(ModalScan, AThreadGoesOnAsAThread) {
+  ModalScan scan("fanuc-t");
+  for (const char* block : {"G97 S500 M3", "G0 X20. Z5.", "G32 Z-5. F2."}) scan.skip(block);
+  scan.look("Z-10.");
+  EXPECT_EQ(words_text(scan.relied_on()),
+            "G97 S500 (line 1), S500 (line 1), M3 (line 1), G32 (line 3), F2. (line 3)");
+}
 
 TEST(ModalScan, NothingStaysOfCodesOfOneBlock) {
   ModalScan fanuc("fanuc");
