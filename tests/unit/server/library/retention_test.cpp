@@ -59,8 +59,8 @@ class RetentionTest : public server_test::ServerTest {
   }
   std::vector<std::uint64_t> stored() {
     std::vector<std::uint64_t> numbers;
-    for (const auto& record : store_->records.of_machine_after("lathe-1", {7, 0}, 1000).value())
-      numbers.push_back(record.number);
+    const auto records = store_->records.of_machine_after("lathe-1", {7, 0}, 1000);
+    for (const auto& record : records.value()) numbers.push_back(record.number);
     return numbers;
   }
   std::vector<json> rows_of(const storage::Archive& archive) {

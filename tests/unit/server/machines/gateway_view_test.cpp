@@ -40,6 +40,7 @@ TEST_F(MachineRuns, AreStartedOnceTheGatewayHasReportedItsClock) {
 TEST_F(MachineRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsNotified) {
   push("O0100", "M30\n");
   start_service();
+  answer_commands(true);
   protocol_ = 4711;
   announce();
   ASSERT_TRUE(written_->wait([&] { return !written_->commands.empty(); }));
@@ -54,7 +55,6 @@ TEST_F(MachineRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsNotified) {
       {.machine = "lathe-1", .argument = "datum G54 Z 0 mm", .who = "anna", .is_playback = false});
   ASSERT_FALSE(set);
   EXPECT_NE(set.error().what.find("protocol 4711, this server 2"), std::string::npos);
-  answer_commands(true);
   machines::CommandRequest stop;
   stop.machine = "lathe-1";
   stop.action = dds::CommandAction::Switch;

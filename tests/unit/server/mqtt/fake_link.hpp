@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -31,7 +32,7 @@ class FakeLink final : public BrokerLink {
     const std::lock_guard lock(mutex_);
     ++next_;
     pending_.emplace_back(next_, message);
-    most_pending = std::max(most_pending, pending_.size());
+    most_pending = std::max(most_pending.load(), pending_.size());
     return next_;
   }
   Progress wait(std::chrono::milliseconds limit) override {
@@ -99,8 +100,8 @@ class FakeLink final : public BrokerLink {
   bool is_down = false;    ///< connections fail
   bool is_silent = false;  ///< nothing is acknowledged
   std::string refused;     ///< part of the topics
-  int opened = 0, closed = 0, dropped = 0;
-  std::size_t most_pending = 0;
+  std::atomic<int> opened = 0, closed = 0, dropped = 0;
+  std::atomic<std::size_t> most_pending = 0;
 
  private:
   std::mutex mutex_;
