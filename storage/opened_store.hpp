@@ -6,10 +6,22 @@
 #include <functional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "storage/store.hpp"
 
 namespace dripline::storage {
+
+/// What other servers of the store have to know of the one that has it.
+struct ServerFacts {
+  std::string url;          ///< where clients reach it; empty: nowhere yet
+  std::string signing_key;  ///< public, hexadecimal
+};
+
+/// A server that waits to take over the store.
+struct WaitingServer {
+  std::string described;  ///< "dncd 812 on srv-2, /var/lib/dripline"
+};
 
 /// A store with what its owner asks besides, whatever engine keeps it.
 class OpenedStore : public Store {
@@ -36,6 +48,14 @@ class OpenedStore : public Store {
 
   /// Made together with the database and never changed: 32 hexadecimal digits.
   virtual Result<std::string> identity() = 0;
+
+  /// Of a store that several servers know: the number of this server's taking of it, above that of
+  /// every one before, in any of them. 0: no other server can have it.
+  virtual std::uint64_t term() const { return 0; }
+  /// For servers that wait, and for their clients. Errors: Io.
+  virtual Result<void> publish(const ServerFacts&) { return {}; }
+  /// Those that have asked for the place in the last seconds. Errors: Io.
+  virtual Result<std::vector<WaitingServer>> waiting() { return std::vector<WaitingServer>{}; }
 
  protected:
   explicit OpenedStore(const Store& store) : Store(store) {}

@@ -18,6 +18,7 @@ struct Port {
   std::vector<std::pair<std::string, std::string>> settings;  ///< key, value; over the template's
   std::string rules;  ///< what a text from the control means (TOML), may be empty
   bool is_enabled = true;
+  std::string host = {};  ///< the computer that has the device; empty: not known, or none has
 };
 inline constexpr std::size_t kMaxPortSettings = 64;
 inline constexpr std::size_t kMaxPortRules = 32 * 1024;

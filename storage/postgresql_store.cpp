@@ -2,6 +2,7 @@
 
 #include "storage/impl/all_repositories.hpp"
 #include "storage/impl/postgresql_connections.hpp"
+#include "storage/impl/waiting_rows.hpp"
 #include "storage/postgresql/url.hpp"
 
 namespace dripline::storage {
@@ -48,6 +49,19 @@ Result<bool> PostgresqlStore::copy_to(const std::filesystem::path&,
 Result<std::string> PostgresqlStore::identity() {
   return parts_->connections->read(
       [](sql::Database& database) { return database.text("SELECT id FROM identity"); });
+}
+
+std::uint64_t PostgresqlStore::term() const {
+  return parts_->connections->term();
+}
+
+Result<void> PostgresqlStore::publish(const ServerFacts& facts) {
+  return parts_->connections->publish(facts);
+}
+
+Result<std::vector<WaitingServer>> PostgresqlStore::waiting() {
+  return parts_->connections->read(
+      [](sql::Database& database) { return waiting_servers(database, ""); });
 }
 
 Result<bool> holds_password(const std::string& url) {

@@ -18,6 +18,9 @@ struct PostgresqlStoreOptions {
   std::string url;          ///< postgresql://...; the database must exist
   std::string holder{};     ///< what only one process at a time calls itself; empty: a random name
   std::string described{};  ///< which server this is, for anyone who is refused
+  /// Another server may have the place when it was not renewed for so long, by the database's
+  /// clock.
+  std::chrono::milliseconds lease{4000};
   std::chrono::milliseconds wait_for_holder{12000};  ///< that another one's place ends, then Busy
   std::size_t readers = 4;                           ///< connections that read at the same time
   std::uint64_t cache_bytes = 8 << 20;  ///< of program chunks kept checked and decompressed
@@ -34,8 +37,10 @@ Result<bool> holds_password(const std::string& url);
 
 /// The second Store: one PostgreSQL database, 15 or newer. What was stored is durable as PostgreSQL
 /// promises it (synchronous_commit, and with a synchronous standby there too). One server at a time
-/// uses a database, which it records (store_holder): who lost the place stores nothing more,
-/// reads nothing from when it knows (3 s at most), and is notified by `on_lost`.
+/// uses a database: its place is a lease with a term, which every transaction that writes compares
+/// (impl/postgresql_place.hpp has what exactly is guaranteed). Who lost the place stores nothing
+/// more, reads nothing from when it knows (a quarter of the lease at most), and is notified by
+/// `on_lost`. `holder` may be a copied folder's: the term tells the two apart.
 /// A lost connection is opened again by the next call; what was not at its commit yet is done
 /// again, and so is what conflicted with another transaction. Errors besides those of Store:
 /// Timeout (the connection was lost at the commit, and no one knows whether it was stored).
@@ -59,6 +64,9 @@ class PostgresqlStore final : public OpenedStore {
   Result<bool> copy_to(const std::filesystem::path& file,
                        const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) override;
   Result<std::string> identity() override;
+  std::uint64_t term() const override;
+  Result<void> publish(const ServerFacts& facts) override;
+  Result<std::vector<WaitingServer>> waiting() override;
 
  private:
   struct Parts;

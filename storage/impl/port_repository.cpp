@@ -58,6 +58,7 @@ Port read_port(const sql::Statement& row) {
   port.line_template = row.text(3);
   port.rules = row.text(4);
   port.is_enabled = row.integer(5) != 0;
+  port.host = row.text(6);
   return port;
 }
 
@@ -69,15 +70,15 @@ Result<void> PortRepository::save(const Port& port) {
   if (auto checked = check_port(port); !checked) return checked;
   return connections_.write([&](sql::Database& database) -> Result<void> {
     if (auto is_free = check_address_free(database, port); !is_free) return is_free;
-    const auto saved =
-        sql::run(database,
-                 "INSERT INTO port (name, machine, address, line_template, rules, is_enabled) "
-                 "VALUES (?1, ?2, ?3, ?4, ?5, ?6) ON CONFLICT (name) DO UPDATE SET "
-                 "machine = excluded.machine, address = excluded.address, "
-                 "line_template = excluded.line_template, rules = excluded.rules, "
-                 "is_enabled = excluded.is_enabled",
-                 port.name, port.machine, port.address, port.line_template, port.rules,
-                 port.is_enabled ? 1 : 0);
+    const auto saved = sql::run(
+        database,
+        "INSERT INTO port (name, machine, address, line_template, rules, is_enabled, host) "
+        "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7) ON CONFLICT (name) DO UPDATE SET "
+        "machine = excluded.machine, address = excluded.address, "
+        "line_template = excluded.line_template, rules = excluded.rules, "
+        "is_enabled = excluded.is_enabled, host = excluded.host",
+        port.name, port.machine, port.address, port.line_template, port.rules,
+        port.is_enabled ? 1 : 0, port.host);
     if (!saved) return saved;
     return save_settings(database, port);
   });
@@ -85,10 +86,10 @@ Result<void> PortRepository::save(const Port& port) {
 
 Result<std::vector<Port>> PortRepository::list() {
   return connections_.read([&](sql::Database& database) -> Result<std::vector<Port>> {
-    auto ports = sql::all_rows(
-        database,
-        "SELECT name, machine, address, line_template, rules, is_enabled FROM port ORDER BY name",
-        read_port);
+    auto ports = sql::all_rows(database,
+                               "SELECT name, machine, address, line_template, rules, is_enabled, "
+                               "host FROM port ORDER BY name",
+                               read_port);
     if (!ports) return ports;
     for (Port& port : *ports) {
       auto settings = sql::all_rows(

@@ -14,20 +14,20 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// Of the holder's place without being renewed; the database's clock counts it.
-constexpr std::chrono::seconds kPlace{10};
-constexpr std::chrono::seconds kRenew{3};
 /// A database that is not there keeps no caller longer; one that was just lost may be back at once.
 constexpr std::chrono::milliseconds kReconnect{2000}, kPause{100};
-
-constexpr const char* kGivePlace =
-    "UPDATE store_holder SET holder = '', until = now() WHERE holder = ?1";
+/// Of the lease: so often the place is renewed.
+constexpr int kRenewals = 4;
 
 }  // namespace
 
 PostgresqlConnections::PostgresqlConnections(const PostgresqlStoreOptions& options)
     : options_(options),
-      holder_(options.holder.empty() ? random_hex(16) : options.holder),
+      place_({.holder = options.holder.empty() ? random_hex(16) : options.holder,
+              .described = options.described,
+              .lease = options.lease,
+              .wait = options.wait_for_holder,
+              .lock_wait = options.wait}),
       writer_(options.wait),
       readers_(options.wait) {}
 
@@ -43,7 +43,7 @@ Result<std::unique_ptr<PostgresqlConnections>> PostgresqlConnections::open(
   if (auto done = connections->prepare(*writer, use); !done) {
     const bool was_locked = writer->waited_for_lock();
     writer->roll_back();
-    connections->give_place(*writer);
+    if (writer->is_alive()) connections->place_.give_back(*writer);
     return fail(was_locked ? postgresql::locked_by_others(*writer, options.wait) : done.error());
   }
   connections->writer_.add(*std::move(writer));
@@ -60,8 +60,10 @@ PostgresqlConnections::~PostgresqlConnections() {
   keeper_.join();
   if (is_lost_) return;
   // When this fails the place ends by its time.
-  static_cast<void>(
-      write([this](sql::Database& database) { return sql::run(database, kGivePlace, holder_); }));
+  static_cast<void>(write([this](sql::Database& database) -> Result<void> {
+    place_.give_back(database);
+    return {};
+  }));
 }
 
 /// The place comes first: another server's tables are not migrated while it works. An empty
@@ -79,9 +81,10 @@ Result<void> PostgresqlConnections::prepare(Database& database, const DatabaseUs
     }
   }
   if (!has_place) return fail(has_place.error());
-  if (auto taken = take_place(database); !taken) return taken;
+  if (auto taken = place_.take(database); !taken) return taken;
   if (auto fits = check_use(database, use); !fits) return fits;
-  return postgresql::migrate(database, postgresql::schema());
+  if (auto done = postgresql::migrate(database, postgresql::schema()); !done) return done;
+  return place_.has_term() ? Result<void>() : place_.raise_term(database);
 }
 
 Result<void> PostgresqlConnections::check_use(Database& database, const DatabaseUse& use) const {
@@ -114,59 +117,6 @@ Result<void> PostgresqlConnections::check_use(Database& database, const Database
   return {};
 }
 
-/// Best effort: otherwise it ends by its time.
-void PostgresqlConnections::give_place(Database& database) {
-  if (may_have_place_ && database.is_alive())
-    static_cast<void>(sql::run(database, kGivePlace, holder_));
-}
-
-/// True: it is ours now. False: `other` has it.
-Result<bool> PostgresqlConnections::try_place(Database& database, std::string& other) {
-  if (auto begun = database.begin(); !begun) return fail(begun.error());
-  const auto free = sql::first_row(
-      database,
-      "SELECT holder = '' OR holder = ?1 OR until <= now(), described FROM store_holder "
-      "WHERE id = 1 FOR UPDATE",
-      [&](const sql::Statement& row) {
-        other = row.text(1);
-        return row.integer(0) != 0;
-      },
-      holder_);
-  if (!free) return fail(free.error());
-  if (!free->value_or(false)) {
-    database.roll_back();
-    return false;
-  }
-  const auto taken = sql::run(
-      database,
-      "UPDATE store_holder SET holder = ?1, described = ?2, until = now() + ?3 * interval '1 "
-      "second' WHERE id = 1",
-      holder_, options_.described, kPlace.count());
-  if (!taken) return fail(taken.error());
-  may_have_place_ = true;
-  if (auto done = database.commit(); !done) return fail(done.error());
-  return true;
-}
-
-Result<void> PostgresqlConnections::take_place(Database& database) {
-  const auto deadline = SteadyClock::now() + options_.wait_for_holder;
-  std::string other;
-  for (;;) {
-    const auto taken = try_place(database, other);
-    if (!taken) return fail(taken.error());
-    if (*taken) return {};
-    if (SteadyClock::now() >= deadline) {
-      return fail(
-          Errc::Busy,
-          "database {} is used by another server ({}), and still was after {} s of waiting: "
-          "end that one; a server that was killed loses its place after {} s",
-          label_, other.empty() ? "not named" : other,
-          std::chrono::duration<double>(options_.wait_for_holder).count(), kPlace.count());
-    }
-    std::this_thread::sleep_for(kPause);
-  }
-}
-
 Result<void> PostgresqlConnections::connect(Slot& slot) {
   if (slot && slot->is_alive()) return {};
   const auto deadline = SteadyClock::now() + kReconnect;
@@ -184,11 +134,9 @@ Result<void> PostgresqlConnections::connect(Slot& slot) {
 Result<void> PostgresqlConnections::begin_write(Database& database, Durability durability) {
   if (auto begun = database.begin(); !begun) return begun;
   if (durability == Durability::Normal) database.relax_commit();
-  const auto holder =
-      sql::first_row(database, "SELECT holder FROM store_holder WHERE id = 1 FOR UPDATE",
-                     [](const sql::Statement& row) { return row.text(0); });
-  if (!holder) return fail(holder.error());
-  if (!*holder || **holder != holder_) lose_place();
+  const auto ours = place_.is_ours(database);
+  if (!ours) return fail(ours.error());
+  if (!*ours) lose_place();
   return check_place();
 }
 
@@ -254,12 +202,11 @@ Result<void> PostgresqlConnections::read_with(const Work& work) {
 }
 
 Result<void> PostgresqlConnections::renew() {
-  return write([this](sql::Database& database) {
-    return sql::run(database,
-                    "UPDATE store_holder SET until = now() + ?2 * interval '1 second' "
-                    "WHERE holder = ?1",
-                    holder_, kPlace.count());
-  });
+  return write([this](sql::Database& database) { return place_.renew(database); });
+}
+
+Result<void> PostgresqlConnections::publish(const ServerFacts& facts) {
+  return write([&](sql::Database& database) { return place_.publish(database, facts); });
 }
 
 void PostgresqlConnections::keep_place(const std::stop_token& stop) {
@@ -267,7 +214,7 @@ void PostgresqlConnections::keep_place(const std::stop_token& stop) {
   std::condition_variable_any stopped;
   std::unique_lock lock(mutex);
   while (!stop.stop_requested()) {
-    stopped.wait_for(lock, stop, kRenew, [] { return false; });
+    stopped.wait_for(lock, stop, options_.lease / kRenewals, [] { return false; });
     // A failure shows in whatever is stored next.
     if (!stop.stop_requested()) static_cast<void>(renew());
   }

@@ -8,6 +8,7 @@
 
 #include "storage/impl/connection_pool.hpp"
 #include "storage/impl/connections.hpp"
+#include "storage/impl/postgresql_place.hpp"
 #include "storage/postgresql/database.hpp"
 #include "storage/postgresql_store.hpp"
 
@@ -24,9 +25,9 @@ struct DatabaseUse {
 };
 
 /// One connection that writes and some that read; a lost one is opened again by anyone who needs
-/// it. The database has one holder (schema, store_holder): every transaction that writes locks the
-/// holder's row and looks who it is, so a server that lost its place stores nothing any more, and
-/// once it knows that it reads nothing either: what it would do is another one's now. Thread-safe.
+/// it. The database has one holder, by a lease with a term (postgresql_place.hpp): a server that
+/// lost its place stores nothing any more, and once it knows that it reads nothing either: what it
+/// would do is another one's now. Thread-safe.
 class PostgresqlConnections final : public Connections {
  public:
   /// Takes the holder's place, and creates or migrates the schema. Errors: see
@@ -40,6 +41,9 @@ class PostgresqlConnections final : public Connections {
   Result<void> check_place() const override;
   /// Extends the place, in a transaction that is on disk when it returns.
   Result<void> renew();
+  std::uint64_t term() const { return place_.term(); }
+  /// Of this server, for those that wait.
+  Result<void> publish(const ServerFacts& facts);
 
  private:
   using Database = postgresql::Database;
@@ -50,10 +54,7 @@ class PostgresqlConnections final : public Connections {
   Result<void> read_with(const Work& work) override;
   Result<void> prepare(Database& database, const DatabaseUse& use);
   Result<void> check_use(Database& database, const DatabaseUse& use) const;
-  Result<void> take_place(Database& database);
-  void give_place(Database& database);
   void lose_place();
-  Result<bool> try_place(Database& database, std::string& other);
   Result<void> begin_write(Database& database, Durability durability);
   /// Opens it when it is not. Errors: Io, after trying for a moment.
   Result<void> connect(Slot& slot);
@@ -62,8 +63,7 @@ class PostgresqlConnections final : public Connections {
 
   const PostgresqlStoreOptions options_;
   std::string label_;
-  std::string holder_;
-  bool may_have_place_ = false;        ///< while it is opened
+  PostgresqlPlace place_;
   std::atomic<bool> is_lost_ = false;  ///< the place; for good
   ConnectionPool<Slot> writer_;
   ConnectionPool<Slot> readers_;

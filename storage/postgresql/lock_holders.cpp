@@ -30,7 +30,27 @@ std::string holder_text(const sql::Statement& row) {
   return text;
 }
 
+/// A statement that takes long is not one: it waits for no client.
+constexpr const char* kEndFrozen =
+    "SELECT CAST(count(pg_terminate_backend(l.pid)) AS bigint) FROM pg_locks AS l "
+    "JOIN pg_class AS c ON c.oid = l.relation AND c.relname = 'store_holder' "
+    "JOIN pg_namespace AS n ON n.oid = c.relnamespace AND n.nspname = current_schema() "
+    "JOIN pg_stat_activity AS a ON a.pid = l.pid AND a.datname = current_database() "
+    "WHERE l.granted AND l.mode IN ('RowShareLock', 'RowExclusiveLock') "
+    "AND l.pid <> pg_backend_pid() AND a.application_name = 'dncd' "
+    "AND a.usename = current_user AND a.state <> 'idle' AND a.wait_event = 'ClientRead' "
+    "AND greatest(a.state_change, a.query_start) < clock_timestamp() - ?1 * interval '1 "
+    "millisecond' "
+    "AND (SELECT until FROM store_holder WHERE id = 1) <= clock_timestamp()";
+
 }  // namespace
+
+Result<void> end_frozen_writers(Database& database, std::chrono::milliseconds lease) {
+  const auto ended = sql::first_row(
+      database, kEndFrozen, [](const sql::Statement& row) { return row.integer(0); },
+      lease.count());
+  return ended ? Result<void>() : fail(ended.error());
+}
 
 Error locked_by_others(Database& database, std::chrono::milliseconds waited) {
   const std::string who = [&] {

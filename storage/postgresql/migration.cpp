@@ -15,6 +15,17 @@ Result<bool> has_table(sql::Database& database, const std::string& name) {
   return known->value_or(false);
 }
 
+Result<bool> has_column(sql::Database& database, const std::string& table,
+                        const std::string& name) {
+  const auto known = sql::first_row(
+      database,
+      "SELECT count(*) FROM information_schema.columns WHERE table_schema = current_schema() AND "
+      "table_name = ?1 AND column_name = ?2",
+      [](const sql::Statement& row) { return row.integer(0) > 0; }, table, name);
+  if (!known) return fail(known.error());
+  return known->value_or(false);
+}
+
 namespace {
 
 /// 0: it has no tables.

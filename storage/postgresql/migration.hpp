@@ -27,5 +27,6 @@ Result<void> migrate(Database& database, std::span<const Migration> migrations,
 
 /// Whether it has a table of that name.
 Result<bool> has_table(sql::Database& database, const std::string& name);
+Result<bool> has_column(sql::Database& database, const std::string& table, const std::string& name);
 
 }  // namespace dripline::storage::postgresql

@@ -264,11 +264,20 @@ TEST_P(KeptFile, HasTheTimeAndThePathOfARunSinceVersion19) {
   }
 }
 
+TEST_P(KeptFile, HasTheComputerOfAPortSinceVersion20) {
+  reopen();
+  const auto ports = store_->ports.list();
+  ASSERT_TRUE(ports) << ports.error().what;
+  if (version() < 2) return;
+  ASSERT_EQ(ports->size(), 1u);
+  EXPECT_EQ(ports->front().host, version() >= 20 ? "srv-1" : "");
+}
+
 INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
                                          "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql",
-                                         "v17.sql", "v18.sql", "v19.sql"),
+                                         "v17.sql", "v18.sql", "v19.sql", "v20.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

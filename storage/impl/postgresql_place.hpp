@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "storage/opened_store.hpp"
+#include "storage/postgresql/database.hpp"
+
+namespace dripline::storage {
+
+/// The place of the one server that uses a database: a lease in a row of it (schema, store_holder).
+///
+/// What is guaranteed, whatever is killed, frozen or cut off, and whatever any server's clock says:
+/// - A term is given once. Each taking of the place has a higher one than all before, in the
+///   transaction that takes it, also by the same server and by one with a copied folder.
+/// - A transaction that writes locks the row, and is undone unless the row has the writer's name
+/// and
+///   the writer's term. So between a taking and the next one only transactions of that taking are
+///   committed: a server that was frozen, in the middle of a transaction or before it, and wakes up
+///   after another has the place, stores no row.
+/// - The place is another's only after it was given back, or was not renewed for the holder's lease
+///   by the database's clock, or its holder (of the same name, which has a folder's lock) begins
+///   again.
+/// What is not: that a server knows at once that it lost the place. Until it writes or renews (a
+/// quarter of the lease) it may read, and send what it has to machines; gateways refuse that by its
+/// term (protocol/dds).
+/// One thread at a time until it is taken; then all of it but `take` from any.
+class PostgresqlPlace {
+ public:
+  struct Owner {
+    std::string holder;     ///< what only one process at a time calls itself
+    std::string described;  ///< for people
+    std::chrono::milliseconds lease{4000};
+    std::chrono::milliseconds wait{12000};       ///< that another one's lease ends, then Busy
+    std::chrono::milliseconds lock_wait{10000};  ///< for a lock, then Busy
+  };
+  explicit PostgresqlPlace(Owner owner) : owner_(std::move(owner)) {}
+
+  /// A writer of ours that was frozen with the row locked is disconnected, once its lease is over.
+  /// Errors: Busy (another server has it; another session has locked the row), Io.
+  Result<void> take(postgresql::Database& database);
+  /// After a migration from a schema without terms: what `take` could not do.
+  Result<void> raise_term(postgresql::Database& database);
+  bool has_term() const { return term_ != 0; }
+  std::uint64_t term() const { return term_; }
+
+  /// In a transaction that will write: locks the row. False: it is not ours, or not any more.
+  Result<bool> is_ours(sql::Database& database) const;
+  /// In a transaction of `is_ours`.
+  Result<void> renew(sql::Database& database) const;
+  /// Likewise.
+  Result<void> publish(sql::Database& database, const ServerFacts& facts) const;
+  /// Best effort: otherwise it ends by its time.
+  void give_back(sql::Database& database) const;
+
+ private:
+  Result<bool> try_take(postgresql::Database& database, std::string& other);
+  Result<void> take_within(postgresql::Database& database);
+
+  const Owner owner_;
+  bool may_be_ours_ = false;
+  std::uint64_t term_ = 0;
+};
+
+}  // namespace dripline::storage

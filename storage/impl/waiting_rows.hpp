@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "storage/opened_store.hpp"
+#include "storage/sql/database.hpp"
+
+/// The rows of servers that wait for a database's place (schema, store_standby).
+namespace dripline::storage {
+
+/// Those that were seen in the last seconds, but `except`.
+Result<std::vector<WaitingServer>> waiting_servers(sql::Database& database,
+                                                   const std::string& except);
+Result<void> note_waiting(sql::Database& database, const std::string& holder,
+                          const std::string& described);
+Result<void> drop_waiting(sql::Database& database, const std::string& holder);
+
+}  // namespace dripline::storage

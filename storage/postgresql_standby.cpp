@@ -1,0 +1,110 @@
+#include "storage/postgresql_standby.hpp"
+
+#include <utility>
+
+#include "storage/impl/waiting_rows.hpp"
+#include "storage/postgresql/database.hpp"
+#include "storage/postgresql/migration.hpp"
+#include "storage/postgresql/url.hpp"
+#include "storage/sql/query.hpp"
+
+namespace dripline::storage {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kNoteEvery{1000};
+
+}  // namespace
+
+struct PostgresqlStandby::Connection {
+  postgresql::Database database;
+  SteadyClock::time_point since;
+  SteadyClock::time_point noted{};
+  bool has_place = false;  ///< its schema has all that is looked at
+};
+
+PostgresqlStandby::PostgresqlStandby(Options options) : options_(std::move(options)) {}
+
+PostgresqlStandby::~PostgresqlStandby() {
+  if (connection_ && connection_->has_place && connection_->database.is_alive())
+    static_cast<void>(drop_waiting(connection_->database, options_.holder));
+}
+
+Result<void> PostgresqlStandby::connect() {
+  if (connection_ && connection_->database.is_alive()) return {};
+  connection_.reset();
+  const auto facts = postgresql::read_url(options_.url);
+  if (!facts) return fail(facts.error());
+  if (auto ours = postgresql::check_name(facts->database); !ours) return ours;
+  auto database = postgresql::Database::connect({.url = options_.url});
+  if (!database) return fail(database.error());
+  connection_.reset(new Connection{*std::move(database), SteadyClock::now()});
+  return {};
+}
+
+Result<PostgresqlStandby::View> PostgresqlStandby::read() {
+  auto& database = connection_->database;
+  if (!connection_->has_place) {
+    const auto has_tables = postgresql::has_table(database, "store_holder");
+    if (!has_tables) return fail(has_tables.error());
+    if (!*has_tables) {
+      View view;
+      view.is_free = true;
+      view.has_tables = false;
+      return view;
+    }
+    const auto version = database.integer("SELECT version FROM schema_version");
+    if (!version) return fail(version.error());
+    const auto newest = static_cast<std::int64_t>(postgresql::schema().size());
+    if (*version > newest) {
+      return fail(Errc::Unsupported,
+                  "database {} has schema version {}, this program knows versions up to {}: use a "
+                  "newer program",
+                  database.label(), *version, newest);
+    }
+    const auto has_terms = postgresql::has_column(database, "store_holder", "signing_key");
+    if (!has_terms) return fail(has_terms.error());
+    connection_->has_place = *has_terms;
+  }
+  View view;
+  const auto settled = SteadyClock::now() - connection_->since >= kSettle;
+  const std::string facts = connection_->has_place ? "url, signing_key, term" : "'', '', 0";
+  const auto row = sql::first_row(
+      database,
+      fmt::format("SELECT holder IN ('', ?1), until <= clock_timestamp(), described, {} FROM "
+                  "store_holder WHERE id = 1",
+                  facts),
+      [&](const sql::Statement& found) {
+        view.is_lapsed = found.integer(0) == 0 && found.integer(1) != 0;
+        view.is_free = found.integer(0) != 0 || (view.is_lapsed && settled);
+        view.described = found.text(2);
+        view.url = found.text(3);
+        view.signing_key = found.text(4);
+        view.term = static_cast<std::uint64_t>(found.integer(5));
+        return true;
+      },
+      options_.holder);
+  if (!row) return fail(row.error());
+  auto identity = database.text("SELECT id FROM identity");
+  if (!identity) return fail(identity.error());
+  view.identity = *std::move(identity);
+  if (!connection_->has_place) return view;
+  const auto others = waiting_servers(database, options_.holder);
+  if (!others) return fail(others.error());
+  view.has_others = !others->empty();
+  if (SteadyClock::now() - connection_->noted < kNoteEvery) return view;
+  if (auto noted = note_waiting(database, options_.holder, options_.described); !noted)
+    return fail(noted.error());
+  connection_->noted = SteadyClock::now();
+  return view;
+}
+
+Result<PostgresqlStandby::View> PostgresqlStandby::look() {
+  if (auto there = connect(); !there) return fail(there.error());
+  auto view = read();
+  if (!view) connection_.reset();
+  return view;
+}
+
+}  // namespace dripline::storage

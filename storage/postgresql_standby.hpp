@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "protocol/base/result.hpp"
+
+namespace dripline::storage {
+
+/// The view of a server that waits for a database's place (impl/postgresql_place.hpp). It takes
+/// nothing, and writes one row: that it waits. One thread.
+class PostgresqlStandby {
+ public:
+  struct Options {
+    std::string url;        ///< postgresql://...
+    std::string holder;     ///< as of PostgresqlStoreOptions
+    std::string described;  ///< likewise
+  };
+  explicit PostgresqlStandby(Options options);
+  PostgresqlStandby(const PostgresqlStandby&) = delete;
+  PostgresqlStandby& operator=(const PostgresqlStandby&) = delete;
+  /// Waits no more.
+  ~PostgresqlStandby();
+
+  struct View {
+    bool is_free = false;     ///< given back, this server's own of before, or its lease is over
+    bool has_tables = true;   ///< false: no server has used the database yet
+    bool is_lapsed = false;   ///< of `is_free`: its holder has not given it back
+    std::string described;    ///< of the holder
+    std::string url;          ///< of the holder; empty: not known
+    std::string signing_key;  ///< of the last holder; empty: not known
+    std::uint64_t term = 0;   ///< of the last holder
+    bool has_others = false;  ///< other servers wait too
+    std::string identity;     ///< of the database; empty: it has none
+  };
+  /// Connects when it is not connected. A lease that is over counts only after `kSettle` of a
+  /// connection: after an outage of the database its holder comes first. Errors: Io, Denied,
+  /// Unsupported (a newer version's tables).
+  Result<View> look();
+
+  static constexpr std::chrono::milliseconds kSettle{3000};
+
+ private:
+  struct Connection;
+  Result<void> connect();
+  Result<View> read();
+
+  const Options options_;
+  std::unique_ptr<Connection> connection_;  ///< null: not connected
+};
+
+}  // namespace dripline::storage
