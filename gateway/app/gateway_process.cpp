@@ -174,11 +174,22 @@ Result<void> GatewayProcess::connect() {
   if (options_.drives_control())
     on_line_request = [this](dds::LineRequest request) { inbox.post(std::move(request)); };
   auto opened = open_endpoint(
-      options_, {.on_command = [this](dds::Command command) { inbox.post(std::move(command)); },
-                 .on_ack = [this](dds::RecordAck ack) { inbox.post(std::move(ack)); },
-                 .on_block = [this](dds::BlockData data) { inbox.post(std::move(data)); },
-                 .on_server = [this](bool is_connected) { inbox.post(ServerSeen{is_connected}); },
-                 .on_line_request = std::move(on_line_request)});
+      options_,
+      {.on_command = [this](dds::Command command) { inbox.post(std::move(command)); },
+       .on_ack = [this](dds::RecordAck ack) { inbox.post(std::move(ack)); },
+       .on_block = [this](dds::BlockData data) { inbox.post(std::move(data)); },
+       .on_server = [this](bool is_connected) { inbox.post(ServerSeen{is_connected}); },
+       .on_stale_server =
+           [machine = options_.machine](std::uint64_t term, std::uint64_t seen) {
+             process::log_error(
+                 "a server {} is not listened to, since one of term {} has taken over: "
+                 "it was frozen or cut off, or has an old copy of the library. Where "
+                 "that library is to be used again, restart this gateway while its "
+                 "machine is idle machine={}",
+                 term == 0 ? std::string("without a term") : fmt::format("of term {}", term), seen,
+                 machine);
+           },
+       .on_line_request = std::move(on_line_request)});
   if (!opened) return fail(opened.error());
   endpoint = *std::move(opened);
   auto panel = PanelSocket::open(options_.state,

@@ -112,10 +112,11 @@ constexpr std::array kRows{
     OptionRow{"state", "FOLDER", "", "STATE/gateways/MACHINE",
               "Folder of records and counters; one gateway at a time",
               text_value<&Options::state>()},
-    OptionRow{"server", "HOST[:PORT]", "", "127.0.0.1",
-              "Address where the server listens for gateways; none: run without a server, from a "
-              "serial line only",
-              set_by(Written::Text, set_server)},
+    OptionRow{
+        "server", "HOST[:PORT],...", "", "127.0.0.1",
+        "Address where the server listens for gateways, and with commas between of those that "
+        "take over from it; none: run without a server, from a serial line only",
+        set_by(Written::Text, set_server)},
     OptionRow{"dds-domain", "NUMBER", "", "", "DDS domain, 0 to 230, the same as the server's",
               number_value<0, 230, kNetwork, &Network::domain>()},
     OptionRow{"dds-tag", "TEXT", "", "none", "Systems with different tags do not see each other",

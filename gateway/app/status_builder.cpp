@@ -297,10 +297,12 @@ dds::WaitsFor StatusBuilder::waits_for(Execution execution) const {
 }
 
 std::string panel_status(const dds::Status& status) {
-  return fmt::format("{} remote_enable={} waits_for={} emergency_stop={}{}{}",
+  const std::uint64_t ahead = status.sent > status.offset ? status.sent - status.offset : 0;
+  const std::string text = status.run.empty() ? "" : fmt::format(" text_bytes={}", ahead);
+  return fmt::format("{} remote_enable={} waits_for={} emergency_stop={}{}{}{}",
                      dds::to_string(status.execution), dds::to_string(status.remote_enable),
                      dds::to_string(status.waits_for),
-                     status.emergency_stop ? "pressed" : "released",
+                     status.emergency_stop ? "pressed" : "released", text,
                      status.message.empty() ? "" : " message=", one_line(status.message));
 }
 

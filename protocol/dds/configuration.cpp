@@ -14,6 +14,8 @@ namespace dripline::dds {
 namespace {
 
 constexpr std::uint32_t kMaxDomain = 230;  // above this, the ports exceed 16 bits
+constexpr std::uint16_t kLowestPort = 1024;
+constexpr std::size_t kMaxServers = 8;
 
 std::string escape_xml(std::string_view text) {
   std::string result;
@@ -51,6 +53,13 @@ Result<void> check_options(const NetworkOptions& options) {
   }
   if (options.server.empty() || !is_plain(options.server)) {
     return fail(Errc::Syntax, "DDS server '{}' is not host or host:port", options.server);
+  }
+  if (options.port != 0 && options.port < kLowestPort) {
+    return fail(Errc::LimitExceeded, "DDS port {}, at least {}", options.port, kLowestPort);
+  }
+  if (options.port > 65535 - 2 * options.cells) {
+    return fail(Errc::LimitExceeded, "DDS port {}: the {} cells need two ports each, up to 65535",
+                options.port, options.cells);
   }
   if (!is_plain(options.tag) || options.tag.size() > 128) {
     return fail(Errc::Syntax, "DDS tag '{}' is not a plain word", options.tag);
@@ -92,18 +101,43 @@ std::string size_elements(const std::string& interface) {
 }
 
 /// A port in the server's address is that of its first cell.
-Result<std::string> server_place(const NetworkOptions& options, std::uint32_t cell) {
-  const auto colon = options.server.find(':');
-  if (colon == std::string::npos) {
-    return fmt::format("{}:{}", options.server, server_port(options.domain, cell));
+Result<std::string> server_place(const NetworkOptions& options, std::string_view server,
+                                 std::uint32_t cell) {
+  const auto colon = server.find(':');
+  if (colon == std::string_view::npos) {
+    return fmt::format("{}:{}", server, server_port(options.domain, cell));
   }
-  const char* const end = options.server.data() + options.server.size();
+  const char* const end = server.data() + server.size();
   std::uint16_t port = 0;
-  const auto read = std::from_chars(options.server.data() + colon + 1, end, port);
+  const auto read = std::from_chars(server.data() + colon + 1, end, port);
   if (read.ec != std::errc{} || read.ptr != end || port == 0 || port > 65535 - 2 * options.cells) {
-    return fail(Errc::Syntax, "DDS server '{}' is not host or host:port", options.server);
+    return fail(Errc::Syntax, "DDS server '{}' is not host or host:port", server);
   }
-  return fmt::format("{}:{}", options.server.substr(0, colon), port + 2 * cell);
+  return fmt::format("{}:{}", server.substr(0, colon), port + 2 * cell);
+}
+
+/// The gateway's peers: its server, and those that may take over from it.
+Result<std::string> peer_elements(const NetworkOptions& options, std::uint32_t cell) {
+  std::string peers;
+  std::size_t count = 0;
+  std::string_view rest = options.server;
+  for (;;) {
+    const auto comma = rest.find(',');
+    const std::string_view server = rest.substr(0, comma);
+    if (server.empty()) {
+      return fail(Errc::Syntax, "DDS server '{}': a name is missing beside a comma",
+                  options.server);
+    }
+    if (++count > kMaxServers) {
+      return fail(Errc::LimitExceeded, "DDS server '{}': at most {} servers", options.server,
+                  kMaxServers);
+    }
+    const auto place = server_place(options, server, cell);
+    if (!place) return fail(place.error());
+    peers += fmt::format("<Peer Address=\"{}\"/>", escape_xml(*place));
+    if (comma == std::string_view::npos) return peers;
+    rest.remove_prefix(comma + 1);
+  }
 }
 
 /// Without multicast Cyclone announces a participant at its own address too, at the ports of as
@@ -112,15 +146,19 @@ Result<std::string> server_place(const NetworkOptions& options, std::uint32_t ce
 /// each cell has a base of its own, at which it is the only index.
 Result<std::string> place_elements(const NetworkOptions& options, Role role, std::uint32_t cell) {
   constexpr std::uint32_t kMetaOffset = 10;  // Cyclone's, of the first unicast port
+  if (role == Role::Server && options.port != 0) {
+    return fmt::format(
+        "<ParticipantIndex>0</ParticipantIndex><MaxAutoParticipantIndex>0</"
+        "MaxAutoParticipantIndex><Ports><Base>{}</Base><DomainGain>0</DomainGain></Ports>",
+        options.port + 2 * cell - kMetaOffset);
+  }
   const std::string ports = fmt::format(
       "<MaxAutoParticipantIndex>0</MaxAutoParticipantIndex><Ports><Base>{}</Base></Ports>",
       server_port(0, cell) - kMetaOffset);
   if (role == Role::Server) return "<ParticipantIndex>0</ParticipantIndex>" + ports;
-  const auto place = server_place(options, cell);
-  if (!place) return fail(place.error());
-  return fmt::format(
-      "<ParticipantIndex>none</ParticipantIndex>{}<Peers><Peer Address=\"{}\"/></Peers>", ports,
-      escape_xml(*place));
+  const auto peers = peer_elements(options, cell);
+  if (!peers) return fail(peers.error());
+  return fmt::format("<ParticipantIndex>none</ParticipantIndex>{}<Peers>{}</Peers>", ports, *peers);
 }
 
 }  // namespace

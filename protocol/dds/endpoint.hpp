@@ -31,9 +31,15 @@ struct NetworkOptions {
   std::uint32_t domain =
       0;  ///< 0..230; at most 100 for a server: above that are the system's ephemeral ports
   std::string interface = "lo";  ///< network interface name or address
-  /// For gateways: the address of the server, host or host:port. It uses two ports for each cell
-  /// from there.
+  /// For gateways: the addresses of the server and of those that may take over from it, each host
+  /// or host:port, with commas between. A server uses two ports for each cell from there.
   std::string server = "127.0.0.1";
+  /// For servers: the first of those ports; 0: 7410 + 250 * domain.
+  std::uint16_t port = 0;
+  /// For servers: of its taking of a library that others may take over
+  /// (storage::OpenedStore::term). It is in every message, and in what a gateway learns of the
+  /// server beforehand. 0: none.
+  std::uint64_t term = 0;
   std::string tag;  ///< systems with different tags ignore each other
   std::uint32_t discovery_interval_ms = 250;
   std::uint32_t lease_ms = 2000;  ///< a peer that is silent for longer is lost
@@ -75,19 +81,24 @@ struct GatewayHandlers {
   std::function<void(RecordAck)> on_ack;
   std::function<void(BlockData)> on_block;
   /// true: a server and this gateway are connected; repeated when another server takes over or the
-  /// same one is back. Another one takes over only when the present one is lost; until then its
-  /// messages are rejected. false: no server is left.
+  /// same one is back. Another one takes over when the present one is lost, or has a lower term
+  /// than the other; until then its messages are rejected. false: no server is left.
   std::function<void(bool is_connected)> on_server;
+  /// A server is there whose term is lower than `seen`: nothing of it is delivered, whether or not
+  /// there is another one. Once for each such server.
+  std::function<void(std::uint64_t term, std::uint64_t seen)> on_stale_server = {};
   /// Where the machine is a control at the end of a line; empty: it has no such topics.
   std::function<void(LineRequest)> on_line_request = {};
 };
 
-/// A gateway's end, for one machine. Nothing is delivered before the gateway wrote its Announce;
-/// the endpoint repeats it to every new server. The write functions never wait longer than a few
-/// milliseconds: Errc::Timeout means "not accepted, try later"; any thread. Messages written while
-/// no server is connected are lost, except the last Announce. A Status is not acknowledged either:
-/// it is to be repeated until another one follows, at least once a second. Errors of writing:
-/// Syntax, LimitExceeded (an impossible member), Timeout, Io.
+/// A gateway's end, for one machine. Of several servers it has one: that with the highest term.
+/// Once it had a server of a term, none with a lower one or without one is ever its server again,
+/// and a message with a lower one is rejected, stops included. Nothing is delivered before the
+/// gateway wrote its Announce; the endpoint repeats it to every new server. The write functions
+/// never wait longer than a few milliseconds: Errc::Timeout means "not accepted, try later"; any
+/// thread. Messages written while no server is connected are lost, except the last Announce. A
+/// Status is not acknowledged either: it is to be repeated until another one follows, at least once
+/// a second. Errors of writing: Syntax, LimitExceeded (an impossible member), Timeout, Io.
 class GatewayEndpoint {
  public:
   /// Errors: Syntax, LimitExceeded (options, machine name), NotFound (a security file), Io.

@@ -64,6 +64,9 @@ class Gateway final : public GatewayEndpoint {
   Result<void> open_reader(const Entity& subscriber, std::unique_ptr<PeerReader<Message>>& reader,
                            std::function<void(Message)>& handler);
   void believe(const std::string& server);
+  template <class Message>
+  void deliver(Message message, const std::function<void(Message)>& handler);
+  std::string choose(const std::set<std::string>& servers);
 
   void wake_watcher();
   void watch(const std::stop_token& stop);
@@ -87,6 +90,8 @@ class Gateway final : public GatewayEndpoint {
   std::string heard_;                  // written by the watcher under announce_mutex_
   std::vector<std::string> complete_;  // this and the next are the watcher's; newest last
   bool announce_due_ = false;
+  std::atomic<std::uint64_t> seen_ = 0;  ///< the highest term of a server that was this gateway's
+  std::set<std::string> stale_;          ///< the watcher's: reported already
 
   Entity publisher_, subscriber_;
   std::vector<Entity> topics_;
@@ -121,13 +126,11 @@ Result<void> Gateway::open_reader(const Entity& subscriber,
                                   std::function<void(Message)>& handler) {
   auto topic = create_topic<Message>(domain_);
   if (!topic) return fail(topic.error());
-  auto created = PeerReader<Message>::create(subscriber, *topic, rejections_,
-                                             {.machine = machine_,
-                                              .on_message =
-                                                  [&handler](Message message) {
-                                                    if (handler) handler(std::move(message));
-                                                  },
-                                              .wake = [this] { wake_watcher(); }});
+  auto created = PeerReader<Message>::create(
+      subscriber, *topic, rejections_,
+      {.machine = machine_,
+       .on_message = [this, &handler](Message message) { deliver(std::move(message), handler); },
+       .wake = [this] { wake_watcher(); }});
   if (!created) return fail(created.error());
   topics_.push_back(std::move(*topic));
   reader = std::move(*created);
@@ -184,6 +187,16 @@ void Gateway::watch(const std::stop_token& stop) {
   }
 }
 
+template <class Message>
+void Gateway::deliver(Message message, const std::function<void(Message)>& handler) {
+  if (const std::uint64_t seen = seen_; message.term < seen) {
+    return rejections_.add(
+        Topic<Message>::kName,
+        fmt::format("from a server of term {}, after one of {}", message.term, seen));
+  }
+  if (handler) handler(std::move(message));
+}
+
 /// Commands, acknowledgments and text of any other participant are rejected.
 void Gateway::believe(const std::string& server) {
   command_->set_peer(server);
@@ -209,9 +222,27 @@ std::set<std::string> Gateway::complete_servers() const {
   return result;
 }
 
-/// A server is kept until it is lost: another one never takes over by being newer. A killed one
-/// stays matched until its lease ends, and its successor waits until then. Of several that wait,
-/// the newest is chosen: the others may have been killed too.
+/// The server of this gateway from now on; empty: none. One of a lower term than one that it had is
+/// never chosen: it was frozen or cut off while another took its library over, or is a copy of
+/// before. One of a higher term is chosen at once, whoever is there. Among equals (servers without
+/// a term) the present one is kept until it is lost: another one never takes over by being newer. A
+/// killed one stays matched until its lease ends, and its successor waits until then. Of several
+/// that wait, the newest is chosen: the others may have been killed too.
+std::string Gateway::choose(const std::set<std::string>& servers) {
+  std::map<std::string, std::uint64_t> terms = terms_of_writers(command_->get());
+  std::erase_if(stale_, [&](const std::string& key) { return !servers.contains(key); });
+  std::uint64_t highest = seen_;
+  for (const std::string& key : servers) highest = std::max(highest, terms[key]);
+  std::string chosen;
+  for (const std::string& key : complete_) {  // newest last
+    if (terms[key] == highest && (chosen != heard_ || chosen.empty())) chosen = key;
+    if (terms[key] >= seen_ || !stale_.insert(key).second || !handlers_.on_stale_server) continue;
+    handlers_.on_stale_server(terms[key], seen_);
+  }
+  if (!chosen.empty()) seen_ = highest;
+  return chosen;
+}
+
 void Gateway::look_at_servers() {
   const std::set<std::string> now = complete_servers();
   std::erase_if(complete_, [&](const std::string& key) { return !now.contains(key); });
@@ -219,8 +250,7 @@ void Gateway::look_at_servers() {
     if (std::find(complete_.begin(), complete_.end(), key) == complete_.end())
       complete_.push_back(key);
   }
-  std::string heard = heard_;
-  if (!now.contains(heard)) heard = complete_.empty() ? std::string{} : complete_.back();
+  const std::string heard = choose(now);
   const bool is_news = heard != heard_;
   if (!is_news && !announce_due_) return;
   believe(heard);

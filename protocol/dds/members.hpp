@@ -279,6 +279,7 @@ void members(V&& v, Is<RecordAck> auto& m) {
   v(DRIPLINE_MEMBER(machine), MachineName{});
   v(DRIPLINE_MEMBER(epoch));
   v(DRIPLINE_MEMBER(number));
+  v(DRIPLINE_MEMBER(term), Internal{});
 }
 
 template <class V>
@@ -299,6 +300,7 @@ void members(V&& v, Is<Command> auto& m) {
   v(DRIPLINE_MEMBER(server));
   v(DRIPLINE_MEMBER(number));
   v(DRIPLINE_MEMBER_AS(deadline, deadline_us));
+  v(DRIPLINE_MEMBER(term), Internal{});
 }
 
 template <class V>
@@ -333,6 +335,7 @@ void members(V&& v, Is<BlockData> auto& m) {
   v(DRIPLINE_MEMBER(bytes), CheckedBy{DRIPLINE_FIELD(crc)});
   v(DRIPLINE_MEMBER(reason), FreeText{});
   v(DRIPLINE_MEMBER(content), Sha256{});
+  v(DRIPLINE_MEMBER(term), Internal{});
 }
 
 template <class V>
@@ -345,6 +348,7 @@ void members(V&& v, Is<LineRequest> auto& m) {
   v(DRIPLINE_MEMBER(number));
   v(DRIPLINE_MEMBER(text), SetupText{});
   v(DRIPLINE_MEMBER(bytes), CheckedBy{DRIPLINE_FIELD(crc)});
+  v(DRIPLINE_MEMBER(term), Internal{});
 }
 
 template <class V>

@@ -311,6 +311,7 @@ struct Record {
 struct RecordAck {
   std::string machine;
   std::uint64_t epoch = 0, number = 0;
+  std::uint64_t term = 0;  ///< of the server, set by its endpoint; 0: none
   friend bool operator==(const RecordAck&, const RecordAck&) = default;
 };
 
@@ -328,6 +329,7 @@ struct Command {
   std::string setup;          ///< start: TOML, at most kMaxCommandSetup; empty: the gateway's own
   std::uint64_t server = 0, number = 0;
   std::chrono::microseconds deadline{0};  ///< by the gateway's steady clock; 0: none
+  std::uint64_t term = 0;                 ///< of the server, set by its endpoint; 0: none
   friend bool operator==(const Command&, const Command&) = default;
 };
 
@@ -357,7 +359,8 @@ struct BlockData {
   bool ends = false;
   std::vector<std::byte> bytes;  ///< a message with a wrong CRC was dropped
   std::string reason;
-  std::string content;  ///< of a called program: its SHA-256, hexadecimal; empty: not stated
+  std::string content;     ///< of a called program: its SHA-256, hexadecimal; empty: not stated
+  std::uint64_t term = 0;  ///< of the server, set by its endpoint; 0: none
   friend bool operator==(const BlockData&, const BlockData&) = default;
 };
 
@@ -370,6 +373,7 @@ struct LineRequest {
   std::uint64_t number = 0;
   std::string text = {};              ///< at most kMaxCommandSetup
   std::vector<std::byte> bytes = {};  ///< a message with a wrong CRC was dropped
+  std::uint64_t term = 0;             ///< of the server, set by its endpoint; 0: none
   friend bool operator==(const LineRequest&, const LineRequest&) = default;
 };
 

@@ -1,5 +1,8 @@
 #include "protocol/dds/qos.hpp"
 
+#include <charconv>
+#include <string_view>
+
 #include "protocol/dds/endpoint.hpp"
 
 // Why no writer here is KEEP_ALL: a KEEP_ALL writer stops taking samples while any matched reader
@@ -62,6 +65,27 @@ Qos partition_qos(const std::string& partition) {
   Qos qos(dds_create_qos());
   dds_qset_partition1(qos.get(), partition.c_str());
   return qos;
+}
+
+// User data needs no agreement: an older gateway does not look at it.
+void set_term(const Qos& qos, std::uint64_t term) {
+  if (term == 0) return;
+  const std::string text = fmt::format("term={}", term);
+  dds_qset_userdata(qos.get(), text.data(), text.size());
+}
+
+std::uint64_t term_in(const dds_qos_t* qos) {
+  constexpr std::string_view kBegin = "term=";
+  void* data = nullptr;
+  std::size_t size = 0;
+  if (qos == nullptr || !dds_qget_userdata(qos, &data, &size)) return 0;
+  const std::string text(static_cast<const char*>(data), data == nullptr ? 0 : size);
+  dds_free(data);
+  if (!text.starts_with(kBegin)) return 0;
+  std::uint64_t term = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data() + kBegin.size(), end, term);
+  return read.ec == std::errc{} && read.ptr == end ? term : 0;
 }
 
 // A restarted server must learn of the gateways without a request.

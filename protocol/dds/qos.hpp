@@ -13,6 +13,10 @@ std::string partition_of_all();
 /// For a publisher or subscriber: a partition is fixed when it is created.
 Qos partition_qos(const std::string& partition);
 
+/// In the user data of a server's writers, which readers see when they are matched. 0: none.
+void set_term(const Qos& qos, std::uint64_t term);
+std::uint64_t term_in(const dds_qos_t* qos);
+
 /// Of a topic and its writers.
 template <class Message>
 Qos topic_qos();

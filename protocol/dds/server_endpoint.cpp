@@ -9,9 +9,10 @@ namespace {
 /// Passes each message to the cell that its machine is in.
 class Server final : public ServerEndpoint {
  public:
-  Server(ServerHandlers handlers, std::uint32_t cells) {
+  Server(ServerHandlers handlers, const NetworkOptions& options) {
     shared_.handlers = std::move(handlers);
-    shared_.cells = cells;
+    shared_.cells = options.cells;
+    shared_.term = options.term;
   }
 
   Result<void> start(const NetworkOptions& options) {
@@ -42,7 +43,7 @@ class Server final : public ServerEndpoint {
 
 Result<std::unique_ptr<ServerEndpoint>> ServerEndpoint::open(const NetworkOptions& options,
                                                              ServerHandlers handlers) {
-  auto server = std::make_unique<Server>(std::move(handlers), options.cells);
+  auto server = std::make_unique<Server>(std::move(handlers), options);
   if (auto started = server->start(options); !started) return fail(started.error());
   return server;
 }

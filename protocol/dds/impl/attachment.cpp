@@ -25,8 +25,9 @@ Result<void> open_reader(std::unique_ptr<PeerReader<Message>>& reader, const Ent
 
 template <class Message>
 Result<void> open_writer(std::unique_ptr<Writer<Message>>& writer, const Entity& publisher,
-                         const Entity& topic, const std::function<void()>& on_matched) {
-  auto created = Writer<Message>::create(publisher, topic, on_matched);
+                         const Entity& topic, std::uint64_t term,
+                         const std::function<void()>& on_matched) {
+  auto created = Writer<Message>::create(publisher, topic, on_matched, term);
   if (!created) return fail(created.error());
   writer = std::move(*created);
   return {};
@@ -59,11 +60,12 @@ Result<ServerTopics> ServerTopics::create(const Domain& domain) {
 
 Result<std::unique_ptr<Attachment>> Attachment::create(const Domain& domain,
                                                        const ServerTopics& topics,
-                                                       const std::string& machine, bool has_line,
+                                                       const Whose& whose,
                                                        const ServerHandlers& handlers,
                                                        Rejections& rejections,
                                                        const std::function<void()>& on_matched) {
   auto a = std::make_unique<Attachment>();
+  const std::string& machine = whose.machine;
   const Qos partition = partition_qos(partition_of(machine));
   const dds_entity_t participant = domain.participant.get();
   auto publisher = own(dds_create_publisher(participant, partition.get(), nullptr), "publisher");
@@ -77,7 +79,7 @@ Result<std::unique_ptr<Attachment>> Attachment::create(const Domain& domain,
     return open_reader(target, a->subscriber, topic, machine, handler, rejections, on_matched);
   };
   const auto writer = [&](auto& target, const Entity& topic) {
-    return open_writer(target, a->publisher, topic, on_matched);
+    return open_writer(target, a->publisher, topic, whose.term, on_matched);
   };
   if (auto r = writer(a->ack, topics.record_ack); !r) return fail(r.error());
   if (auto r = writer(a->command, topics.command); !r) return fail(r.error());
@@ -90,7 +92,7 @@ Result<std::unique_ptr<Attachment>> Attachment::create(const Domain& domain,
   if (auto r = reader(a->request, topics.block_request, handlers.on_request); !r) {
     return fail(r.error());
   }
-  if (!has_line) return a;
+  if (!whose.has_line) return a;
   if (auto r = writer(a->line_request, topics.line_request); !r) return fail(r.error());
   if (auto r = reader(a->line_data, topics.line_data, handlers.on_line_data); !r) {
     return fail(r.error());

@@ -49,10 +49,14 @@ struct Attachment {
   std::optional<Arrived> rival;       ///< the latest other participant that announced the machine
   std::optional<Announce> delivered;  ///< the latest argument of on_announce
 
+  struct Whose {
+    std::string machine;
+    bool has_line = false;
+    std::uint64_t term = 0;  ///< NetworkOptions::term
+  };
   /// `handlers` and `rejections` must outlive the attachment.
   static Result<std::unique_ptr<Attachment>> create(const Domain& domain,
-                                                    const ServerTopics& topics,
-                                                    const std::string& machine, bool has_line,
+                                                    const ServerTopics& topics, const Whose& whose,
                                                     const ServerHandlers& handlers,
                                                     Rejections& rejections,
                                                     const std::function<void()>& on_matched);

@@ -256,8 +256,9 @@ std::shared_ptr<Attachment> Cell::attach(const std::string& machine, bool has_li
     shared_.rejections.add(Topic<Announce>::kName, "too many machines");
     return nullptr;
   }
-  auto created = Attachment::create(domain_, topics_, machine, has_line, shared_.handlers,
-                                    shared_.rejections, [this] { wake_watcher(); });
+  auto created = Attachment::create(
+      domain_, topics_, {.machine = machine, .has_line = has_line, .term = shared_.term},
+      shared_.handlers, shared_.rejections, [this] { wake_watcher(); });
   if (!created) {
     shared_.rejections.add(Topic<Announce>::kName, created.error().what);
     return nullptr;

@@ -17,6 +17,7 @@ struct ServerShared {
   ServerHandlers handlers;
   Rejections rejections;
   std::uint32_t cells = kFewestCells;
+  std::uint64_t term = 0;                 ///< NetworkOptions::term
   std::atomic<std::size_t> machines = 0;  ///< attached so far
 
   /// A machine is in one cell at a time: that of its gateway, which may know of fewer cells than
@@ -82,7 +83,9 @@ class Cell {
     if (machine == nullptr || !((*machine).*writer)->has_readers()) {
       return fail(Errc::NotFound, "machine {} is not connected", message.machine);
     }
-    return ((*machine).*writer)->write(message);
+    return ((*machine).*writer)->write(message, [this](auto& sample) {
+      sample.term = shared_.term;
+    });
   }
   std::shared_ptr<Attachment> find(const std::string& machine) const {
     std::shared_lock lock(machines_mutex_);

@@ -85,7 +85,8 @@ Result<Domain> open_domain(const NetworkOptions& options, Role role, std::uint32
     if (auto added = add_security(*options.security, qos.get()); !added) return fail(added.error());
   }
   if (role == Role::Server) {
-    const std::uint16_t first = server_port(options.domain, cell);
+    const int first = options.port != 0 ? static_cast<int>(options.port + 2 * cell)
+                                        : server_port(options.domain, cell);
     for (const int port : {first + 0, first + 1}) {
       if (!is_taken(static_cast<std::uint16_t>(port))) continue;
       return fail(Errc::Busy, "DDS domain {}: UDP port {} is in use (another server?)",

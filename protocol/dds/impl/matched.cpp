@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+
+#include "protocol/dds/qos.hpp"
 
 namespace dripline::dds {
 namespace {
@@ -18,19 +21,27 @@ std::string hex(const dds_guid_t& guid) {
   return fmt::format("{:02x}", fmt::join(guid.v, ""));
 }
 
-template <class List, class Data>
-std::set<std::string> participants(dds_entity_t entity, List list, Data data) {
+/// `take(endpoint)` of each matched one.
+template <class List, class Data, class Take>
+void each_matched(dds_entity_t entity, List list, Data data, Take take) {
   std::vector<dds_instance_handle_t> handles(16);
   dds_return_t count = list(entity, handles.data(), handles.size());
   while (count > static_cast<dds_return_t>(handles.size())) {
     handles.resize(static_cast<std::size_t>(count));
     count = list(entity, handles.data(), handles.size());
   }
-  std::set<std::string> result;
   for (dds_return_t i = 0; i < count; ++i) {
     const Endpoint endpoint(data(entity, handles[static_cast<std::size_t>(i)]));
-    if (endpoint) result.insert(hex(endpoint->participant_key));
+    if (endpoint) take(*endpoint);
   }
+}
+
+template <class List, class Data>
+std::set<std::string> participants(dds_entity_t entity, List list, Data data) {
+  std::set<std::string> result;
+  each_matched(entity, list, data, [&](const dds_builtintopic_endpoint_t& endpoint) {
+    result.insert(hex(endpoint.participant_key));
+  });
   return result;
 }
 
@@ -63,6 +74,16 @@ std::set<std::string> matched_with_writer(dds_entity_t writer) {
 
 std::set<std::string> matched_with_reader(dds_entity_t reader) {
   return participants(reader, dds_get_matched_publications, dds_get_matched_publication_data);
+}
+
+std::map<std::string, std::uint64_t> terms_of_writers(dds_entity_t reader) {
+  std::map<std::string, std::uint64_t> result;
+  each_matched(reader, dds_get_matched_publications, dds_get_matched_publication_data,
+               [&](const dds_builtintopic_endpoint_t& endpoint) {
+                 auto& term = result[hex(endpoint.participant_key)];
+                 term = std::max(term, term_in(endpoint.qos));
+               });
+  return result;
 }
 
 std::optional<Publication> publication(dds_entity_t reader, dds_instance_handle_t writer) {

@@ -2,6 +2,8 @@
 
 #include <dds/dds.h>
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -18,6 +20,10 @@ Result<std::string> participant_key(dds_entity_t participant);
 /// The participants whose readers match `writer`, or whose writers match `reader`.
 std::set<std::string> matched_with_writer(dds_entity_t writer);
 std::set<std::string> matched_with_reader(dds_entity_t reader);
+
+/// Of the participants whose writers match `reader`: the highest term that one of them states; 0:
+/// none does.
+std::map<std::string, std::uint64_t> terms_of_writers(dds_entity_t reader);
 
 struct Publication {
   std::string participant;

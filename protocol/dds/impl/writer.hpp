@@ -14,17 +14,20 @@ template <class Message>
 class Writer {
  public:
   /// `on_matched` (the matched readers changed) runs on a DDS thread, never after the destructor.
+  /// `term`: of a server, which readers learn before any message.
   static Result<std::unique_ptr<Writer>> create(const Entity& publisher, const Entity& topic,
-                                                std::function<void()> on_matched) {
+                                                std::function<void()> on_matched,
+                                                std::uint64_t term = 0) {
     std::unique_ptr<Writer> writer(new Writer(std::move(on_matched)));
     const Listener listener(dds_create_listener(writer.get()));
     dds_lset_publication_matched(
         listener.get(), [](dds_entity_t, const dds_publication_matched_status_t, void* self) {
           static_cast<Writer*>(self)->on_matched_();
         });
-    auto entity = own(
-        dds_create_writer(publisher.get(), topic.get(), topic_qos<Message>().get(), listener.get()),
-        Topic<Message>::kName);
+    const Qos qos = topic_qos<Message>();
+    set_term(qos, term);
+    auto entity = own(dds_create_writer(publisher.get(), topic.get(), qos.get(), listener.get()),
+                      Topic<Message>::kName);
     if (!entity) return fail(entity.error());
     writer->entity_ = std::move(*entity);
     return writer;

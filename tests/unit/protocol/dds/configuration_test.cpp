@@ -34,6 +34,34 @@ TEST(DomainConfiguration, APortGivenWithTheServerIsKept) {
   EXPECT_TRUE(contains(*domain_configuration(options, Role::Gateway, 0), "\"dnc.example:9000\""));
 }
 
+TEST(DomainConfiguration, SeveralServersAreAllPeers) {
+  NetworkOptions options;
+  options.domain = 3;
+  options.server = "srv-1,srv-2:9000";
+  const auto xml = domain_configuration(options, Role::Gateway, 1);
+  ASSERT_TRUE(xml) << xml.error().what;
+  EXPECT_TRUE(contains(*xml, R"(<Peers><Peer Address="srv-1:8162"/><Peer Address="srv-2:9002"/>)"));
+  for (const std::string wrong : {"srv-1,", ",srv-1", "srv-1,,srv-2", "srv-1,srv-2:x"}) {
+    options.server = wrong;
+    EXPECT_EQ(domain_configuration(options, Role::Gateway, 0).error().code, Errc::Syntax) << wrong;
+  }
+  options.server = "a,b,c,d,e,f,g,h,i";
+  EXPECT_EQ(domain_configuration(options, Role::Gateway, 0).error().code, Errc::LimitExceeded);
+}
+
+TEST(DomainConfiguration, AServerListensAtThePortItIsGiven) {
+  NetworkOptions options;
+  options.domain = 3;
+  options.port = 9000;
+  const auto xml = domain_configuration(options, Role::Server, 2);
+  ASSERT_TRUE(xml) << xml.error().what;
+  EXPECT_TRUE(contains(*xml, "<Base>8994</Base><DomainGain>0</DomainGain>"));
+  options.port = 80;
+  EXPECT_EQ(domain_configuration(options, Role::Server, 0).error().code, Errc::LimitExceeded);
+  options.port = 65530;
+  EXPECT_EQ(domain_configuration(options, Role::Server, 0).error().code, Errc::LimitExceeded);
+}
+
 TEST(DomainConfiguration, EachCellHasItsOwnPorts) {
   NetworkOptions options;
   EXPECT_TRUE(contains(*domain_configuration(options, Role::Server, 3), "<Base>7406<"));
