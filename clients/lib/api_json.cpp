@@ -203,6 +203,7 @@ OrderedJson to_json_value(const ProgramHistory& history) {
   template Result<T> from_json<T>(const Json&); \
   template OrderedJson to_json_value<T>(const T&)
 DRIPLINE_API_TYPE(ServerInfo);
+DRIPLINE_API_TYPE(ServerInfo::Sharing);
 DRIPLINE_API_TYPE(AuditState);
 DRIPLINE_API_TYPE(Backups);
 DRIPLINE_API_TYPE(Program);

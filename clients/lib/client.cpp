@@ -199,6 +199,10 @@ Reply<ServerInfo> Client::server() {
   return fetch<ServerInfo>(get(path_of("server")));
 }
 
+Reply<ServerInfo::Sharing> Client::drain() {
+  return fetch<ServerInfo::Sharing>(with_method("POST", path_of("server") + "/drain"));
+}
+
 Reply<Backups> Client::backups() {
   return fetch<Backups>(get(path_of("backups")));
 }

@@ -28,6 +28,8 @@ class Client {
 
   Reply<void> health();
   Reply<ServerInfo> server();
+  /// Has it hand its library over to a server that waits.
+  Reply<ServerInfo::Sharing> drain();
   Reply<Backups> backups();
   /// These begin it; `Backups::work` and `last` tell how it goes.
   Reply<Backups> make_backup();

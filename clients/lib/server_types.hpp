@@ -45,6 +45,11 @@ struct ServerInfo {
     std::string fault;
   };
   std::optional<ProgramCache> program_cache;  ///< absent: none on the server's own disk
+  struct Sharing {
+    std::uint64_t term = 0;
+    std::vector<std::string> standbys;  ///< servers that wait to take the library over
+  };
+  std::optional<Sharing> sharing;  ///< absent: the library is this server's alone
 };
 
 /// The server's backups, newest first, and what it does with them now.

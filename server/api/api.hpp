@@ -48,6 +48,15 @@ struct ServerFacts {
   std::optional<UtcTime> dds_certificate_expires = {};  ///< nullopt: without DDS Security
 };
 
+/// Of a library that other servers wait for.
+struct SharedLibrary {
+  std::uint64_t term = 0;                                     ///< of this server
+  std::function<Result<std::vector<std::string>>()> waiting;  ///< the servers that do
+  /// Whether it can be handed over to one of them, which are named. Errors: Conflict, Busy.
+  std::function<Result<std::vector<std::string>>()> hand_over;
+  std::function<void()> leave;  ///< does it, soon after it has returned
+};
+
 /// The services that the handlers use; all must outlive the Api.
 struct Services {
   library::Programs& programs;
@@ -78,6 +87,7 @@ struct Services {
   mqtt::Publisher* publisher = nullptr;                ///< null: a server without a broker
   mqtt::SparkplugNode* sparkplug = nullptr;            ///< null: it is not spoken
   const cache::DiskCache* cache = nullptr;             ///< null: no program text on its own disk
+  std::optional<SharedLibrary> shared = {};            ///< nullopt: this server's alone
   bool has_tls = false;                                ///< the sockets in front of it do
 };
 

@@ -14,6 +14,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/ready", Open},
     RoutePermission{"GET", "/api/v1/openapi.json", Open},
     RoutePermission{"GET", "/api/v1/server", View},
+    RoutePermission{"POST", "/api/v1/server/drain", Administer},
     RoutePermission{"GET", "/api/v1/audit", Approve},
     RoutePermission{"GET", "/api/v1/audit/export", Approve},
     RoutePermission{"GET", "/api/v1/audit/verification", Approve},

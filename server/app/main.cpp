@@ -2,6 +2,8 @@
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <ctime>
 #include <mutex>
@@ -16,6 +18,7 @@
 #include "server/app/restore.hpp"
 #include "server/app/server.hpp"
 #include "server/app/settings.hpp"
+#include "server/app/standby.hpp"
 
 namespace dripline::app {
 namespace {
@@ -39,26 +42,42 @@ void keep_memory_small() {
   ::mallopt(M_ARENA_MAX, kArenas);        // NOLINT(concurrency-mt-unsafe): no threads yet
 }
 
-/// Ends the process when the database is another server's: a service manager starts it again, and
-/// what it would do until then is that server's.
-class LostStore {
+/// Ends the server when the database is another one's, or is to become that. The process ends too:
+/// a service manager starts it again, and what it would do until then is the other server's.
+class EndReason {
  public:
-  void note(const Error& error) {
+  void note_lost(const Error& error) {
     {
       const std::lock_guard lock(mutex_);
       why_ = error.what;
     }
     ::kill(::getpid(), SIGTERM);  // that the main thread waits for
   }
-  std::optional<std::string> why() const {
+  void note_handed_over() {
+    if (is_handed_over_.exchange(true)) return;
+    ::kill(::getpid(), SIGTERM);
+  }
+  /// nullopt: it was not lost.
+  std::optional<std::string> lost() const {
     const std::lock_guard lock(mutex_);
     return why_;
   }
+  bool is_handed_over() const { return is_handed_over_; }
 
  private:
   mutable std::mutex mutex_;
   std::optional<std::string> why_;
+  std::atomic<bool> is_handed_over_ = false;
 };
+
+/// Without a log file a hang-up is the end, as of any program whose terminal is gone; a service
+/// has none.
+bool is_end(int signal) {
+  if (signal < 0) return false;
+  if (signal != SIGHUP) return true;
+  const bool is_reopened = process::reopen_log();
+  return !is_reopened && !process::has_service_manager();
+}
 
 void serve_until(const sigset_t& signals, Server& server, const Clock& clock) {
   constexpr std::chrono::hours kTidyInterval{1};
@@ -74,10 +93,7 @@ void serve_until(const sigset_t& signals, Server& server, const Clock& clock) {
       server.tidy();
       tidied = clock.steady_now();
     }
-    // Without a log file a hang-up is the end, as of any program whose terminal is gone; a service
-    // has none.
-    if (signal == SIGHUP && (process::reopen_log() || process::has_service_manager())) continue;
-    if (signal >= 0) return;
+    if (is_end(signal)) return;
   }
 }
 
@@ -97,6 +113,95 @@ int migrate(const Settings& settings) {
   return migrated ? 0 : complain(migrated.error());
 }
 
+int not_started(const Settings& settings, const Error& error) {
+  process::log_error("not started: {}", error.what);
+  // Without a log file the line above is on standard error already.
+  if (settings.log.empty()) return error.code == Errc::Denied ? kUnsafe : kFailed;
+  return complain(error);
+}
+
+/// What this process is from one end of a server to the next.
+struct Turn {
+  Settings settings;
+  std::uint64_t handed_over = 0;  ///< the term of the place that it handed over last; 0: none
+  bool was_late = false;          ///< another server was quicker, the last time
+  bool is_over = false;           ///< the process ends
+};
+
+/// Until the place is free, which is true at once where no server has it. False: a signal ended it.
+Result<bool> stand_by(Turn& turn, const sigset_t& signals, const Clock& clock) {
+  auto opened = Standby::open(turn.settings, clock, {.handed_over = turn.handed_over});
+  if (!opened) return fail(opened.error());
+  Standby& standby = **opened;
+  auto is_due = standby.look();
+  if (!is_due || *is_due) return is_due;
+  if (auto listens = standby.listen(); !listens) return fail(listens.error());
+  turn.settings.http = standby.address();  // port 0 would be another one after the wait
+  process::log_info("dncd {} standing by at {}: {}", DRIPLINE_VERSION, standby.url(),
+                    standby.status());
+  fmt::print("dncd standing by at {}\n", standby.url());
+  std::fflush(stdout);
+  process::notify_ready(standby.status());
+  constexpr std::chrono::nanoseconds kWait = Standby::kLookEvery;
+  const timespec wait{.tv_sec = 0, .tv_nsec = kWait.count()};
+  for (;;) {
+    if (is_end(sigtimedwait(&signals, nullptr, &wait))) return false;
+    process::notify_alive(standby.status());
+    is_due = standby.look();
+    if (!is_due) return is_due;
+    if (!*is_due) continue;
+    process::log_info("taking over: {}", standby.status());
+    return true;
+  }
+}
+
+/// One server, from its start (or the wait for it) to its end.
+int take_turn(Turn& turn, const sigset_t& signals, const Clock& clock) {
+  turn.is_over = true;
+  if (turn.settings.standby) {
+    const auto is_due = stand_by(turn, signals, clock);
+    if (!is_due) return not_started(turn.settings, is_due.error());
+    if (!*is_due) return 0;
+  }
+  EndReason end;
+  auto server = Server::start(
+      turn.settings, clock, [&end](const Error& error) { end.note_lost(error); },
+      [&end] { end.note_handed_over(); });
+  if (!server) {
+    // Of several that wait, one is the first.
+    if (turn.settings.standby && server.error().code == Errc::Busy && !turn.was_late) {
+      process::log_warning("not taken over: {}", server.error().what);
+      turn.was_late = true;
+      turn.is_over = false;
+      return 0;
+    }
+    return not_started(turn.settings, server.error());
+  }
+  turn.was_late = false;
+  process::log_info("dncd {} listening at {}", DRIPLINE_VERSION, (*server)->url());
+  fmt::print("dncd listening at {}\n", (*server)->url());
+  if (const auto& agent = (*server)->mtconnect_url(); !agent.empty()) {
+    process::log_info("MTConnect agent at {}", agent);
+    fmt::print("MTConnect agent at {}\n", agent);
+  }
+  std::fflush(stdout);
+  process::notify_ready((*server)->status());
+  serve_until(signals, **server, clock);
+  const auto lost = end.lost();
+  if (lost) {
+    process::log_error("{}: the server ends", *lost);
+    if (!turn.settings.log.empty()) fmt::print(stderr, "dncd: {}: the server ends\n", *lost);
+    ::alarm(kLongestEnd);  // an end that hangs is an end all the same
+  }
+  process::log_info("{}", end.is_handed_over() ? "handing over" : "stopping");
+  turn.is_over = lost || !end.is_handed_over() || !turn.settings.standby;
+  if (turn.is_over) process::notify_stopping();
+  turn.handed_over = (*server)->term();
+  server->reset();
+  process::log_info("stopped");
+  return lost ? kFailed : 0;
+}
+
 int run(const Settings& settings) {
   keep_memory_small();
   if (!settings.restore.empty()) return restore(settings);
@@ -110,37 +215,12 @@ int run(const Settings& settings) {
   if (auto opened = process::start_log("dncd", log); !opened) return complain(opened.error());
   dds::send_log_to(process::log_foreign);
   const SystemClock clock;
-  LostStore lost;
   const auto files = process::require_open_files(process::kServerFiles);
-  auto server =
-      files ? Server::start(settings, clock, [&lost](const Error& error) { lost.note(error); })
-            : fail(files.error());
-  if (!server) {
-    process::log_error("not started: {}", server.error().what);
-    // Without a log file the line above is on standard error already.
-    if (settings.log.empty()) return server.error().code == Errc::Denied ? kUnsafe : kFailed;
-    return complain(server.error());
-  }
-  process::log_info("dncd {} listening at {}", DRIPLINE_VERSION, (*server)->url());
-  fmt::print("dncd listening at {}\n", (*server)->url());
-  if (const auto& agent = (*server)->mtconnect_url(); !agent.empty()) {
-    process::log_info("MTConnect agent at {}", agent);
-    fmt::print("MTConnect agent at {}\n", agent);
-  }
-  std::fflush(stdout);
-  process::notify_ready((*server)->status());
-  serve_until(signals, **server, clock);
-  if (const auto why = lost.why()) {
-    process::log_error("{}: the server ends", *why);
-    if (!settings.log.empty()) fmt::print(stderr, "dncd: {}: the server ends\n", *why);
-    ::alarm(kLongestEnd);  // an end that hangs is an end all the same
-  }
-  process::log_info("stopping");
-  process::notify_stopping();
-  server->reset();
-  process::log_info("stopped");
+  int status = files ? 0 : not_started(settings, files.error());
+  Turn turn{.settings = settings};
+  while (files && !turn.is_over) status = take_turn(turn, signals, clock);
   spdlog::shutdown();
-  return lost.why() ? kFailed : 0;
+  return status;
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ Result<void> migrate_store(const Settings& settings) {
   if (auto known = check_url(url); !known) return known;
   const auto lock = folder->lock();
   if (!lock) return fail(lock.error());
-  const auto holder = folder->server_id();
+  const auto holder = holder_name(*folder);
   if (!holder) return fail(holder.error());
   const Request request{.direction = *direction,
                         .file = folder->database(),

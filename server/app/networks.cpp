@@ -15,6 +15,7 @@ Result<DdsNetwork> dds_network(const Settings& settings, UtcTime now) {
   network.domain = settings.dds_domain;
   network.interface = settings.dds_interface;
   network.tag = settings.dds_tag;
+  network.port = static_cast<std::uint16_t>(settings.dds_port);
   network.cells = settings.dds_cells;
   network.discovery_interval_ms = settings.discovery_interval_ms;
   network.lease_ms = settings.lease_ms;

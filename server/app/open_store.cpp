@@ -60,6 +60,12 @@ Error unfinished(const StateFolder& folder, const Error& error) {
                       folder.path().string(), entered.string())};
 }
 
+/// A server that stands by has waited already; another one that waits may be quicker.
+std::chrono::milliseconds wait_for_holder(const Settings& settings) {
+  if (settings.standby) return std::chrono::milliseconds(0);
+  return storage::PostgresqlStoreOptions{}.wait_for_holder;
+}
+
 Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& settings,
                                   const Clock& clock, OnLost on_lost) {
   if (auto known = check_url(settings.store); !known) return fail(known.error());
@@ -85,12 +91,14 @@ Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& set
   }
   auto lock = folder.lock();
   if (!lock) return fail(lock.error());
-  const auto holder = folder.server_id();
+  const auto holder = holder_name(folder);
   if (!holder) return fail(holder.error());
   auto cache = open_cache(folder, settings);
   auto store = storage::PostgresqlStore::open({.url = settings.store,
                                                .holder = *holder,
                                                .described = description(folder),
+                                               .lease = std::chrono::seconds(settings.takeover_s),
+                                               .wait_for_holder = wait_for_holder(settings),
                                                .content_cache = cache.get(),
                                                .on_lost = std::move(on_lost)},
                                               clock);
@@ -110,10 +118,28 @@ Result<KeptStore> open_sqlite(const StateFolder& folder, const Settings& setting
 
 }  // namespace
 
-std::string description(const StateFolder& folder) {
+std::string host_name() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
-  return fmt::format("dncd {} on {}, {}", ::getpid(), host.data(), folder.path().string());
+  return host.data();
+}
+
+std::string description(const StateFolder& folder) {
+  return fmt::format("dncd {} on {}, {}", ::getpid(), host_name(), folder.path().string());
+}
+
+Result<std::string> holder_name(const StateFolder& folder) {
+  auto id = folder.server_id();
+  if (!id) return id;
+  return fmt::format("{} {} {}", *id, host_name(), folder.path().string());
+}
+
+Result<SigningKey> signing_key(const StateFolder& folder) {
+  const auto seed = folder.signing_seed();
+  if (!seed) return fail(seed.error());
+  auto key = SigningKey::of(*seed);
+  if (!key) return fail(Errc::Denied, "{}: {}", folder.signing_file().string(), key.error().what);
+  return key;
 }
 
 Result<void> check_url(const std::string& url) {

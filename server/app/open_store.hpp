@@ -7,6 +7,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "protocol/base/descriptor.hpp"
+#include "protocol/base/signature.hpp"
 #include "server/app/settings.hpp"
 #include "server/app/state_folder.hpp"
 #include "storage/cache/disk_cache.hpp"
@@ -33,6 +34,13 @@ Result<KeptStore> open_store(const StateFolder& folder, const Settings& settings
 
 /// "dncd 812 on srv-1, /var/lib/dripline": who uses a database, for anyone who is refused.
 std::string description(const StateFolder& folder);
+/// The computer's name; empty: it has none.
+std::string host_name();
+/// What the server of this folder calls itself in a database: only one process at a time is it,
+/// also where the folder was copied. Errors: those of the folder.
+Result<std::string> holder_name(const StateFolder& folder);
+/// The key that another server of the same database has to have. Errors: those of the folder.
+Result<SigningKey> signing_key(const StateFolder& folder);
 
 /// Warns of a password in the URL. Errors: Unsupported (none of postgresql://), Syntax.
 Result<void> check_url(const std::string& url);

@@ -61,7 +61,8 @@ Server::~Server() {
 }
 
 Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock,
-                                              OnLost on_lost) {
+                                              OnLost on_lost,
+                                              std::function<void()> on_handed_over) {
   const auto options = http_options(settings);
   if (!options) return fail(options.error());
   const auto agent = mtconnect_options(settings);
@@ -89,10 +90,8 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!token) return fail(token.error());
   const auto users = kept->store->accounts.load();
   if (!users) return fail(users.error());
-  const auto seed = folder->signing_seed();
-  if (!seed) return fail(seed.error());
-  const auto key = SigningKey::of(*seed);
-  if (!key) return fail(Errc::Denied, "{}: {}", folder->signing_file().string(), key.error().what);
+  const auto key = signing_key(*folder);
+  if (!key) return fail(key.error());
   std::optional<backup::BackupFolder> backups;
   if (!settings.backups.empty()) {
     auto opened = backup::BackupFolder::open(settings.backups);
@@ -103,6 +102,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   std::unique_ptr<Server> server(new Server(std::make_unique<ServerParts>(
       *folder, *std::move(kept), std::move(backups), settings, clock, loaded, *network)));
   ServerParts& parts = *server->parts_;
+  parts.on_handed_over = std::move(on_handed_over);
   if (auto used = parts.accounts.use_local_secret(*token, settings.recover_admin); !used)
     return fail(used.error());
   if (auto read = parts.revoke_certificates(); !read) return fail(read.error());
@@ -121,7 +121,9 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
       [&parts](const std::string& port) { return parts.events.has_port_listeners(port); });
   parts.are_lines_handled = true;
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
-  auto endpoint = dds::ServerEndpoint::open(network->options, parts.machine_service.handlers());
+  dds::NetworkOptions dds_options = network->options;
+  dds_options.term = parts.store->term();
+  auto endpoint = dds::ServerEndpoint::open(dds_options, parts.machine_service.handlers());
   if (!endpoint) return fail(endpoint.error());
   if (auto begun = parts.machine_service.begin(*std::move(endpoint)); !begun)
     return fail(begun.error());
@@ -148,7 +150,12 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   parts.announcement = {
       .url = parts.url, .dds_domain = settings.dds_domain, .dds_tag = settings.dds_tag};
   parts.announce();
+  parts.publish();
   return server;
+}
+
+std::uint64_t Server::term() const {
+  return parts_->store->term();
 }
 
 const std::string& Server::url() const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,12 +19,17 @@ class Server {
   /// Listens and takes part in DDS when it returns. Errors: Denied (unsafe settings), Io, Busy
   /// (another server uses the folder or the database), Corrupt, Unsupported. `on_lost`: the
   /// database is another server's now, and this one can only end.
+  /// `on_handed_over`: a person has asked for a hand-over to a server that waits, which this one's
+  /// end is; from any thread, and returns soon.
   static Result<std::unique_ptr<Server>> start(const Settings& settings, const Clock& clock,
-                                               OnLost on_lost = {});
+                                               OnLost on_lost = {},
+                                               std::function<void()> on_handed_over = {});
   /// In order: accepts nothing, flushes storage, leaves DDS.
   ~Server();
 
   const std::string& url() const;
+  /// storage::OpenedStore::term
+  std::uint64_t term() const;
   /// Of the MTConnect agent; empty: there is none.
   const std::string& mtconnect_url() const;
   /// From time to time: drops abandoned uploads.

@@ -152,6 +152,14 @@ constexpr std::array kRows{
         "With --store: program text kept in the state folder too, from which machines are fed "
         "while the database is away; 0: none",
         number_value<0, kMostCacheMb, &Settings::program_cache_mb>()},
+    Row{"standby", "yes|no", "", "",
+        "With --store: yes: where another server has the database, wait and take over when it ends "
+        "or is gone; for each of the servers of one database",
+        yes_no_value<&Settings::standby>()},
+    Row{"takeover-s", "NUMBER", "s", "",
+        "With --store: let another server take over when this one has not renewed its place for "
+        "so long",
+        number_value<2, 60, &Settings::takeover_s>()},
     Row{"http", "HOST:PORT", "", "", "Address of the REST API; port 0 takes a free one",
         text_value<&Settings::http>()},
     Row{"tls-certificate", "FILE", "", "",
@@ -195,6 +203,10 @@ constexpr std::array kRows{
         "Parts of the DDS side, two UDP ports each: 8, or 16, 32, 64 for hundreds of machines; as "
         "many as the gateways have, or more",
         number_value<dds::kFewestCells, dds::kMostCells, &Settings::dds_cells>()},
+    Row{"dds-port", "NUMBER", "", "7410 + 250 * dds-domain",
+        "First UDP port of the DDS side, two for each cell from there; gateways name it: --server "
+        "HOST:PORT",
+        number_value<0, 65535, &Settings::dds_port>()},
     Row{"dds-interface", "NAME", "", "", "Network interface or address that leads to the gateways",
         text_value<&Settings::dds_interface>()},
     Row{"dds-security", "DIR", "", "none: no authentication",

@@ -18,6 +18,8 @@ struct Settings {
   std::string state;  ///< default: default_state_folder (protocol/base/private_folder.hpp)
   std::string store;  ///< postgresql://...; empty: a SQLite file in `state`
   std::uint32_t program_cache_mb = 4096;  ///< of a PostgreSQL database's program text; 0: none
+  bool standby = false;                   ///< another server's database: waits for its place
+  std::uint32_t takeover_s = 4;  ///< without renewal, and another server may have the place
   std::string http = "127.0.0.1:8430";
   std::string tls_certificate, tls_key;
   std::string tls_client_ca, tls_client_revoked;  ///< files; empty: none
@@ -29,6 +31,7 @@ struct Settings {
   bool mtconnect_open_network = false;  ///< beyond this computer, although anybody may read there
   std::uint32_t dds_domain = 0;
   std::string dds_tag;
+  std::uint32_t dds_port = 0;  ///< 0: by the domain
   std::string dds_interface = "lo";
   std::string dds_security;  ///< folder of `dnc pki`; empty: none
   std::uint32_t dds_cells = 8;

@@ -65,6 +65,12 @@ Result<void> PortService::begin(const std::vector<storage::Port>& configured) {
   // A setup that rules out a port's protocol is reported at a start there: the server begins.
   for (const auto& port : configured) {
     const std::lock_guard changing(change_mutex_);
+    const auto known = find(port.name);
+    if (known && known->port.address == port.address && !host_fault(known->port).empty()) {
+      process::log_warning("port={} of the settings is left as it is stored: {}", port.name,
+                           host_fault(known->port));
+      continue;
+    }
     auto entry = prepare(port);
     const auto saved =
         entry ? save_prepared(*std::move(entry)) : Result<PortView>(fail(entry.error()));
@@ -222,6 +228,8 @@ Result<PortView> PortService::save(const storage::Port& port) {
 }
 
 Result<PortView> PortService::save_prepared(Entry entry) {
+  entry.port.host.clear();
+  note_host(entry.port);
   const storage::Port& port = entry.port;
   if (auto free = check_free(port); !free) return fail(free.error());
   if (auto idle = check_idle(port.name); !idle) return fail(idle.error());

@@ -33,6 +33,10 @@ class PortService final : public PortControl, private LineDirectory {
     unsigned workers = 2;
     std::filesystem::path recordings;  ///< folder; empty: in memory only
     LineOpener open = {};              ///< empty: serial::LineDriver::start
+    /// This computer's name, where servers on several computers have one store: a port whose
+    /// address is a device belongs to the one where it was set up, and is shown with a fault at the
+    /// others. Empty: this is the only server.
+    std::string host = {};
     /// Why records of a machine cannot be stored, at every try; empty: they can again.
     std::function<void(const std::string& machine, const std::string& fault)> on_fault = {};
   };
@@ -92,6 +96,9 @@ class PortService final : public PortControl, private LineDirectory {
   Machine machine_of(const std::string& name, std::uint64_t epoch);
   void put(Entry entry);
   void open(Entry& entry);
+  void note_host(storage::Port& port) const;
+  /// Why the port's device is not this computer's; empty: it is, or it is no device.
+  std::string host_fault(const storage::Port& port) const;
   PortListener listener_for(const Entry& entry, const Machine& machine);
   std::shared_ptr<PortLine> make_line(const Entry& entry, const Strands& strands,
                                       PortListener listener);

@@ -13,6 +13,11 @@ namespace {
 
 constexpr unsigned kTicksPerSave = 5;
 
+/// Not the address of a device server, or of another stream.
+bool is_device(const std::string& address) {
+  return address.starts_with('/');
+}
+
 /// The port that the machine has at the time.
 class PortAtControl final : public RequestedLine {
  public:
@@ -96,6 +101,21 @@ PortService::Machine PortService::machine_of(const std::string& name, std::uint6
   return machines_.emplace(name, machine).first->second;
 }
 
+void PortService::note_host(storage::Port& port) const {
+  if (is_device(port.address)) port.host = options_.host;
+}
+
+std::string PortService::host_fault(const storage::Port& port) const {
+  if (options_.host.empty() || port.host.empty() || port.host == options_.host) return "";
+  if (!is_device(port.address)) return "";
+  return fmt::format(
+      "{} is a device of computer {}, and this server is on {}: it cannot move. It is used again "
+      "when a server there has the library; or connect the line through a device server "
+      "(rfc2217://HOST:PORT), or set the port up again if the device is here now",
+      port.address, port.host, options_.host);
+}
+
+/// A run of it that another server has begun has ended all the same.
 void PortService::open(Entry& entry) {
   if (!entry.port.is_enabled || !entry.fault.empty()) return;
   const auto epoch = enter_machine(entry.port);
@@ -105,6 +125,18 @@ void PortService::open(Entry& entry) {
     return;
   }
   const Machine machine = machine_of(entry.port.machine, *epoch);
+  entry.fault = host_fault(entry.port);
+  if (!entry.fault.empty()) {
+    process::log_error("port={} machine={}: {}", entry.port.name, entry.port.machine, entry.fault);
+    return;
+  }
+  if (entry.port.host.empty()) {
+    note_host(entry.port);
+    if (!entry.port.host.empty()) {
+      if (auto saved = store_.ports.save(entry.port); !saved)
+        process::log_warning("port={}: {}", entry.port.name, saved.error().what);
+    }
+  }
   const Strands strands{machine.strand, Strand(near_pool_)};
   entry.line = make_line(entry, strands, listener_for(entry, machine));
   entry.line->open();

@@ -47,6 +47,14 @@ void add_cache(Details& details, const client::ServerInfo::ProgramCache& cache) 
   if (!cache.fault.empty()) details.add("", printable(cache.fault));
 }
 
+void add_sharing(Details& details, const client::ServerInfo::Sharing& sharing) {
+  std::string standbys;
+  for (const auto& standby : sharing.standbys)
+    standbys += (standbys.empty() ? "" : "; ") + printable(standby);
+  details.add("shared", fmt::format("term {}, standby: {}", sharing.term,
+                                    standbys.empty() ? "none" : standbys));
+}
+
 int show_status(Context& context, client::Client& client) {
   auto server = client.server();
   if (const auto status = finished(context, server)) return *status;
@@ -64,9 +72,18 @@ int show_status(Context& context, client::Client& client) {
   details.add("runs active", std::to_string(server->runs_active));
   details.add("DDS", fmt::format("domain {}, {} messages rejected", server->dds.domain,
                                  server->dds.rejected));
+  if (server->sharing) add_sharing(details, *server->sharing);
   if (server->program_cache) add_cache(details, *server->program_cache);
   if (server->mqtt) add_broker(details, *server->mqtt);
   context.print(details);
+  return kExitOk;
+}
+
+int drain(Context& context, client::Client& client) {
+  const auto sharing = client.drain();
+  if (const auto status = finished(context, sharing)) return *status;
+  for (const auto& standby : sharing->standbys)
+    context.print(fmt::format("handed over to {}\n", printable(standby)));
   return kExitOk;
 }
 
@@ -78,6 +95,10 @@ void add_server_commands(Command app, Context& context) {
   auto status = group.add_subcommand("status", "Show version, uptime and counts");
   add_json_flag(status, context);
   run_at_server(status, context, show_status);
+  auto drained = group.add_subcommand(
+      "drain", "Hand the library over to the server that stands by, and stand by or end");
+  add_json_flag(drained, context);
+  run_at_server(drained, context, drain);
   add_backup_commands(group, context);
   add_archive_commands(group, context);
   add_migrate_command(group, context);

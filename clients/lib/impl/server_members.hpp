@@ -51,12 +51,18 @@ void members(V& v, Is<ServerInfo::ProgramCache> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<ServerInfo::Sharing> auto& x) {
+  DRIPLINE_MEMBERS(term, standbys);
+}
+
+template <class V>
 void members(V& v, Is<ServerInfo> auto& x) {
   DRIPLINE_MEMBERS(name, version, started, uptime_s, data_dir, machines, machines_connected,
                    programs, runs_active);
   v.later("health", x.health);
   v.later("mqtt", x.mqtt);
   v.later("program_cache", x.program_cache);
+  v.later("sharing", x.sharing);
   DRIPLINE_MEMBERS(dds);
 }
 

@@ -73,6 +73,15 @@ void add_backups(MetricsText& out, const library::Backups::State& state) {
             seconds(known.back().made));
 }
 
+void add_sharing(MetricsText& out, const SharedLibrary& shared) {
+  out.gauge("dripline_server_term", "The number of this server's taking of the library.",
+            static_cast<double>(shared.term));
+  if (const auto waiting = shared.waiting()) {
+    out.gauge("dripline_server_standbys", "Servers that wait to take the library over.",
+              static_cast<double>(waiting->size()));
+  }
+}
+
 /// Nothing before the trail was verified once.
 void add_audit(MetricsText& out, const library::AuditChain::State& state) {
   if (state.verification) {
@@ -257,6 +266,8 @@ Response list_metrics(Services& services, const RequestTimes& times, const Reque
   out.sample(1, {{"version", services.facts.version}});
   out.gauge("dripline_start_timestamp_seconds", "When the server was started.",
             seconds(services.facts.started));
+  out.gauge("dripline_server_active", "1: this server has its library; 0: it stands by.", 1);
+  if (services.shared) add_sharing(out, *services.shared);
   if (services.health != nullptr) add_health(out, services.health->state());
   out.gauge("dripline_programs", "Programs in the library.", static_cast<double>(*programs));
   out.gauge("dripline_runs_active", "Runs in progress.", static_cast<double>(*active));

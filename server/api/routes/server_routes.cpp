@@ -75,6 +75,35 @@ nlohmann::json cache_json(const Services& services) {
           {"fault", text_or_null(state.fault)}};
 }
 
+/// Null: the library is this server's alone.
+nlohmann::json sharing_json(const Services& services) {
+  if (!services.shared) return nullptr;
+  const auto waiting = services.shared->waiting();
+  return {{"term", services.shared->term},
+          {"standbys", waiting.value_or(std::vector<std::string>{})}};
+}
+
+Response hand_over(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  if (!services.shared) {
+    return error_response(
+        {Errc::Unsupported,
+         "the library of this server is a SQLite file, which no other server can take over"});
+  }
+  auto waiting = services.shared->hand_over();
+  if (!waiting) return error_response(waiting.error());
+  if (auto noted = services.audit.write_before({.who = request.who,
+                                                .action = "server.drain",
+                                                .subject = services.facts.name,
+                                                .detail = ""});
+      !noted)
+    return error_response(noted.error());
+  constexpr int kAccepted = 202;
+  services.shared->leave();
+  return json_response(kAccepted, {{"term", services.shared->term}, {"standbys", *waiting}});
+}
+
 Response describe_server(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
@@ -102,6 +131,7 @@ Response describe_server(Services& services, const Request& request) {
             {"health", health_json(health_of(services), Audience::TokenHolder)},
             {"mqtt", mqtt_json(services)},
             {"program_cache", cache_json(services)},
+            {"sharing", sharing_json(services)},
             {"dds", {{"domain", facts.dds_domain}, {"rejected", services.dds_rejected()}}}});
 }
 
@@ -141,16 +171,20 @@ void add_server_routes(Router& router, Services& services) {
     const auto state = health_of(services);
     auto body = health_json(state, Audience::Anybody);
     body["ready"] = is_ready(state);
+    body["role"] = "active";
     return json_response(is_ready(state) ? 200 : kUnavailable, body);
   });
   router.add("GET", "/api/v1/health", [&](const Request&) {
     const auto state = health_of(services);
     const bool is_failed = state.level == library::Health::Level::Failed;
-    return json_response(is_failed ? kUnavailable : 200, health_json(state, Audience::Anybody));
+    auto body = health_json(state, Audience::Anybody);
+    body["role"] = "active";
+    return json_response(is_failed ? kUnavailable : 200, body);
   });
   router.add("GET", "/api/v1/openapi.json",
              [](const Request&) { return json_text_response(std::string(openapi_text())); });
   router.add("GET", "/api/v1/server", with(services, describe_server));
+  router.add("POST", "/api/v1/server/drain", with(services, hand_over));
   router.add("GET", "/api/v1/events", with(services, open_events));
 }
 

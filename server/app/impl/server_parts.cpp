@@ -1,8 +1,5 @@
 #include "server/app/impl/server_parts.hpp"
 
-#include <unistd.h>
-#include <array>
-
 #include "protocol/process/log.hpp"
 #include "server/identity/revoked_certificates.hpp"
 
@@ -10,12 +7,6 @@ namespace dripline::app {
 namespace {
 
 constexpr std::chrono::seconds kWebhookTimeout{5};
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  if (::gethostname(name.data(), name.size() - 1) != 0) return "dncd";
-  return name.data();
-}
 
 api::HttpHandlers mtconnect_handlers(mtconnect::Agent& agent) {
   return {
@@ -107,7 +98,10 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
       machine_service({.store = *store, .releases = releases, .clock = clock}, machine_options(),
                       machine_listener()),
       ports({.store = *store, .releases = releases, .clock = clock}, programs,
-            {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
+            {.recordings = folder.recordings(),
+             .open = {},
+             .host = settings.standby ? host_name() : "",
+             .on_fault = records_watch()},
             published()),
       gateway_lines({.store = *store,
                      .releases = releases,
@@ -155,8 +149,63 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
            .publisher = publisher.get(),
            .sparkplug = sparkplug.get(),
            .cache = cache.get(),
+           .shared = shared_library(),
            .has_tls = !settings.tls_key.empty()}),
+      signing_key(loaded.key.public_key().hex()),
       tidied(clock.steady_now()) {}
+
+std::optional<api::SharedLibrary> ServerParts::shared_library() {
+  if (store->term() == 0) return std::nullopt;
+  return api::SharedLibrary{.term = store->term(),
+                            .waiting = [this]() -> Result<std::vector<std::string>> {
+                              const auto waiting = store->waiting();
+                              if (!waiting) return fail(waiting.error());
+                              std::vector<std::string> names;
+                              for (const auto& server : *waiting) names.push_back(server.described);
+                              return names;
+                            },
+                            .hand_over = [this] { return hand_over(); },
+                            .leave =
+                                [this] {
+                                  if (on_handed_over) on_handed_over();
+                                }};
+}
+
+void ServerParts::publish() {
+  // Beyond this computer an address of all interfaces says nothing.
+  std::string reached = url;
+  for (const std::string_view any : {"//0.0.0.0:", "//[::]:"}) {
+    const auto at = reached.find(any);
+    if (at != std::string::npos) reached.replace(at, any.size(), "//" + host_name() + ":");
+  }
+  const auto published = store->publish({.url = reached, .signing_key = signing_key});
+  if (!published)
+    process::log_warning("servers that wait do not know this one's address: {}",
+                         published.error().what);
+}
+
+Result<std::vector<std::string>> ServerParts::hand_over() {
+  auto waiting = shared_library()->waiting();
+  if (!waiting) return waiting;
+  if (waiting->empty()) {
+    return fail(Errc::Conflict,
+                "no server waits for this database: start a second one with standby = yes, or end "
+                "this one");
+  }
+  for (const auto& view : ports.ports()) {
+    storage::RunFilter active;
+    active.machine = view.port.machine;
+    active.state = storage::RunState::Active;
+    const auto count = store->runs.count(active);
+    if (!count) return fail(count.error());
+    if (*count == 0) continue;
+    return fail(Errc::Busy,
+                "port '{}' is in a run of machine '{}', which a hand-over would end: wait until it "
+                "has ended, or abort it",
+                view.port.name, view.port.machine);
+  }
+  return waiting;
+}
 
 machines::MachineService::Options ServerParts::machine_options() {
   machines::MachineService::Options options;

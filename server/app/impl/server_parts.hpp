@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -97,6 +98,13 @@ struct ServerParts {
   void show_jobs(const library::JobChange& change);
   /// A full disk only keeps the server from storing: clients should still find it.
   void announce();
+  /// nullopt: no other server can have it.
+  std::optional<api::SharedLibrary> shared_library();
+  /// To servers that wait for the database, where it is one that servers share.
+  void publish();
+  /// Who waits for the database. Errors: Unsupported, Conflict (no server does), Busy (a serial
+  /// line is at work, which a hand-over would end).
+  Result<std::vector<std::string>> hand_over();
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
   /// again.
   Result<void> look();
@@ -160,6 +168,8 @@ struct ServerParts {
   std::string url, mtconnect_url;
   StateFolder::Announcement announcement;
   std::atomic<bool> is_announced = true;  ///< or not yet tried
+  std::string signing_key;                ///< public
+  std::function<void()> on_handed_over;
   SteadyTime tidied;
   std::jthread check;  ///< of a database too big to be looked through before the start
 };

@@ -1,0 +1,194 @@
+#include "server/app/standby.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "protocol/process/log.hpp"
+#include "server/api/metrics_text.hpp"
+#include "server/app/networks.hpp"
+#include "server/app/open_store.hpp"
+#include "server/library/release_policy.hpp"
+
+namespace dripline::app {
+namespace {
+
+using View = storage::PostgresqlStandby::View;
+
+constexpr int kUnavailable = 503;
+/// After a hand-over another server is waited for; when none has come, this one may have it again.
+constexpr std::chrono::seconds kForOthers{10};
+
+/// What a start would refuse is refused now, and not at the moment of need.
+Result<void> check_settings(const Settings& settings, const Clock& clock) {
+  if (settings.store.empty()) {
+    return fail(Errc::Unsupported,
+                "standby: servers share a PostgreSQL database (store = \"postgresql://...\"); the "
+                "SQLite file of a state folder is one server's");
+  }
+  if (auto known = check_url(settings.store); !known) return known;
+  if (auto agent = mtconnect_options(settings); !agent) return fail(agent.error());
+  if (auto network = dds_network(settings, clock.now()); !network) return fail(network.error());
+  if (auto safe = mqtt::check_exposure(settings.mqtt); !safe) return safe;
+  if (auto policy = library::ReleasePolicy::read(settings.policy); !policy)
+    return fail(policy.error());
+  return {};
+}
+
+std::string name_of(const View& view) {
+  const std::string name = view.described.empty() ? "another server" : view.described;
+  return view.url.empty() ? name : fmt::format("{} at {}", name, view.url);
+}
+
+}  // namespace
+
+struct Standby::Parts {
+  const Settings settings;
+  const Clock& clock;
+  Options options;
+  StateFolder folder;
+  FileLock lock;
+  std::string signing_key;  ///< public
+  api::HttpOptions http;
+  storage::PostgresqlStandby database;
+  SteadyTime began;
+};
+
+Standby::Standby(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+Standby::~Standby() {
+  if (http_) parts_->folder.withdraw();
+  http_.reset();
+}
+
+Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const Clock& clock,
+                                               const Options& options) {
+  if (auto good = check_settings(settings, clock); !good) return fail(good.error());
+  const auto http = http_options(settings);
+  if (!http) return fail(http.error());
+  auto folder = StateFolder::open(settings.state);
+  if (!folder) return fail(folder.error());
+  auto lock = folder->lock();
+  if (!lock) return fail(lock.error());
+  if (const auto token = folder->token(); !token) return fail(token.error());
+  const auto key = signing_key(*folder);
+  if (!key) return fail(key.error());
+  const auto holder = holder_name(*folder);
+  if (!holder) return fail(holder.error());
+  std::unique_ptr<Standby> standby(new Standby(std::unique_ptr<Parts>(
+      new Parts{settings, clock, options, *folder, *std::move(lock), key->public_key().hex(), *http,
+                storage::PostgresqlStandby(
+                    {.url = settings.store, .holder = *holder, .described = description(*folder)}),
+                clock.steady_now()})));
+  auto view = standby->parts_->database.look();
+  if (!view) return fail(view.error());
+  if (auto fits = standby->check(*view); !fits) return fail(fits.error());
+  standby->view_ = *std::move(view);
+  return standby;
+}
+
+/// Two servers sign one audit trail, and people's tokens are the same at both.
+Result<void> Standby::check(const View& view) const {
+  if (!view.has_tables) return {};
+  const auto expected = parts_->folder.expect_identity(view.identity, "the one that --store names");
+  const bool is_new = !expected && expected.error().code == Errc::NotFound;
+  if (!expected && !is_new) return expected;
+  const bool has_key = view.signing_key == parts_->signing_key;
+  if (view.signing_key.empty() ? !is_new : has_key) return {};
+  return fail(
+      Errc::Conflict,
+      "{} has not the key that the audit trail of this database is signed with: the servers "
+      "of one database have the files signing.key, token and database.id of the first one's "
+      "state folder ({}). Copy these three there, and not server.id",
+      parts_->folder.path().string(),
+      view.described.empty() ? "its server is not named" : view.described);
+}
+
+bool Standby::is_for_others(const View& view) const {
+  if (parts_->options.handed_over == 0 || view.term > parts_->options.handed_over) return false;
+  const auto waited = parts_->clock.steady_now() - parts_->began;
+  return view.has_others || waited < kForOthers;
+}
+
+Result<bool> Standby::look() {
+  auto view = parts_->database.look();
+  if (!view) {
+    const bool is_final = view.error().code == Errc::Unsupported;
+    const std::lock_guard lock(mutex_);
+    if (fault_.empty() && !is_final)
+      process::log_warning("standing by, but the database cannot be looked at: {}",
+                           view.error().what);
+    fault_ = view.error().what;
+    return is_final ? Result<bool>(fail(view.error())) : Result<bool>(false);
+  }
+  if (view->term != view_.term) {
+    if (auto fits = check(*view); !fits) return fail(fits.error());
+  }
+  const bool is_due = view->is_free && !is_for_others(*view);
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(fault_, "").empty()) process::log_info("the database answers again");
+  if (view->term != view_.term && view_.term != 0 && !view->is_free)
+    process::log_info("standing by for {}", name_of(*view));
+  view_ = *std::move(view);
+  return is_due;
+}
+
+Result<void> Standby::listen() {
+  auto http = api::HttpServer::start(
+      parts_->http, {.handle = [this](const api::Request& request) { return answer(request); }});
+  if (!http) return fail(http.error());
+  http_ = *std::move(http);
+  api::HttpAddress bound = parts_->http.address;
+  bound.port = http_->port();
+  address_ = bound.text();
+  url_ = fmt::format("{}://{}", parts_->http.tls ? "https" : "http", address_);
+  const auto announced = parts_->folder.announce({.url = url_,
+                                                  .dds_domain = parts_->settings.dds_domain,
+                                                  .dds_tag = parts_->settings.dds_tag});
+  if (!announced) process::log_warning("{}", announced.error().what);
+  return {};
+}
+
+std::string Standby::status() const {
+  const std::lock_guard lock(mutex_);
+  return fmt::format("{}: standby for {}{}", url_, name_of(view_),
+                     fault_.empty() ? "" : ", the database cannot be reached");
+}
+
+/// What anybody may know, and for everything else which server to ask.
+api::Response Standby::answer(const api::Request& request) const {
+  const std::lock_guard lock(mutex_);
+  const bool is_well = fault_.empty();
+  auto reasons = nlohmann::json::array();
+  if (!is_well) {
+    reasons.push_back(
+        {{"subject", "store"},
+         {"status", "degraded"},
+         {"message", "the database that this server stands by for cannot be reached"}});
+  }
+  nlohmann::json health{
+      {"status", is_well ? "ok" : "degraded"}, {"role", "standby"}, {"reasons", reasons}};
+  const std::string path = fmt::format("/{}", fmt::join(request.target.segments, "/"));
+  if (path == "/api/v1/health") return api::json_response(200, health);
+  if (path == "/api/v1/ready") {
+    health["ready"] = false;
+    return api::json_response(kUnavailable, health);
+  }
+  if (path == "/api/v1/metrics") {
+    api::MetricsText out;
+    out.gauge("dripline_server_active", "1: this server has its library; 0: it stands by.", 0);
+    out.gauge("dripline_server_standby_ok", "1: a server that stands by sees its database.",
+              is_well ? 1 : 0);
+    api::Response response;
+    response.content_type = api::MetricsText::kContentType;
+    response.body = out.take();
+    return response;
+  }
+  return api::error_response(
+      kUnavailable,
+      {Errc::Busy,
+       fmt::format("this server stands by: {} has the library. Ask that one", name_of(view_))});
+}
+
+}  // namespace dripline::app

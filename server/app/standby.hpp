@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "protocol/base/clock.hpp"
+#include "protocol/base/descriptor.hpp"
+#include "server/api/http_server.hpp"
+#include "server/app/settings.hpp"
+#include "server/app/state_folder.hpp"
+#include "storage/postgresql_standby.hpp"
+
+namespace dripline::app {
+
+/// A server that waits for another one's database: everything that needs no place is checked as at
+/// a start, health and readiness are answered, and whether the place is free is looked at some
+/// times a second. No gateway, port, hot folder, webhook or broker is touched. One thread, but for
+/// the answers.
+class Standby {
+ public:
+  struct Options {
+    /// The term of the place that this process has handed over; another server is to have it next.
+    /// 0: it has not.
+    std::uint64_t handed_over = 0;
+  };
+  /// Errors: those of Server::start that its settings, folder, certificates and the connection can
+  /// give; Conflict (this folder has not the key of the server that has the database), Unsupported
+  /// (there is no database that servers share).
+  static Result<std::unique_ptr<Standby>> open(const Settings& settings, const Clock& clock,
+                                               const Options& options);
+  /// Answers until it is gone: one line for each try, and the folder's dncd.json names it.
+  ~Standby();
+  Standby(const Standby&) = delete;
+  Standby& operator=(const Standby&) = delete;
+
+  /// True: the place is free, try to take it. A database that cannot be reached is logged once, and
+  /// waited for. Errors: Unsupported (a newer version's tables), Corrupt (another database).
+  Result<bool> look();
+  /// Listens at the address of the settings. Errors: Io, Denied.
+  Result<void> listen();
+  /// HOST:PORT where it listens, which the server takes over.
+  const std::string& address() const { return address_; }
+  const std::string& url() const { return url_; }
+  /// One line, for people: who has the database.
+  std::string status() const;
+
+  static constexpr std::chrono::milliseconds kLookEvery{150};
+
+ private:
+  struct Parts;
+  explicit Standby(std::unique_ptr<Parts> parts);
+  Result<void> check(const storage::PostgresqlStandby::View& view) const;
+  bool is_for_others(const storage::PostgresqlStandby::View& view) const;
+  api::Response answer(const api::Request& request) const;
+
+  std::unique_ptr<Parts> parts_;
+  std::string address_, url_;
+  mutable std::mutex mutex_;
+  storage::PostgresqlStandby::View view_;  ///< the last
+  std::string fault_;                      ///< why the database cannot be looked at; empty: it can
+  std::unique_ptr<api::HttpServer> http_;  // last: its threads use the others
+};
+
+}  // namespace dripline::app
