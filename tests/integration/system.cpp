@@ -38,6 +38,13 @@ bool is_port_free(int port) {
 
 constexpr int kDomains = 90;  // above, their ports would meet ephemeral ones
 
+bool has_ended(const nlohmann::json& run) {
+  const std::string state = run.value("state", "");
+  return state != "ordered" && state != "active" && !state.empty();
+}
+
+}  // namespace
+
 /// Domains share a port range of the machine, so tests that run side by side take different ones.
 int take_domain(std::optional<FileLock>& lock) {
   constexpr int kFirstPort = 7410, kPortsOfADomain = 250;
@@ -53,13 +60,6 @@ int take_domain(std::optional<FileLock>& lock) {
   ADD_FAILURE() << "no DDS domain is free";
   return kDomains;
 }
-
-bool has_ended(const nlohmann::json& run) {
-  const std::string state = run.value("state", "");
-  return state != "ordered" && state != "active" && !state.empty();
-}
-
-}  // namespace
 
 std::string program_path(const std::string& name) {
   return std::string(DRIPLINE_BIN) + "/" + name;

@@ -89,6 +89,9 @@ class System {
   std::optional<test_support::ChildProcess> server_, gateway_;
 };
 
+/// A DDS domain that no other test uses while `lock` is held.
+int take_domain(std::optional<FileLock>& lock);
+
 /// Where the built programs are, given to ctest by CMake.
 std::string program_path(const std::string& name);
 

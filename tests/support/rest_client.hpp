@@ -17,6 +17,7 @@ class RestClient {
   };
 
   RestClient(std::string url, std::string token);
+  const std::string& url() const { return url_; }
   Reply get(const std::string& path) const;
   Reply post(const std::string& path, const nlohmann::json& body) const;
   Reply post_text(const std::string& path, const std::string& body) const;
