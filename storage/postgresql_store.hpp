@@ -20,7 +20,7 @@ struct PostgresqlStoreOptions {
   std::string described{};  ///< which server this is, for anyone who is refused
   /// Another server may have the place when it was not renewed for so long, by the database's
   /// clock.
-  std::chrono::milliseconds lease{4000};
+  std::chrono::milliseconds lease{3000};
   std::chrono::milliseconds wait_for_holder{12000};  ///< that another one's place ends, then Busy
   std::size_t readers = 4;                           ///< connections that read at the same time
   std::uint64_t cache_bytes = 8 << 20;  ///< of program chunks kept checked and decompressed

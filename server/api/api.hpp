@@ -50,7 +50,8 @@ struct ServerFacts {
 
 /// Of a library that other servers wait for.
 struct SharedLibrary {
-  std::uint64_t term = 0;                                     ///< of this server
+  std::uint64_t term = 0;    ///< of this server
+  bool has_standby = false;  ///< by the settings: another server should wait
   std::function<Result<std::vector<std::string>>()> waiting;  ///< the servers that do
   /// Whether it can be handed over to one of them, which are named. Errors: Conflict, Busy.
   std::function<Result<std::vector<std::string>>()> hand_over;

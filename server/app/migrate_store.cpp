@@ -143,6 +143,9 @@ Result<void> migrate_store(const Settings& settings) {
                         .proceed = Shown{}};
   const auto report = migration::migrate(request);
   if (!report) return fail(report.error());
+  if (!to_postgresql) {
+    if (auto kept = folder->remember_term(report->term); !kept) return kept;
+  }
   if (settings.wants_json) {
     print_json(*report);
   } else {

@@ -123,6 +123,11 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   dds::NetworkOptions dds_options = network->options;
   dds_options.term = parts.store->term();
+  if (dds_options.term == 0) {
+    const auto term = parts.folder.term();
+    if (!term) return fail(term.error());
+    dds_options.term = *term;
+  }
   auto endpoint = dds::ServerEndpoint::open(dds_options, parts.machine_service.handlers());
   if (!endpoint) return fail(endpoint.error());
   if (auto begun = parts.machine_service.begin(*std::move(endpoint)); !begun)

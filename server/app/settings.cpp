@@ -313,7 +313,8 @@ CommandLine read_command_line(int argc, const char* const* argv) {
                    "dncd");
   program.set_version_flag("--version", std::string("dncd ") + DRIPLINE_VERSION);
   program.footer(
-      "Exit status: 0 ended by a signal, 1 could not start or continue, 2 usage error or unsafe "
+      "Exit status: 0 ended by a signal or a hand-over, 1 could not start or continue, 2 usage "
+      "error or unsafe "
       "settings.");
   std::string config;
   program

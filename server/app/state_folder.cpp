@@ -133,6 +133,22 @@ Result<std::string> StateFolder::server_id() const {
   return secret_in(path_ / kServer, "");
 }
 
+Result<std::uint64_t> StateFolder::term() const {
+  const auto path = path_ / kTerm;
+  std::error_code ec;
+  if (!std::filesystem::exists(path, ec)) return std::uint64_t{0};
+  std::uint64_t term = 0;
+  if (std::ifstream(path) >> term) return term;
+  return fail(Errc::Corrupt,
+              "{} holds no number: remove it, and restart the gateways, which listen to no server "
+              "of a lower term than they have seen",
+              path.string());
+}
+
+Result<void> StateFolder::remember_term(std::uint64_t term) const {
+  return replace_private_file(path_ / kTerm, std::to_string(term) + "\n");
+}
+
 Result<void> StateFolder::remember_database(const std::string& identity,
                                             const std::string& name) const {
   std::error_code ec;

@@ -38,6 +38,11 @@ class StateFolder {
   /// had none).
   Result<void> expect_identity(const std::string& identity, const std::string& name) const;
 
+  /// Of a database that was moved here from servers that had terms (storage::OpenedStore::term): one
+  /// above all of them, for the gateways that have seen those. 0: none was. Errors: Io, Corrupt.
+  Result<std::uint64_t> term() const;
+  Result<void> remember_term(std::uint64_t term) const;
+
   /// One process uses a database elsewhere with this folder. Errors: Busy, Io.
   Result<FileLock> lock() const;
   /// What this folder's server calls itself in a database elsewhere; made like the token.
@@ -56,7 +61,7 @@ class StateFolder {
 
   std::filesystem::path database() const { return path_ / kDatabase; }
   /// What a backup holds beside the database.
-  static std::vector<std::string> files() { return {kToken, kIdentity, kSigningKey}; }
+  static std::vector<std::string> files() { return {kToken, kIdentity, kSigningKey, kTerm}; }
   /// What passed over serial lines last.
   std::filesystem::path recordings() const { return path_ / "recordings"; }
   /// Program text of a database elsewhere; it may be removed at any time.
@@ -72,6 +77,7 @@ class StateFolder {
   static constexpr const char* kToken = "token";
   static constexpr const char* kIdentity = "database.id";
   static constexpr const char* kServer = "server.id";
+  static constexpr const char* kTerm = "term";
   static constexpr const char* kSigningKey = "signing.key";
   explicit StateFolder(std::filesystem::path path) : path_(std::move(path)) {}
   std::filesystem::path announcement_file() const { return path_ / "dncd.json"; }

@@ -31,7 +31,7 @@ class PostgresqlPlace {
   struct Owner {
     std::string holder;     ///< what only one process at a time calls itself
     std::string described;  ///< for people
-    std::chrono::milliseconds lease{4000};
+    std::chrono::milliseconds lease{3000};
     std::chrono::milliseconds wait{12000};       ///< that another one's lease ends, then Busy
     std::chrono::milliseconds lock_wait{10000};  ///< for a lock, then Busy
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -16,6 +17,8 @@ class Source {
   virtual ~Source() = default;
   virtual Connections& connections() = 0;
   virtual const std::string& label() const = 0;
+  /// Above that of every server that has used it; 0: its servers had none.
+  virtual std::uint64_t term() const { return 0; }
   /// No server uses it: a migration had verified all of it.
   virtual bool is_left() const = 0;
   /// From now on no server does. `target`: for people.

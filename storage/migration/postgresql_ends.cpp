@@ -15,6 +15,7 @@ class PostgresqlSource final : public Source {
       : connections_(std::move(connections)), is_left_(is_left) {}
   Connections& connections() override { return *connections_; }
   const std::string& label() const override { return connections_->label(); }
+  std::uint64_t term() const override { return connections_->term(); }
   bool is_left() const override { return is_left_; }
 
   Result<void> leave(const std::string& target) override {

@@ -26,6 +26,7 @@ class Migration {
     report_.from = source_.label();
     report_.to = target_.label();
     report_.identity = identity;
+    report_.term = source_.term();
     auto done = target_.is_complete() ? finish_complete() : source_.is_left() ? finish() : move();
     if (!done) return fail(done.error());
     return report_;

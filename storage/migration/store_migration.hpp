@@ -33,6 +33,7 @@ struct Request {
 struct Report {
   std::string from, to;          ///< without a password
   std::string identity;          ///< of the database, before and after
+  std::uint64_t term = 0;        ///< above that of every server of the source; 0: they had none
   bool was_resumed = false;      ///< an earlier call had been ended
   bool was_begun_again = false;  ///< and the source had been used since
   bool was_complete = false;     ///< nothing was left to do: `tables` is empty

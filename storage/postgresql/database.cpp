@@ -18,10 +18,11 @@ std::string text_of(const char* text) {
 }
 
 std::string label_of(PGconn* connection) {
-  std::string host = text_of(PQhost(connection));
-  if (host.starts_with('/')) host.clear();  // a socket of this computer
-  return fmt::format("postgresql://{}:{}/{}", host.empty() ? "localhost" : host,
-                     text_of(PQport(connection)), text_of(PQdb(connection)));
+  const std::string host = text_of(PQhost(connection)), port = text_of(PQport(connection));
+  const std::string name = text_of(PQdb(connection));
+  if (host.starts_with('/'))  // a socket of this computer
+    return fmt::format("postgresql:///{}?host={}&port={}", name, host, port);
+  return fmt::format("postgresql://{}:{}/{}", host.empty() ? "localhost" : host, port, name);
 }
 
 /// What is before the URL may be set in it.

@@ -119,6 +119,19 @@ TEST_F(Migration, TheShopContinuesInPostgresqlAndBackInItsFile) {
   expect_shop();
 }
 
+/// Servers of a PostgreSQL database have terms, and the gateway has seen one.
+TEST_F(Migration, AGatewayGoesBackToTheFileWithoutARestart) {
+  ASSERT_EQ(migrate({"--to", database_->url()}).status, 0);
+  start_on(database_->url());
+  stop();
+  const auto back = migrate({"--from", database_->url(), "--to", system_->server_state()});
+  ASSERT_EQ(back.status, 0) << back.output;
+  system_->use_server_arguments({});
+  system_->start_server();
+  system_->wait_connected();
+  run_whole();
+}
+
 TEST_F(Migration, KilledAtAnyMomentItContinues) {
   {
     auto kept = storage::sqlite::Database::open(file());

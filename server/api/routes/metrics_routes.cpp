@@ -76,6 +76,7 @@ void add_backups(MetricsText& out, const library::Backups::State& state) {
 void add_sharing(MetricsText& out, const SharedLibrary& shared) {
   out.gauge("dripline_server_term", "The number of this server's taking of the library.",
             static_cast<double>(shared.term));
+  if (!shared.has_standby) return;
   if (const auto waiting = shared.waiting()) {
     out.gauge("dripline_server_standbys", "Servers that wait to take the library over.",
               static_cast<double>(waiting->size()));

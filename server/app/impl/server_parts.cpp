@@ -26,6 +26,7 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
       certificate_expires(https_certificate_expiry(settings)),
       revoked_file(settings.tls_client_revoked),
       folder(std::move(state_folder)),
+      is_standby_expected(settings.standby),
       folder_lock(std::move(opened.folder_lock)),
       cache(std::move(opened.cache)),
       store(std::move(opened.store)),
@@ -157,6 +158,7 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
 std::optional<api::SharedLibrary> ServerParts::shared_library() {
   if (store->term() == 0) return std::nullopt;
   return api::SharedLibrary{.term = store->term(),
+                            .has_standby = is_standby_expected,
                             .waiting = [this]() -> Result<std::vector<std::string>> {
                               const auto waiting = store->waiting();
                               if (!waiting) return fail(waiting.error());

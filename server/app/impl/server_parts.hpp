@@ -120,6 +120,7 @@ struct ServerParts {
   std::optional<UtcTime> certificate_expires;      ///< nullopt: without TLS
   std::string revoked_file;                        ///< of clients' certificates; empty: none
   StateFolder folder;
+  const bool is_standby_expected;           ///< by the settings: another server waits
   std::optional<FileLock> folder_lock;      ///< of a database elsewhere; let go after the store
   std::unique_ptr<cache::DiskCache> cache;  ///< of program text; null: none. Used by the store
   std::unique_ptr<storage::OpenedStore> store;

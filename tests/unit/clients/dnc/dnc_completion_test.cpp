@@ -38,7 +38,7 @@ TEST_F(DncCompletion, OffersTheVerbsThatAreThere) {
   EXPECT_EQ(words({"run", "re"}), "restart\nresume\n");
   EXPECT_NE(words({""}).find("completion\n"), std::string::npos);
   EXPECT_EQ(words({"--server", "x", "server", ""}),
-            "status\nbackup\nbackups\nverify\nremove-backup\narchive\narchives\nmigrate\n");
+            "status\ndrain\nbackup\nbackups\nverify\nremove-backup\narchive\narchives\nmigrate\n");
 }
 
 TEST_F(DncCompletion, OffersTheOptionsOfAVerbAndOfTheWholeProgram) {

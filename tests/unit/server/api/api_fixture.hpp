@@ -104,7 +104,23 @@ class ApiTest : public ServerTest {
                                                     .retention = retention_.get(),
                                                     .offsets = offsets_.get(),
                                                     .folders = folders_.get(),
-                                                    .webhooks = webhooks_.get()});
+                                                    .webhooks = webhooks_.get(),
+                                                    .shared = shared_});
+  }
+
+  /// As of a PostgreSQL database that another server waits for.
+  void share_library(std::vector<std::string> standbys) {
+    const auto waiting = [standbys]() -> Result<std::vector<std::string>> { return standbys; };
+    shared_ = api::SharedLibrary{.term = 41,
+                                 .has_standby = true,
+                                 .waiting = waiting,
+                                 .hand_over = [standbys]() -> Result<std::vector<std::string>> {
+                                   if (standbys.empty())
+                                     return fail(Errc::Conflict, "no server waits");
+                                   return standbys;
+                                 },
+                                 .leave = [this] { ++handed_over_; }};
+    make_api(&ports_);
   }
 
   /// Made when they are asked for, in a folder beside the store.
@@ -251,6 +267,8 @@ class ApiTest : public ServerTest {
   std::unique_ptr<folders::Folders> folders_;
   FakeSender sender_;
   std::unique_ptr<webhooks::Webhooks> webhooks_;
+  std::optional<api::SharedLibrary> shared_;
+  int handed_over_ = 0;
   std::unique_ptr<api::Api> api_;
 };
 

@@ -220,6 +220,23 @@ TEST_F(ApiHandlers, TellHowTheServerIs) {
   EXPECT_EQ(json(get("/api/v1/server"))["health"]["reasons"][0]["detail"], "40 MiB of /secret");
 }
 
+TEST_F(ApiHandlers, HandTheLibraryOverToAServerThatWaits) {
+  const auto drain = [this] { return post("/api/v1/server/drain", Json::object()); };
+  EXPECT_TRUE(json(get("/api/v1/server"))["sharing"].is_null());
+  expect_error(drain(), 422, "unsupported", "SQLite");
+  share_library({});
+  expect_error(drain(), 409, "conflict", "no server waits");
+  EXPECT_EQ(handed_over_, 0);
+  share_library({"dncd 7 on srv-2"});
+  EXPECT_EQ(json(get("/api/v1/server"))["sharing"],
+            (Json{{"term", 41}, {"standbys", {"dncd 7 on srv-2"}}}));
+  const auto done = drain();
+  EXPECT_EQ(done.status, 202) << done.body;
+  EXPECT_EQ(json(done)["standbys"], Json::array({"dncd 7 on srv-2"}));
+  EXPECT_EQ(handed_over_, 1);
+  EXPECT_EQ(audit_->entries({})->front().action, "server.drain");
+}
+
 TEST_F(ApiHandlers, AreReadyWhileWorkWouldBeStored) {
   using Level = library::Health::Level;
   const auto ready = [this] {

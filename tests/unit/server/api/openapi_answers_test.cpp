@@ -275,6 +275,9 @@ TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
   expect_described("GET", "/api/v1/ready", get("/api/v1/ready"));
   expect_described("GET", "/api/v1/openapi.json", get("/api/v1/openapi.json"));
   expect_described("GET", "/api/v1/server", get("/api/v1/server"));
+  share_library({"dncd 7 on srv-2"});
+  expect_described("GET", "/api/v1/server", get("/api/v1/server"));
+  expect_described("POST", "/api/v1/server/drain", post("/api/v1/server/drain", Json::object()));
   expect_described("GET", "/api/v1/programs", get("/api/v1/programs"));
   expect_described("GET", "/api/v1/programs/{name}", get("/api/v1/programs/O0100"));
   expect_described("GET", "/api/v1/programs/{name}/content", get("/api/v1/programs/O0100/content"));

@@ -153,6 +153,29 @@ TEST(Settings, TextOfADatabaseElsewhereIsKeptHereUnlessItIsSwitchedOff) {
   EXPECT_EQ(read({"--program-cache-mb", "4000001"}).exit_code, 2);
 }
 
+TEST(Settings, AStandbyIsAskedFor) {
+  EXPECT_FALSE(read({}).settings.standby);
+  EXPECT_EQ(read({}).settings.takeover_s, 3u);
+  const auto asked =
+      read({"--standby", "yes", "--takeover-s", "10", "--dds-port", "9000"}).settings;
+  EXPECT_TRUE(asked.standby);
+  EXPECT_EQ(asked.takeover_s, 10u);
+  EXPECT_EQ(asked.dds_port, 9000u);
+  EXPECT_EQ(read({"--takeover-s", "1"}).exit_code, 2);
+  EXPECT_EQ(read({"--dds-port", "65536"}).exit_code, 2);
+}
+
+TEST(StateFolder, KnowsTheTermOfADatabaseThatWasMovedHere) {
+  const test_support::TemporaryFolder parent;
+  const auto folder = StateFolder::open(parent.path() / "state");
+  ASSERT_TRUE(folder) << folder.error().what;
+  EXPECT_EQ(folder->term(), 0u);
+  ASSERT_TRUE(folder->remember_term(1795900000));
+  EXPECT_EQ(folder->term(), 1795900000u);
+  std::ofstream(parent.path() / "state" / "term") << "abc";
+  EXPECT_EQ(folder->term().error().code, Errc::Corrupt);
+}
+
 TEST(StateFolder, MakesATokenOnceForItsOwnerAlone) {
   const test_support::TemporaryFolder parent;
   const auto folder = StateFolder::open(parent.path() / "a" / "state");

@@ -47,6 +47,14 @@ TEST_F(MetricsRoute, GivesMachinesRunsHealthAndProcess) {
   EXPECT_NE(text.find("process_resident_memory_bytes "), std::string::npos);
 }
 
+TEST_F(MetricsRoute, SaysWhoIsActiveAndWhoWaits) {
+  expect_line(metrics(), "dripline_server_active 1");
+  EXPECT_EQ(metrics().find("dripline_server_term"), std::string::npos) << "of a SQLite file";
+  share_library({"dncd 7 on srv-2"});
+  expect_line(metrics(), "dripline_server_term 41");
+  expect_line(metrics(), "dripline_server_standbys 1");
+}
+
 TEST_F(MetricsRoute, CertificatesHaveTheirStateBeforeAndAfterTheirEnd) {
   for (const char* name : {"lathe-1", "lathe-2", "lathe-3", "lathe-4"}) show_machine(name);
   machines_.views[0].certificate_expires = clock_.now() + std::chrono::days(400);
@@ -135,6 +143,7 @@ TEST_F(MetricsRoute, GivesTheTimesOfAnswersByRoute) {
 TEST_F(MetricsRoute, GivesWhatDashboardAndAlertsAskFor) {
   set_up_backups();
   set_up_archives();
+  share_library({});
   ASSERT_TRUE(retention_->archive_check().check());
   show_machine("mill-3");
   machines_.views.back().status = dds::Status{};
