@@ -38,8 +38,9 @@ class StateFolder {
   /// had none).
   Result<void> expect_identity(const std::string& identity, const std::string& name) const;
 
-  /// Of a database that was moved here from servers that had terms (storage::OpenedStore::term): one
-  /// above all of them, for the gateways that have seen those. 0: none was. Errors: Io, Corrupt.
+  /// Of a database that was moved here from servers that had terms (storage::OpenedStore::term):
+  /// one above all of them, for the gateways that have seen those. 0: none was. Errors: Io,
+  /// Corrupt.
   Result<std::uint64_t> term() const;
   Result<void> remember_term(std::uint64_t term) const;
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "storage/postgresql/database.hpp"
+#include "tests/integration/system.hpp"
 #include "tests/integration/two_servers.hpp"
 #include "tests/support/postgresql/database_cable.hpp"
 #include "tests/support/postgresql/test_database.hpp"
@@ -29,14 +30,15 @@ int takeovers() {
   return wanted != nullptr ? std::atoi(wanted) : 6;
 }
 
-/// Some 1,900 blocks a second at the speed of this test: of such short moves the gateway holds some
-/// two MB, and the program is longer than that and what is fed during the rounds.
+/// Some 0.4 MB of text a second at the speed of this test: the 4 MiB that a gateway holds at most
+/// are ten seconds of it, and the program is longer than what is fed during the rounds.
 std::string long_program(std::uint64_t lines) {
+  const std::string padding(180, 'A');
   std::string text = "O0300\nG20 G93 G98\nG0 X2 Z0\nPOPEN P0\n";
   for (std::uint64_t line = 1; line <= lines; ++line) {
     text += fmt::format("P1={}\n", line);
     for (std::uint64_t i = 0; i < kMovesPerLine; ++i)
-      text += fmt::format("G1 X2.00{} Z-0.0{:02} F800\n", i % 2, i % 31);
+      text += fmt::format("G1 X2.00{} Z-0.0{:02} F800 ({})\n", i % 2, i % 31, padding);
     text += "DPRNT [LINE #1[60]]\n";
   }
   return text + "PCLOS\nM30\n";
@@ -206,7 +208,7 @@ class Takeovers : public TwoServersTest {
 
 TEST_F(Takeovers, AtRandomTheMachineIsFedAndNothingIsLostOrDoubled) {
   const int rounds = takeovers();
-  const auto lines = static_cast<std::uint64_t>(2000 + rounds * 330);
+  const auto lines = static_cast<std::uint64_t>(900 + rounds * 330);
   begin({"--takeover-s", "2"});
   place_witness();
   shop_->start_gateway();
@@ -216,7 +218,7 @@ TEST_F(Takeovers, AtRandomTheMachineIsFedAndNothingIsLostOrDoubled) {
   const auto started = std::chrono::steady_clock::now();
   levels_.emplace(shop_->gateway_state());
   // The gateway has its ten seconds of text.
-  ASSERT_TRUE(eventually([&] { return levels_->now().most > 500'000; }))
+  ASSERT_TRUE(eventually([&] { return levels_->now().most > 3'000'000; }))
       << levels_->now().most << "\n"
       << shop_->gateway_log();
   std::mt19937 random{std::random_device{}()};
@@ -296,6 +298,29 @@ TEST_F(TwoServersTest, AnOrderlyEndHandsOverAtOnceWithEverythingInTheDatabase) {
   expect_whole_trail(1);
 }
 
+TEST_F(TwoServersTest, ADrainAtTheCommandLineHandsOverAndTheDrainedOneStandsBy) {
+  begin();
+  const auto dnc = [&](int server, const std::string& verb) {
+    return test_support::run_to_end(
+        {program_path("dnc"), "--state", shop_->state(server), "server", verb},
+        shop_->folder() / "dnc.out");
+  };
+  const auto shown = dnc(0, "status");
+  EXPECT_EQ(shown.status, 0) << shown.output;
+  EXPECT_NE(shown.output.find(", standby: dncd "), std::string::npos) << shown.output;
+  const auto refused = dnc(1, "drain");
+  EXPECT_NE(refused.status, 0);
+  EXPECT_NE(refused.output.find("this server stands by"), std::string::npos) << refused.output;
+  const auto drained = dnc(0, "drain");
+  EXPECT_EQ(drained.status, 0) << drained.output;
+  EXPECT_NE(drained.output.find("handed over to dncd "), std::string::npos) << drained.output;
+  ASSERT_TRUE(shop_->wait_active(1));
+  EXPECT_TRUE(shop_->wait_for_standby());
+  EXPECT_EQ(shop_->role(0), "standby");
+  EXPECT_TRUE(shop_->server(0).is_running()) << "the same process";
+  expect_whole_trail(1);
+}
+
 TEST_F(TwoServersTest, WithoutAStandbyNothingIsHandedOver) {
   shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
   shop_->start(0);
@@ -309,8 +334,8 @@ TEST_F(TwoServersTest, AFolderWithoutTheKeysIsRefused) {
   shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
   shop_->start(0);
   const auto refused = test_support::run_to_end(
-      {shop_->server_program(), "--state", shop_->state(1), "--store", store('b'), "--standby",
-       "yes", "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain())},
+      {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
+       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain())},
       shop_->folder() / "refused.out");
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.output.find("signing.key, token and database.id"), std::string::npos)
@@ -320,7 +345,7 @@ TEST_F(TwoServersTest, AFolderWithoutTheKeysIsRefused) {
 TEST_F(TwoServersTest, ASqliteFileHasNoStandby) {
   const test_support::TemporaryFolder folder;
   const auto refused = test_support::run_to_end(
-      {TwoServers::server_program(), "--state", folder.path() / "s", "--standby", "yes"},
+      {program_path("dncd"), "--state", folder.path() / "s", "--standby", "yes"},
       folder.path() / "out");
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.output.find("standby: servers share a PostgreSQL database"), std::string::npos)

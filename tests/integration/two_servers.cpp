@@ -160,10 +160,6 @@ bool TwoServers::wait_for_standby(std::chrono::milliseconds limit) const {
       limit);
 }
 
-std::string TwoServers::server_program() {
-  return program_path("dncd");
-}
-
 std::string TwoServers::output(int server) const {
   return text_of(folder() / (name(server) + ".out"));
 }

@@ -47,7 +47,6 @@ class TwoServers {
   test_support::RestClient rest(int server) const;
   std::filesystem::path folder() const { return folder_.path(); }
   std::filesystem::path state(int server) const { return folder() / name(server); }
-  static std::string server_program();
   std::string output(int server) const;
   std::string log(int server) const;
   std::string gateway_log() const;
