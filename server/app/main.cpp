@@ -124,7 +124,7 @@ int not_started(const Settings& settings, const Error& error) {
 struct Turn {
   Settings settings;
   std::uint64_t handed_over = 0;  ///< the term of the place that it handed over last; 0: none
-  bool was_late = false;          ///< another server was quicker, the last time
+  int late = 0;                   ///< how often another server was quicker, since the last start
   bool is_over = false;           ///< the process ends
 };
 
@@ -168,16 +168,16 @@ int take_turn(Turn& turn, const sigset_t& signals, const Clock& clock) {
       turn.settings, clock, [&end](const Error& error) { end.note_lost(error); },
       [&end] { end.note_handed_over(); });
   if (!server) {
-    // Of several that wait, one is the first.
-    if (turn.settings.standby && server.error().code == Errc::Busy && !turn.was_late) {
+    // Of several that wait one is the first; or the present one was busy, and is there again.
+    constexpr int kMostLate = 10;
+    if (turn.settings.standby && server.error().code == Errc::Busy && ++turn.late < kMostLate) {
       process::log_warning("not taken over: {}", server.error().what);
-      turn.was_late = true;
       turn.is_over = false;
       return 0;
     }
     return not_started(turn.settings, server.error());
   }
-  turn.was_late = false;
+  turn.late = 0;
   process::log_info("dncd {} listening at {}", DRIPLINE_VERSION, (*server)->url());
   fmt::print("dncd listening at {}\n", (*server)->url());
   if (const auto& agent = (*server)->mtconnect_url(); !agent.empty()) {

@@ -167,6 +167,7 @@ Result<void> PostgresqlConnections::write_with(const Work& work, Durability dura
       if (auto there = connect(slot); !there) return there;
       auto done = begin_write(*slot, durability);
       if (done) done = work(*slot);
+      if (done) done = renew_when_due(*slot);
       const bool is_at_commit = done.has_value();
       if (done) done = slot->commit();
       if (done) return done;
@@ -201,8 +202,21 @@ Result<void> PostgresqlConnections::read_with(const Work& work) {
   });
 }
 
+/// With whatever is written, so that neither a long transaction nor a queue of writers costs the
+/// place: a server that waits for the row finds it renewed.
+Result<void> PostgresqlConnections::renew_when_due(Database& database) {
+  const auto now = SteadyClock::now();
+  if (now - renewed_ < options_.lease / kRenewals) return {};
+  auto done = place_.renew(database);
+  if (done) renewed_ = now;
+  return done;
+}
+
 Result<void> PostgresqlConnections::renew() {
-  return write([this](sql::Database& database) { return place_.renew(database); });
+  return write([this](sql::Database& database) {
+    renewed_ = SteadyClock::now();  // by this
+    return place_.renew(database);
+  });
 }
 
 Result<void> PostgresqlConnections::publish(const ServerFacts& facts) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,7 @@ class PostgresqlConnections final : public Connections {
   Result<void> prepare(Database& database, const DatabaseUse& use);
   Result<void> check_use(Database& database, const DatabaseUse& use) const;
   void lose_place();
+  Result<void> renew_when_due(Database& database);
   Result<void> begin_write(Database& database, Durability durability);
   /// Opens it when it is not. Errors: Io, after trying for a moment.
   Result<void> connect(Slot& slot);
@@ -64,7 +66,8 @@ class PostgresqlConnections final : public Connections {
   const PostgresqlStoreOptions options_;
   std::string label_;
   PostgresqlPlace place_;
-  std::atomic<bool> is_lost_ = false;  ///< the place; for good
+  std::atomic<bool> is_lost_ = false;                ///< the place; for good
+  std::chrono::steady_clock::time_point renewed_{};  ///< of whoever has the writer
   ConnectionPool<Slot> writer_;
   ConnectionPool<Slot> readers_;
   std::jthread keeper_;  // last: it uses the others

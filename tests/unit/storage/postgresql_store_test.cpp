@@ -1,6 +1,7 @@
 // What only the store in PostgreSQL has: its one holder, lost connections, transactions that are
 // begun again.
 #include <atomic>
+#include <thread>
 
 #include "storage/postgresql/database.hpp"
 #include "storage/postgresql_standby.hpp"
@@ -128,6 +129,30 @@ TEST_F(PostgresqlStoreTest, AWriterThatIsFrozenInATransactionKeepsNobodyOut) {
   ASSERT_TRUE(second) << second.error().what;
   EXPECT_FALSE(frozen->execute("COMMIT")) << "it wakes up";
   EXPECT_EQ(query("SELECT count(*) FROM identity WHERE id = repeat('0', 32)"), 0);
+}
+
+/// The row is locked as long as it takes, and renewed at its end.
+TEST_F(PostgresqlStoreTest, ATransactionThatTakesLongerThanTheLeaseKeepsThePlace) {
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
+  store_.reset();
+  auto first = PostgresqlStore::open(
+      {.url = database_->url(), .holder = "a", .lease = std::chrono::milliseconds(600)}, clock_);
+  ASSERT_TRUE(first) << first.error().what;
+  change(
+      "CREATE FUNCTION be_slow() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM "
+      "pg_sleep(2); RETURN NEW; END $$; CREATE TRIGGER slow BEFORE INSERT ON record FOR EACH "
+      "STATEMENT EXECUTE FUNCTION be_slow()");
+  std::jthread storing([&] { EXPECT_EQ((*first)->records.store(make_batch(1, 3)), 3u); });
+  const auto second = PostgresqlStore::open({.url = database_->url(),
+                                             .holder = "b",
+                                             .lease = std::chrono::milliseconds(600),
+                                             .wait_for_holder = std::chrono::milliseconds(2500)},
+                                            clock_);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::Busy) << second.error().what;
+  storing.join();
+  EXPECT_TRUE((*first)->probe());
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 3);
 }
 
 TEST_F(PostgresqlStoreTest, AStandbySeesWhoHasThePlaceAndIsSeen) {
