@@ -1,7 +1,9 @@
 #include "storage/postgresql_standby.hpp"
 
+#include <span>
 #include <utility>
 
+#include "protocol/base/digest.hpp"
 #include "storage/impl/waiting_rows.hpp"
 #include "storage/postgresql/database.hpp"
 #include "storage/postgresql/migration.hpp"
@@ -98,6 +100,19 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
     return fail(noted.error());
   connection_->noted = SteadyClock::now();
   return view;
+}
+
+Result<bool> PostgresqlStandby::has_other_token(const std::string& user, const std::string& name,
+                                                const std::string& secret) {
+  if (auto there = connect(); !there) return fail(there.error());
+  const Digest digest = sha256(secret);
+  const auto other = sql::first_row(
+      connection_->database,
+      "SELECT count(*) FROM credential WHERE \"user\" = ?1 AND name = ?2 AND sha256 <> ?3",
+      [](const sql::Statement& row) { return row.integer(0) > 0; }, user, name,
+      std::span<const std::byte>(digest.bytes));
+  if (!other) return fail(other.error());
+  return other->value_or(false);
 }
 
 Result<PostgresqlStandby::View> PostgresqlStandby::look() {

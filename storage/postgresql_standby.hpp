@@ -40,6 +40,11 @@ class PostgresqlStandby {
   /// Unsupported (a newer version's tables).
   Result<View> look();
 
+  /// Whether a token of this user and name is kept in the database, and is not this secret. Errors:
+  /// Io.
+  Result<bool> has_other_token(const std::string& user, const std::string& name,
+                               const std::string& secret);
+
   static constexpr std::chrono::milliseconds kSettle{3000};
 
  private:

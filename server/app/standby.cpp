@@ -9,6 +9,7 @@
 #include "server/api/metrics_text.hpp"
 #include "server/app/networks.hpp"
 #include "server/app/open_store.hpp"
+#include "server/identity/accounts.hpp"
 #include "server/library/release_policy.hpp"
 
 namespace dripline::app {
@@ -71,7 +72,8 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   if (!folder) return fail(folder.error());
   auto lock = folder->lock();
   if (!lock) return fail(lock.error());
-  if (const auto token = folder->token(); !token) return fail(token.error());
+  const auto token = folder->token();
+  if (!token) return fail(token.error());
   const auto key = signing_key(*folder);
   if (!key) return fail(key.error());
   const auto holder = holder_name(*folder);
@@ -84,6 +86,9 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   auto view = standby->parts_->database.look();
   if (!view) return fail(view.error());
   if (auto fits = standby->check(*view); !fits) return fail(fits.error());
+  if (!view->is_free) {
+    if (auto same = standby->check_token(*token); !same) return fail(same.error());
+  }
   standby->view_ = *std::move(view);
   return standby;
 }
@@ -103,6 +108,20 @@ Result<void> Standby::check(const View& view) const {
       "state folder ({}). Copy these three there, and not server.id",
       parts_->folder.path().string(),
       view.described.empty() ? "its server is not named" : view.described);
+}
+
+/// Otherwise each takeover would replace the token that people and scripts of the other computer
+/// use.
+Result<void> Standby::check_token(const std::string& token) const {
+  using identity::Accounts;
+  const auto is_other =
+      parts_->database.has_other_token(Accounts::kFirstUser, Accounts::kLocalToken, token);
+  if (!is_other) return fail(is_other.error());
+  if (!*is_other) return {};
+  return fail(Errc::Conflict,
+              "{} is not the token that the active server has: the servers of one database have "
+              "the same. Copy the file from its state folder",
+              parts_->folder.token_file().string());
 }
 
 bool Standby::is_for_others(const View& view) const {

@@ -28,8 +28,8 @@ class Standby {
     std::uint64_t handed_over = 0;
   };
   /// Errors: those of Server::start that its settings, folder, certificates and the connection can
-  /// give; Conflict (this folder has not the key of the server that has the database), Unsupported
-  /// (there is no database that servers share).
+  /// give; Conflict (this folder has not the key or the token of the server that has the database),
+  /// Unsupported (there is no database that servers share).
   static Result<std::unique_ptr<Standby>> open(const Settings& settings, const Clock& clock,
                                                const Options& options);
   /// Answers until it is gone: one line for each try, and the folder's dncd.json names it.
@@ -54,6 +54,7 @@ class Standby {
   struct Parts;
   explicit Standby(std::unique_ptr<Parts> parts);
   Result<void> check(const storage::PostgresqlStandby::View& view) const;
+  Result<void> check_token(const std::string& token) const;
   bool is_for_others(const storage::PostgresqlStandby::View& view) const;
   api::Response answer(const api::Request& request) const;
 

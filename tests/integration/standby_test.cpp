@@ -5,6 +5,7 @@
 #include <array>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <random>
 #include <thread>
@@ -28,6 +29,12 @@ constexpr std::uint64_t kMovesPerLine = 50;
 int takeovers() {
   const char* wanted = std::getenv("DRIPLINE_TAKEOVERS");
   return wanted != nullptr ? std::atoi(wanted) : 6;
+}
+
+/// Seconds, of the servers' places: `DRIPLINE_TAKEOVER_S=3`.
+std::string lease() {
+  const char* wanted = std::getenv("DRIPLINE_TAKEOVER_S");
+  return wanted != nullptr ? wanted : "2";
 }
 
 /// Some 0.4 MB of text a second at the speed of this test: the 4 MiB that a gateway holds at most
@@ -209,7 +216,7 @@ class Takeovers : public TwoServersTest {
 TEST_F(Takeovers, AtRandomTheMachineIsFedAndNothingIsLostOrDoubled) {
   const int rounds = takeovers();
   const auto lines = static_cast<std::uint64_t>(900 + rounds * 330);
-  begin({"--takeover-s", "2"});
+  begin({"--takeover-s", lease()});
   place_witness();
   shop_->start_gateway();
   ASSERT_TRUE(shop_->wait_connected(0)) << shop_->gateway_log();
@@ -339,6 +346,20 @@ TEST_F(TwoServersTest, AFolderWithoutTheKeysIsRefused) {
       shop_->folder() / "refused.out");
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.output.find("signing.key, token and database.id"), std::string::npos)
+      << refused.output;
+}
+
+TEST_F(TwoServersTest, AFolderWithAnotherTokenIsRefused) {
+  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
+  shop_->start(0);
+  shop_->share_keys();
+  std::ofstream(shop_->state(1) / "token") << std::string(64, 'a') << "\n";
+  const auto refused = test_support::run_to_end(
+      {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
+       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain())},
+      shop_->folder() / "refused.out");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.output.find("is not the token that the active server has"), std::string::npos)
       << refused.output;
 }
 
