@@ -155,60 +155,6 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
       signing_key(loaded.key.public_key().hex()),
       tidied(clock.steady_now()) {}
 
-std::optional<api::SharedLibrary> ServerParts::shared_library() {
-  if (store->term() == 0) return std::nullopt;
-  return api::SharedLibrary{.term = store->term(),
-                            .has_standby = is_standby_expected,
-                            .waiting = [this]() -> Result<std::vector<std::string>> {
-                              const auto waiting = store->waiting();
-                              if (!waiting) return fail(waiting.error());
-                              std::vector<std::string> names;
-                              for (const auto& server : *waiting) names.push_back(server.described);
-                              return names;
-                            },
-                            .hand_over = [this] { return hand_over(); },
-                            .leave =
-                                [this] {
-                                  if (on_handed_over) on_handed_over();
-                                }};
-}
-
-void ServerParts::publish() {
-  // Beyond this computer an address of all interfaces says nothing.
-  std::string reached = url;
-  for (const std::string_view any : {"//0.0.0.0:", "//[::]:"}) {
-    const auto at = reached.find(any);
-    if (at != std::string::npos) reached.replace(at, any.size(), "//" + host_name() + ":");
-  }
-  const auto published = store->publish({.url = reached, .signing_key = signing_key});
-  if (!published)
-    process::log_warning("servers that wait do not know this one's address: {}",
-                         published.error().what);
-}
-
-Result<std::vector<std::string>> ServerParts::hand_over() {
-  auto waiting = shared_library()->waiting();
-  if (!waiting) return waiting;
-  if (waiting->empty()) {
-    return fail(Errc::Conflict,
-                "no server waits for this database: start a second one with standby = yes, or end "
-                "this one");
-  }
-  for (const auto& view : ports.ports()) {
-    storage::RunFilter active;
-    active.machine = view.port.machine;
-    active.state = storage::RunState::Active;
-    const auto count = store->runs.count(active);
-    if (!count) return fail(count.error());
-    if (*count == 0) continue;
-    return fail(Errc::Busy,
-                "port '{}' is in a run of machine '{}', which a hand-over would end: wait until it "
-                "has ended, or abort it",
-                view.port.name, view.port.machine);
-  }
-  return waiting;
-}
-
 machines::MachineService::Options ServerParts::machine_options() {
   machines::MachineService::Options options;
   options.on_fault = records_watch();
