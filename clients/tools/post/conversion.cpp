@@ -126,11 +126,14 @@ Result<Setup> setup_of(const Target& target, Setup setup) {
 }
 
 tl::expected<void, NotConverted> run_source(const SourceProgram& source, const Setup& setup,
-                                            Adaptation& adaptation, PostProcessor& post,
-                                            const ConversionOptions& options) {
+                                            const Target& target, Adaptation& adaptation,
+                                            PostProcessor& post, const ConversionOptions& options) {
   auto run = interpreter::OfflineRun::begin(source.dialect, setup, source.source, adaptation);
   if (!run) return refused(run.error());
-  const auto& tools = options.target_setup.tools.empty() ? setup.tools : options.target_setup.tools;
+  // Without tools of the target those of the source count, but where the program defines them.
+  const bool takes_source =
+      options.target_setup.tools.empty() && target.form != Form::PlainLanguage;
+  const auto& tools = takes_source ? setup.tools : options.target_setup.tools;
   adaptation.watch(run->interpreter(), tools);
   for (bool is_over = false; !is_over;) {
     if (options.is_to_stop && options.is_to_stop()) return refused(Errc::Timeout, "interrupted");
@@ -195,7 +198,7 @@ tl::expected<WrittenProgram, NotConverted> write_program(const SourceProgram& so
   PostProcessor post({result.grid, *writer, head, run_setup.start, result.tolerance,
                       CarriedComments(source.dialect.name, source.text), output});
   Adaptation adaptation(post, result.grid, adaptation_options, run_setup.start);
-  if (auto ran = run_source(source, run_setup, adaptation, post, options); !ran)
+  if (auto ran = run_source(source, run_setup, target, adaptation, post, options); !ran)
     return tl::make_unexpected(ran.error());
   if (auto finished = post.finish(); !finished) return refused(finished.error());
   result.written = post.counts();

@@ -125,6 +125,7 @@ TEST_P(Lengths, AreThoseOfTheToolOrRefused) {
   auto setup = setup_from(kTools);
   ConversionOptions options;
   options.is_as_set_up = true;
+  options.target_setup.tools = setup.tools;
   for (const char* target : {"fanuc", "linuxcnc", "tnc155"}) {
     const auto converted = convert({GetParam().control, GetParam().text, setup}, target, options);
     const std::string reason = converted.reason();
@@ -155,6 +156,17 @@ INSTANTIATE_TEST_SUITE_P(
                    "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 DL+3\nL Z+5 R0 FMAX\nEND PGM A MM\n",
                    "a length of 53.0000 mm in force"}),
     [](const auto& tested) { return std::string(tested.param.name); });
+
+/// TOOL DEF of a program in plain language has length 0, where the control has no tools of its own.
+TEST(ToolLengths, OfToolsThatTheTargetDoesNotHave) {
+  const Original original{"fanuc", "O1\nT1 M6\nG0 X0 Y0\nG43 H1 Z10.\nG1 Z-5. F100.\nM30\n",
+                          setup_from(kTools)};
+  ConversionOptions options;
+  options.is_as_set_up = true;
+  EXPECT_TRUE(convert(original, "linuxcnc", options).is_proved);
+  EXPECT_NE(convert(original, "tnc155", options).reason().find("that of tool 1, 0.0000 mm"),
+            std::string::npos);
+}
 
 TEST(FindTarget, NamesWhatCanBeWritten) {
   const auto unknown = find_target("sinumerik");
