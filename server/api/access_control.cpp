@@ -128,6 +128,7 @@ std::optional<std::string> AccessControl::machine_of(const Request& request,
     case MachineIn::Name:
       return request.parameter("name");
     case MachineIn::Run: {
+      if (auto machine = parts_.machines.machine_of_run(request.parameter("id"))) return machine;
       const auto run = parts_.runs.run(request.parameter("id"));
       return run ? std::optional(run->machine) : std::nullopt;
     }

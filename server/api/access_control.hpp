@@ -7,6 +7,7 @@
 #include "server/api/router.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/library/history/run_history.hpp"
+#include "server/machines/machine_control.hpp"
 #include "server/ports/port_control.hpp"
 
 namespace dripline::api {
@@ -17,6 +18,7 @@ class AccessControl {
   struct Parts {
     identity::Accounts& accounts;
     library::RunHistory& runs;
+    const machines::MachineControl& machines;
     ports::PortControl* ports = nullptr;
     bool has_tls = false;
   };

@@ -11,6 +11,7 @@ Api::Api(Services services)
     : services_(std::move(services)),
       access_({.accounts = services_.accounts,
                .runs = services_.runs,
+               .machines = services_.machines,
                .ports = services_.ports,
                .has_tls = services_.has_tls}) {
   add_server_routes(router_, services_);

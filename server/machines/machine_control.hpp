@@ -140,12 +140,20 @@ struct MachineListener {
 
 /// The machines as the API sees them. Any thread; `start` and `command` wait for the gateway's
 /// answer, at most some seconds.
+/// Where the command of a run goes.
+struct CommandTarget {
+  std::string machine;
+  std::string program;  ///< empty: not looked up
+};
+
 class MachineControl {
  public:
   virtual ~MachineControl() = default;
   virtual std::vector<MachineView> machines() const = 0;
   /// Errors: NotFound.
   virtual Result<MachineView> machine(const std::string& name) const = 0;
+  /// Which machine reports this run as its own now; without the store, so that a stop needs none.
+  std::optional<std::string> machine_of_run(const std::string& run) const;
   /// Returns the run when the gateway has accepted it. Errors: NotFound (machine, program,
   /// revision), Unsupported (the program is for another control; `head` for a gateway), Conflict
   /// (the rest of the program relies on what is not sent; nothing of it may run there), Busy (the

@@ -218,26 +218,43 @@ Result<void> MachineService::check_command(const CommandRequest& request, const 
   return check_protocol(view);
 }
 
-Result<void> MachineService::command(const CommandRequest& request) {
-  Parts* parts = this->parts();
-  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
-  if (request.run.empty()) return command_machine(request);
+std::optional<std::string> MachineControl::machine_of_run(const std::string& run) const {
+  if (run.empty()) return std::nullopt;
+  for (const MachineView& view : machines())
+    if (view.status && view.status->run == run) return view.machine.name;
+  return std::nullopt;
+}
+
+/// A run that a machine reports is active; else the store knows what became of it.
+Result<CommandTarget> MachineService::target_of(const CommandRequest& request) const {
+  if (dds::is_stop(request.action, request.argument, request.value)) {
+    if (auto machine = machine_of_run(request.run)) return CommandTarget{*std::move(machine), {}};
+  }
   const auto run = store_.runs.find(request.run);
   if (!run) return fail(run.error());
   if (storage::is_finished(run->state)) {
     return fail(Errc::Conflict, "run {} has ended: {}", run->id, storage::to_string(run->state));
   }
-  const auto view = connected_machine(run->machine);
+  return CommandTarget{run->machine, run->program};
+}
+
+Result<void> MachineService::command(const CommandRequest& request) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  if (request.run.empty()) return command_machine(request);
+  const auto target = target_of(request);
+  if (!target) return fail(target.error());
+  const auto view = connected_machine(target->machine);
   if (!view) return fail(view.error());
   if (auto fits = check_command(request, *view); !fits) return fits;
   dds::Command command;
-  command.machine = run->machine;
+  command.machine = target->machine;
   command.action = request.action;
-  command.run = run->id;
+  command.run = request.run;
   command.argument = request.argument;
   command.value = request.value;
   process::log_info("command {} machine={} run={} program={}", dds::to_string(request.action),
-                    run->machine, run->id, run->program);
+                    target->machine, request.run, target->program);
   return parts->commands.carry_out(std::move(command));
 }
 

@@ -83,6 +83,7 @@ class MachineService final : public MachineControl {
   void abort_unwanted(const storage::Run& run);
   void refuse_stranger(const dds::Announce& announce);
   static Result<void> check_protocol(const MachineView& view);
+  Result<CommandTarget> target_of(const CommandRequest& request) const;
   static Result<void> check_command(const CommandRequest& request, const MachineView& view);
   void tick();
   void log_rejected();

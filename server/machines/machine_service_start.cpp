@@ -6,6 +6,13 @@
 #include "server/machines/start_point.hpp"
 
 namespace dripline::machines {
+namespace {
+
+/// From the request until the command goes out. Who gives a start expects it now, and is at the
+/// machine when a store that hung goes on.
+constexpr std::chrono::seconds kMaxWait{10};
+
+}  // namespace
 
 Result<storage::Run> MachineService::make_run(const StartRequest& request,
                                               const MachineView& view) {
@@ -83,6 +90,7 @@ Result<void> MachineService::check_restart(const StartRequest& request, const st
 Result<storage::Run> MachineService::start(const StartRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  const SteadyTime begun = clock_.steady_now();
   const auto view = machine_for_work(request.machine);
   if (!view) return fail(view.error());
   auto run = make_run(request, *view);
@@ -105,6 +113,13 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   if (request.before) {
     if (auto ready = request.before(*run); !ready)
       return conclude_start(*run, fail(Errc::Busy, "{}", ready.error().what));
+  }
+  if (const auto waited = clock_.steady_now() - begun; waited > kMaxWait) {
+    return conclude_start(
+        *run,
+        fail(Errc::Busy,
+             "storing the start took {} s, {} are allowed: it was not sent to the machine",
+             std::chrono::duration_cast<std::chrono::seconds>(waited).count(), kMaxWait.count()));
   }
   dds::Command command;
   command.machine = run->machine;

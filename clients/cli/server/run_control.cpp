@@ -26,16 +26,62 @@ void say_queue_is_held(client::Client& client, const std::string& name) {
              machine->queue_hold->who, machine->queue_hold->reason, name);
 }
 
+bool is_stop(const client::CommandRequest& command) {
+  const bool is_emergency = command.action == "switch" && command.name == "emergency_stop";
+  return command.action == "hold" || command.action == "abort" ||
+         (is_emergency && command.value.value_or(0) != 0);
+}
+
+/// The machine that reports the run as its own now, by the beginning of its id. The server knows it
+/// without its library, which may be away.
+std::optional<client::Machine> find_machine_of(client::Client& client,
+                                               const std::string& reference) {
+  if (reference.empty() || reference == "latest") return std::nullopt;
+  const auto machines = client.machines();
+  if (!machines) return std::nullopt;
+  std::optional<client::Machine> found;
+  for (const auto& machine : *machines) {
+    if (!machine.status || !machine.status->run.starts_with(reference)) continue;
+    if (found) return std::nullopt;
+    found = machine;
+  }
+  return found;
+}
+
+/// A stop that is not confirmed: the machine may go on.
+int complain_of_stop(const client::Failure& failure) {
+  const int status = complain(failure);
+  fmt::print(stderr, "dnc: the machine may not have stopped: stop it at its panel\n");
+  return status;
+}
+
+/// A stop is sent at once: what the library has to say comes afterward, or not at all.
+std::optional<int> stop_reported_run(client::Client& client, Context& context,
+                                     const std::string& reference,
+                                     const std::vector<client::CommandRequest>& commands) {
+  if (commands.size() != 1 || !is_stop(commands.front())) return std::nullopt;
+  const auto machine = find_machine_of(client, reference);
+  if (!machine) return std::nullopt;
+  const auto& status = *machine->status;
+  if (auto given = client.command(status.run, commands.front()); !given)
+    return complain_of_stop(given.error());
+  context.print(fmt::format("{} took {} (run {} of {})\n", machine->name,
+                            command_text(commands.front()), short_id(status.run), status.program));
+  return kExitOk;
+}
+
 /// Gives the orders one after the other, as long as the machine takes them.
 int give(Context& context, const std::string& reference,
          const std::vector<client::CommandRequest>& commands) {
   auto client = context.connect();
   if (!client) return context.status;
+  if (auto stopped = stop_reported_run(*client, context, reference, commands)) return *stopped;
+  const bool stops = !commands.empty() && is_stop(commands.front());
   auto run = find_run(*client, reference);
-  if (!run) return complain(run.error());
+  if (!run) return stops ? complain_of_stop(run.error()) : complain(run.error());
   for (const auto& command : commands) {
     auto given = client->command(run->id, command);
-    if (!given) return complain(given.error());
+    if (!given) return is_stop(command) ? complain_of_stop(given.error()) : complain(given.error());
     context.print(fmt::format("{} took {} (run {} of {})\n", run->machine, command_text(command),
                               short_id(run->id), run->program));
     if (command.action == "resume") say_queue_is_held(*client, run->machine);

@@ -203,7 +203,11 @@ bool stops(Services& services, const machines::CommandRequest& command) {
   if (dds::is_stop(command.action, command.argument, command.value)) return true;
   if (!dds::is_override(command.action)) return false;
   std::string machine = command.machine;
-  if (const auto run = services.runs.run(command.run)) machine = run->machine;
+  if (auto reporting = services.machines.machine_of_run(command.run)) {
+    machine = *std::move(reporting);
+  } else if (const auto run = services.runs.run(command.run)) {
+    machine = run->machine;
+  }
   const auto view = services.machines.machine(machine);
   return view && view->status && dds::lowers_override(command.action, command.value, *view->status);
 }
@@ -220,7 +224,8 @@ std::string detail_of(const machines::CommandRequest& command) {
 
 }  // namespace
 
-/// The entry comes first. When it cannot be written only what stops a machine goes out.
+/// The entry comes first. What stops a machine goes out before it, and whether or not it can be
+/// written: the store may keep it waiting.
 Response carry_out(Services& services, const Request& request,
                    const machines::CommandRequest& given) {
   machines::CommandRequest command = given;
@@ -231,12 +236,13 @@ Response carry_out(Services& services, const Request& request,
       .action = fmt::format("{}.{}", is_of_run ? "run" : "machine", dds::to_string(command.action)),
       .subject = is_of_run ? command.run : command.machine,
       .detail = detail_of(command)};
-  if (stops(services, command)) {
-    services.audit.write(change);
-  } else if (auto written = services.audit.write_before(change); !written) {
-    return error_response(written.error());
+  const bool is_stop = stops(services, command);
+  if (!is_stop) {
+    if (auto written = services.audit.write_before(change); !written)
+      return error_response(written.error());
   }
   const auto done = services.machines.command(command);
+  if (is_stop) services.audit.write(change);
   if (done) return json_response(200, {{"accepted", true}});
   // The gateway may have carried out the command although its answer is missing.
   const bool is_unknown = done.error().code == Errc::Timeout;

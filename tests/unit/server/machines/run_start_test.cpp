@@ -232,5 +232,58 @@ TEST_F(MachineRuns, AreRefusedWhereTheControlCannotKeepWhatTheProgramCalls) {
   EXPECT_TRUE(start_it());
 }
 
+/// The machine says itself which run it has; the store may be away.
+TEST_F(MachineRuns, AreStoppedByTheMachinesOwnReportWithoutTheStore) {
+  start_service();
+  answer_commands(true);
+  announce();
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.session = kSession;
+  status.time = clock_.now();
+  status.steady = gateway_steady();
+  status.run = "not-in-the-store";
+  network_.on_status(status);
+  ASSERT_TRUE(wait_notified(machines_, [](const auto& view) {
+    return view.status && view.status->run == "not-in-the-store";
+  }));
+  machines::CommandRequest request;
+  request.run = "not-in-the-store";
+  request.action = dds::CommandAction::Hold;
+  EXPECT_TRUE(service_->command(request));
+  request.action = dds::CommandAction::Abort;
+  EXPECT_TRUE(service_->command(request));
+  ASSERT_EQ(written_->commands.size(), 2u);
+  EXPECT_EQ(written_->commands[1].run, "not-in-the-store");
+  request.action = dds::CommandAction::Resume;
+  EXPECT_EQ(service_->command(request).error().code, Errc::NotFound);
+  request.run = "another";
+  request.action = dds::CommandAction::Abort;
+  EXPECT_EQ(service_->command(request).error().code, Errc::NotFound);
+}
+
+/// Who gave the start is at the machine by then.
+TEST_F(MachineRuns, AreNotStartedLongAfterTheyWereAskedFor) {
+  push("O0100", "M30\n");
+  start_service();
+  answer_commands(true);
+  announce();
+  ASSERT_TRUE(wait_notified(machines_, [](const auto& view) { return view.is_connected; }));
+  const auto run = service_->start({.machine = "lathe-1",
+                                    .program = "O0100",
+                                    .revision = {},
+                                    .author = "cam",
+                                    .before = [this](const Run&) -> Result<void> {
+                                      clock_.advance(std::chrono::seconds(11));
+                                      return {};
+                                    }});
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Busy);
+  EXPECT_NE(run.error().what.find("took 11 s, 10 are allowed"), std::string::npos)
+      << run.error().what;
+  EXPECT_TRUE(written_->commands.empty());
+  EXPECT_EQ(store_->runs.list({}, {})->at(0).state, storage::RunState::Refused);
+}
+
 }  // namespace
 }  // namespace dripline::server_test
