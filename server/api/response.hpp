@@ -38,6 +38,7 @@ struct Response {
   std::string content_type;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
+  bool ends_connection = false;  ///< the client's next request takes a new one
   BodySource source;
   std::optional<std::uint64_t> source_length;  ///< if known
   std::shared_ptr<EventSubscription> events;

@@ -204,10 +204,12 @@ api::Response Standby::answer(const api::Request& request) const {
     response.body = out.take();
     return response;
   }
-  return api::error_response(
+  api::Response refused = api::error_response(
       kUnavailable,
       {Errc::Busy,
        fmt::format("this server stands by: {} has the library. Ask that one", name_of(view_))});
+  refused.ends_connection = true;  // through a load balancer the next one may lead to that server
+  return refused;
 }
 
 }  // namespace dripline::app

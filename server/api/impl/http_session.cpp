@@ -212,6 +212,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   }
 
   awaitable<bool> send(const Response& response) {
+    if (response.ends_connection) keeps_alive_ = false;
     const Framing framing{.length = response.body.size(), .keeps_alive = keeps_alive_};
     std::string text = head_text(response, framing);
     const bool has_body = !is_head_only_ && response.status != 204;

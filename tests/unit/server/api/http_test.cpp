@@ -7,6 +7,7 @@
 #include "clients/lib/client.hpp"
 #include "clients/lib/event_stream.hpp"
 #include "tests/unit/server/api/api_fixture.hpp"
+#include "tests/unit/server/api/raw_peer.hpp"
 
 namespace dripline::server_test {
 namespace {
@@ -271,6 +272,24 @@ TEST(HttpServer, SpeaksTlsAndNamesACertificateItCannotRead) {
       "https://localhost/api/v1/health | grep -q ok",
       options.tls->certificate, (*server)->port());
   EXPECT_EQ(std::system(get.c_str()), 0);
+}
+
+TEST(HttpServer, EndsAConnectionWhereTheAnswerSaysSo) {
+  const api::HttpHandlers handler{.handle = [](const auto& request) {
+    api::Response response = api::no_content();
+    response.ends_connection = request.header("x-end") == "yes";
+    return response;
+  }};
+  api::HttpOptions options;
+  options.address = api::parse_http_address("127.0.0.1:0").value();
+  const auto server = api::HttpServer::start(options, handler);
+  ASSERT_TRUE(server) << server.error().what;
+  RawPeer peer((*server)->port());
+  peer.send("GET /go-on HTTP/1.1\r\nHost: h\r\n\r\n");
+  EXPECT_NE(peer.read_until("\r\n\r\n").find("Connection: keep-alive"), std::string::npos);
+  peer.send("GET /end HTTP/1.1\r\nHost: h\r\nX-End: yes\r\n\r\n");
+  EXPECT_NE(peer.read_until("\r\n\r\n").find("Connection: close"), std::string::npos);
+  EXPECT_TRUE(peer.wait_for_end());
 }
 
 }  // namespace
