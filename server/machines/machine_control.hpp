@@ -138,14 +138,14 @@ struct MachineListener {
   std::function<void(const storage::Record&)> on_record;
 };
 
-/// The machines as the API sees them. Any thread; `start` and `command` wait for the gateway's
-/// answer, at most some seconds.
 /// Where the command of a run goes.
 struct CommandTarget {
   std::string machine;
   std::string program;  ///< empty: not looked up
 };
 
+/// The machines as the API sees them. Any thread; `start` and `command` wait for the gateway's
+/// answer, at most some seconds.
 class MachineControl {
  public:
   virtual ~MachineControl() = default;
