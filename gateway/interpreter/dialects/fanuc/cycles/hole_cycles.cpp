@@ -14,6 +14,11 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
+/// Of G51; 1 without it.
+double scale_along(const ModalState& state, Axis axis) {
+  return state.g[kScalingGroup] == 51 ? std::fabs(state.scaling.factor[place(axis)]) : 1;
+}
+
 /// One thing a cycle does at its hole.
 enum class Step : std::uint8_t {
   None,
@@ -119,11 +124,7 @@ class Hole {
     return line_to(run_, machine_point(run_, at_), run_.active_feed());
   }
   /// Q and the retractions of a peck are as long as they are written under G51, too.
-  double unscaled(double length) const {
-    const ModalState& state = run_.state;
-    if (state.g[kScalingGroup] != 51) return length;
-    return length / std::fabs(state.scaling.factor[place(axes_.normal)]);
-  }
+  double unscaled(double length) const { return length / scale_along(run_.state, axes_.normal); }
   /// With rigid tapping the spindle leads: G94 gives the pitch as feed over speed.
   bool tap(double level) {
     if (!is_tapping(run_.state.g[kCycleGroup])) return feed(level);
@@ -342,9 +343,7 @@ bool check_pecks(Run& run, double repeats) {
   const CycleData& data = run.state.cycle;
   const std::uint8_t code = run.state.g[kCycleGroup];
   if (code != 73 && code != 83 && !pecks_in_tap(run)) return true;
-  const std::size_t normal = place(axes_of(run.state.plane()).normal);
-  const double scale =
-      run.state.g[kScalingGroup] == 51 ? std::fabs(run.state.scaling.factor[normal]) : 1;
+  const double scale = scale_along(run.state, axes_of(run.state.plane()).normal);
   const double pecks = std::fabs(data.bottom - data.retract) * scale / data.depth * repeats;
   if (pecks <= kMaxPecks) return true;
   return run.fail(ErrorCode::LoopLimit, run.block.words.column(Q),

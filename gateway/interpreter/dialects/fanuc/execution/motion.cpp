@@ -24,7 +24,7 @@ bool refuse_range(Run& run, Axis axis, double value) {
 
 /// G16: of the plane's two words the first is a radius, the second an angle. A radius of G90 is
 /// about the program's zero, and stays; one of G91 is about the present place, for its block. An
-/// angle of G91 goes on from the last one.
+/// angle of G91 counts from the last one.
 bool place_by_angle(Run& run, Point3& point) {
   ModalState& state = run.state;
   const Words& words = run.block.words;

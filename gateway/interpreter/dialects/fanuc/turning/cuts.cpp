@@ -7,20 +7,19 @@
 
 /// Threads, and the modal cycles of one cut: G32, G34, and G90, G92, G94 of system A.
 namespace dripline::interpreter::fanuc {
-namespace {
 
-bool refuse_compensated(Run& run) {
-  return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column,
-                  "threads and cycles of one cut need G40");
-}
-
-/// The lead that a program gives is that of the axis with the longer travel, an event's that of the
-/// path.
 Length lead_of_path(const Position& from, const Position& to, double lead) {
   const double x = std::fabs(to.raw(Axis::X) - from.raw(Axis::X));
   const double z = std::fabs(to.raw(Axis::Z) - from.raw(Axis::Z));
   const double longer = std::max(x, z);
   return Length::mm(longer > 0 ? lead * std::hypot(x, z) / longer : lead);
+}
+
+namespace {
+
+bool refuse_compensated(Run& run) {
+  return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column,
+                  "threads and cycles of one cut need G40");
 }
 
 std::optional<Angle> start_angle(Run& run) {

@@ -230,10 +230,7 @@ class ThreadPasses {
   }
 
   Length lead(const Position& from, const Position& to) const {
-    const double x = std::fabs(to.raw(Axis::X) - from.raw(Axis::X));
-    const double z = std::fabs(to.raw(Axis::Z) - from.raw(Axis::Z));
-    const double longer = std::max(x, z);
-    return Length::mm(longer > 0 ? run_.state.feed[1] * std::hypot(x, z) / longer : 0);
+    return lead_of_path(from, to, run_.state.feed[1]);
   }
 
   bool thread(const Position& cut, const Position& end) {

@@ -13,6 +13,9 @@ bool select_turret(Run& run);
 /// G10 P X Z R Q: an offset of a tool.
 bool set_turret_offset(Run& run);
 
+/// The lead that a program gives (mm) is that of the axis with the longer travel, an event's that
+/// of the path.
+Length lead_of_path(const Position& from, const Position& to, double lead);
 /// G32 (G33), G34: `run.state.feed[1]` is the lead along the longer axis.
 bool cut_turned_thread(Run& run, const Position& to);
 /// The modal cycles of one cut: G90, G92 and G94 of system A.
