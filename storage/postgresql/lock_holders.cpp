@@ -6,7 +6,8 @@ namespace dripline::storage::postgresql {
 namespace {
 
 /// Sessions with a lock on a table of ours, the oldest transaction first; readers of ours are in
-/// no one else. What a user may not see of another one's session is NULL.
+/// no one else. What a user may not see of another one's session is NULL. A copied database has the
+/// table numbers of its original, and pg_locks lists both.
 constexpr const char* kHolders =
     "SELECT CAST(l.pid AS bigint), coalesce(CAST(a.usename AS text), ''), "
     "coalesce(a.application_name, ''), "
@@ -18,6 +19,7 @@ constexpr const char* kHolders =
     "LEFT JOIN pg_stat_activity AS a ON a.pid = l.pid "
     "WHERE l.granted AND l.pid <> pg_backend_pid() AND (l.mode <> 'AccessShareLock' OR "
     "a.application_name <> 'dncd') "
+    "AND l.database = (SELECT oid FROM pg_database WHERE datname = current_database()) "
     "GROUP BY l.pid, a.usename, a.application_name, a.client_addr "
     "ORDER BY min(a.xact_start) LIMIT 3";
 

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "storage/postgresql/database.hpp"
+#include "storage/postgresql/lock_holders.hpp"
 #include "storage/postgresql_standby.hpp"
 #include "storage/sql/query.hpp"
 #include "storage/sqlite/database.hpp"
@@ -246,6 +247,17 @@ TEST_F(PostgresqlStoreTest, ALockedTableIsNamedWithWhoHasIt) {
   EXPECT_EQ(what.find("55P03"), std::string::npos) << what;
   other->roll_back();
   EXPECT_TRUE(open_another());
+}
+
+TEST_F(PostgresqlStoreTest, LocksInACopyOfTheDatabaseAreNotOurs) {
+  store_.reset();
+  const auto copy = test::TestDatabase::make();  // from the same template, as ours
+  auto other = postgresql::Database::connect({.url = copy->url()});
+  ASSERT_TRUE(other->begin());
+  ASSERT_TRUE(other->integer("SELECT id FROM store_holder FOR UPDATE"));
+  auto database = postgresql::Database::connect({.url = database_->url()});
+  const Error error = postgresql::locked_by_others(*database, std::chrono::milliseconds(300));
+  EXPECT_NE(error.what.find("the session that had it is gone"), std::string::npos) << error.what;
 }
 
 TEST_F(PostgresqlStoreTest, PostgresqlsOwnDatabasesAreRefused) {
