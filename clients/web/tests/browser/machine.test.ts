@@ -72,7 +72,8 @@ test('a block is keyed in, named before it runs, and refused while a program run
   await part.getByLabel('One block').fill('X+31.25 R0 F9000');
   await part.getByRole('button', { name: 'Run' }).click();
   assert.equal((await shop.api<{ runs: unknown[] }>('GET', 'runs?machine=mill-3'))?.runs.length, 0, 'one press runs nothing');
-  await part.getByRole('button', { name: 'Press again: X+31.25 R0 F9000 on mill-3' }).click();
+  await part.getByRole('button', { name: 'Run', exact: true }).waitFor(); // disarmed by itself
+  await pressTwice(part.getByRole('button', { name: 'Run', exact: true }), part.getByRole('button', { name: 'Press again: X+31.25 R0 F9000 on mill-3' }));
   await page.locator('.position').getByText('31.250').first().waitFor();
   await part.getByRole('status').getByText(/without a tool: nothing has run since/).waitFor();
   await part.getByLabel('One block').fill('X+1 R0 F9000\nX+2 R0 F9000');
