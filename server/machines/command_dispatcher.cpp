@@ -14,6 +14,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kMaxGivenUp = 64;
 constexpr auto kRetry = 10ms;  ///< before a command is offered again to a full queue
+/// The machine shows the run: so long the answer to its start is awaited, which has the reason.
+constexpr auto kForReason = 1s;
 
 /// These are sent at once, whatever is known of the gateway. Only the gateway knows whether an
 /// override is lowered.
@@ -118,12 +120,19 @@ Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
     // A full queue or a disconnected machine: the next round tries again, until the limit.
     [[maybe_unused]] const auto written = send_to_present(std::move(again), waiting.deadline);
     lock.lock();
+    if (waiting.is_seen) break;
   }
-  const bool is_decided = changed_.wait_until(lock, limit, is_resolved);
+  const auto soon = std::chrono::steady_clock::now() + kForReason;
+  const bool is_decided =
+      changed_.wait_until(lock, waiting.is_seen ? std::min(soon, limit) : limit, is_resolved);
   if (waiting.result) {
     if (waiting.result->accepted) return *waiting.result;
     return fail(Errc::Busy, "machine {} refused {}: {}", waiting.command.machine,
                 dds::to_string(waiting.command.action), waiting.result->reason);
+  }
+  if (waiting.is_seen) {
+    return dds::CommandResult{
+        .machine = waiting.command.machine, .id = id, .accepted = true, .reason = {}};
   }
   if (is_decided) return fail(Errc::Io, "the server is stopping");
   return fail(Errc::Timeout, "machine {} did not answer {} within {} s", waiting.command.machine,
@@ -150,17 +159,12 @@ void CommandDispatcher::on_result(const dds::CommandResult& result) {
 }
 
 void CommandDispatcher::on_run_seen(const std::string& machine, const std::string& run) {
-  {
-    const std::lock_guard lock(mutex_);
-    for (auto& [id, waiting] : waiting_) {
-      const bool is_start = waiting.command.action == dds::CommandAction::Start &&
-                            waiting.command.run == run && waiting.command.machine == machine;
-      if (!is_start || waiting.result) continue;
-      waiting.result = dds::CommandResult{
-          .machine = waiting.command.machine, .id = id, .accepted = true, .reason = {}};
-    }
+  const std::lock_guard lock(mutex_);
+  for (auto& [id, waiting] : waiting_) {
+    const bool is_start = waiting.command.action == dds::CommandAction::Start &&
+                          waiting.command.run == run && waiting.command.machine == machine;
+    if (is_start) waiting.is_seen = true;
   }
-  changed_.notify_all();
 }
 
 bool CommandDispatcher::is_waiting_for(const std::string& run) const {

@@ -54,7 +54,8 @@ class CommandDispatcher {
 
   /// On a DDS thread; returns at once.
   void on_result(const dds::CommandResult& result);
-  /// The machine shows this run: its start was accepted, even if the result was lost.
+  /// The machine shows this run: its start was accepted, even if the result was lost. The result
+  /// may be on its way, with what people must know of the start: it is awaited for a moment.
   void on_run_seen(const std::string& machine, const std::string& run);
   /// Whether a caller waits for the start of this run.
   bool is_waiting_for(const std::string& run) const;
@@ -64,7 +65,8 @@ class CommandDispatcher {
   struct Waiting {
     dds::Command command;
     std::optional<dds::CommandResult> result;
-    SteadyTime deadline;  ///< by the server's clock
+    SteadyTime deadline;   ///< by the server's clock
+    bool is_seen = false;  ///< the machine shows the run that this starts
   };
   SteadyTime stamp(dds::Command& command);
   Result<void> send_to_present(dds::Command command, SteadyTime deadline);

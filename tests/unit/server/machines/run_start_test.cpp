@@ -1,4 +1,6 @@
 // Starting runs: what a gateway gets, and who refuses.
+#include <thread>
+
 #include "server/machines/machine_registry.hpp"
 #include "tests/unit/server/machines/machine_fixture.hpp"
 
@@ -114,6 +116,43 @@ TEST_F(MachineRuns, ThatWereRefusedAreAbortedShouldTheMachineShowThemAllTheSame)
   ASSERT_TRUE(written_->wait([&] { return written_->commands.size() >= 2; }));
   EXPECT_EQ(written_->commands[1].action, dds::CommandAction::Abort);
   EXPECT_EQ(written_->commands[1].run, run);
+}
+
+/// The status of a short run may come before the answer to its start.
+TEST_F(MachineRuns, HaveWhatTheGatewaySaysOfTheirStartAlsoWhenTheMachineShowsThemBefore) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  std::jthread gateway;
+  written_->on_command = [&](const dds::Command& command) {
+    status(command.run);
+    gateway = std::jthread([this, command] {
+      std::this_thread::sleep_for(20ms);
+      network_.on_command_result({.machine = command.machine,
+                                  .id = command.id,
+                                  .accepted = true,
+                                  .reason = "without a tool"});
+    });
+  };
+  std::string notice;
+  const auto run =
+      service_->start({.machine = "lathe-1",
+                       .program = "O0100",
+                       .revision = {},
+                       .author = "cam",
+                       .on_notice = [&](const std::string& given) { notice = given; }});
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(notice, "without a tool");
+}
+
+TEST_F(MachineRuns, BeginWhenTheMachineShowsThemAndTheAnswerIsLost) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  written_->on_command = [&](const dds::Command& command) { status(command.run); };
+  const auto run = start("O0100");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(run->state, storage::RunState::Active);
 }
 
 /// The audit entry is one of them.
