@@ -40,10 +40,12 @@ Health::State Health::state() const {
   const std::lock_guard lock(mutex_);
   State state;
   for (const auto& [key, finding] : findings_) state.findings.push_back(finding);
-  if (looked_ && clock_.steady_now() - *looked_ > kSilence) {
-    state.findings.push_back({.level = Level::Failed,
+  const auto silence = looked_ ? clock_.steady_now() - *looked_ : SteadyTime::duration{};
+  if (silence > kPatience) {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(silence).count();
+    state.findings.push_back({.level = silence > kSilence ? Level::Failed : Level::Degraded,
                               .subject = "store",
-                              .what = "the store does not answer",
+                              .what = fmt::format("the store has not answered for {} s", seconds),
                               .detail = {}});
   }
   for (const auto& finding : state.findings) state.level = std::max(state.level, finding.level);

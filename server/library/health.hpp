@@ -32,8 +32,10 @@ class Health {
     Level level = Level::Ok;  ///< the worst of the findings
     std::vector<Finding> findings;
   };
-  /// The watch checks this often; when it has not for kSilence, that is a failure of its own.
-  static constexpr std::chrono::seconds kInterval{10};
+  /// The watch checks this often. When it has not come back for kPatience, the store is Degraded,
+  /// and after kSilence Failed: a store that hangs reports nothing itself.
+  static constexpr std::chrono::seconds kInterval{3};
+  static constexpr std::chrono::seconds kPatience{6};
   static constexpr std::chrono::seconds kSilence{45};
 
   explicit Health(const Clock& clock) : clock_(clock) {}

@@ -34,13 +34,18 @@ TEST_F(HealthState, IsAsBadAsTheWorstOfItsFindings) {
   EXPECT_EQ(state.findings[0].detail, "lathe-2");
 }
 
-TEST_F(HealthState, AWatchThatNoLongerLooksIsAFailure) {
+TEST_F(HealthState, AStoreThatDoesNotAnswerIsDegradedAndThenAFailure) {
   health_.looked();
-  clock_.advance(Health::kSilence);
+  clock_.advance(Health::kPatience);
   EXPECT_EQ(health_.state().level, Level::Ok);
   clock_.advance(std::chrono::seconds(1));
-  EXPECT_EQ(health_.state().level, Level::Failed);
+  EXPECT_EQ(health_.state().level, Level::Degraded);
   EXPECT_EQ(health_.state().findings.at(0).subject, "store");
+  EXPECT_EQ(health_.state().findings.at(0).what, "the store has not answered for 7 s");
+  clock_.advance(Health::kSilence - Health::kPatience);
+  EXPECT_EQ(health_.state().level, Level::Failed);
+  health_.looked();
+  EXPECT_EQ(health_.state().level, Level::Ok);
 }
 
 TEST_F(HealthState, TheWatchReportsTheErrorOfTheStore) {
