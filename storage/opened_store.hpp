@@ -20,7 +20,8 @@ struct ServerFacts {
 
 /// A server that waits to take over the store.
 struct WaitingServer {
-  std::string described;  ///< "dncd 812 on srv-2, /var/lib/dripline"
+  std::string described;                 ///< "dncd 812 on srv-2, /var/lib/dripline"
+  std::chrono::milliseconds silence{0};  ///< since it was seen
 };
 
 /// A store with what its owner asks besides, whatever engine keeps it.

@@ -8,9 +8,14 @@ Result<std::vector<WaitingServer>> waiting_servers(sql::Database& database,
                                                    const std::string& except) {
   return sql::all_rows(
       database,
-      "SELECT described FROM store_standby WHERE holder <> ?1 AND seen > clock_timestamp() - "
-      "interval '5 seconds' ORDER BY described LIMIT 16",
-      [](const sql::Statement& row) { return WaitingServer{row.text(0)}; }, except);
+      "SELECT described, CAST(extract(epoch FROM clock_timestamp() - seen) * 1000 AS bigint) FROM "
+      "store_standby WHERE holder <> ?1 AND seen > clock_timestamp() - interval '5 seconds' "
+      "ORDER BY described LIMIT 16",
+      [](const sql::Statement& row) {
+        return WaitingServer{.described = row.text(0),
+                             .silence = std::chrono::milliseconds(row.integer(1))};
+      },
+      except);
 }
 
 Result<void> note_waiting(sql::Database& database, const std::string& holder,

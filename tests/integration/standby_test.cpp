@@ -337,6 +337,19 @@ TEST_F(TwoServersTest, WithoutAStandbyNothingIsHandedOver) {
   EXPECT_EQ(shop_->role(0), "active");
 }
 
+TEST_F(TwoServersTest, NothingIsHandedOverToAStandbyThatDoesNotAnswer) {
+  begin();
+  shop_->server(1).signal(SIGSTOP);
+  const auto refused = shop_->rest(0).post("/api/v1/server/drain", nlohmann::json::object());
+  EXPECT_EQ(refused.status, 409) << refused.body;
+  EXPECT_NE(refused.body.find("has not looked at it"), std::string::npos) << refused.body;
+  EXPECT_EQ(shop_->role(0), "active");
+  shop_->server(1).signal(SIGCONT);
+  const auto drained = shop_->rest(0).post("/api/v1/server/drain", nlohmann::json::object());
+  EXPECT_EQ(drained.status, 202) << drained.body;
+  ASSERT_TRUE(shop_->wait_active(1));
+}
+
 TEST_F(TwoServersTest, AFolderWithoutTheKeysIsRefused) {
   shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
   shop_->start(0);

@@ -1,8 +1,44 @@
+#include <thread>
+
 #include "protocol/process/log.hpp"
 #include "server/app/impl/server_parts.hpp"
 
 /// Of a library that other servers wait for: what they are told, and the hand-over to one of them.
 namespace dripline::app {
+namespace {
+
+/// A standby looks at the database every second (storage/postgresql_standby.hpp).
+constexpr std::chrono::seconds kForAnswer{3};
+constexpr std::chrono::milliseconds kPause{50};
+
+/// Of those that wait: the ones that have been seen since it was called. One that has just died is
+/// still listed, and would be handed a library that nobody has then.
+Result<std::vector<std::string>> awake_standbys(storage::OpenedStore& store) {
+  using Clock = std::chrono::steady_clock;
+  for (const auto begun = Clock::now();;) {
+    const auto waiting = store.waiting();
+    if (!waiting) return fail(waiting.error());
+    const auto waited = Clock::now() - begun;
+    std::vector<std::string> awake;
+    for (const auto& server : *waiting)
+      if (server.silence < waited) awake.push_back(server.described);
+    if (!awake.empty()) return awake;
+    if (waiting->empty()) {
+      return fail(Errc::Conflict,
+                  "no server waits for this database: start a second one with standby = yes, or "
+                  "end this one");
+    }
+    if (waited >= kForAnswer) {
+      return fail(Errc::Conflict,
+                  "{} waits for this database, but has not looked at it for {} s: nothing is "
+                  "handed over. See whether it runs, and whether it reaches the database",
+                  waiting->front().described, kForAnswer.count());
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+}  // namespace
 
 std::optional<api::SharedLibrary> ServerParts::shared_library() {
   if (store->term() == 0) return std::nullopt;
@@ -36,13 +72,6 @@ void ServerParts::publish() {
 }
 
 Result<std::vector<std::string>> ServerParts::hand_over() {
-  auto waiting = shared_library()->waiting();
-  if (!waiting) return waiting;
-  if (waiting->empty()) {
-    return fail(Errc::Conflict,
-                "no server waits for this database: start a second one with standby = yes, or end "
-                "this one");
-  }
   for (const auto& view : ports.ports()) {
     storage::RunFilter active;
     active.machine = view.port.machine;
@@ -55,7 +84,7 @@ Result<std::vector<std::string>> ServerParts::hand_over() {
                 "has ended, or abort it",
                 view.port.name, view.port.machine);
   }
-  return waiting;
+  return awake_standbys(*store);
 }
 
 }  // namespace dripline::app
