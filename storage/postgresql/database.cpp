@@ -25,24 +25,31 @@ std::string label_of(PGconn* connection) {
   return fmt::format("postgresql://{}:{}/{}", host.empty() ? "localhost" : host, port, name);
 }
 
-/// What is before the URL may be set in it.
-PGconn* open_connection(const ConnectOptions& options) {
-  const std::string timeout = std::to_string(options.connect_timeout.count());
-  const std::array keys{"connect_timeout",
-                        "application_name",
-                        "client_encoding",
-                        "tcp_user_timeout",
-                        "target_session_attrs",
-                        "dbname",
-                        static_cast<const char*>(nullptr)};
-  const std::array values{timeout.c_str(),
-                          "dncd",
-                          "UTF8",
-                          "10000",
-                          "read-write",
-                          options.url.c_str(),
-                          static_cast<const char*>(nullptr)};
-  return PQconnectdbParams(keys.data(), values.data(), 1);
+/// For PQconnectdbParams and its like. What is before the URL may be set in it.
+class Parts {
+ public:
+  explicit Parts(const ConnectOptions& options)
+      : url_(options.url), timeout_(std::to_string(options.connect_timeout.count())) {}
+  const char* const* keys() const { return kKeys.data(); }
+  std::array<const char*, 7> values() const {
+    return {timeout_.c_str(), "dncd", "UTF8", "10000", "read-write", url_.c_str(), nullptr};
+  }
+
+ private:
+  static constexpr std::array<const char*, 7> kKeys{"connect_timeout",
+                                                    "application_name",
+                                                    "client_encoding",
+                                                    "tcp_user_timeout",
+                                                    "target_session_attrs",
+                                                    "dbname",
+                                                    nullptr};
+  std::string url_, timeout_;
+};
+
+/// Whether the server answers a new connection.
+bool is_answering(const ConnectOptions& options) {
+  const Parts parts(options);
+  return PQpingParams(parts.keys(), parts.values().data(), 1) == PQPING_OK;
 }
 
 /// libpq's words may have the whole URL in them only when it cannot be read, and then it is not
@@ -59,9 +66,12 @@ Error refused(PGconn* connection) {
 
 Result<Database> Database::connect(const ConnectOptions& options) {
   if (const auto facts = read_url(options.url); !facts) return fail(facts.error());
-  PGconn* connection = open_connection(options);
+  const Parts parts(options);
+  PGconn* connection = PQconnectdbParams(parts.keys(), parts.values().data(), 1);
   if (connection == nullptr) return fail(Errc::Io, "no memory for a connection");
-  auto link = std::make_unique<Link>(connection);
+  auto link = std::make_unique<Link>(
+      connection, Link::Patience{.silence = options.silence,
+                                 .is_answering = [options] { return is_answering(options); }});
   if (PQstatus(connection) != CONNECTION_OK) return fail(refused(connection));
   PQsetNoticeProcessor(
       connection, [](void*, const char*) {}, nullptr);

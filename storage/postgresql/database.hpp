@@ -14,6 +14,8 @@ struct ConnectOptions {
   std::string url;  ///< postgresql://... or libpq's "host=... dbname=..."
   std::chrono::seconds connect_timeout{5};
   std::chrono::milliseconds lock_timeout{10000};  ///< for a lock that another has, then Errc::Busy
+  /// A server that says nothing for so long and answers no other connection either is given up: Io.
+  std::chrono::milliseconds silence{10000};
 };
 
 /// One connection to one server. Statements are prepared once, parameters and rows cross the wire

@@ -1,6 +1,8 @@
 #include "storage/postgresql/link.hpp"
 
 #include <libpq-fe.h>
+#include <poll.h>
+#include <cerrno>
 #include <charconv>
 #include <optional>
 #include <utility>
@@ -33,7 +35,10 @@ void ResultDeleter::operator()(pg_result* result) const {
   PQclear(result);
 }
 
-Link::Link(pg_conn* connection) : connection_(connection) {}
+Link::Link(pg_conn* connection, Patience patience)
+    : connection_(connection), patience_(std::move(patience)) {
+  PQsetnonblocking(connection_, 1);  // a server that takes nothing must not hold us up either
+}
 
 Link::~Link() {
   PQfinish(connection_);
@@ -43,7 +48,41 @@ bool Link::is_alive() const {
   return !has_failed_ && PQstatus(connection_) == CONNECTION_OK;
 }
 
+/// False: neither can anything be sent nor has anything come, and the server answers no one.
+bool Link::wait_for_bytes() {
+  for (;;) {
+    const int unsent = PQflush(connection_);
+    pollfd socket{.fd = PQsocket(connection_), .events = POLLIN, .revents = 0};
+    if (unsent < 0 || socket.fd < 0) return true;  // the result reports it
+    if (unsent > 0) socket.events |= POLLOUT;
+    const auto silence = static_cast<int>(patience_.silence.count());
+    const int ready = ::poll(&socket, 1, silence == 0 ? -1 : silence);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0 && patience_.is_answering()) continue;
+    if (ready == 0) return false;
+    if ((socket.revents & ~POLLOUT) == 0) continue;
+    return true;
+  }
+}
+
+/// Null also when the server is silent: then the connection is not alive any more.
+ResultPointer Link::next_result() {
+  while (!is_silent_ && PQisBusy(connection_) != 0) {
+    if (!wait_for_bytes()) {
+      has_failed_ = is_silent_ = true;
+    } else if (PQconsumeInput(connection_) == 0) {
+      break;  // the connection is lost: the result reports it
+    }
+  }
+  return ResultPointer(is_silent_ ? nullptr : PQgetResult(connection_));
+}
+
 Error Link::refused(pg_result* result) {
+  if (is_silent_) {
+    last_state_.clear();
+    return {Errc::Io, fmt::format("the database says nothing, for longer than {} ms, the limit",
+                                  patience_.silence.count())};
+  }
   last_state_ = state_of(result);
   return error_of(connection_, result);
 }
@@ -103,7 +142,7 @@ Result<ResultPointer> Link::answer() {
   ResultPointer last;
   std::optional<Error> error;
   while (!sent_.empty()) {
-    ResultPointer result(PQgetResult(connection_));
+    ResultPointer result = next_result();
     if (result == nullptr || PQstatus(connection_) != CONNECTION_OK) {
       if (!error) error = refused(nullptr);
       has_failed_ = true;
@@ -112,10 +151,10 @@ Result<ResultPointer> Link::answer() {
     // What follows an error up to the Sync is passed over, each with a result of its own.
     if (!error && is_error(result.get())) error = refused(result.get());
     sent_.pop_front();
-    PQgetResult(connection_);  // null: the end of this answer
+    next_result();  // null: the end of this answer
     last = std::move(result);
   }
-  const ResultPointer sync(PQgetResult(connection_));
+  const ResultPointer sync = next_result();
   if (sync == nullptr || PQresultStatus(sync.get()) != PGRES_PIPELINE_SYNC) has_failed_ = true;
   if (error) {
     for (const auto& key : fresh_) prepared_.erase(key);
@@ -151,14 +190,17 @@ Result<ResultPointer> Link::execute(const std::string& sql) {
     if (!answered && !has_failed_) return fail(answered.error());
   }
   if (PQpipelineStatus(connection_) != PQ_PIPELINE_OFF) PQexitPipelineMode(connection_);
-  ResultPointer result(PQexec(connection_, sql.c_str()));
-  if (result != nullptr && !is_error(result.get())) {
-    changes_ = changes_in(result.get());
-    return result;
+  ResultPointer last;
+  if (PQsendQuery(connection_, sql.c_str()) != 0) {
+    while (ResultPointer result = next_result()) last = std::move(result);
   }
-  last_state_ = state_of(result.get());
+  if (last != nullptr && !is_silent_ && !is_error(last.get())) {
+    changes_ = changes_in(last.get());
+    return last;
+  }
+  const Error error = refused(last.get());
   if (last_state_.empty()) has_failed_ = true;
-  return fail(error_of(connection_, result.get()));
+  return fail(error);
 }
 
 }  // namespace dripline::storage::postgresql

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -36,7 +38,13 @@ class Link {
   void set_hoarder(Hoarder* hoarder);
   Hoarder* hoarder() const { return hoarder_; }
 
-  explicit Link(pg_conn* connection);  ///< takes it
+  /// How long a server may be silent, 0 for ever, and whether it answers others then: a statement
+  /// may take long, but a frozen server is given up.
+  struct Patience {
+    std::chrono::milliseconds silence{0};
+    std::function<bool()> is_answering;
+  };
+  Link(pg_conn* connection, Patience patience);  ///< takes the connection
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
   ~Link();
@@ -63,18 +71,22 @@ class Link {
 
  private:
   void begin_pipeline();
+  ResultPointer next_result();
+  bool wait_for_bytes();
   void send_rows();
   void note_sent(int is_sent, std::string_view sql);
   Error refused(pg_result* result);
   void collect_left();
 
   pg_conn* connection_;
+  const Patience patience_;
   Hoarder* hoarder_ = nullptr;
   std::unordered_map<std::string, std::string> prepared_;  ///< SQL and kinds: name
   std::vector<std::string> fresh_;     ///< of those: prepared since the last answer
   std::deque<std::string_view> sent_;  ///< SQL that is not answered yet
   bool has_left_ = false;              ///< `sent_` is followed by a Sync, and no one waits
-  bool has_failed_ = false;            ///< something could not be sent
+  bool has_failed_ = false;            ///< something could not be sent, or no answer came
+  bool is_silent_ = false;             ///< of `has_failed_`: the server says nothing
   std::uint64_t names_ = 0, changes_ = 0;
   std::string last_state_;
 };

@@ -4,6 +4,7 @@
 #include "storage/postgresql/database.hpp"
 #include "storage/postgresql/migration.hpp"
 #include "storage/sql/query.hpp"
+#include "tests/support/postgresql/test_cluster.hpp"
 #include "tests/support/postgresql/test_database.hpp"
 
 namespace dripline::storage::postgresql {
@@ -215,6 +216,54 @@ TEST(PostgresqlConnection, IsRefusedWithoutRepeatingAPassword) {
   const auto unreadable = Database::connect({.url = "postgresql://anna:secret@host:port:1/x"});
   ASSERT_FALSE(unreadable);
   EXPECT_EQ(unreadable.error().what.find("secret"), std::string::npos) << unreadable.error().what;
+}
+
+/// With a server of its own, which a test may freeze.
+class FrozenDatabase : public testing::Test {
+ protected:
+  void SetUp() override {
+    cluster_ = test::TestCluster::make();
+    if (cluster_ == nullptr) GTEST_SKIP() << "PostgreSQL is not installed";
+  }
+  ConnectOptions impatient() const {
+    return {.url = cluster_->url(),
+            .connect_timeout = std::chrono::seconds(2),
+            .silence = std::chrono::milliseconds(200)};
+  }
+  std::unique_ptr<test::TestCluster> cluster_;
+};
+
+TEST_F(FrozenDatabase, IsGivenUp) {
+  auto database = Database::connect(impatient());
+  ASSERT_TRUE(database) << database.error().what;
+  ASSERT_TRUE(database->execute("CREATE TABLE kept (bytes bytea)"));
+  cluster_->freeze();
+  const auto read = database->integer("SELECT count(*) FROM kept");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, Errc::Io);
+  EXPECT_NE(read.error().what.find("says nothing"), std::string::npos) << read.error().what;
+  EXPECT_FALSE(database->is_alive());
+  EXPECT_FALSE(database->execute("SELECT 1"));
+}
+
+/// More than any buffer between the two takes.
+TEST_F(FrozenDatabase, IsGivenUpWhileItIsSentMuch) {
+  auto database = Database::connect(impatient());
+  ASSERT_TRUE(database) << database.error().what;
+  ASSERT_TRUE(database->execute("CREATE TABLE kept (bytes bytea)"));
+  cluster_->freeze();
+  const std::vector<std::byte> much(16U << 20U);
+  ASSERT_TRUE(database->begin());
+  const auto kept = sql::run(*database, "INSERT INTO kept VALUES (?1)", std::span(much));
+  EXPECT_FALSE(kept && database->commit());
+  EXPECT_FALSE(database->is_alive());
+}
+
+TEST_F(FrozenDatabase, AStatementMayTakeLongWhileTheServerAnswersOthers) {
+  auto database = Database::connect(impatient());
+  ASSERT_TRUE(database) << database.error().what;
+  EXPECT_EQ(database->integer("SELECT CAST(1 AS bigint) FROM pg_sleep(1)").value_or(0), 1);
+  EXPECT_TRUE(database->execute("SELECT pg_sleep(0.5)"));
 }
 
 }  // namespace
