@@ -121,6 +121,7 @@ test('an opened program is checked once, and another revision is read once', asy
   await shop.push('O0902', 'O0902\nG21 G90 G54\nG1 X10. F500.\nM30\n', 'fanuc');
   await shop.push('O0902', 'O0902\nG21 G90 G54\nG1 X10. F500.\nG1 Y10.\nM30\n', 'fanuc');
   const { page } = await visit('#/programs/O0902');
+  await page.getByText('The program reaches its end.').waitFor(); // nothing of this visit is on its way
   const asked: string[] = [];
   page.on('request', (request) => asked.push(request.url()));
   await page.reload();
