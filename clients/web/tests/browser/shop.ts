@@ -60,7 +60,15 @@ export class Shop {
     rmSync(announced, { force: true });
     const address = this.url ? new URL(this.url).host : '127.0.0.1:0';
     this.server = this.spawn('dncd', ['--state', path.join(this.folder, 'server'), '--http', address, ...this.serverArgs]);
-    await until('the server listens', () => existsSync(announced) && this.readUrl(announced));
+    const server = this.server;
+    await until('the server listens', () => {
+      if (server.exitCode !== null) throw new Error(`the server has ended: ${readFileSync(this.logOf('dncd'), 'utf8')}`);
+      return existsSync(announced) && this.readUrl(announced);
+    });
+  }
+
+  private logOf(program: string): string {
+    return path.join(this.folder, `${program}-${this.gateways.size}.log`);
   }
 
   private readUrl(announced: string): boolean {
@@ -134,8 +142,7 @@ export class Shop {
   }
 
   private spawn(program: string, args: string[]): ChildProcess {
-    const log = path.join(this.folder, `${program}-${this.gateways.size}.log`);
-    return spawn(path.join(kBin, program), [...args, ...this.network, '--log', log], { stdio: 'ignore' });
+    return spawn(path.join(kBin, program), [...args, ...this.network, '--log', this.logOf(program)], { stdio: 'ignore' });
   }
 }
 
