@@ -10,7 +10,7 @@
 #include "protocol/base/digest.hpp"
 #include "protocol/base/result.hpp"
 #include "storage/page.hpp"
-#include "storage/revision_state.hpp"
+#include "storage/programs/revision_state.hpp"
 
 namespace dripline::storage {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "server/folders/folder_watch.hpp"
-#include "storage/folder_store.hpp"
+#include "storage/programs/folder_store.hpp"
 
 namespace dripline::folders {
 

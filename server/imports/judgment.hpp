@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "server/library/release_policy.hpp"
-#include "storage/program_store.hpp"
+#include "storage/programs/program_store.hpp"
 
 namespace dripline::imports {
 

@@ -7,7 +7,7 @@
 #include "gateway/interpreter/core/dialect.hpp"
 #include "protocol/base/result.hpp"
 #include "storage/machine_store.hpp"
-#include "storage/program_store.hpp"
+#include "storage/programs/program_store.hpp"
 
 namespace dripline::library {
 

@@ -12,7 +12,7 @@
 namespace dripline::library {
 
 struct SearchRequest {
-  std::string words = {};  ///< as a user types them (storage/search_words.hpp)
+  std::string words = {};  ///< as a user types them (storage/programs/search_words.hpp)
   storage::SearchFilter filter = {};
   std::uint64_t before = 0;  ///< the last document of the page before; 0: the first page
   std::uint64_t limit = 20;

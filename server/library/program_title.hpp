@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "protocol/base/digest.hpp"
-#include "storage/program_store.hpp"
+#include "storage/programs/program_store.hpp"
 
 namespace dripline::library {
 

@@ -7,7 +7,7 @@
 
 #include "protocol/base/digest.hpp"
 #include "storage/account_store.hpp"
-#include "storage/revision_state.hpp"
+#include "storage/programs/revision_state.hpp"
 
 namespace dripline::library {
 

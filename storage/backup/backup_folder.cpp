@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "protocol/base/private_folder.hpp"
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 #include "storage/sqlite_store.hpp"
 
 namespace dripline::backup {

@@ -8,7 +8,7 @@
 
 #include "protocol/base/descriptor.hpp"
 #include "protocol/base/durable_file.hpp"
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 
 namespace dripline::backup {
 namespace {

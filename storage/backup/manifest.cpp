@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 
 namespace dripline::backup {
 namespace {

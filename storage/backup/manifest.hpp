@@ -10,8 +10,8 @@
 
 namespace dripline::backup {
 
-/// One file of a state folder: its bytes are the chunks (storage/chunk_codec.hpp), one after the
-/// other; every chunk but the last has kChunkBytes.
+/// One file of a state folder: its bytes are the chunks (storage/programs/chunk_codec.hpp), one
+/// after the other; every chunk but the last has kChunkBytes.
 struct KeptFile {
   std::string name;  ///< within the folder: no slash
   std::uint64_t size = 0;

@@ -10,7 +10,7 @@
 #include "protocol/base/descriptor.hpp"
 #include "protocol/base/durable_file.hpp"
 #include "storage/cache/list_file.hpp"
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 
 namespace dripline::cache {
 namespace {

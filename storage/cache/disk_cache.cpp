@@ -1,7 +1,7 @@
 #include "storage/cache/disk_cache.hpp"
 
 #include "storage/cache/list_file.hpp"
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 
 namespace dripline::cache {
 namespace {

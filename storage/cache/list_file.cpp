@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 
 namespace dripline::cache {
 namespace {

@@ -76,7 +76,7 @@ CREATE INDEX revision_pin_by_revision ON revision_pin (program, revision);
 
 -- Search ----------------------------------------------------------------------------------------
 
--- One document for each revision that can be seen: the words of its program and of its text (storage/search_words.hpp). A later
+-- One document for each revision that can be seen: the words of its program and of its text (storage/programs/search_words.hpp). A later
 -- version that makes words otherwise empties both tables and makes every program due.
 CREATE TABLE search_document (
   id       INTEGER PRIMARY KEY AUTOINCREMENT,  -- its row in search_index; what changed last has the highest

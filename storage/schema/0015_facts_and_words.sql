@@ -16,7 +16,7 @@ CREATE TABLE run_call (
 
 -- Words of letters alone, of three at least, that some document has or had: `rou*` is looked for as these words.
 CREATE TABLE search_word (word TEXT NOT NULL PRIMARY KEY) STRICT, WITHOUT ROWID;
--- Comments have all their words now (storage/search_words.hpp): everything is read again.
+-- Comments have all their words now (storage/programs/search_words.hpp): everything is read again.
 INSERT INTO search_index (search_index) VALUES ('delete-all');
 DELETE FROM search_document;
 INSERT INTO search_due (program) SELECT id FROM program WHERE true ON CONFLICT (program) DO UPDATE SET version = version + 1;

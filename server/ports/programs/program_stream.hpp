@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gateway/line/text_source.hpp"
-#include "storage/program_store.hpp"
+#include "storage/programs/program_store.hpp"
 
 namespace dripline::ports {
 

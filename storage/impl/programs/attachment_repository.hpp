@@ -1,8 +1,8 @@
 #pragma once
 
-#include "storage/attachment_store.hpp"
 #include "storage/impl/connections.hpp"
 #include "storage/impl/programs/upload_repository.hpp"
+#include "storage/programs/attachment_store.hpp"
 
 namespace dripline::storage {
 

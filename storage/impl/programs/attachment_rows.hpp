@@ -1,8 +1,8 @@
 #pragma once
 
-#include "storage/attachment_store.hpp"
+#include "storage/programs/attachment_store.hpp"
+#include "storage/programs/upload_store.hpp"
 #include "storage/sql/query.hpp"
-#include "storage/upload_store.hpp"
 
 /// Rows of attachment, inside the caller's transaction.
 namespace dripline::storage {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "protocol/base/digest.hpp"
-#include "storage/chunk_codec.hpp"
 #include "storage/content_cache.hpp"
+#include "storage/programs/chunk_codec.hpp"
 #include "storage/sql/query.hpp"
 
 /// Rows of content, content_chunk and chunk. Functions that write run inside the caller's

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "storage/program_fields.hpp"
-#include "storage/program_store.hpp"
+#include "storage/programs/program_fields.hpp"
+#include "storage/programs/program_store.hpp"
 #include "storage/sql/query.hpp"
 
 /// The fields of programs and revisions, inside the caller's transaction.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "storage/folder_store.hpp"
 #include "storage/impl/connections.hpp"
-#include "storage/program_store.hpp"
+#include "storage/programs/folder_store.hpp"
+#include "storage/programs/program_store.hpp"
 
 namespace dripline::storage {
 

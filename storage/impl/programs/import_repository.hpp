@@ -1,7 +1,7 @@
 #pragma once
 
 #include "storage/impl/connections.hpp"
-#include "storage/import_store.hpp"
+#include "storage/programs/import_store.hpp"
 
 namespace dripline::storage {
 

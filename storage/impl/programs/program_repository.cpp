@@ -9,7 +9,7 @@
 #include "storage/impl/programs/field_rows.hpp"
 #include "storage/impl/programs/revision_rows.hpp"
 #include "storage/impl/repositories.hpp"
-#include "storage/program_store.hpp"
+#include "storage/programs/program_store.hpp"
 #include "storage/sql/query.hpp"
 
 namespace dripline::storage {
@@ -87,7 +87,7 @@ Result<ProgramFields> fields_of(sql::Database& database, const std::string& prog
   return fail(Errc::NotFound, "program {} is not in the library", program);
 }
 
-/// Promises of both: storage/program_store.hpp.
+/// Promises of both: storage/programs/program_store.hpp.
 Result<Revision> copy_program(sql::Database& database, const ProgramMove& move,
                               std::optional<std::uint64_t> number, UtcTime now) {
   const auto source = find_revision(database, move.from, number);

@@ -4,7 +4,7 @@
 #include "storage/impl/programs/content.hpp"
 #include "storage/impl/programs/content_seal.hpp"
 #include "storage/impl/programs/revision_rows.hpp"
-#include "storage/program_store.hpp"
+#include "storage/programs/program_store.hpp"
 
 namespace dripline::storage {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "storage/impl/connections.hpp"
-#include "storage/release_store.hpp"
+#include "storage/programs/release_store.hpp"
 
 namespace dripline::storage {
 

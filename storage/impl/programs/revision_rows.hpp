@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "storage/programs/upload_store.hpp"
 #include "storage/sql/query.hpp"
-#include "storage/upload_store.hpp"
 
 /// Rows of revision, as they are found, made and judged. Everything runs inside the caller's
 /// transaction.
@@ -49,7 +49,7 @@ struct Judgment {
   std::string target = {};
   std::uint64_t target_revision = 0;
 };
-/// Promises of both: storage/program_store.hpp. The import queue follows.
+/// Promises of both: storage/programs/program_store.hpp. The import queue follows.
 Result<Revision> accept_revision(sql::Database& database, const Judgment& judgment);
 Result<void> reject_revision(sql::Database& database, const Judgment& judgment);
 

@@ -8,8 +8,8 @@
 #include "protocol/base/digest.hpp"
 #include "storage/impl/programs/content.hpp"
 #include "storage/impl/programs/text_index.hpp"
-#include "storage/search_store.hpp"
-#include "storage/search_words.hpp"
+#include "storage/programs/search_store.hpp"
+#include "storage/programs/search_words.hpp"
 
 namespace dripline::storage {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "storage/impl/connections.hpp"
-#include "storage/search_store.hpp"
+#include "storage/programs/search_store.hpp"
 
 namespace dripline::storage {
 

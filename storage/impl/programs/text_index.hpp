@@ -8,8 +8,8 @@
 #include "storage/sql/database.hpp"
 
 /// The full-text index, of which each engine has its own kind: FTS5 in SQLite, `tsvector` with a
-/// GIN index in PostgreSQL. Words are those of storage/search_words.hpp, so neither engine's own
-/// tokenizer decides anything.
+/// GIN index in PostgreSQL. Words are those of storage/programs/search_words.hpp, so neither
+/// engine's own tokenizer decides anything.
 namespace dripline::storage {
 
 struct IndexedWords {

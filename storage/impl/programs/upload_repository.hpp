@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "protocol/base/digest.hpp"
-#include "storage/attachment_store.hpp"
 #include "storage/impl/connections.hpp"
-#include "storage/upload_store.hpp"
+#include "storage/programs/attachment_store.hpp"
+#include "storage/programs/upload_store.hpp"
 
 namespace dripline::storage {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "storage/backup/manifest.hpp"
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 
 namespace {
 

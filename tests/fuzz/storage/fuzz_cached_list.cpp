@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "storage/cache/list_file.hpp"
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 
 namespace dripline::backup {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <thread>
 
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 #include "tests/unit/storage/store_fixture.hpp"
 
 namespace dripline::cache {

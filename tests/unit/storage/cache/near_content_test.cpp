@@ -1,6 +1,6 @@
 // Program text of a database, read through a cache on the server's own disk.
 #include "storage/cache/disk_cache.hpp"
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 #include "tests/unit/storage/store_fixture.hpp"
 
 namespace dripline::storage {

@@ -1,4 +1,4 @@
-#include "storage/folder_store.hpp"
+#include "storage/programs/folder_store.hpp"
 
 #include <algorithm>
 #include <array>

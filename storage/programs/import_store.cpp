@@ -1,4 +1,4 @@
-#include "storage/import_store.hpp"
+#include "storage/programs/import_store.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,8 +10,8 @@
 #include "protocol/base/result.hpp"
 #include "storage/actor.hpp"
 #include "storage/page.hpp"
-#include "storage/program_fields.hpp"
-#include "storage/revision_state.hpp"
+#include "storage/programs/program_fields.hpp"
+#include "storage/programs/revision_state.hpp"
 
 namespace dripline::storage {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "storage/program_store.hpp"
+#include "storage/programs/program_store.hpp"
 
 namespace dripline::storage {
 

@@ -1,4 +1,4 @@
-#include "storage/chunk_codec.hpp"
+#include "storage/programs/chunk_codec.hpp"
 
 #include <zstd.h>
 #include <atomic>

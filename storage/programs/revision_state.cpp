@@ -1,4 +1,4 @@
-#include "storage/revision_state.hpp"
+#include "storage/programs/revision_state.hpp"
 
 #include <fmt/ranges.h>
 #include <algorithm>

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "protocol/base/result.hpp"
-#include "storage/program_store.hpp"
-#include "storage/search_words.hpp"
+#include "storage/programs/program_store.hpp"
+#include "storage/programs/search_words.hpp"
 
 namespace dripline::storage {
 

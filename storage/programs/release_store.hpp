@@ -11,8 +11,8 @@
 #include "protocol/base/result.hpp"
 #include "protocol/base/signature.hpp"
 #include "storage/actor.hpp"
-#include "storage/program_store.hpp"
-#include "storage/revision_state.hpp"
+#include "storage/programs/program_store.hpp"
+#include "storage/programs/revision_state.hpp"
 
 namespace dripline::storage {
 

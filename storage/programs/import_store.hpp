@@ -10,7 +10,7 @@
 #include "protocol/base/result.hpp"
 #include "storage/actor.hpp"
 #include "storage/page.hpp"
-#include "storage/program_store.hpp"
+#include "storage/programs/program_store.hpp"
 
 namespace dripline::storage {
 

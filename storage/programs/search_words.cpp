@@ -1,4 +1,4 @@
-#include "storage/search_words.hpp"
+#include "storage/programs/search_words.hpp"
 
 #include <algorithm>
 
