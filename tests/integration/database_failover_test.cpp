@@ -130,6 +130,25 @@ TEST_P(DatabaseFailover, WithoutACacheAMachineWaitsForTheDatabase) {
   EXPECT_FALSE(std::filesystem::exists(system_->server_state() / "cache"));
 }
 
+/// Whoever asks whether the server is ready waits for no database, and hears the truth.
+TEST_P(DatabaseFailover, TheServerIsNotReadyUntilTheDatabaseAnswersAgain) {
+  start_shop();
+  const auto ready = [&] { return system_->rest().get("/api/v1/ready").status; };
+  EXPECT_EQ(ready(), 200);
+  leave();
+  const auto left = std::chrono::steady_clock::now();
+  EXPECT_TRUE(eventually([&] { return ready() == 503; }, seconds(30)));
+  // Longer than a silent database is waited for: all connections are new ones then.
+  std::this_thread::sleep_until(left + seconds(12));
+  const auto asked = std::chrono::steady_clock::now();
+  EXPECT_EQ(ready(), 503);
+  EXPECT_LT(std::chrono::steady_clock::now() - asked, seconds(2)) << "it waits for no one";
+  EXPECT_EQ(system_->rest().get("/api/v1/programs").status / 100, 5);
+  come_back();
+  EXPECT_TRUE(eventually([&] { return ready() == 200; }, seconds(30)));
+  EXPECT_EQ(system_->rest().get("/api/v1/programs").status, 200);
+}
+
 INSTANTIATE_TEST_SUITE_P(, DatabaseFailover, testing::Values(Way::Stopped, Way::Frozen),
                          [](const auto& i) {
                            return i.param == Way::Stopped ? "Stopped" : "Frozen";
