@@ -1,10 +1,11 @@
-// How the server is: its health with every reason, what it keeps, and its MQTT broker.
+// How the server is: its health with every reason, what it keeps, the servers that wait for it, and its MQTT broker.
 import type { Server } from '../../generated/api';
 import { get, pathOf } from '../api/request';
 import { Loading } from '../parts/loading';
 import { Rows } from '../parts/rows';
 import { useRefreshed } from '../parts/use_refreshed';
 import { MqttState } from './mqtt_state';
+import { SharingState } from './sharing_state';
 import { durationText } from '../live/progress';
 import { dateTimeText, numberText, texts } from '../texts/texts';
 
@@ -31,6 +32,7 @@ export function ServerState() {
         ))}
         <Rows of={rows} />
       </section>
+      <SharingState sharing={value.sharing} cache={value.program_cache} />
       <MqttState mqtt={value.mqtt} />
     </>
   );

@@ -81,6 +81,33 @@ test('the state of the MQTT broker is shown, also without one', async () => {
   assertNoComplaints(complaints);
 });
 
+test('the servers that wait are shown, and one gets the library by two presses', async () => {
+  const { page, complaints } = await visit('#/administration/server');
+  await page.getByText('The library is a SQLite file of this server alone').waitFor();
+  const server = await shop.api('GET', 'server') as object;
+  const cache = { size_bytes: 1 << 30, used_bytes: 3 << 20, hits: 1200, misses: 4, fetched: 7, damaged: 2, fault: 'disk full' };
+  const answer = (standbys: string[]) => ({ ...server, sharing: { term: 1764000000, standbys }, program_cache: cache });
+  await page.route('**/api/v1/server', (route) => route.fulfill({ json: answer([]) }));
+  await page.reload();
+  const part = page.getByRole('region', { name: 'Servers of the library' });
+  await part.getByText('None: when this one is lost').waitFor();
+  assert.ok(await part.getByRole('button', { name: 'Hand over' }).isDisabled());
+  await part.getByText('3.0 MiB of 1.0 GiB').waitFor();
+  await part.getByText('1,200 were there, 4 came from the database').waitFor();
+  await part.getByRole('alert').getByText('disk full').waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  await page.unroute('**/api/v1/server');
+  await page.route('**/api/v1/server', (route) => route.fulfill({ json: answer(['dncd 8 on srv-2']) }));
+  await page.reload();
+  await pressTwice(part.getByRole('button', { name: 'Hand over', exact: true }), part.getByRole('button', { name: 'Press again: hand the library over to dncd 8 on srv-2' }));
+  await part.getByRole('alert').getByText(/is a SQLite file, which no other server can take over/).waitFor(); // what this server says of it
+  await page.route('**/api/v1/server/drain', (route) => route.fulfill({ status: 202, json: { term: 1764000000, standbys: ['dncd 8 on srv-2'] } }));
+  await pressTwice(part.getByRole('button', { name: 'Hand over', exact: true }), part.getByRole('button', { name: 'Press again: hand the library over to dncd 8 on srv-2' }));
+  await part.getByText('Handed over to dncd 8 on srv-2').waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  assertNoComplaints(complaints, [422]);
+});
+
 test('certificates and the release policy are shown', async () => {
   const { page, complaints } = await visit('#/administration/certificates');
   await page.getByText('Nothing is encrypted').waitFor();

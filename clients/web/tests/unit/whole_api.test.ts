@@ -15,7 +15,6 @@ const kOthers: { [path: string]: string } = {
   reports: 'the page lists runs, with those that have lines',
   'machines/{name}': 'the event stream and the list bring machines whole',
   'offsets/{id}': 'the list brings proposals whole',
-  'server/drain': 'of administrators at the terminal, for maintenance',
 };
 
 function sourcesOf(folder: string): string[] {
