@@ -1,5 +1,6 @@
 #include "gateway/interpreter/dialects/fanuc/memory/length_in_axes.hpp"
 
+#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {

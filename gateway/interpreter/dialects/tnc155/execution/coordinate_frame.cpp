@@ -1,5 +1,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/coordinate_frame.hpp"
 
+#include "gateway/interpreter/dialects/tnc155/execution/path.hpp"
+
 namespace dripline::interpreter::tnc155 {
 
 CoordinateFrame frame_of(const State& state) {
