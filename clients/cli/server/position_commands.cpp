@@ -1,7 +1,9 @@
 #include "clients/cli/server/position_commands.hpp"
 
+#include <fmt/core.h>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "clients/cli/text/standard_output.hpp"
 
@@ -57,7 +59,7 @@ void add_setting_options(Command command, Context& context, PositionCommand& opt
 }  // namespace
 
 void add_position_verbs(Command group, Context& context) {
-  constexpr const char* kCommon =
+  constexpr std::string_view kCommon =
       "Nothing moves. It is refused while a run is active, while the axes move or their position "
       "is "
       "not known, and while\na shift, rotation, scaling or mirror image is in force. What is set "
@@ -71,10 +73,11 @@ void add_position_verbs(Command group, Context& context) {
   auto options = std::make_shared<PositionCommand>();
   datum.add_option("MACHINE", options->machine, "The machine").required();
   add_setting_options(datum, context, *options);
-  datum.footer(std::string(kCommon) +
-               "Fanuc, RS274/NGC: every axis of a work offset. Centurion: its Z, to 0. TNC: every "
-               "axis of its datum.\n\nExample:\n  dnc machine datum mill-1 X 12.5 --unit mm "
-               "--offset G54");
+  datum.footer(fmt::format(
+      "{}{}", kCommon,
+      "Fanuc, RS274/NGC: every axis of a work offset. Centurion: its Z, to 0. TNC: every "
+      "axis of its datum.\n\nExample:\n  dnc machine datum mill-1 X 12.5 --unit mm "
+      "--offset G54"));
   run_at_server(datum, context, options, set_position);
 
   auto touch = group.add_subcommand("touch-off", "Set a tool's length from the machine's position");
@@ -84,13 +87,13 @@ void add_position_verbs(Command group, Context& context) {
       .required()
       .check(in_range(1, 99'999'999));
   add_setting_options(touch, context, *tool);
-  touch.footer(
-      std::string(kCommon) +
+  touch.footer(fmt::format(
+      "{}{}", kCommon,
       "VALUE is a coordinate of --offset. Mills: Z. Lathes: X and Z; the wear of that axis "
       "becomes 0. A TNC has the length in\nTOOL DEF of a program: see dnc machine "
       "playback. A machine of LinuxCNC or a board of the Grbl class does not move by\nlengths of "
       "tools: it is refused there.\n\nExample:\n  dnc machine touch-off lathe-1 3 X 40.02 --unit "
-      "mm --offset G54");
+      "mm --offset G54"));
   run_at_server(touch, context, tool, touch_off);
 
   auto playback = group.add_subcommand(
