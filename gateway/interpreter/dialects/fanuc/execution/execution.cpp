@@ -340,7 +340,9 @@ bool execute_nc(Run& run) {
       if (run.tilted.is_on() && !check_tilted_block(run)) return false;
       apply_motion_groups(run);
       if (!apply_modes(run) || !apply_before_motion(run) || !apply_frames(run)) return false;
-      if (!execute_motion(run) || !check_last_stage(run)) return false;
+      if (!execute_motion(run)) return false;
+      if (run.tilted.is_on() && !take_length_offset(run)) return false;
+      if (!check_last_stage(run)) return false;
     }
     run.update_special();
     parts.stage = Stage::AfterMove;
@@ -358,6 +360,7 @@ bool execute_call(Run& run) {
   if (run.tilted.is_on() && !check_tilted_block(run)) return false;
   apply_motion_groups(run);
   if (!apply_modes(run) || !apply_before_motion(run) || !apply_frames(run)) return false;
+  if (run.tilted.is_on() && (!take_length_offset(run) || !check_last_stage(run))) return false;
   run.update_special();
   return plan_macro_call(run);
 }

@@ -188,6 +188,16 @@ void TiltedPath::turn_to(const Origin& origin, Pose pose, const std::optional<Fe
   state_.flat = flat_of(to);
 }
 
+bool TiltedPath::lags() const {
+  const Position start = on_machine(state_.flat);
+  return length(linear_of(start) - linear_of(state_.machine)) > kSamePlace;
+}
+
+void TiltedPath::take_length(const Origin& origin, const std::optional<Feed>& feed, bool rests) {
+  if (feed) return deliver_straight(Line{origin, state_.flat, *feed, rests}, &EventSink::on_line);
+  deliver_straight(Rapid{origin, state_.flat}, &EventSink::on_rapid);
+}
+
 void TiltedPath::on_rapid(const Rapid& event) {
   if (!is_on()) return out().on_rapid(event);
   deliver_straight(event, &EventSink::on_rapid);
@@ -286,9 +296,7 @@ void TiltedPath::on_arc(const Arc& event) {
   if (!is_on()) return out().on_arc(event);
   if (fault_) return;
   // A length that came into force since the last move is compensated before the arc.
-  const Position start = on_machine(state_.flat);
-  if (length(linear_of(start) - linear_of(state_.machine)) > kSamePlace)
-    deliver_straight(Line{event.origin, state_.flat, event.feed}, &EventSink::on_line);
+  if (lags()) take_length(event.origin, event.feed, false);
   if (fault_) return;
   Arc arc;
   if (!arc_on_machine(event, arc)) return deliver_pieces_of_arc(event);

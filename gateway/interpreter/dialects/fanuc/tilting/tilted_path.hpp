@@ -49,6 +49,11 @@ class TiltedPath final : public EventFilter {
   /// The rotary axes alone move: a line with `feed`, else a rapid move.
   void turn_to(const Origin& origin, Pose pose, const std::optional<Feed>& feed, bool rests);
   void set_length(double length) { state_.tilt.length = length; }
+  double length_in_force() const { return state_.tilt.length; }
+  /// Whether a length has come into force since the last move that takes the axes elsewhere.
+  bool lags() const;
+  /// The axes go to where the tool's length has the tip where it is in the program.
+  void take_length(const Origin& origin, const std::optional<Feed>& feed, bool rests);
   /// Of machine coordinates, with the rotary axes as they are.
   Position flat_of(const Position& machine) const;
 

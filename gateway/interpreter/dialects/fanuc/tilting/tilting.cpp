@@ -239,7 +239,33 @@ bool follow_length_offset(Run& run) {
     return refuse(run, ErrorCode::ImproperCommand,
                   "in a tilted plane the tool's length is compensated along Z");
   }
+  if (run.state.length_offset == run.tilted.length_in_force()) return true;
+  // Moves that still wait are those of the length before.
+  if (run.options.kinematics.type != KinematicType::TableTable) {
+    if (run.state.is_compensating())
+      return refuse(run, ErrorCode::ImproperCommand,
+                    "the tool's length changes in cutter compensation; G40 comes before it");
+    if (!flush_stages(run)) return false;
+  }
   run.tilted.set_length(run.state.length_offset);
+  return true;
+}
+
+bool take_length_offset(Run& run) {
+  const ModalState& state = run.state;
+  const bool waits = !state.position.same_point(run.tilted.flat());
+  if (run.tilted.kind() != Kind::Plane || waits || !run.tilted.lags()) return true;
+  const std::uint8_t mode = state.g[kMotionGroup];
+  if (mode > 1 && !state.is_cycle()) {
+    return refuse(run, ErrorCode::ImproperCommand,
+                  "G00 or G01 is needed for the move by the tool's length");
+  }
+  const bool is_fed = mode == 1 && !state.is_cycle();
+  if (is_fed && !check_feed(run)) return false;
+  const std::optional<Feed> feed = is_fed ? std::optional(run.active_feed()) : std::nullopt;
+  run.events();
+  run.tilted.take_length(run.origin, feed, run.rests_at_end());
+  run.block.parts.has_motion = true;
   return true;
 }
 

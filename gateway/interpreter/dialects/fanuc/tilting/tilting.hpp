@@ -21,6 +21,8 @@ bool begin_tip_control(Run& run);
 bool end_tip_control(Run& run);
 /// G43, G44, H and G49 in a tilted plane.
 bool follow_length_offset(Run& run);
+/// At the end of the block: a length that no move of it has taken moves the axes of a head.
+bool take_length_offset(Run& run);
 /// I, J, K in G43.5: the rotary axes of the move's end bring the tool along them. False: an alarm.
 bool aim_tool(Run& run, Position& to);
 /// G53.1.

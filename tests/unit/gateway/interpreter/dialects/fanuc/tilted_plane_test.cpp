@@ -81,6 +81,50 @@ struct PlaneCase {
 };
 class TiltedPlaneMachines : public testing::TestWithParam<PlaneCase> {};
 
+const std::string kTwoTools =
+    "[[tool]]\nnumber = 1\nlength = 50\nradius = 3\n[[tool]]\nnumber = 2\nlength = 80\n";
+const std::string kFacingY = "G90 G00 G43 H1 Z100.\nG68.2 X0 Y0 Z0 I0 J90. K0\nG53.1\nX0 Y0 Z20.\n";
+
+/// The plane's Z is -Y, and the head points along it: a tool that is 30 longer takes the axes back
+/// by 30, though the tip stays on its point of the plane, and the move after it is parallel to it.
+TEST(TiltedPlane, ALengthAloneMovesTheAxesOfAHeadAlongTheTool) {
+  for (const char* block : {"G43 H2 Z20.", "G43 H2", "H2", "G01 F500. H2"}) {
+    const MachineLog log =
+        run_on(kFork, kFacingY + block + "\nG01 X50. F200.\nM30\n", "", kTwoTools);
+    ASSERT_EQ(log.alarm, "") << block;
+    const auto back = log.of_line(5), along = log.of_line(6);
+    ASSERT_EQ(back.size(), 1U) << block;
+    ASSERT_EQ(along.size(), 1U) << block;
+    EXPECT_EQ(back[0].kind, std::string_view(block).starts_with("G01") ? 'L' : 'R');
+    EXPECT_NEAR(back[0].to.raw(Axis::Y), back[0].from.raw(Axis::Y) - 30, kClose);
+    EXPECT_LT(distance(kFork.tip(back[0].to, 80), {0, -20, 0}), kClose);
+    EXPECT_NEAR(along[0].to.raw(Axis::X), along[0].from.raw(Axis::X) + 50, kClose);
+    EXPECT_NEAR(along[0].to.raw(Axis::Y), along[0].from.raw(Axis::Y), kClose);
+  }
+}
+
+/// Without a head the axes are at the tip, whatever the length.
+TEST(TiltedPlane, ALengthAloneMovesNoTable) {
+  const MachineLog log =
+      run_on(kTrunnion, kFacingY + "G43 H2 Z20.\nG41 D1 G01 X50. F200.\nY9. H1\nG40 Y30.\nM30\n",
+             "", kTwoTools);
+  ASSERT_EQ(log.alarm, "");
+  EXPECT_TRUE(log.of_line(5).empty());
+}
+
+/// Moves that wait for the next one would be made with its length.
+TEST(TiltedPlane, ALengthDoesNotChangeWhileMovesWait) {
+  const MachineLog compensated =
+      run_on(kFork, kFacingY + "G41 D1 G01 X50. F200.\nY20.\nX0 H2\nM30\n", "", kTwoTools);
+  EXPECT_TRUE(compensated.alarm.starts_with("PS113")) << compensated.alarm;
+  EXPECT_EQ(compensated.alarm_line, 7U);
+  const MachineLog corner =
+      run_on(kFork, kFacingY + "G01 X50. F200. ,R2.\nY20. H2\nM30\n", "", kTwoTools);
+  EXPECT_NE(corner.alarm, "");
+  const MachineLog arc = run_on(kFork, kFacingY + "G02 H2\nM30\n", "", kTwoTools);
+  EXPECT_TRUE(arc.alarm.starts_with("PS113")) << arc.alarm;
+}
+
 /// Of random planes: the tool is normal to the plane and the tip is on the programmed point.
 TEST_P(TiltedPlaneMachines, BringTheTipToThePointWithTheToolNormal) {
   const TestMachine& machine = *GetParam().machine;
