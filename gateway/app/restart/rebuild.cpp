@@ -307,11 +307,27 @@ void Rebuild::on_open(interpreter::EventSink& out) {
   approach.feed = report_.delivered.feed;
   approach.spindle_turns = report_.delivered.spindle.state != interpreter::SpindleState::Off;
   report_.approach = approach.plan();
+  approach_fault_ = tilt_fault(approach);
+  if (!approach_fault_.empty()) return;
   write_approach(report_.approach, report_.delivered, report_.after, out);
   const auto& stopped_at = report_.stopped_at;
   const bool is_end = report_.after.block == parts_.plan.ending.executed.executed;
   parts_.tracker.measure(report_.after.block + 1,
                          is_end && stopped_at ? *stopped_at : report_.machine);
+}
+
+/// The approach goes up and down along the tool axis. With a head that tilts the tool that is
+/// through the part.
+std::string Rebuild::tilt_fault(const Approach& approach) const {
+  const bool moves = !report_.approach.before.empty() || !report_.approach.after.empty();
+  const bool is_tilted_there = parts_.interpreter.tilts_tool(approach.to);
+  if (!moves || (!is_tilted_there && !parts_.interpreter.tilts_tool(approach.from))) return {};
+  return fmt::format(
+      "the tool is tilted {}, and an approach along {} would lead through the part: {}",
+      is_tilted_there ? "at the place" : "where the axes are",
+      interpreter::letter(approach.tool_axis),
+      is_tilted_there ? "restart at a block before the head tilts"
+                      : "retract it and bring the head back by MDI first");
 }
 
 /// Block by block over the place, until the end of its block has come through the look-ahead.
@@ -338,6 +354,7 @@ Rebuild::State Rebuild::open() {
     report_.frame = parts_.interpreter.frame();
   }
   if (const auto equal = compare_ending(); !equal) return fail_with(equal.error().what);
+  if (!approach_fault_.empty()) return fail_with(approach_fault_);
   const auto& executed = parts_.plan.ending.executed;
   report_.is_path_equal = report_.after.block == executed.executed && executed.path != 0;
   phase_ = Phase::Preview;

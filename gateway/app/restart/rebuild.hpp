@@ -80,6 +80,7 @@ class Rebuild {
   Step run_to(std::uint64_t block, bool may_lack_answers = false);
   bool answer();
   void on_open(interpreter::EventSink& out);
+  std::string tilt_fault(const Approach& approach) const;
   void take_lengths();
   Result<void> compare_ending() const;
 
@@ -101,6 +102,7 @@ class Rebuild {
   std::optional<interpreter::Axis> tool_axis_;
   /// Of the last block that is not executed again.
   std::optional<machine::ToolLengths> lengths_;
+  std::string approach_fault_;  ///< why no approach was given to the machine
   std::size_t preview_steps_ = 0;
   RestartReport report_;
 };

@@ -198,6 +198,10 @@ class Interpreter {
   /// more than modes(): ask for it when modes().frame_changes has another value.
   virtual std::optional<CoordinateFrame> frame() const { return std::nullopt; }
 
+  /// Whether rotary axes at `machine` tilt the tool against its axis, so that a move along that
+  /// axis does not draw it straight out of a cut.
+  virtual bool tilts_tool(const Position& /*machine*/) const { return false; }
+
   /// Both only at a block boundary, that is, not while a question is open.
   virtual Snapshot snapshot() const = 0;
   /// Continues from a snapshot of the same dialect and version. Errors: Unsupported, Corrupt; state

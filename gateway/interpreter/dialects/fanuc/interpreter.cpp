@@ -244,6 +244,12 @@ std::optional<CoordinateFrame> FanucInterpreter::frame() const {
   return frame_of(run_);
 }
 
+bool FanucInterpreter::tilts_tool(const Position& at) const {
+  constexpr double kStraight = 1e-9;
+  const Kinematics& machine = run_.options.kinematics;
+  return machine.exists() && tool_direction(machine, pose_of(machine, at))[2] < 1 - kStraight;
+}
+
 void FanucInterpreter::after_restore() {
   run_.text.invalidate();
   run_.block.clear();

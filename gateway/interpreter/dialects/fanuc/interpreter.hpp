@@ -19,6 +19,7 @@ class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public
   Result<void> begin_next_text() override;
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
+  bool tilts_tool(const Position& machine) const override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
 

@@ -256,5 +256,36 @@ TEST_F(Restart, NothingStartsFromADamagedCheckpoint) {
   EXPECT_TRUE(shop.path.empty()) << "nothing was given to the machine";
 }
 
+/// With a head the approach along Z would lead a tilted tool through the part, in or out.
+TEST(RestartOfAHead, IsRefusedWhereTheToolIsTilted) {
+  const auto setup = interpreter::parse_setup(
+      "[control]\nmodel = \"30i\"\nkinematics = \"head-head\"\nrotary_master = \"C+\"\n"
+      "rotary_slave = \"A+\"\nhead_centers = [ { X = 0.0, Y = 0.0 }, { Y = 0.0, Z = 100.0 } ]\n");
+  ASSERT_TRUE(setup) << setup.error().what;
+  RestartFixture shop(interpreter::kFanucDialect, *setup, "20x");
+  shop.set_checkpoint_interval(std::chrono::milliseconds(200));
+  shop.push("P",
+            "O0541\nN10 G90 G00 X0 Y0 Z50.\nN20 X10.\nN30 G68.2 X0 Y0 Z0 I0 J60. K0\nN40 G53.1\n"
+            "N50 G01 X5. Y5. Z-5. F600\nN60 M00\nN70 X20.\nG69\nM30\n");
+  shop.restart_gateway();
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  const std::string run = shop.last_run();
+  ASSERT_TRUE(shop.run_until(
+      [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
+  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+  ASSERT_TRUE(shop.run_on());
+  // from the tilted axes back to where they were not
+  EXPECT_FALSE(shop.begin_restart("P", run, "N20").is_object());
+  EXPECT_THAT(shop.last_end().reason, HasSubstr("tilted where the axes are"));
+  // without a move nothing is in the way
+  ASSERT_TRUE(shop.begin_restart("P", run).is_object()) << shop.last_end().reason;
+  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+  ASSERT_TRUE(shop.run_on());
+  shop.restart_gateway();  // the simulated axes are at their start again
+  EXPECT_FALSE(shop.begin_restart("P", run).is_object());
+  EXPECT_THAT(shop.last_end().reason, HasSubstr("tilted at the place"));
+  EXPECT_TRUE(shop.begin_restart("P", run, "N20").is_object()) << shop.last_end().reason;
+}
+
 }  // namespace
 }  // namespace dripline::gateway
