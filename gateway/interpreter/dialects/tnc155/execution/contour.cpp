@@ -176,8 +176,14 @@ void shape_corner(Run& run) {
   run.compensator.shape_next_corner(OutsideCorner::IntersectCurves);
 }
 
+/// Whether a side of a corner is certain to lie in the plane. A later control takes one coordinate
+/// while RL or RR is in force (iTNC 530, User's Manual: corner rounding, chamfer and its example).
+bool takes_one_coordinate(const Run& run) {
+  return run.options.is_later && run.state.is_compensating();
+}
+
 /// The second side of a corner must lie in the plane as the first one does, and in its contour.
-bool check_blend(Run& run, const PlaneMove& move) {
+bool check_blend(Run& run, const Block& block, const PlaneMove& move) {
   const Blend& blend = run.state.blend;
   if (blend.kind == BlendKind::None) return true;
   if (blend.is_lost) {
@@ -185,7 +191,9 @@ bool check_blend(Run& run, const PlaneMove& move) {
         ErrorCode::PlaneWronglyDefined,
         fmt::format("the contour ended after RND or the chamfer of line {}", blend.origin.line));
   }
-  if (move.has_both && !move.has_third) return true;
+  const bool is_one = takes_one_coordinate(run) && block.compensation != Compensation::Off &&
+                      (move.has_travel || move.is_arc);
+  if ((move.has_both || is_one) && !move.has_third) return true;
   return run.fail(ErrorCode::PlaneWronglyDefined,
                   "the block after RND or a chamfer needs both coordinates of the plane only");
 }
@@ -224,7 +232,7 @@ bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
     if (!run.blend_follows) return true;
   }
   State& state = run.state;
-  if (!check_blend(run, move)) return false;
+  if (!check_blend(run, block, move)) return false;
   // The manual does not state whether the control continues beside the contour or on it: on it the
   // tool would cut too deep by its radius.
   if (block.compensation != Compensation::NotProgrammed) state.needs_side = false;
@@ -291,7 +299,9 @@ bool make_blend(Run& run, const Block& block) {
     blend.kind = BlendKind::TangentialApproach;
   }
   blend.is_stated = block.rounding != RoundingUse::Unstated;
-  if (!last.exists || !last.has_both || last.has_third) {
+  const bool is_one =
+      takes_one_coordinate(run) && !last.starts_contour && (last.is_arc || !(last.from == last.to));
+  if (!last.exists || !(last.has_both || is_one) || last.has_third) {
     return run.fail(ErrorCode::PlaneWronglyDefined,
                     "the block before RND or a chamfer needs both coordinates of the plane only");
   }
