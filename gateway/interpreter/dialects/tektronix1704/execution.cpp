@@ -142,6 +142,8 @@ bool execute_block(Run& run) {
   State& state = run.state;
   const Words& words = state.block.words;
   run.ledger.open(words.present() & (kEndWords | kCenterWords | bit(Address::R)));
+  if (run.options.units == UnitSet::Option1) [[unlikely]]
+    round_to_steps(run);
   GFunction function{true};
   if (words.has(Address::G)) {
     function = apply_g(run, words[Address::G]);

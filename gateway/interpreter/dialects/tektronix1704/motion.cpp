@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "gateway/interpreter/dialects/tektronix1704/path_rules.hpp"
@@ -16,13 +17,6 @@ double feed_value(const ControlOptions& options, std::int32_t count) {
   if (options.units != UnitSet::Option1 || count == 0) return count * options.feed_per_count();
   if (options.option1_feed_is_doubled) return count * 0.2;
   return std::max(count / 2 * 2, 2) * 0.1;
-}
-
-/// Option 1 counts in steps of two; what lies between is rounded toward zero.
-std::int64_t whole_steps(Run& run, std::int64_t count) {
-  if (run.options.units != UnitSet::Option1 || count % 2 == 0) return count;
-  run.warn(Fault::OddCount, run.origin, 0, fmt::format("{}", count));
-  return count - (count > 0 ? 1 : -1);
 }
 
 void emit_line(Run& run, const Counts& to, Pace pace, double feed, bool rests) {
@@ -117,6 +111,18 @@ bool move_depth(Run& run, double to, Pace pace) {
   return true;
 }
 
+void round_to_steps(Run& run) {
+  constexpr std::array kDimensions{Address::X, Address::Y, Address::Z, Address::I,
+                                   Address::J, Address::K, Address::R};
+  Words& words = run.state.block.words;
+  for (const Address address : kDimensions) {
+    if (!words.has(address) || words[address] % 2 == 0) continue;
+    const std::int32_t count = words[address];
+    run.warn(Fault::OddCount, run.origin, 0, fmt::format("{}", count));
+    words.replace(address, count - (count > 0 ? 1 : -1));
+  }
+}
+
 Counts end_point(const Run& run) {
   Counts point = run.state.program;
   const Words& words = run.state.block.words;
@@ -134,12 +140,8 @@ bool move_block(Run& run) {
   if (!state.block.words.has_any(kEndWords)) return true;
   run.ledger.take(kEndWords);
   if (is_arc(state.motion)) return move_arc(run);
-  LineMove move{end_point(run), state.motion == Motion::G50 ? Pace::Rapid : Pace::Feed,
-                flows_on(state.motion)};
-  if (run.options.units == UnitSet::Option1) [[unlikely]] {
-    for (std::int64_t& coordinate : move.to) coordinate = whole_steps(run, coordinate);
-  }
-  return move_line(run, move);
+  return move_line(run, {end_point(run), state.motion == Motion::G50 ? Pace::Rapid : Pace::Feed,
+                         flows_on(state.motion)});
 }
 
 }  // namespace dripline::interpreter::tektronix1704

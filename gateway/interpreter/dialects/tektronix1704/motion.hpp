@@ -24,6 +24,8 @@ bool move_line(Run& run, const LineMove& move);
 /// As a cycle does: one axis to a depth that need not be a whole count.
 bool move_depth(Run& run, double to, Pace pace);
 
+/// Option 1 counts in steps of two; a dimension between them is rounded toward zero.
+void round_to_steps(Run& run);
 /// The end point of a linear block: axes that are named go, the others stay.
 Counts end_point(const Run& run);
 /// Capacity (manual: numbers and units) and travel.

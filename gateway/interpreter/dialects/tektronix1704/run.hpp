@@ -102,6 +102,9 @@ class Words {
   }
   bool has(Address address) const { return (present_ & bit(address)) != 0; }
   bool has_any(std::uint16_t set) const { return (present_ & set) != 0; }
+  void replace(Address address, std::int32_t value) {
+    value_[static_cast<std::size_t>(address)] = value;
+  }
   std::int32_t operator[](Address address) const {
     return value_[static_cast<std::size_t>(address)];
   }
