@@ -21,7 +21,7 @@ void Run::deliver_header() {
 void Run::lead_stages() {
   last = &sink;
   if (rotary.is_on()) last = &rotary;
-  if (tilted.is_on()) last = &tilted;
+  if (tilted.is_on() || (state.uses_compensator && !rotary.is_on())) last = &tilted;
   compensator.lead_to(*last);
   if (is_recording()) {
     blender.lead_to(recorder);
@@ -34,6 +34,7 @@ void Run::lead_stages() {
 
 void Run::place_stages() {
   lead_stages();
+  if (!tilted.is_on()) tilted.place(state.position, increments.mm_per_unit);
   if (!state.uses_compensator) return;
   compensator.place(state.position);
   blender.place(state.position);

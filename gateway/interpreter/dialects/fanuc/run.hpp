@@ -150,7 +150,9 @@ struct Run : BlockRun {
   ProgramSource& source;
   EventSink& sink;
   RotaryPath rotary;
-  EventSink* last = &sink;  ///< where the moves of the path go: `rotary`, `tilted`, or the sink
+  /// Where the moves of the path go: `rotary`, `tilted`, or the sink. `tilted` also checks the
+  /// strokes of compensated moves.
+  EventSink* last = &sink;
   compensation::Compensator compensator;
   blending::CornerBlender blender;  ///< in front of it
   TextCursor text;

@@ -80,6 +80,7 @@ void begin_stages(Run& run) {
   if (state.uses_compensator) return;
   run.events();  // the header first
   run.compensator.reset(state.position);
+  if (!run.tilted.is_on()) run.tilted.place(state.position, run.increments.mm_per_unit);
   state.uses_compensator = true;
   run.lead_stages();
 }

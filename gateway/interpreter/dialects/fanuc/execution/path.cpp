@@ -30,9 +30,10 @@ bool same_place(const Position& a, const Position& b) {
   return a.same_point(b);
 }
 
-/// In G68.2 and G43.4 the stage that knows the axes' moves checks them.
+/// In G68.2, G43.4 and cutter compensation the stage that knows the axes' moves checks them.
 bool is_limited(const Run& run) {
-  return (run.options.checks_stroke() || run.state.zone.is_on) && !run.tilted.is_on();
+  return (run.options.checks_stroke() || run.state.zone.is_on) && !run.tilted.is_on() &&
+         !run.state.is_compensating();
 }
 
 /// The part of the path that lies within the box, by clipping axis after axis.

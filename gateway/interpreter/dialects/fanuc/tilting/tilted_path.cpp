@@ -95,7 +95,8 @@ bool TiltedPath::checks_stroke() const {
 
 bool TiltedPath::check(const Origin& origin, const Position& from, const Position& to) {
   const Units units = state_.tilt.mm_per_unit == 1 ? Units::Millimeter : Units::Inch;
-  std::string text = stroke_fault(options_, zone_, {from, to, {.units = units}});
+  const LengthDisplay display{.units = units, .x_is_diameter = options_.x_is_diameter};
+  std::string text = stroke_fault(options_, zone_, {from, to, display});
   if (text.empty()) return true;
   fault_ = Fault{ErrorCode::OverTravel, origin, std::move(text)};
   return false;
@@ -198,19 +199,53 @@ void TiltedPath::take_length(const Origin& origin, const std::optional<Feed>& fe
   deliver_straight(Rapid{origin, state_.flat}, &EventSink::on_rapid);
 }
 
+void TiltedPath::place(const Position& machine, double mm_per_unit) {
+  state_.machine = machine;
+  state_.tilt.mm_per_unit = mm_per_unit;
+}
+
+/// Of the machine's axes already.
+template <class Event>
+void TiltedPath::deliver_checked(const Event& event, void (EventSink::*deliver)(const Event&)) {
+  if (fault_) return;
+  if constexpr (std::is_same_v<Event, Arc>) {
+    if (!check_arc(event)) return;
+  } else {
+    if (checks_stroke() && !check(event.origin, state_.machine, event.to)) return;
+  }
+  (out().*deliver)(event);
+  state_.machine = event.to;
+}
+
+/// Never in these modes.
+void TiltedPath::on_probe(const Probe& event) {
+  if (event.result) state_.machine = event.result->at;
+  out().on_probe(event);
+}
+
+void TiltedPath::on_units(const UnitsChange& event) {
+  state_.tilt.mm_per_unit = event.units == Units::Inch ? Length::kMillimetersPerInch : 1;
+  out().on_units(event);
+}
+
+/// A program with a move that was not made ends with its alarm.
+void TiltedPath::on_end(const End& event) {
+  if (!fault_) out().on_end(event);
+}
+
 void TiltedPath::on_rapid(const Rapid& event) {
-  if (!is_on()) return out().on_rapid(event);
+  if (!is_on()) return deliver_checked(event, &EventSink::on_rapid);
   deliver_straight(event, &EventSink::on_rapid);
 }
 
 void TiltedPath::on_line(const Line& event) {
-  if (!is_on()) return out().on_line(event);
+  if (!is_on()) return deliver_checked(event, &EventSink::on_line);
   deliver_straight(event, &EventSink::on_line);
 }
 
 /// A rigid tap: as long as it was, along whatever axes.
 void TiltedPath::on_thread(const Thread& event) {
-  if (!is_on()) return out().on_thread(event);
+  if (!is_on()) return deliver_checked(event, &EventSink::on_thread);
   if (fault_) return;
   Thread thread = event;
   thread.to = on_machine(event.to);
@@ -293,7 +328,7 @@ void TiltedPath::deliver_pieces_of_arc(const Arc& arc) {
 }
 
 void TiltedPath::on_arc(const Arc& event) {
-  if (!is_on()) return out().on_arc(event);
+  if (!is_on()) return deliver_checked(event, &EventSink::on_arc);
   if (fault_) return;
   // A length that came into force since the last move is compensated before the arc.
   if (lags()) take_length(event.origin, event.feed, false);

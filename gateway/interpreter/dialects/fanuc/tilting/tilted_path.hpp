@@ -7,7 +7,8 @@
 #include "gateway/interpreter/stages/event_filter.hpp"
 
 /// G68.2, G43.4 and G43.5: the last stage before the sink. Moves of the tip as the program has it
-/// come in, moves of the machine's axes go out.
+/// come in, moves of the machine's axes go out. Without them it only checks the strokes of a path
+/// that cutter compensation has made.
 namespace dripline::interpreter::fanuc {
 
 struct ControlOptions;
@@ -37,6 +38,8 @@ class TiltedPath final : public EventFilter {
   /// `machine` is where the axes are.
   void begin(const Tilt& tilt, const Position& machine);
   void end() { state_.tilt.kind = Tilt::Kind::None; }
+  /// Without these modes: where the moves that come in continue from.
+  void place(const Position& machine, double mm_per_unit);
   Tilt::Kind kind() const { return state_.tilt.kind; }
   bool is_on() const { return kind() != Tilt::Kind::None; }
 
@@ -69,6 +72,9 @@ class TiltedPath final : public EventFilter {
   void on_line(const Line& event) override;
   void on_arc(const Arc& event) override;
   void on_thread(const Thread& event) override;
+  void on_probe(const Probe& event) override;
+  void on_units(const UnitsChange& event) override;
+  void on_end(const End& event) override;
 
   /// What a snapshot keeps.
   struct State {
@@ -88,6 +94,8 @@ class TiltedPath final : public EventFilter {
   bool check(const Origin& origin, const Position& from, const Position& to);
   bool check_pieces(const Origin& origin, const Position& to, int pieces);
   bool check_arc(const Arc& arc);
+  template <class Event>
+  void deliver_checked(const Event& event, void (EventSink::*deliver)(const Event&));
   bool arc_on_machine(const Arc& flat, Arc& arc) const;
   template <class Event>
   void deliver_straight(const Event& whole, void (EventSink::*deliver)(const Event&));
