@@ -194,11 +194,11 @@ struct State {
   double rotary_feed = 0;  ///< degrees per minute
 
   Compensation compensation = Compensation::Off;
-  bool uses_stages = false;       ///< from the first RL, RR, RND or chamfer on
-  bool joins = false;             ///< moves pass the corner stage: one waits there
-  bool is_parallel = false;       ///< after M98: compensation has to be programmed again
-  bool needs_side = false;        ///< a tool call ended RL or RR: R0, RL or RR must be programmed
-  bool has_compensated = false;   ///< a contour was started in this run
+  bool uses_stages = false;      ///< from the first RL, RR, RND or chamfer on
+  bool joins = false;            ///< moves pass the corner stage: one waits there
+  bool is_parallel = false;      ///< after M98: compensation has to be programmed again
+  bool needs_side = false;       ///< RL or RR has ended without R0: it, RL or RR must be programmed
+  bool has_compensated = false;  ///< a contour was started in this run
   bool is_first_contour = false;  ///< the one that was started last is that one
   bool awaits_contour = false;    ///< RL or RR is on, and no block in the plane has followed
   Blend blend;

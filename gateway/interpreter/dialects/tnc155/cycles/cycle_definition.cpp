@@ -161,8 +161,10 @@ bool take_place(Run& run, const Block& block) {
   return true;
 }
 
-/// A contour ends as by M98 before what it is made of changes.
+/// A contour ends as by M98 before what it is made of changes (manual: coordinate transformations).
+/// Whether it does on a later control is not known.
 bool transform(Run& run, const Transformation& changed) {
+  if (run.options.is_later) run.state.needs_side |= run.state.is_compensating();
   end_contour(run, true);
   change_transformation(run, changed);
   return true;

@@ -238,7 +238,8 @@ bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
   if (block.compensation != Compensation::NotProgrammed) state.needs_side = false;
   if (state.needs_side && move.has_any) {
     return refuse_start(run,
-                        "the tool call ended RL or RR, and the block has neither these nor R0");
+                        "a tool call or the cycle of a transformation ended RL or RR, and the "
+                        "block has neither these nor R0");
   }
   if (state.blend.kind == BlendKind::TangentialApproach) warn_of_quadrant(run, move);
   if (state.blend.kind == BlendKind::None) release_corner(run);
