@@ -54,6 +54,9 @@ class RestartOfGolden : public testing::TestWithParam<std::string> {
     const std::uint64_t executed = cut->last_end().executed;
     cut->path.clear();
     const auto report = cut->begin_restart("P", run);
+    // no approach leads to a tilted tool (RestartOfAHead)
+    const bool is_tilted = cut->last_end().reason.find("the tool is tilted") != std::string::npos;
+    if (!report.is_object() && is_tilted) return;
     ASSERT_TRUE(report.is_object())
         << cut->start_answer.reason << cut->last_end().reason << " after block " << executed;
     EXPECT_EQ(report["after"]["block"], executed);
