@@ -39,19 +39,25 @@ Result<bool> PostgresqlPlace::try_take(postgresql::Database& database, std::stri
   const auto has_terms = postgresql::has_column(database, "store_holder", "term");
   if (!has_terms) return fail(has_terms.error());
   if (auto begun = database.begin(); !begun) return fail(begun.error());
+  std::int64_t until = 0;
+  bool is_namesake = false;
   const auto free = sql::first_row(
       database,
-      "SELECT holder = '' OR holder = ?1 OR until <= now(), described FROM store_holder "
-      "WHERE id = 1 FOR UPDATE",
+      "SELECT holder = '' OR holder = ?1 OR until <= now(), described, holder = ?1 AND until > "
+      "now(), CAST(extract(epoch FROM until) * 1000000 AS bigint) FROM store_holder WHERE id = 1 "
+      "FOR UPDATE",
       [&](const sql::Statement& row) {
         other = row.text(1);
+        is_namesake = row.integer(2) != 0;
+        until = row.integer(3);
         return row.integer(0) != 0;
       },
       owner_.holder);
   if (!free) return fail(free.error());
-  if (!free->value_or(false)) {
+  const auto gone = is_namesake ? is_gone(until, database.label(), other) : true;
+  if (!gone || !*gone || !free->value_or(false)) {
     database.roll_back();
-    return false;
+    return gone ? Result<bool>(false) : fail(gone.error());
   }
   const auto taken =
       sql::run(database,
@@ -74,6 +80,24 @@ Result<bool> PostgresqlPlace::try_take(postgresql::Database& database, std::stri
   if (auto done = database.commit(); !done) return fail(done.error());
   term_ = term;
   return true;
+}
+
+/// Whether the server that has the place by our name was one of before, which was killed. One
+/// renewal may still have been on its way. Errors: Conflict (it renews).
+Result<bool> PostgresqlPlace::is_gone(std::int64_t until, const std::string& label,
+                                      const std::string& described) {
+  constexpr int kOnItsWay = 1;
+  const auto now = SteadyClock::now();
+  const bool is_renewed = namesake_ && namesake_->until != until;
+  const int renewals = is_renewed ? namesake_->renewals + 1 : namesake_ ? namesake_->renewals : 0;
+  if (renewals > kOnItsWay) {
+    return fail(Errc::Conflict,
+                "database {} is used by a server of the same server.id that works ({}): this "
+                "one's state folder is a copy. Delete server.id in the copy, and start it again",
+                label, described);
+  }
+  if (!namesake_ || is_renewed) namesake_ = Namesake{until, now, renewals};
+  return now - namesake_->since >= owner_.lease / 2;
 }
 
 Result<void> PostgresqlPlace::take_within(postgresql::Database& database) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "storage/opened_store.hpp"
@@ -21,7 +22,7 @@ namespace dripline::storage {
 ///   after another has the place, stores no row.
 /// - The place is another's only after it was given back, or was not renewed for the holder's lease
 ///   by the database's clock, or its holder (of the same name, which has a folder's lock) begins
-///   again.
+///   again. A namesake that still renews is another server, with a copy of the folder: refused.
 /// What is not: that a server knows at once that it lost the place. Until it writes or renews (a
 /// quarter of the lease) it may read, and send what it has to machines; gateways refuse that by its
 /// term (protocol/dds).
@@ -38,7 +39,8 @@ class PostgresqlPlace {
   explicit PostgresqlPlace(Owner owner) : owner_(std::move(owner)) {}
 
   /// A writer of ours that was frozen with the row locked is disconnected, once its lease is over.
-  /// Errors: Busy (another server has it; another session has locked the row), Io.
+  /// Errors: Busy (another server has it; another session has locked the row), Conflict (a server
+  /// that works has the same name), Io.
   Result<void> take(postgresql::Database& database);
   /// After a migration from a schema without terms: what `take` could not do.
   Result<void> raise_term(postgresql::Database& database);
@@ -55,10 +57,18 @@ class PostgresqlPlace {
   void give_back(sql::Database& database) const;
 
  private:
+  /// What the row was when it was looked at last, while it had our name and its lease.
+  struct Namesake {
+    std::int64_t until = 0;  ///< of its lease, microseconds
+    std::chrono::steady_clock::time_point since;
+    int renewals = 0;  ///< that were seen
+  };
   Result<bool> try_take(postgresql::Database& database, std::string& other);
+  Result<bool> is_gone(std::int64_t until, const std::string& label, const std::string& described);
   Result<void> take_within(postgresql::Database& database);
 
   const Owner owner_;
+  std::optional<Namesake> namesake_;
   bool may_be_ours_ = false;
   std::uint64_t term_ = 0;
 };

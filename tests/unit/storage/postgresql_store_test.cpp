@@ -18,11 +18,21 @@ class PostgresqlStoreTest : public StoreTest {
   PostgresqlStoreTest() : StoreTest(sql::Engine::Postgresql) {}
 
   Result<std::unique_ptr<PostgresqlStore>> open_another(const std::string& holder = "") {
+    return open_waiting(holder, std::chrono::milliseconds(0));
+  }
+  Result<std::unique_ptr<PostgresqlStore>> open_waiting(
+      const std::string& holder, std::chrono::milliseconds wait,
+      std::chrono::milliseconds lease = std::chrono::seconds(3)) {
     return PostgresqlStore::open({.url = database_->url(),
                                   .holder = holder,
                                   .described = "dncd 7 on srv-2",
-                                  .wait_for_holder = std::chrono::milliseconds(0)},
+                                  .lease = lease,
+                                  .wait_for_holder = wait},
                                  clock_);
+  }
+  /// Its lease is not renewed while the test lasts, as of a server that was killed.
+  Result<std::unique_ptr<PostgresqlStore>> open_as_if_killed(const std::string& holder) {
+    return open_waiting(holder, std::chrono::milliseconds(0), std::chrono::minutes(10));
   }
   void lose_connections() {
     change(
@@ -51,12 +61,25 @@ TEST_F(PostgresqlStoreTest, APlaceThatIsNotRenewedEnds) {
   EXPECT_TRUE(second) << second.error().what;
 }
 
-TEST_F(PostgresqlStoreTest, TheSameServerHasItsPlaceAgainAtOnce) {
+TEST_F(PostgresqlStoreTest, TheSameServerHasItsPlaceAgainBeforeItsLeaseEnds) {
   store_.reset();
-  auto first = open_another("srv-2");
+  auto first = open_as_if_killed("srv-2");
   ASSERT_TRUE(first) << first.error().what;
-  const auto again = open_another("srv-2");  // the first is as one that was killed
+  const auto again = open_waiting("srv-2", std::chrono::seconds(8));
   EXPECT_TRUE(again) << again.error().what;
+}
+
+/// Of a folder that was copied to a computer of the same name.
+TEST_F(PostgresqlStoreTest, ANamesakeOfAServerThatWorksIsRefused) {
+  store_.reset();
+  const auto first = open_another("srv-2");
+  ASSERT_TRUE(first) << first.error().what;
+  const auto second = open_waiting("srv-2", std::chrono::seconds(8));
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::Conflict);
+  EXPECT_NE(second.error().what.find("Delete server.id in the copy"), std::string::npos)
+      << second.error().what;
+  EXPECT_TRUE((*first)->probe()) << "and keeps its place";
 }
 
 /// A server that was frozen and wakes up after another has taken its place.
@@ -79,10 +102,10 @@ TEST_F(PostgresqlStoreTest, WhoLostThePlaceStoresNothing) {
 TEST_F(PostgresqlStoreTest, ATermOfBeforeStoresNothing) {
   ASSERT_TRUE(store_->runs.create(make_run("r1")));
   store_.reset();
-  auto first = open_another("srv-2");
+  auto first = open_as_if_killed("srv-2");
   ASSERT_TRUE(first) << first.error().what;
   EXPECT_EQ((*first)->records.store(make_batch(1, 3)), 3u);
-  const auto second = open_another("srv-2");
+  const auto second = open_waiting("srv-2", std::chrono::seconds(8));
   ASSERT_TRUE(second) << second.error().what;
   EXPECT_GT((*second)->term(), (*first)->term());
   const auto before = query("SELECT count(*) FROM record");
@@ -108,11 +131,13 @@ TEST_F(PostgresqlStoreTest, TermsOnlyGrow) {
   }
   // A backup of an hour ago is restored: what gateways have seen since is not given again.
   change("UPDATE store_holder SET term = term - 3600");
-  const auto restored = open_another("b");
+  auto restored = open_another("b");
   ASSERT_TRUE(restored) << restored.error().what;
   EXPECT_GT((*restored)->term(), last - 60);
+  restored->reset();
   change("UPDATE store_holder SET term = 9000000000");  // the clock was wrong once
   const auto after = open_another("b");
+  ASSERT_TRUE(after) << after.error().what;
   EXPECT_EQ((*after)->term(), 9000000001u);
 }
 
