@@ -75,7 +75,7 @@ TEST_F(Postgresql, AMachineIsFedAndReportsEveryLineOnce) {
   EXPECT_EQ(health.status, 200) << health.body;
 }
 
-TEST_F(Postgresql, AKilledServerHasItsDatabaseAgainAtOnce) {
+TEST_F(Postgresql, AKilledServerHasItsDatabaseAgainSoon) {
   begin();
   std::string id = system_->start_run("O0300");
   for (int i = 0; i < 10 && !HasFailure(); ++i) {
