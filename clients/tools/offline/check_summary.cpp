@@ -161,47 +161,64 @@ void CheckSummary::on_line(const Line& line) {
   move_to(line.to);
 }
 
-/// An arc reaches beyond its ends where it passes a quarter of its circle.
-void CheckSummary::extend_arc(const Arc& arc) {
+Length CheckSummary::radius_of(const Arc& arc) const {
   const PlaneAxes axes = axes_of(arc.plane);
-  const double first = last_.raw(axes.first) - arc.center_first.mm();
-  const double second = last_.raw(axes.second) - arc.center_second.mm();
-  const double radius = std::hypot(first, second);
-  const double start = Angle::radians(std::atan2(second, first)).degrees();
-  const double sense = arc.turn == Turn::Counterclockwise ? 1 : -1;
-  for (int quarter = 0; quarter < 4; ++quarter) {
-    double turned = sense * (quarter * 90.0 - start);  // -450 to 450
-    if (turned >= 360) turned -= 360;
-    while (turned < 0) turned += 360;
-    if (turned > arc.sweep.degrees()) continue;
-    const double side = quarter < 2 ? radius : -radius;
-    if (quarter % 2 == 0) {
-      extend(axes.first, arc.center_first.mm() + side);
-    } else {
-      extend(axes.second, arc.center_second.mm() + side);
-    }
+  const PlaneVector center{arc.center_first.mm(), arc.center_second.mm()};
+  return Length::mm(length(in_plane(last_, axes) - center));
+}
+
+/// Whether all of its circle lies between coordinates that were reached: nearly always, and much
+/// quicker to see than which quarters the arc passes.
+bool CheckSummary::has_reached(const Arc& arc, Length radius) const {
+  const auto is_between = [&](Axis axis, Length center) {
+    const auto& extent = summary_.extents[static_cast<std::size_t>(axis)];
+    return extent && extent->least <= (center - radius).mm() &&
+           (center + radius).mm() <= extent->most;
+  };
+  const PlaneAxes axes = axes_of(arc.plane);
+  return is_between(axes.first, arc.center_first) && is_between(axes.second, arc.center_second);
+}
+
+/// An arc reaches beyond its ends where it passes a quarter of its circle.
+void CheckSummary::extend_arc(const Arc& arc, Length radius) {
+  if (has_reached(arc, radius)) return;
+  constexpr double kFull = 360, kHalf = 180;
+  constexpr std::array<PlaneVector, 4> kQuarters{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  const PlaneAxes axes = axes_of(arc.plane);
+  const PlaneVector center{arc.center_first.mm(), arc.center_second.mm()};
+  const PlaneVector start = in_plane(last_, axes) - center, end = in_plane(arc.to, axes) - center;
+  const double sense = arc.turn == Turn::Counterclockwise ? 1 : -1, sweep = arc.sweep.degrees();
+  for (const PlaneVector& quarter : kQuarters) {
+    const bool is_after_start = sense * cross(start, quarter) >= 0;
+    const bool is_before_end = sense * cross(quarter, end) >= 0;
+    const bool is_passed =
+        sweep < kHalf ? is_after_start && is_before_end : is_after_start || is_before_end;
+    if (!is_passed && sweep < kFull) continue;
+    if (quarter.first != 0) extend(axes.first, center.first + quarter.first * radius.mm());
+    if (quarter.second != 0) extend(axes.second, center.second + quarter.second * radius.mm());
   }
 }
 
-Length CheckSummary::length_of(const Arc& arc) const {
-  const PlaneAxes axes = axes_of(arc.plane);
-  const Length radius = hypot(last_.linear(axes.first) - arc.center_first,
-                              last_.linear(axes.second) - arc.center_second);
-  const Length rise = arc.to.linear(axes.normal) - last_.linear(axes.normal);
-  return hypot(radius * arc.sweep.radians(), rise);
+Length CheckSummary::length_of(const Arc& arc, Length radius) const {
+  const Axis normal = axes_of(arc.plane).normal;
+  const Length rise = arc.to.linear(normal) - last_.linear(normal);
+  const Length turned = radius * arc.sweep.radians();
+  return rise == Length{} ? turned : hypot(turned, rise);
 }
 
 void CheckSummary::on_arc(const Arc& arc) {
-  extend_arc(arc);
-  cut({.to = arc.to, .length = length_of(arc), .arc = &arc, .rests = arc.rests}, arc.feed);
+  const Length radius = radius_of(arc);
+  extend_arc(arc, radius);
+  cut({.to = arc.to, .length = length_of(arc, radius), .arc = &arc, .rests = arc.rests}, arc.feed);
   move_to(arc.to);
 }
 
 void CheckSummary::on_thread(const Thread& thread) {
   std::optional<Arc> arc;
   if (thread.arc) arc = arc_of(thread);
-  if (arc) extend_arc(*arc);
-  const Length path = arc ? length_of(*arc) : distance(last_, thread.to);
+  const Length radius = arc ? radius_of(*arc) : Length{};
+  if (arc) extend_arc(*arc, radius);
+  const Length path = arc ? length_of(*arc, radius) : distance(last_, thread.to);
   cut({.to = thread.to, .length = path, .arc = arc ? &*arc : nullptr},
       Feed::per_revolution(mean_lead(thread, path)));
   move_to(thread.to);

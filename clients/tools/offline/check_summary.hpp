@@ -100,8 +100,10 @@ class CheckSummary final : public EventSink {
   TimedMove timed(const Stretch& stretch) const;
   void add_seconds(std::uint64_t block, double seconds);
   void extend(Axis axis, double value);
-  void extend_arc(const Arc& arc);
-  Length length_of(const Arc& arc) const;
+  Length radius_of(const Arc& arc) const;
+  bool has_reached(const Arc& arc, Length radius) const;
+  void extend_arc(const Arc& arc, Length radius);
+  Length length_of(const Arc& arc, Length radius) const;
   double spindle_speed() const;
 
   Summary summary_;

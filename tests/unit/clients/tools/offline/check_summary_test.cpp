@@ -1,4 +1,5 @@
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +133,37 @@ TEST(CheckSummary, AFullCircleReachesEverywhere) {
   EXPECT_NEAR(extent(check.summary(), Axis::X).least, -5, 1e-9);
   EXPECT_NEAR(extent(check.summary(), Axis::Y).most, 5, 1e-9);
   EXPECT_NEAR(extent(check.summary(), Axis::Y).least, -5, 1e-9);
+}
+
+/// Compared with many points along each arc.
+TEST(CheckSummary, ArcsOfAnySweepReachAsFarAsTheirPoints) {
+  constexpr int kPoints = 2000, kArcs = 500;
+  std::mt19937 random(1);  // NOLINT(cert-msc51-cpp,cert-msc32-c): the same arcs each time
+  std::uniform_real_distribution<double> angle(0, 2 * kPi), radius(1, 100), place(-50, 50);
+  for (int i = 0; i < kArcs; ++i) {
+    const double r = radius(random), first = place(random), second = place(random);
+    const double begin = angle(random), sweep = i % 7 == 0 ? kPi : angle(random);
+    const bool is_left = i % 2 == 0;
+    const auto at = [&](double turned) {
+      const double now = begin + (is_left ? turned : -turned);
+      return to(first + r * std::cos(now), second + r * std::sin(now), 0);
+    };
+    CheckSummary check(at(0));
+    check.on_line({{}, at(0), {}});
+    Arc arc;
+    arc.to = at(sweep);
+    arc.center_first = Length::mm(first);
+    arc.center_second = Length::mm(second);
+    arc.turn = is_left ? Turn::Counterclockwise : Turn::Clockwise;
+    arc.sweep = Angle::radians(sweep);
+    check.on_arc(arc);
+    CheckSummary points(at(0));
+    for (int k = 0; k <= kPoints; ++k) points.on_line({{}, at(sweep * k / kPoints), {}});
+    for (const Axis axis : {Axis::X, Axis::Y}) {
+      EXPECT_NEAR(extent(check.summary(), axis).least, extent(points.summary(), axis).least, 1e-3);
+      EXPECT_NEAR(extent(check.summary(), axis).most, extent(points.summary(), axis).most, 1e-3);
+    }
+  }
 }
 
 TEST(CheckSummary, OnlyMovedAxesHaveAnExtent) {
