@@ -283,7 +283,7 @@ class IsoReader {
     cursor_.back_to(label_);
     if (block_.has_code(IsoGroup::Tool, 99)) {
       return cursor_.read_value(block_.length, coordinate_range(cursor_.form()), "L") &&
-             go_back(end);
+             is_whole(end);
     }
     const bool is_set = block_.has(IsoGroup::Label);
     if (!cursor_.read_integer(block_.label, 0, kMaxLabel, "L")) return false;
@@ -294,7 +294,7 @@ class IsoReader {
         !cursor_.read_integer(block_.repeats, 0, kMaxRepeats, "L")) {
       return false;
     }
-    return cursor_.is_value_next() ? cursor_.unexpected() : go_back(end);
+    return is_whole(end);
   }
 
   bool read_feed() {
@@ -304,14 +304,18 @@ class IsoReader {
     cursor_.back_to(feed_);
     if (is_scale) {
       block_.feed = {};
-      return cursor_.read_millionths(block_.factor, kMaxScale, "F") && go_back(end);
+      return cursor_.read_millionths(block_.factor, kMaxScale, "F") && is_whole(end);
     }
     const Range& range = is_dwell ? kSeconds : feed_range(cursor_.form());
     if (is_short_feed_ && block_.feed.number <= range.high) return go_back(end);
-    return cursor_.read_value(block_.feed, range, "F") && go_back(end);
+    return cursor_.read_value(block_.feed, range, "F") && is_whole(end);
   }
 
   bool go_back(const char* end) { return cursor_.back_to(end), true; }
+  /// Nothing that was skipped with the value is left over.
+  bool is_whole(const char* end) {
+    return cursor_.is_value_next() ? cursor_.unexpected() : go_back(end);
+  }
 
   /// The R of corners has no sign and no direction; that of a tool is a length.
   bool check_radius() {
