@@ -293,7 +293,12 @@ class Resolver {
     Block& part = parts_.add(BlockKind::Line);
     part.compensation = compensation();
     part.is_rapid = motion == 0 || motion == 10;
-    if (!part.is_rapid && !is_feed_done_) part.feed = block_.feed;
+    if (!is_feed_done_) part.feed = block_.feed;
+    // The manual does not state whether the blocks after it would have this feed.
+    if (part.is_rapid && part.feed.is_programmed()) {
+      return wrong(
+          fmt::format("F with G{:02}: it belongs in the block that has this feed", motion));
+    }
     if (!is_m_done_) part.m = block_.m;
     if (has_compensation && (part.compensation > Compensation::Right
                                  ? motion != 7
