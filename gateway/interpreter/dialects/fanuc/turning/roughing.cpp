@@ -80,7 +80,7 @@ class Passes {
   bool refuse(std::string_view why) { return run_.fail(ErrorCode::IllegalContour, 0, why); }
 
   /// The first move goes down to the contour, along the depth alone; the rest is monotonic in both
-  /// axes.
+  /// axes, and not beyond the start, to which the last cut returns.
   bool check_contour() {
     const auto& moves = cycle_.moves;
     if (moves.size() < 2) return refuse("there is no contour from P to Q");
@@ -106,6 +106,9 @@ class Passes {
       if (!is_monotonic) {
         return run_.fail(ErrorCode::NotMonotonic, 0,
                          fmt::format("move {} of the contour turns back", i + 1));
+      }
+      if (out_ * (to.depth - start_.depth) > kClose) {
+        return refuse(fmt::format("move {} of the contour goes beyond the start point", i + 1));
       }
       from = to;
     }
