@@ -330,6 +330,7 @@ bool execute_nc(Run& run) {
   if (parts.stage == Stage::Execution) {
     if (const Answer* answer = run.next_answer()) {
       const auto& result = std::get<ProbeResult>(*answer);
+    if (run.state.contour.code != 0 && !check_contour_block(run)) return false;
       const bool is_measuring = run.block.parts.one_shot == 37;
       if (is_measuring && !finish_measuring(run, result)) return false;
       if (!is_measuring) finish_skip(run, result);

@@ -1,6 +1,8 @@
 #include "gateway/interpreter/dialects/fanuc/turning/contour.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
+#include <array>
 
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
@@ -77,7 +79,32 @@ bool end_contour(Run& run) {
   return true;
 }
 
+/// Whether the block takes another code of the group than the one in force.
+bool changes(const Run& run, Group group) {
+  return run.block.names(group) && run.block.g[group] != run.state.g[group];
+}
+
 }  // namespace
+
+/// The manual excludes one-shot codes but G04, motion codes but G00 to G03, and G20 and G21. What
+/// moves the zero, the plane or the coordinates is excluded here: roughing knows one of each.
+bool check_contour_block(Run& run) {
+  const Block& block = run.block;
+  const std::uint8_t one_shot = block.parts.one_shot;
+  const std::uint8_t motion =
+      block.names(kMotionGroup) ? block.g[kMotionGroup] : run.state.g[kMotionGroup];
+  const bool moves = block.names(kMotionGroup) || block.words.has_any(kAxisWords);
+  constexpr std::array kNever{kUnitsGroup, kMirrorGroup, kInterpolationGroup};
+  constexpr std::array kFixed{kPlaneGroup, kStrokeGroup, kWorkGroup, kPolarGroup};
+  const bool is_allowed =
+      (one_shot == Block::kNoCode || one_shot == 4) && (motion <= 3 || !moves) &&
+      std::none_of(kNever.begin(), kNever.end(), [&](Group group) { return block.names(group); }) &&
+      std::none_of(kFixed.begin(), kFixed.end(), [&](Group group) { return changes(run, group); });
+  if (is_allowed) return true;
+  return run.fail(ErrorCode::IllegalContour, block.parts.g_column,
+                  "the blocks from P to Q take G00 to G03, G04 and no other motion, zero, plane or "
+                  "units");
+}
 
 bool follow_contour(Run& run) {
   ModalState& state = run.state;

@@ -28,6 +28,8 @@ bool execute_turning_cycle(Run& run);
 /// The block in hand begins or is within such a contour: what the cycle does at its end. Called
 /// when the block is left, with `run.state.at` after it. False: an alarm.
 bool follow_contour(Run& run);
+/// Whether the block in hand may be within a contour. False: an alarm.
+bool check_contour_block(Run& run);
 /// Rough passes along what has been recorded; roughing.cpp.
 bool make_passes(Run& run);
 
