@@ -253,7 +253,17 @@ BlockOutcome take_jump(Run& run, TextSearch& search) {
     // A program from the line cannot be searched: what it calls is in memory.
     outcome = run.options.is_dnc ? TextSearch::Outcome::Missing : search.find_program(jump, found);
   } else {
-    outcome = search.find_label(state.at, jump.number, open, found);
+    const bool begins_contour = state.contour.code != 0 && jump.is_return;
+    std::string why;
+    if (begins_contour) {
+      outcome = search.check_contour(state.at, jump.number, state.contour.last, why);
+      if (outcome == TextSearch::Outcome::Missing) {
+        run.fail(ErrorCode::IllegalContour, 0, why);
+        return BlockOutcome::Paused;
+      }
+    }
+    if (!begins_contour || outcome == TextSearch::Outcome::Found)
+      outcome = search.find_label(state.at, jump.number, open, found);
   }
   BlockOutcome result = BlockOutcome::Paused;
   switch (outcome) {

@@ -1,5 +1,7 @@
 #include "gateway/interpreter/dialects/fanuc/reading/text_search.hpp"
 
+#include <fmt/core.h>
+
 #include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/keywords.hpp"
 
@@ -171,6 +173,50 @@ TextSearch::Outcome TextSearch::continue_label_search(LabelSearch& search) {
     }
     if (search.from_head && same_place(block, search.from)) return Outcome::Missing;
     if (follow(head, block.offset, search.open) == Outcome::Crossed) return Outcome::Crossed;
+    search.next = next;
+  }
+  return Outcome::More;
+}
+
+/// The manual forbids a number that is there twice: the control would find one of both.
+TextSearch::Outcome TextSearch::check_contour(const TextPosition& from, std::uint32_t first,
+                                              std::uint32_t last, std::string& why) {
+  ContourSearch& search = contour_search_;
+  if (!search.is_known || search.first != first || search.last != last ||
+      !same_place(search.from, from)) {
+    search = {
+        .is_known = true, .first = first, .last = last, .from = from, .next = from.segment_head()};
+  }
+  if (search.is_right) return Outcome::Found;
+  for (unsigned blocks = 0; blocks < kBlocksPerCall; ++blocks) {
+    BlockHead head;
+    TextPosition block;
+    TextPosition next = search.next;
+    const Outcome outcome = next_block(next, head, block);
+    if (outcome == Outcome::NotYet) return outcome;
+    if (outcome != Outcome::Found) {
+      search.is_known = false;
+      if (outcome != Outcome::Missing) return outcome;
+      if (search.begins > 1 || search.ends > 1) {
+        why = fmt::format("N{} is there twice", search.begins > 1 ? first : last);
+      } else if (search.begins == 1 && search.ends == 0) {
+        why = fmt::format("there is no N{}", last);
+      } else if (search.begins == 1 && search.end < search.begin) {
+        why = fmt::format("N{} is before N{}", last, first);
+      } else {
+        search.is_known = search.is_right = true;
+        return Outcome::Found;  // a missing N`first` is the jump's own alarm
+      }
+      return outcome;
+    }
+    if (head.kind == BlockHead::Kind::Sequence && head.number == first) {
+      search.begin = block.offset;
+      ++search.begins;
+    }
+    if (head.kind == BlockHead::Kind::Sequence && head.number == last) {
+      search.end = block.offset;
+      ++search.ends;
+    }
     search.next = next;
   }
   return Outcome::More;

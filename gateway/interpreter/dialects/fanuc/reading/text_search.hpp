@@ -46,6 +46,10 @@ class TextSearch {
   /// `open` holds the loops around `from`, and afterwards those around what was found.
   Outcome find_label(const TextPosition& from, std::uint32_t label, OpenLoops& open,
                      TextPosition& found);
+  /// Whether the blocks N`first` to N`last` of the program around `from` are one contour: Found, or
+  /// Missing with the reason in `why`.
+  Outcome check_contour(const TextPosition& from, std::uint32_t first, std::uint32_t last,
+                        std::string& why);
   /// The program that a jump calls, in the text that was started.
   Outcome find_program(const Jump& jump, TextPosition& found);
   /// The END of the loop that begins at `head`; `after` is the block after it.
@@ -75,6 +79,16 @@ class TextSearch {
     TextPosition next;
     OpenLoops open;
   };
+  /// Both ends of a contour, and how often the program has their numbers.
+  struct ContourSearch {
+    bool is_known = false;  ///< what is asked
+    bool is_right = false;  ///< was found: the jump's own search may follow, and wait
+    std::uint32_t first = 0, last = 0;
+    TextPosition from;
+    TextPosition next;
+    std::uint64_t begin = 0, end = 0;  ///< offsets of what was found
+    unsigned begins = 0, ends = 0;
+  };
   struct EndSearch {
     bool is_running = false;
     TextPosition head;
@@ -93,6 +107,7 @@ class TextSearch {
   std::array<KnownLabel, kKnown> labels_{};
   std::array<LoopFrame, kKnown> loops_{};
   LabelSearch label_search_;
+  ContourSearch contour_search_;
   EndSearch end_search_;
   const Place* known_program(const Jump& jump) const;
 
