@@ -41,6 +41,13 @@ bool cut_thread_box(Run& run, const Position& cut, const Position& end, const Po
     return run.fail(ErrorCode::NoFeed, run.block.words.first_column(kAxisWords));
   }
   const std::optional<Angle> angle = start_angle(run);
+  // The manual's limit of R: beyond where X began, the pull-out leads into the work.
+  const double depth = end.raw(Axis::X) - start.raw(Axis::X);
+  const double rise = cut.raw(Axis::X) - start.raw(Axis::X);
+  if (depth == 0 ? rise != 0 : rise * depth < -1e-9 * std::fabs(depth)) {
+    return run.fail(ErrorCode::ImproperCommand, run.block.words.column(R),
+                    "the taper begins beyond where X is at the cycle's start");
+  }
   if (!rapid_to(run, cut)) return false;
   const Length lead = lead_of_path(cut, end, run.state.feed[1]);
   const double out = run.state.turning.thread_chamfer * run.state.feed[1];

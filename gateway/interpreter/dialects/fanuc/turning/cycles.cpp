@@ -193,6 +193,14 @@ class ThreadPasses {
         first_(first),
         out_(start_.raw(Axis::X) > end.raw(Axis::X) ? 1 : -1) {}
 
+  /// Otherwise X goes back into the work after each pass, and the pull-out before that.
+  bool begins_outside() const {
+    const double first = std::min(first_, height_ - data_.thread_finish);
+    const double crest = end_.raw(Axis::X) + out_ * (height_ - first);
+    const double rise = std::max(out_ * taper_, 0.0);
+    return out_ * (start_.raw(Axis::X) - crest) - rise >= -1e-9;
+  }
+
   bool make() {
     const double rough = height_ - data_.thread_finish;
     double reached = 0;
@@ -281,7 +289,11 @@ bool cut_threads(Run& run) {
       end.raw(Axis::X) == state.position.raw(Axis::X)) {
     return refuse_cycle(run, column, "the cycle has no length or no height");
   }
-  return ThreadPasses(run, end, taper, height, first).make();
+  ThreadPasses passes(run, end, taper, height, first);
+  if (!passes.begins_outside()) {
+    return refuse_cycle(run, column, "the first cut is beyond where X is at the cycle's start");
+  }
+  return passes.make();
 }
 
 }  // namespace
