@@ -42,7 +42,8 @@ void apply_motion_groups(Run& run) {
     state.g[kMotionGroup] = block.g[kMotionGroup];
     state.g[kCycleGroup] = 80;
     state.is_rigid_tapping = false;
-    if (state.box.code != state.g[kMotionGroup]) state.box.code = 0;
+    const std::uint8_t motion = state.g[kMotionGroup];
+    if (motion < kBoxTurning || motion > kBoxFacing) state.box.code = 0;
     return;
   }
   if (!names_cycle) return;
@@ -190,6 +191,7 @@ bool set_look_ahead(Run& run) {
 
 bool execute_one_shot(Run& run) {
   Block& block = run.block;
+  if (block.parts.one_shot != 4) run.state.box.code = 0;  // the manual: other codes clear its data
   switch (block.parts.one_shot) {
     case 4:
       return dwell(run);
@@ -328,9 +330,9 @@ bool execute_nc(Run& run) {
   Block::Parts& parts = run.block.parts;
   run.state.inverse_feed = 0;
   if (parts.stage == Stage::Execution) {
+    if (run.state.contour.code != 0 && !check_contour_block(run)) return false;
     if (const Answer* answer = run.next_answer()) {
       const auto& result = std::get<ProbeResult>(*answer);
-    if (run.state.contour.code != 0 && !check_contour_block(run)) return false;
       const bool is_measuring = run.block.parts.one_shot == 37;
       if (is_measuring && !finish_measuring(run, result)) return false;
       if (!is_measuring) finish_skip(run, result);

@@ -112,7 +112,13 @@ bool cut_box(Run& run) {
   }
   BoxCycle& box = state.box;
   const std::uint8_t code = state.g[kMotionGroup];
-  if (box.code != code) box = {.code = code};
+  if (box.code != code) {
+    if (box.code != 0 && box.taper != 0 && !words.has(R)) {
+      return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column,
+                      "another cycle without R, and R of the one before is not 0");
+    }
+    box = {.code = code};
+  }
   if (words.has(R)) box.taper = run.length(words[R]);
   run.ledger.take(kAxisWords | set_of(R));
   const Position start = state.position;
