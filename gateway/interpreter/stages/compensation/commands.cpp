@@ -51,6 +51,11 @@ bool Compensator::is_on() const {
   return state_.phase == Phase::Starting || state_.phase == Phase::On;
 }
 
+bool Compensator::changes_tip(const Cutter& cutter) const {
+  const PlaneVector tip{cutter.tip_first.mm(), cutter.tip_second.mm()};
+  return (state_.has_element || state_.phase == Phase::On) && tip != state_.tip;
+}
+
 void Compensator::lead_to(EventSink& sink) {
   sink_ = &sink;
 }

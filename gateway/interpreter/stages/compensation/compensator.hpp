@@ -60,6 +60,8 @@ class Compensator final : public look_ahead::LookAheadStage<Compensator, impl::S
 
   /// On or starting; false once `turn_off` has been called.
   bool is_on() const;
+  /// A contour is being followed with the nose's tip elsewhere than on `cutter`.
+  bool changes_tip(const Cutter& cutter) const;
 
   void on_rapid(const Rapid& event) override;
   void on_line(const Line& event) override;

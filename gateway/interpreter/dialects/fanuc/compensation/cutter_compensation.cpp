@@ -85,13 +85,24 @@ void begin_stages(Run& run) {
   run.lead_stages();
 }
 
-void turn_on(Run& run) {
+/// False: an alarm.
+bool turn_on(Run& run) {
   ModalState& state = run.state;
   begin_stages(run);
   run.blender.flush();
   // D0 cancels: the next move goes to its programmed end
-  if (state.d_number == 0 && run.compensator.is_on()) return run.compensator.turn_off();
-  run.compensator.turn_on(cutter_of(run));
+  if (state.d_number == 0 && run.compensator.is_on()) {
+    run.compensator.turn_off();
+    return true;
+  }
+  const compensation::Cutter cutter = cutter_of(run);
+  if (run.compensator.changes_tip(cutter)) {
+    // The move that waits ends with the nose that was; that of the next one is elsewhere.
+    return run.fail(ErrorCode::ImproperCommand, run.block.words.column(T),
+                    "T changes the nose radius or the tip's direction within G41 or G42");
+  }
+  run.compensator.turn_on(cutter);
+  return true;
 }
 
 /// I, J, K of G39, of length 1, as scaling and rotation turn it. False: an alarm.
@@ -202,8 +213,7 @@ bool apply_compensation(Run& run) {
   }
   const bool has_number = block.words.has(is_lathe ? T : D);
   if (!block.names(kCompensationGroup)) {
-    if (was_on && has_number && !run.is_recording()) turn_on(run);
-    return true;
+    return !was_on || !has_number || run.is_recording() || turn_on(run);
   }
   const std::uint8_t code = block.g[kCompensationGroup];
   if (block.words.has_any(kCenterWords) && state.g[kMotionGroup] < 2 && !state.is_cycle() &&
@@ -219,7 +229,7 @@ bool apply_compensation(Run& run) {
   const bool changes = code != state.g[kCompensationGroup] || has_number;
   state.g[kCompensationGroup] = code;
   if (code != 40) {
-    if (changes) turn_on(run);
+    if (changes) return turn_on(run);
   } else if (was_on) {
     run.blender.flush();
     run.compensator.turn_off();
