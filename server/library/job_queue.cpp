@@ -1,6 +1,7 @@
 #include "server/library/job_queue.hpp"
 
 #include "protocol/process/log.hpp"
+#include "server/library/control_catalog.hpp"
 
 namespace dripline::library {
 namespace {
