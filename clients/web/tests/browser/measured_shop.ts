@@ -51,7 +51,7 @@ function programOf({ length, diameter, more }: Measured): string {
 }
 
 async function put(shop: Shop, what: string, text: string): Promise<void> {
-  if ((await shop.api('PUT', what, text)) === null) throw new Error(`${what} is refused`);
+  if ((await shop.api('PUT', what, text)) === null) throw new Error(`${what} is refused: ${shop.lastRefusal}`);
 }
 
 export async function addMeasuringLathe(shop: Shop): Promise<void> {

@@ -48,7 +48,7 @@ export class Shop {
   }
 
   async addUser(name: string, role: string, groups: string[] = []): Promise<void> {
-    if (!(await this.api('POST', 'users', { name, role, groups, password: kPassword }))) throw new Error(`user ${name} is refused`);
+    if (!(await this.api('POST', 'users', { name, role, groups, password: kPassword }))) throw new Error(`user ${name} is refused: ${this.lastRefusal}`);
   }
 
   /// Of the server besides its place: of every start.
@@ -109,6 +109,9 @@ export class Shop {
     await new Promise((done) => child.on('exit', done));
   }
 
+  /// Why `api` gave null.
+  lastRefusal = '';
+
   /// null: the server refused, or did not answer. `user` instead of the token of admin.
   async api<T>(method: string, what: string, body?: unknown, user?: string): Promise<T | null> {
     try {
@@ -116,22 +119,24 @@ export class Shop {
       const { name, value } = user === undefined ? { name: '', value: '' } : await this.sessionOf(user);
       const headers: Record<string, string> = user === undefined ? { Authorization: `Bearer ${this.token}` } : { Cookie: `${name}=${value}`, 'X-Dripline': '1' };
       const answer = await fetch(`${this.url}/api/v1/${what}`, { method, headers, body: raw });
-      return answer.ok ? ((answer.status === 204 ? {} : await answer.json()) as T) : null;
-    } catch {
-      return null;
+      if (answer.ok) return (answer.status === 204 ? {} : await answer.json()) as T;
+      this.lastRefusal = await answer.text();
+    } catch (failure) {
+      this.lastRefusal = String(failure);
     }
+    return null;
   }
 
   async push(name: string, text: string, control: string, comment?: string, user?: string): Promise<void> {
     const upload = await this.api<{ id: string }>('POST', 'uploads', { program: name, control, ...(comment !== undefined && { comment }) }, user);
-    if (!upload) throw new Error(`program ${name} is refused`);
+    if (!upload) throw new Error(`program ${name} is refused: ${this.lastRefusal}`);
     await this.api('PUT', `uploads/${upload.id}/content?offset=0`, text, user);
-    if (!(await this.api('POST', `uploads/${upload.id}/commit`, {}, user))) throw new Error(`program ${name} is not committed`);
+    if (!(await this.api('POST', `uploads/${upload.id}/commit`, {}, user))) throw new Error(`program ${name} is not committed: ${this.lastRefusal}`);
   }
 
   async start(machine: string, program: string): Promise<string> {
     const run = await this.api<{ id: string }>('POST', 'runs', { machine, program });
-    if (!run) throw new Error(`${program} does not start on ${machine}`);
+    if (!run) throw new Error(`${program} does not start on ${machine}: ${this.lastRefusal}`);
     return run.id;
   }
 
