@@ -59,7 +59,8 @@ export async function addMeasuringLathe(shop: Shop): Promise<void> {
   await put(shop, 'machines/lathe-3/setup', kSetup);
   await put(shop, 'report-templates/shaft', kTemplate);
   await put(shop, 'report-template-assignments/program/O0900/shaft', '');
-  await put(shop, 'machines/lathe-3/offset-rules', kRules);
+  // A machine is shown before it is stored, and rules need one that is stored.
+  await until('the machine is stored', async () => (await shop.api('PUT', 'machines/lathe-3/offset-rules', kRules)) !== null);
 }
 
 /// Runs a part to its end, and waits until it is measured.
