@@ -45,8 +45,8 @@ struct HttpOptions {
   std::optional<TlsFiles> tls;
   unsigned handler_threads = 16;  ///< number of requests that may wait for storage at once
   HttpLimits limits;
-  std::uint64_t max_body = 0;                  ///< a larger one is refused
-  std::chrono::milliseconds heartbeat{15000};  ///< of event streams
+  std::uint64_t max_body = 0;                 ///< a larger one is refused
+  std::chrono::milliseconds heartbeat{3000};  ///< of event streams: the page waits 10 s
 };
 
 /// The functions that answer requests.

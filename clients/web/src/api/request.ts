@@ -82,8 +82,14 @@ export async function getIfThere<T>(path: string, query: Query = {}, signal?: Ab
   }
 }
 
-/// The answer's JSON; undefined for one without content.
-export async function send<T = void>(method: 'POST' | 'PUT' | 'DELETE', path: string, body: Body = {}): Promise<T> {
-  const response = await fetchApi(method, path, body);
-  return (response.status === 204 ? undefined : await response.json()) as T;
+/// The answer's JSON; undefined for one without content. After `limitMs` it is as if no answer came: a server that is frozen gives none.
+export async function send<T = void>(method: 'POST' | 'PUT' | 'DELETE', path: string, body: Body = {}, limitMs?: number): Promise<T> {
+  const limit = limitMs === undefined ? undefined : AbortSignal.timeout(limitMs);
+  try {
+    const response = await fetchApi(method, path, body, limit);
+    return (response.status === 204 ? undefined : await response.json()) as T;
+  } catch (failure) {
+    if (limit?.aborted) throw new ApiError(0, null, '');
+    throw failure;
+  }
 }

@@ -2,8 +2,8 @@
 import { fetchApi } from '../api/request';
 import { EventParser, type StreamEvent } from './event_parser';
 
-/// The server writes something at least every 15 s; a silence of this length means that the line is dead.
-const kLongestSilenceMs = 40_000;
+/// The server writes something at least every 3 s; a silence of this length means that the line is dead, or the server frozen: another one may have taken over.
+const kLongestSilenceMs = 10_000;
 
 /// Returns when the stream has ended or `signal` says so; throws what keeps it from beginning.
 export async function readEvents(path: string, signal: AbortSignal, onOpen: () => void, onEvent: (event: StreamEvent) => void): Promise<void> {

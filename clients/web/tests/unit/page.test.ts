@@ -1,7 +1,7 @@
 // Addresses of views and paths of requests: names come from others and may hold anything. And every language says everything.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { pathOf, withQuery } from '../../src/api/request';
+import { ApiError, pathOf, send, withQuery } from '../../src/api/request';
 import { addressOf, parseRoute } from '../../src/app/route';
 import { de } from '../../src/texts/de';
 import { en } from '../../src/texts/en';
@@ -41,4 +41,17 @@ test('every language has every text, and none is empty', () => {
   assert.deepEqual(keysOf(de).sort(), keysOf(en).sort());
   const empty = [de, en].flatMap((texts) => JSON.stringify(texts).match(/""/g) ?? []);
   assert.deepEqual(empty, []);
+});
+
+/// A server that is frozen takes a request, and never answers.
+test('a command without an answer is given up after its limit, and is not sent again', async () => {
+  let sent = 0;
+  const awake = setInterval(() => undefined, 1000); // node does not wait for the limit by itself
+  globalThis.fetch = ((_path: string, init: RequestInit) => new Promise((_answer, refuse) => {
+    ++sent;
+    init.signal!.addEventListener('abort', () => refuse(new Error('aborted')));
+  })) as typeof fetch;
+  await assert.rejects(send('POST', pathOf('runs', 'r', 'commands'), { json: { action: 'hold' } }, 20), (failure) => failure instanceof ApiError && failure.status === 0);
+  clearInterval(awake);
+  assert.equal(sent, 1);
 });
