@@ -16,9 +16,10 @@ constexpr std::chrono::milliseconds kPause{50};
 Result<std::vector<std::string>> awake_standbys(storage::OpenedStore& store) {
   using Clock = std::chrono::steady_clock;
   for (const auto begun = Clock::now();;) {
+    // Before the database is asked: an answer that takes long is of the moment when it was asked.
+    const auto waited = Clock::now() - begun;
     const auto waiting = store.waiting();
     if (!waiting) return fail(waiting.error());
-    const auto waited = Clock::now() - begun;
     std::vector<std::string> awake;
     for (const auto& server : *waiting)
       if (server.silence < waited) awake.push_back(server.described);
