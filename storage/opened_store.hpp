@@ -53,6 +53,9 @@ class OpenedStore : public Store {
   /// Of a store that several servers know: the number of this server's taking of it, above that of
   /// every one before, in any of them. 0: no other server can have it.
   virtual std::uint64_t term() const { return 0; }
+  /// False: another server may have it by now, because this one's place was not renewed in time.
+  /// It asks the own clock alone, so that it answers at once.
+  virtual bool has_place() const { return true; }
   /// For servers that wait, and for their clients. Errors: Io.
   virtual Result<void> publish(const ServerFacts&) { return {}; }
   /// Those that have asked for the place in the last seconds. Errors: Io.

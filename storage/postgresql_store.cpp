@@ -55,6 +55,10 @@ std::uint64_t PostgresqlStore::term() const {
   return parts_->connections->term();
 }
 
+bool PostgresqlStore::has_place() const {
+  return parts_->connections->has_place();
+}
+
 Result<void> PostgresqlStore::publish(const ServerFacts& facts) {
   return parts_->connections->publish(facts);
 }

@@ -65,6 +65,7 @@ class PostgresqlStore final : public OpenedStore {
                        const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) override;
   Result<std::string> identity() override;
   std::uint64_t term() const override;
+  bool has_place() const override;
   Result<void> publish(const ServerFacts& facts) override;
   Result<std::vector<WaitingServer>> waiting() override;
 

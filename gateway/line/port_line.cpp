@@ -67,7 +67,8 @@ void PortLine::open() {
   serial::LineDriver::Parts parts{.address = parts_.names.address,
                                   .settings = parts_.settings,
                                   .role = wire::Role::Host,
-                                  .listener = line_listener()};
+                                  .listener = line_listener(),
+                                  .may_transmit = parts_.may_send};
   auto driver =
       parts_.open ? parts_.open(std::move(parts)) : serial::LineDriver::start(std::move(parts));
   if (driver) {
@@ -141,6 +142,11 @@ LineView PortLine::view() const {
   view.received = recorder_.received();
   const std::lock_guard lock(mutex_);
   view.fault = store_fault_.empty() ? fault_ : store_fault_;
+  if (parts_.may_send && !parts_.may_send()) {
+    view.fault =
+        "nothing is sent: this server does not reach the database, and another one may have taken "
+        "over";
+  }
   view.waiting_since = waiting_since_;
   if (progress_ && progress_->kind == JobKind::Run) view.run = progress_->id;
   view.transfer = transfer_;

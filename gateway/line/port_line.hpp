@@ -47,6 +47,9 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
     /// text is read by tasks of `post`.
     PostTask post_near = {};
     LineOpener open;  ///< empty: serial::LineDriver::start
+    /// False: another server may use the line (LineDriver::Parts::may_transmit). Any thread. Empty:
+    /// it is ours alone.
+    std::function<bool()> may_send = {};
     FlightRecorder::Options recording;
     std::function<void(const PortTraffic&)> on_traffic;
     PortListener listener;

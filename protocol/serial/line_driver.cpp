@@ -20,7 +20,7 @@ using wire::LineTime;
 
 constexpr int kMaxReads = 32;  ///< reads of the channel before other work
 constexpr LineTime kLinesInterval = 100ms, kHeldLinesInterval = 2ms;
-constexpr LineTime kLongestWait = 1s;
+constexpr LineTime kLongestWait = 1s, kForbiddenInterval = 20ms;
 constexpr std::size_t kRoomStep = 256;  ///< additional room that is worth a call
 
 std::string_view words_of(wire::LineFault fault) {
@@ -72,6 +72,7 @@ class Line final : public LineDriver {
   void tell(LineTraffic::What what, std::span<const std::byte> bytes, std::string_view text) {
     if (parts_.listener.on_traffic) parts_.listener.on_traffic({what, now(), bytes, text});
   }
+  bool may_transmit() const { return !parts_.may_transmit || parts_.may_transmit(); }
   bool polls_lines_closely() const { return wire::is_held_by_cts(parts_.settings); }
 
   Parts parts_;
@@ -85,6 +86,7 @@ class Line final : public LineDriver {
   std::array<std::byte, Pacer::kWindow>
       held_{};  ///< from the discipline, not yet accepted by the channel
   std::size_t held_count_ = 0;
+  bool is_forbidden_ = false;  ///< to transmit
   bool has_input_ = false, may_have_more_ = true, has_lines_ = true;
   LineTime open_at_{}, look_at_{}, ticked_{-1};
   std::optional<wire::InputLines> input_lines_;
@@ -112,7 +114,8 @@ void Line::run() {
 
 void Line::turn() {
   do_posted();
-  if (!channel_ && now() >= open_at_) open();
+  is_forbidden_ = !may_transmit();
+  if (!channel_ && now() >= open_at_ && !is_forbidden_) open();
   if (channel_) {
     Result<void> done = has_input_ ? read() : Result<void>();
     if (done && now() >= look_at_) done = look_at_lines();
@@ -233,6 +236,8 @@ Result<void> Line::look_at_lines() {
 }
 
 Result<void> Line::transmit() {
+  is_forbidden_ = !may_transmit();  // now: the thread may have been frozen since it was asked
+  if (is_forbidden_) return {};
   if (held_count_ > 0) {
     const std::array<std::byte, Pacer::kWindow> again = held_;
     if (const auto done = hand_over(std::span(again).first(held_count_)); !done) return done;
@@ -304,8 +309,10 @@ LineTime Line::next_turn() const {
     // A deadline that a tick did not move must not cause a busy loop.
     next = std::min(next, *deadline == ticked_ ? at + 1ms : *deadline);
   }
-  if (!channel_) return std::min(next, open_at_);
+  if (is_forbidden_) next = std::min(next, at + kForbiddenInterval);
+  if (!channel_) return is_forbidden_ ? next : std::min(next, open_at_);
   if (has_lines_) next = std::min(next, look_at_);
+  if (is_forbidden_) return next;
   if (held_count_ > 0)
     next = std::min(next, at + std::clamp<LineTime>(2 * pacer_.character_time(), 200us, 5ms));
   else if (may_have_more_)

@@ -46,6 +46,9 @@ class LineDriver {
     std::chrono::milliseconds reopen_after{1000};
     /// Limit of one attempt to connect; posted work waits meanwhile.
     std::chrono::milliseconds open_limit{2000};
+    /// False: another one may use the line, so it is not opened, and nothing is sent. Asked often,
+    /// on the line's thread. Empty: it is ours alone.
+    std::function<bool()> may_transmit = {};
     /// For tests, instead of wire::make_discipline and open_channel.
     std::function<std::unique_ptr<wire::Discipline>()> make_discipline = {};
     std::function<Result<std::unique_ptr<Channel>>()> open = {};

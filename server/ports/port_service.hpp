@@ -37,6 +37,9 @@ class PortService final : public PortControl, private LineDirectory {
     /// address is a device belongs to the one where it was set up, and is shown with a fault at the
     /// others. Empty: this is the only server.
     std::string host = {};
+    /// False: another server may have the library, and with it the lines that it can reach too:
+    /// nothing is sent over those. Any thread. Empty: this is the only server.
+    std::function<bool()> may_send = {};
     /// Why records of a machine cannot be stored, at every try; empty: they can again.
     std::function<void(const std::string& machine, const std::string& fault)> on_fault = {};
   };

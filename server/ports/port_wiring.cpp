@@ -199,6 +199,7 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
        .post = [strand = strands.store](line::Task task) { strand.post(std::move(task)); },
        .post_near = [strand = strands.near](line::Task task) { strand.post(std::move(task)); },
        .open = options_.open,
+       .may_send = is_device(entry.port.address) ? std::function<bool()>() : options_.may_send,
        .recording = {.port = entry.port.name, .folder = options_.recordings},
        .on_traffic = [this](const PortTraffic& traffic) { tell_traffic(traffic); },
        .listener = std::move(listener),

@@ -159,17 +159,23 @@ Result<void> PostgresqlConnections::check_place() const {
   return {};
 }
 
+bool PostgresqlConnections::has_place() const {
+  return !is_lost_ && SteadyClock::now() < place_until_.load();
+}
+
 Result<void> PostgresqlConnections::write_with(const Work& work, Durability durability) {
   if (auto ours = check_place(); !ours) return ours;
   return writer_.with([&](Slot& slot) -> Result<void> {
     const auto deadline = SteadyClock::now() + options_.wait;
     for (;;) {
       if (auto there = connect(slot); !there) return there;
+      const auto renewed_before = renewed_;
       auto done = begin_write(*slot, durability);
       if (done) done = work(*slot);
       if (done) done = renew_when_due(*slot);
       const bool is_at_commit = done.has_value();
       if (done) done = slot->commit();
+      if (done && renewed_ != renewed_before) place_until_ = renewed_ + options_.lease;
       if (done) return done;
       const bool is_over = SteadyClock::now() >= deadline;
       if (!slot->is_alive()) {

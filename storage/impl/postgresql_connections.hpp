@@ -43,6 +43,9 @@ class PostgresqlConnections final : public Connections {
   /// Extends the place, in a transaction that is on disk when it returns.
   Result<void> renew();
   std::uint64_t term() const { return place_.term(); }
+  /// Whether no other server can have the place now: by this computer's clock, which runs on while
+  /// the process is frozen, but not while a virtual machine is.
+  bool has_place() const;
   /// Of this server, for those that wait.
   Result<void> publish(const ServerFacts& facts);
 
@@ -66,8 +69,9 @@ class PostgresqlConnections final : public Connections {
   const PostgresqlStoreOptions options_;
   std::string label_;
   PostgresqlPlace place_;
-  std::atomic<bool> is_lost_ = false;                ///< the place; for good
-  std::chrono::steady_clock::time_point renewed_{};  ///< of whoever has the writer
+  std::atomic<bool> is_lost_ = false;                                 ///< the place; for good
+  std::chrono::steady_clock::time_point renewed_{};                   ///< of whoever has the writer
+  std::atomic<std::chrono::steady_clock::time_point> place_until_{};  ///< at least
   ConnectionPool<Slot> writer_;
   ConnectionPool<Slot> readers_;
   std::jthread keeper_;  // last: it uses the others

@@ -102,6 +102,8 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
             {.recordings = folder.recordings(),
              .open = {},
              .host = settings.standby ? host_name() : "",
+             .may_send =
+                 settings.standby ? [this] { return store->has_place(); } : std::function<bool()>(),
              .on_fault = records_watch()},
             published()),
       gateway_lines({.store = *store,

@@ -8,6 +8,7 @@
 #include "storage/postgresql_standby.hpp"
 #include "storage/sql/query.hpp"
 #include "storage/sqlite/database.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/unit/storage/store_fixture.hpp"
 
 namespace dripline::storage {
@@ -179,6 +180,28 @@ TEST_F(PostgresqlStoreTest, ATransactionThatTakesLongerThanTheLeaseKeepsThePlace
   storing.join();
   EXPECT_TRUE((*first)->probe());
   EXPECT_EQ(query("SELECT count(*) FROM record"), 3);
+}
+
+/// What a server does beside its database, as sending over a line that others reach too.
+TEST_F(PostgresqlStoreTest, APlaceThatCannotBeRenewedMayBeAnothersByItsOwnClock) {
+  store_.reset();
+  const auto store = PostgresqlStore::open(
+      {.url = database_->url(), .holder = "a", .lease = std::chrono::milliseconds(600)}, clock_);
+  ASSERT_TRUE(store) << store.error().what;
+  EXPECT_TRUE(test_support::eventually([&] { return (*store)->has_place(); }));
+  auto other = postgresql::Database::connect({.url = database_->url()});
+  ASSERT_TRUE(other->execute("BEGIN; SELECT 1 FROM store_holder WHERE id = 1 FOR UPDATE"));
+  EXPECT_TRUE(test_support::eventually([&] { return !(*store)->has_place(); }));
+  ASSERT_TRUE(other->execute("ROLLBACK"));
+  EXPECT_TRUE(test_support::eventually([&] { return (*store)->has_place(); }));
+  std::unique_ptr<PostgresqlStore> second;
+  ASSERT_TRUE(test_support::eventually([&] {
+    change("UPDATE store_holder SET until = now() - interval '1 second'");
+    if (auto taken = open_another()) second = *std::move(taken);
+    return second != nullptr;
+  }));
+  EXPECT_FALSE((*store)->probe());
+  EXPECT_FALSE((*store)->has_place()) << "at once";
 }
 
 TEST_F(PostgresqlStoreTest, AStandbySeesWhoHasThePlaceAndIsSeen) {

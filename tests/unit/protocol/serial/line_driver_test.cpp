@@ -151,6 +151,66 @@ TEST(LineDriver, LetsNothingGoAfterXoffBeyondTwoCharacters) {
   }
 }
 
+/// Another one may use the line meanwhile.
+TEST(LineDriver, SendsNothingWhileItMayNotAndTheRestAfterwards) {
+  const Pty pty;
+  LineLog log;
+  std::atomic<bool> may = true;
+  std::atomic<int> times_opened = 0;
+  const auto line =
+      LineDriver::start({.address = pty.path(),
+                         .listener = log.listener(),
+                         .reopen_after = 20ms,
+                         .may_transmit = [&] { return may.load(); },
+                         .make_discipline = [] { return std::make_unique<ToyDiscipline>(); },
+                         .open =
+                             [&] {
+                               ++times_opened;
+                               return open_channel(pty.path(), {}, 1s);
+                             }});
+  ASSERT_TRUE(line);
+  const std::string text = program(4000);
+  send(**line, text);
+  const std::string before = pty.read(200);
+  may = false;
+  std::string after;
+  ASSERT_TRUE(eventually([&] {
+    const std::string more = pty.read_available();
+    after += more;
+    std::this_thread::sleep_for(50ms);
+    return more.empty() && pty.read_available().empty();
+  }));
+  EXPECT_LT(before.size() + after.size(), text.size());
+  pty.write("X");
+  EXPECT_TRUE(log.wait([&] { return log.received == "X"; })) << "it listens all the same";
+  may = true;
+  after += pty.read(text.size() - before.size() - after.size());
+  EXPECT_EQ(before + after, text);
+  EXPECT_EQ(times_opened, 1);
+}
+
+TEST(LineDriver, IsNotOpenedWhileItMayNotSend) {
+  const Pty pty;
+  LineLog log;
+  std::atomic<bool> may = false;
+  std::atomic<int> times_asked = 0;
+  const auto line =
+      LineDriver::start({.address = pty.path(),
+                         .listener = log.listener(),
+                         .reopen_after = 20ms,
+                         .may_transmit =
+                             [&] {
+                               ++times_asked;
+                               return may.load();
+                             },
+                         .make_discipline = [] { return std::make_unique<ToyDiscipline>(); }});
+  ASSERT_TRUE(line);
+  ASSERT_TRUE(eventually([&] { return times_asked > 3; }));
+  EXPECT_FALSE((*line)->is_open());
+  may = true;
+  EXPECT_TRUE(log.wait_open());
+}
+
 TEST(LineDriver, ReportsRoomWhileSending) {
   const Pty pty;
   LineLog log;
