@@ -55,6 +55,8 @@ class PortService final : public PortControl, private LineDirectory {
   /// Lines are closed, their runs end Interrupted, what has arrived is stored.
   void end();
   LineMachines& machines() { return line_machines_; }
+  /// Whether its line may be closed. Errors: Busy (a run, a transfer, or the control sends; named).
+  Result<void> check_idle(const std::string& name) const;
 
   std::vector<PortView> ports() const override;
   Result<PortView> port(const std::string& name) const override;
@@ -90,7 +92,6 @@ class PortService final : public PortControl, private LineDirectory {
 
   Result<Entry> prepare(const storage::Port& port) const;
   Result<void> check_free(const storage::Port& port) const;
-  Result<void> check_idle(const std::string& name) const;
   Result<PortView> save_prepared(Entry entry);
   Result<Entry> find(const std::string& name) const;
   Result<std::shared_ptr<PortLine>> find_line(const std::string& name) const;

@@ -465,6 +465,22 @@ class SharedLine : public TwoServersTest {
   std::string id_;
 };
 
+/// The control would have half a program in its memory.
+TEST_F(SharedLine, IsNotHandedOverInTheMiddleOfATransfer) {
+  begin_run();
+  ASSERT_LT(shop_->rest(0).post("/api/v1/runs/" + id_ + "/commands", {{"action", "abort"}}).status,
+            300);
+  ASSERT_TRUE(eventually([&] { return run(0, id_).value("state", "") == "aborted"; }));
+  const auto sent = shop_->rest(0).post("/api/v1/ports/line-1/transfers",
+                                        {{"programs", nlohmann::json::array({"O1"})}});
+  ASSERT_LT(sent.status, 300) << sent.body;
+  const auto refused = shop_->rest(0).post("/api/v1/server/drain", nlohmann::json::object());
+  EXPECT_EQ(refused.status, 409) << refused.body;
+  EXPECT_NE(refused.body.find("port 'line-1' of machine 'mill-1' is sending"), std::string::npos)
+      << refused.body;
+  EXPECT_EQ(shop_->role(0), "active");
+}
+
 /// Two programs at once on one line would be another program at the control.
 TEST_F(SharedLine, IsFedByNobodyWhoMayHaveLostTheLibrary) {
   begin_run();

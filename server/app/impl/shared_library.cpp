@@ -79,11 +79,18 @@ Result<std::vector<std::string>> ServerParts::hand_over() {
     active.state = storage::RunState::Active;
     const auto count = store->runs.count(active);
     if (!count) return fail(count.error());
-    if (*count == 0) continue;
-    return fail(Errc::Busy,
-                "port '{}' is in a run of machine '{}', which a hand-over would end: wait until it "
-                "has ended, or abort it",
-                view.port.name, view.port.machine);
+    if (*count > 0) {
+      return fail(Errc::Busy,
+                  "port '{}' is in a run of machine '{}', which a hand-over would end: wait until "
+                  "it has ended, or abort it",
+                  view.port.name, view.port.machine);
+    }
+    if (const auto idle = ports.check_idle(view.port.name); !idle) {
+      return fail(Errc::Busy,
+                  "{}, which a hand-over would cut off: wait until it has ended, or end it (dnc "
+                  "port stop {})",
+                  idle.error().what, view.port.name);
+    }
   }
   return awake_standbys(*store);
 }
