@@ -12,7 +12,7 @@ constexpr std::chrono::seconds kForAnswer{3};
 constexpr std::chrono::milliseconds kPause{50};
 
 /// Of those that wait: the ones that have been seen since it was called. One that has just died is
-/// still listed, and would be handed a library that nobody has then.
+/// still listed, and would be handed a library that no server has then.
 Result<std::vector<std::string>> awake_standbys(storage::OpenedStore& store) {
   using Clock = std::chrono::steady_clock;
   for (const auto begun = Clock::now();;) {

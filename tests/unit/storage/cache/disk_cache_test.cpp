@@ -340,7 +340,7 @@ TEST_F(DiskCacheTest, ADiskThatIsFullOnlyEndsTheKeepingAndIsNamedOnce) {
   for (unsigned i = 2; i < 6; ++i) keep(chunk_of(i));
   ASSERT_EQ(faults_.size(), 1u);
   EXPECT_NE(faults_[0].find("MiB left"), std::string::npos) << faults_[0];
-  EXPECT_EQ(cache_->state().fault, faults_[0]);
+  EXPECT_NE(cache_->state().fault.find("MiB left"), std::string::npos) << "how many, as it is now";
   EXPECT_TRUE(has(chunk)) << "what is there is used";
   EXPECT_EQ(cache_->state().files, 1u);
 }
