@@ -340,7 +340,11 @@ TEST_F(DiskCacheTest, ADiskThatIsFullOnlyEndsTheKeepingAndIsNamedOnce) {
   for (unsigned i = 2; i < 6; ++i) keep(chunk_of(i));
   ASSERT_EQ(faults_.size(), 1u);
   EXPECT_NE(faults_[0].find("MiB left"), std::string::npos) << faults_[0];
-  EXPECT_NE(cache_->state().fault.find("MiB left"), std::string::npos) << "how many, as it is now";
+  const auto without_room = [](std::string text) {  // which others change meanwhile
+    const auto begin = text.find("only ") + 5;
+    return text.erase(begin, text.find(" MiB left") - begin);
+  };
+  EXPECT_EQ(without_room(cache_->state().fault), without_room(faults_[0]));
   EXPECT_TRUE(has(chunk)) << "what is there is used";
   EXPECT_EQ(cache_->state().files, 1u);
 }
