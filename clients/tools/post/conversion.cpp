@@ -130,11 +130,7 @@ tl::expected<void, NotConverted> run_source(const SourceProgram& source, const S
                                             PostProcessor& post, const ConversionOptions& options) {
   auto run = interpreter::OfflineRun::begin(source.dialect, setup, source.source, adaptation);
   if (!run) return refused(run.error());
-  // Without tools of the target those of the source count, but where the program defines them.
-  const bool takes_source =
-      options.target_setup.tools.empty() && target.form != Form::PlainLanguage;
-  const auto& tools = takes_source ? setup.tools : options.target_setup.tools;
-  adaptation.watch(run->interpreter(), tools);
+  adaptation.watch(run->interpreter(), tools_at(target, options.target_setup, setup));
   for (bool is_over = false; !is_over;) {
     if (options.is_to_stop && options.is_to_stop()) return refused(Errc::Timeout, "interrupted");
     const auto stepped = run->step(kStepBlocks);

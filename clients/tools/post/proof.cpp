@@ -27,10 +27,8 @@ Result<comparison::MotionResult> prove(const SourceProgram& source, const Writte
       [&](EventSink& out, const Position& start) -> std::unique_ptr<EventSink> {
         return std::make_unique<Adaptation>(out, written.grid, written.adaptation, start);
       }};
-  // Where the target's tools are not known, they are those of the source, or what the program says.
   interpreter::Setup target_setup = written.target_setup;
-  const bool defines_tools = written.grid.target().form == Form::PlainLanguage;
-  if (target_setup.tools.empty() && !defines_tools) target_setup.tools = written.source_setup.tools;
+  target_setup.tools = tools_at(written.grid.target(), written.target_setup, written.source_setup);
   const comparison::MotionSide second{
       **dialect, target_setup, text,
       [&](EventSink& out, const Position& start) -> std::unique_ptr<EventSink> {

@@ -134,6 +134,13 @@ unsigned axes_of(const Target& target) {
   return axes;
 }
 
+const std::vector<interpreter::ToolRecord>& tools_at(const Target& target,
+                                                     const interpreter::Setup& target_setup,
+                                                     const interpreter::Setup& source_setup) {
+  const bool takes_source = target_setup.tools.empty() && target.form != Form::PlainLanguage;
+  return takes_source ? source_setup.tools : target_setup.tools;
+}
+
 Result<const Target*> find_target(std::string_view name) {
   const auto found = std::ranges::find(kTargets, name, &Target::name);
   if (found != kTargets.end()) return &*found;

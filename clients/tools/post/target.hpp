@@ -5,8 +5,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/core/setup.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::post {
@@ -69,6 +71,11 @@ std::string target_names();
 Result<const Target*> find_target(std::string_view name);
 /// Its axes as bits; bit 0 is X.
 unsigned axes_of(const Target& target);
+/// The tools that a written program runs with: those of its setup; without any those of the
+/// source's, but where the program defines them itself. A reference into one of the setups.
+const std::vector<interpreter::ToolRecord>& tools_at(const Target& target,
+                                                     const interpreter::Setup& target_setup,
+                                                     const interpreter::Setup& source_setup);
 
 constexpr const NumberRange& range_of(const ByUnits& ranges, interpreter::Units units) {
   return ranges[static_cast<std::size_t>(units)];
