@@ -39,25 +39,21 @@ Result<bool> PostgresqlPlace::try_take(postgresql::Database& database, std::stri
   const auto has_terms = postgresql::has_column(database, "store_holder", "term");
   if (!has_terms) return fail(has_terms.error());
   if (auto begun = database.begin(); !begun) return fail(begun.error());
-  std::int64_t until = 0;
-  bool is_namesake = false;
   const auto free = sql::first_row(
       database,
-      "SELECT holder = '' OR holder = ?1 OR until <= now(), described, holder = ?1 AND until > "
-      "now(), CAST(extract(epoch FROM until) * 1000000 AS bigint) FROM store_holder WHERE id = 1 "
-      "FOR UPDATE",
-      [&](const sql::Statement& row) {
-        other = row.text(1);
-        is_namesake = row.integer(2) != 0;
-        until = row.integer(3);
-        return row.integer(0) != 0;
+      "SELECT holder = '' OR until <= now(), holder = ?1, described, "
+      "CAST(extract(epoch FROM until) * 1000000 AS bigint) FROM store_holder WHERE id = 1 FOR "
+      "UPDATE",
+      [&](const sql::Statement& row) -> Result<bool> {
+        other = row.text(2);
+        if (row.integer(0) != 0) return true;
+        return row.integer(1) != 0 ? is_gone(row.integer(3), database.label(), other) : false;
       },
       owner_.holder);
   if (!free) return fail(free.error());
-  const auto gone = is_namesake ? is_gone(until, database.label(), other) : true;
-  if (!gone || !*gone || !free->value_or(false)) {
+  if (const auto is_free = free->value_or(false); !is_free || !*is_free) {
     database.roll_back();
-    return gone ? Result<bool>(false) : fail(gone.error());
+    return is_free;
   }
   const auto taken =
       sql::run(database,

@@ -55,8 +55,7 @@ bool Link::wait_for_bytes() {
     pollfd socket{.fd = PQsocket(connection_), .events = POLLIN, .revents = 0};
     if (unsent < 0 || socket.fd < 0) return true;  // the result reports it
     if (unsent > 0) socket.events |= POLLOUT;
-    const auto silence = static_cast<int>(patience_.silence.count());
-    const int ready = ::poll(&socket, 1, silence == 0 ? -1 : silence);
+    const int ready = ::poll(&socket, 1, static_cast<int>(patience_.silence.count()));
     if (ready < 0 && errno == EINTR) continue;
     if (ready == 0 && patience_.is_answering()) continue;
     if (ready == 0) return false;

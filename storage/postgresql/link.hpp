@@ -38,10 +38,10 @@ class Link {
   void set_hoarder(Hoarder* hoarder);
   Hoarder* hoarder() const { return hoarder_; }
 
-  /// How long a server may be silent, 0 for ever, and whether it answers others then: a statement
-  /// may take long, but a frozen server is given up.
+  /// How long a server may be silent, and whether it answers others then: a statement may take
+  /// long, but a frozen server is given up.
   struct Patience {
-    std::chrono::milliseconds silence{0};
+    std::chrono::milliseconds silence;
     std::function<bool()> is_answering;
   };
   Link(pg_conn* connection, Patience patience);  ///< takes the connection
