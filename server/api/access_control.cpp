@@ -119,6 +119,13 @@ std::optional<Response> AccessControl::judge_caller(const Request& head,
   return std::nullopt;
 }
 
+std::optional<std::string> machine_of_run(const machines::MachineControl& machines,
+                                          library::RunHistory& runs, const std::string& id) {
+  if (auto reporting = machines.machine_of_run(id)) return reporting;
+  const auto run = runs.run(id);
+  return run ? std::optional(run->machine) : std::nullopt;
+}
+
 /// nullopt: the request names none that exists, and the handler refuses it.
 std::optional<std::string> AccessControl::machine_of(const Request& request,
                                                      MachineIn where) const {
@@ -127,11 +134,8 @@ std::optional<std::string> AccessControl::machine_of(const Request& request,
       return std::nullopt;
     case MachineIn::Name:
       return request.parameter("name");
-    case MachineIn::Run: {
-      if (auto machine = parts_.machines.machine_of_run(request.parameter("id"))) return machine;
-      const auto run = parts_.runs.run(request.parameter("id"));
-      return run ? std::optional(run->machine) : std::nullopt;
-    }
+    case MachineIn::Run:
+      return machine_of_run(parts_.machines, parts_.runs, request.parameter("id"));
     case MachineIn::Start: {
       const auto start = decode_start(request.body);
       return start ? std::optional(start->machine) : std::nullopt;

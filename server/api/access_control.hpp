@@ -49,4 +49,9 @@ class AccessControl {
 /// 403, for a caller who is known and may not.
 Response forbidden(std::string reason);
 
+/// The machine that reports the run as its own now, else the one that the store has for it: a stop
+/// need not wait for the store. nullopt: there is no such run.
+std::optional<std::string> machine_of_run(const machines::MachineControl& machines,
+                                          library::RunHistory& runs, const std::string& id);
+
 }  // namespace dripline::api

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/dds/endpoint.hpp"
+#include "server/api/access_control.hpp"
 #include "server/api/api.hpp"
 #include "server/api/bodies/run_bodies.hpp"
 #include "server/api/views.hpp"
@@ -202,13 +203,8 @@ namespace {
 bool stops(Services& services, const machines::CommandRequest& command) {
   if (dds::is_stop(command.action, command.argument, command.value)) return true;
   if (!dds::is_override(command.action)) return false;
-  std::string machine = command.machine;
-  if (auto reporting = services.machines.machine_of_run(command.run)) {
-    machine = *std::move(reporting);
-  } else if (const auto run = services.runs.run(command.run)) {
-    machine = run->machine;
-  }
-  const auto view = services.machines.machine(machine);
+  const auto view = services.machines.machine(
+      machine_of_run(services.machines, services.runs, command.run).value_or(command.machine));
   return view && view->status && dds::lowers_override(command.action, command.value, *view->status);
 }
 
