@@ -77,7 +77,6 @@ ActionReader::Kept ActionReader::kept() {
   auto* memory = dynamic_cast<interpreter::RetainedMemory*>(&run_->interpreter());
   if (memory == nullptr) return kept;
   kept.cells = memory->memory_cells();
-  kept.values.resize(kept.cells.size(), interpreter::kVacant);
   memory->read_memory(kept.values);
   return kept;
 }

@@ -34,8 +34,8 @@ class RetainedMemory {
   virtual ~RetainedMemory() = default;
   /// Always the same list for one setup, whatever variables it restores.
   virtual std::vector<MemoryCell> memory_cells() const = 0;
-  /// The cells' numbers in that order, as the block finished last has left them. False, and
-  /// `values` as they are: nothing has changed since the call before.
+  /// The cells' numbers in that order, as the block finished last has left them. `values` are of
+  /// the call before, or empty, to read all. False, and `values` as they are: nothing has changed.
   virtual bool read_memory(std::vector<double>& values) = 0;
 };
 
