@@ -235,14 +235,6 @@ TEST(PlainSending, IsBusyWhileSending) {
   EXPECT_EQ(again.error().code, Errc::Busy);
 }
 
-bool is_cut(wire::Discipline& line) {
-  for (const auto& event : line.take_events()) {
-    if (const auto* ended = std::get_if<TransferEnded>(&event)) return ended->is_cut;
-  }
-  ADD_FAILURE() << "it did not end";
-  return false;
-}
-
 TEST(PlainSettings, RefuseMarksThatTheLineCannotCarry) {
   const auto refused =
       [](std::initializer_list<std::pair<std::string_view, std::string_view>> set) {

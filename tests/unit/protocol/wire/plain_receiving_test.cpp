@@ -21,6 +21,14 @@ TEST(PlainReceiving, BeginsByItselfAtAHostAndEndsWithSilence) {
   EXPECT_EQ(host.events(), "received\n");
 }
 
+bool is_cut(wire::Discipline& line) {
+  for (const auto& event : line.take_events()) {
+    if (const auto* ended = std::get_if<TransferEnded>(&event)) return ended->is_cut;
+  }
+  ADD_FAILURE() << "it did not end";
+  return false;
+}
+
 TEST(PlainReceiving, SaysWhetherSilenceEndedIt) {
   TestedLine silent(LineSettings{}, Role::Host);
   silent.hear("D 40.0");
