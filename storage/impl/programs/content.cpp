@@ -156,41 +156,58 @@ Result<std::vector<std::byte>> load_chunk(sql::Database& database, std::int64_t 
   return std::move(**plain);
 }
 
-Result<CommittedChunk> load_committed_chunk(sql::Database& database, const Digest& content,
-                                            std::uint64_t position, const ChunkDigests& expected) {
-  using Loaded = Result<CommittedChunk>;
+namespace {
+
+/// The row's columns: size of the content, position, and those of `read_chunk`. Past the end of
+/// the content there is no chunk.
+Result<CommittedChunk> read_committed(const sql::Statement& row, std::uint64_t position,
+                                      std::string_view label, const ChunkDigests& expected) {
+  CommittedChunk chunk{row.number(0), {}, {}};
+  if (position * kChunkBytes >= chunk.content_size) return chunk;
+  if (position >= expected.size()) {
+    return fail(Errc::Corrupt, "{}: chunk {} is more than it was stored with", label, position);
+  }
+  const std::string place = place_of(label, position);
+  if (row.is_null(2) || row.number(1) != position)
+    return fail(Errc::Corrupt, "{} is missing in the database", place);
+  auto bytes = read_chunk(row, 2, &expected[position]);
+  if (!bytes) return fail(Errc::Corrupt, "{} is damaged: {}", place, bytes.error().what);
+  const auto due = std::min(kChunkBytes, chunk.content_size - position * kChunkBytes);
+  if (bytes->size() != due) {
+    return fail(Errc::Corrupt, "{}: chunk {} has {} bytes instead of {}", label, position,
+                bytes->size(), due);
+  }
+  chunk.bytes = *std::move(bytes);
+  const auto frame = row.blob(4);
+  chunk.frame.assign(frame.begin(), frame.end());
+  return chunk;
+}
+
+}  // namespace
+
+Result<std::vector<CommittedChunk>> load_committed_chunks(sql::Database& database,
+                                                          const Digest& content, ChunkRange range,
+                                                          const ChunkDigests& expected) {
   const auto label = fmt::format("content {}", content.hex());
-  const auto loaded = sql::first_row(
+  std::uint64_t position = range.first;
+  auto rows = sql::all_rows(
       database,
-      "SELECT content.size, chunk.sha256, chunk.size, chunk.data, content_chunk.sha256 "
-      "FROM content LEFT JOIN content_chunk ON content_chunk.content = content.id AND "
-      "content_chunk.position = ?2 LEFT JOIN chunk ON chunk.id = content_chunk.chunk "
-      "WHERE content.sha256 = ?1",
-      [&](const sql::Statement& row) -> Loaded {
-        CommittedChunk chunk{row.number(0), {}, {}};
-        if (position * kChunkBytes >= chunk.content_size) return chunk;
-        if (position >= expected.size()) {
-          return fail(Errc::Corrupt, "{}: chunk {} is more than it was stored with", label,
-                      position);
-        }
-        const std::string place = place_of(label, position);
-        if (row.is_null(1)) return fail(Errc::Corrupt, "{} is missing in the database", place);
-        auto bytes = read_chunk(row, 1, &expected[position]);
-        if (!bytes) return fail(Errc::Corrupt, "{} is damaged: {}", place, bytes.error().what);
-        const auto due = std::min(kChunkBytes, chunk.content_size - position * kChunkBytes);
-        if (bytes->size() != due) {
-          return fail(Errc::Corrupt, "{}: chunk {} has {} bytes instead of {}", label, position,
-                      bytes->size(), due);
-        }
-        chunk.bytes = *std::move(bytes);
-        const auto frame = row.blob(3);
-        chunk.frame.assign(frame.begin(), frame.end());
-        return chunk;
-      },
-      std::span<const std::byte>(content.bytes), position);
-  if (!loaded) return fail(loaded.error().code, "{}: {}", label, loaded.error().what);
-  if (!*loaded) return fail(Errc::NotFound, "{} is not in the library", label);
-  return std::move(**loaded);
+      "SELECT content.size, content_chunk.position, chunk.sha256, chunk.size, chunk.data, "
+      "content_chunk.sha256 FROM content LEFT JOIN content_chunk "
+      "ON content_chunk.content = content.id AND content_chunk.position BETWEEN ?2 AND ?3 "
+      "LEFT JOIN chunk ON chunk.id = content_chunk.chunk "
+      "WHERE content.sha256 = ?1 ORDER BY content_chunk.position",
+      [&](const sql::Statement& row) { return read_committed(row, position++, label, expected); },
+      std::span<const std::byte>(content.bytes), range.first, range.first + range.count - 1);
+  if (!rows) return fail(rows.error().code, "{}: {}", label, rows.error().what);
+  if (rows->empty()) return fail(Errc::NotFound, "{} is not in the library", label);
+  if (const auto& first = rows->front(); !first) return fail(first.error());
+  std::vector<CommittedChunk> chunks;
+  for (auto& row : *rows) {
+    if (!row) break;  // its reader is told
+    chunks.push_back(*std::move(row));
+  }
+  return chunks;
 }
 
 Result<std::vector<std::byte>> load_range(sql::Database& database, const ContentRow& content,

@@ -52,15 +52,22 @@ Result<std::vector<std::byte>> load_chunk(sql::Database& database, std::int64_t 
                                           std::uint64_t position, std::string_view label,
                                           const Digest* expected = nullptr);
 
-/// The same of a committed content, found by its digest, in one statement. Past its end: no bytes.
-/// Errors: also NotFound (there is no such content).
+/// The same of a committed content, found by its digest. Past its end: no bytes.
 struct CommittedChunk {
   std::uint64_t content_size = 0;
   std::vector<std::byte> bytes;
   std::vector<std::byte> frame;  ///< the same as it is stored
 };
-Result<CommittedChunk> load_committed_chunk(sql::Database& database, const Digest& content,
-                                            std::uint64_t position, const ChunkDigests& expected);
+struct ChunkRange {
+  std::uint64_t first = 0;
+  std::uint64_t count = 1;
+};
+/// The chunk at `range.first` and those after it, in one statement: as many of the range as the
+/// content has and as are good. Errors are those of the first one: also NotFound (there is no such
+/// content).
+Result<std::vector<CommittedChunk>> load_committed_chunks(sql::Database& database,
+                                                          const Digest& content, ChunkRange range,
+                                                          const ChunkDigests& expected);
 
 /// A range of bytes, checked chunk by chunk; ends at the content's end.
 Result<std::vector<std::byte>> load_range(sql::Database& database, const ContentRow& content,

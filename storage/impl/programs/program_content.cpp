@@ -9,6 +9,9 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
+/// At most, read in one statement: the way to a database costs as much as a chunk does.
+constexpr std::uint64_t kChunksInOrder = 4;
+
 /// Puts a range together; `chunk(position)` gives a pointer to a CachedChunk, or what ends it.
 template <class Chunk>
 auto put_together(std::uint64_t offset, std::uint64_t length, Chunk chunk)
@@ -103,11 +106,23 @@ ProgramRepository::ChunkPointer ProgramRepository::near_chunk(const Digest& cont
   return found;
 }
 
-Result<CommittedChunk> ProgramRepository::load_chunk(const Digest& content, std::uint64_t position,
-                                                     const ChunkDigests& digests) {
+Result<std::vector<CommittedChunk>> ProgramRepository::load_chunks(const Digest& content,
+                                                                   ChunkRange range,
+                                                                   const ChunkDigests& digests) {
   return connections_.read([&](sql::Database& database) {
-    return load_committed_chunk(database, content, position, digests);
+    return load_committed_chunks(database, content, range, digests);
   });
+}
+
+/// Chunks to read in one statement: several where the content is read in order, as far as they are
+/// not near.
+std::uint64_t ProgramRepository::due_at(const Digest& content, std::uint64_t position,
+                                        const ChunkDigests& digests) {
+  if (position == 0 || cache_.find({content, position - 1}) == nullptr) return 1;
+  const std::uint64_t end = std::min(position + kChunksInOrder, std::uint64_t{digests.size()});
+  std::uint64_t next = position + 1;
+  while (next < end && (near_ == nullptr || near_->use_chunk(digests[next]) == 0)) ++next;
+  return next - position;
 }
 
 Result<ProgramRepository::ChunkPointer> ProgramRepository::chunk(const Digest& content,
@@ -116,14 +131,19 @@ Result<ProgramRepository::ChunkPointer> ProgramRepository::chunk(const Digest& c
   const auto known = known_list(content);
   if (!known) return fail(known.error());
   const ChunkDigests& digests = (*known)->chunks;
-  auto read = load_chunk(content, position, digests);
+  auto read = load_chunks(content, {position, due_at(content, position, digests)}, digests);
   if (!read) return fail(read.error());
-  if (near_ != nullptr && !read->bytes.empty())
-    near_->keep_chunk(digests[position], read->frame, ContentCache::Reason::Asked);
-  auto loaded =
-      std::make_shared<const CachedChunk>(CachedChunk{read->content_size, std::move(read->bytes)});
-  if (!loaded->bytes.empty()) cache_.insert({content, position}, loaded);
-  return loaded;
+  ChunkPointer asked;
+  for (CommittedChunk& found : *read) {
+    if (near_ != nullptr && !found.bytes.empty())
+      near_->keep_chunk(digests[position], found.frame, ContentCache::Reason::Asked);
+    auto loaded = std::make_shared<const CachedChunk>(
+        CachedChunk{found.content_size, std::move(found.bytes)});
+    if (!loaded->bytes.empty()) cache_.insert({content, position}, loaded);
+    if (asked == nullptr) asked = std::move(loaded);
+    ++position;
+  }
+  return asked;
 }
 
 Result<Bytes> ProgramRepository::read_content(const Digest& content, std::uint64_t offset,
@@ -156,9 +176,9 @@ Result<ProgramStore::Fetched> ProgramRepository::fetch_ahead(const Digest& conte
   if (position >= digests.size()) return Fetched{.is_end = true};
   const Digest& chunk = digests[position];
   if (const auto bytes = near_->use_chunk(chunk); bytes > 0) return Fetched{.bytes = bytes};
-  const auto read = load_chunk(content, position, digests);
+  const auto read = load_chunks(content, {.first = position}, digests);
   if (!read) return fail(read.error());
-  near_->keep_chunk(chunk, read->frame, ContentCache::Reason::Ahead);
+  near_->keep_chunk(chunk, read->front().frame, ContentCache::Reason::Ahead);
   return Fetched{.bytes = near_->use_chunk(chunk)};
 }
 

@@ -56,8 +56,9 @@ class ProgramRepository final : public ProgramStore {
   ChunkPointer near_chunk(const Digest& content, std::uint64_t position);
   Result<std::shared_ptr<const ContentList>> known_list(const Digest& content);
   Result<ChunkPointer> chunk(const Digest& content, std::uint64_t position);
-  Result<CommittedChunk> load_chunk(const Digest& content, std::uint64_t position,
-                                    const ChunkDigests& digests);
+  std::uint64_t due_at(const Digest& content, std::uint64_t position, const ChunkDigests& digests);
+  Result<std::vector<CommittedChunk>> load_chunks(const Digest& content, ChunkRange range,
+                                                  const ChunkDigests& digests);
 
   Connections& connections_;
   const Clock& clock_;

@@ -256,6 +256,23 @@ TEST_P(ProgramTest, AChunkExchangedWhileItIsReadIsRefused) {
   EXPECT_NE(refused.error().what.find("chunk 1"), std::string::npos) << refused.error().what;
 }
 
+TEST_P(ProgramTest, ADamagedChunkRefusesItselfAlone) {
+  const std::string text = nc_text(1'300'000);
+  const Digest content = push("p.nc", text)->content;
+  damage(
+      "UPDATE chunk SET data = substr(data, 1, 100) WHERE id = (SELECT chunk FROM content_chunk "
+      "WHERE position = 3)");
+  for (const std::uint64_t position : {0, 1, 2, 3, 4}) {  // in order, as it is fed
+    const auto bytes = store_->programs.read_content(content, position * 262'144, 10);
+    if (position == 3) {
+      ASSERT_FALSE(bytes);
+      EXPECT_NE(bytes.error().what.find("chunk 3"), std::string::npos) << bytes.error().what;
+    } else {
+      EXPECT_EQ(text_of(bytes.value()), text.substr(position * 262'144, 10));
+    }
+  }
+}
+
 /// As a version before 4 left it.
 TEST_P(ProgramTest, ContentOfAnOlderVersionIsComparedAsAWholeOnce) {
   const std::string text = nc_text(800'000);
