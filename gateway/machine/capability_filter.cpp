@@ -67,7 +67,15 @@ bool CapabilityFilter::takes_motion(const Origin& origin, const interpreter::Pos
 }
 
 bool CapabilityFilter::takes_probe(const interpreter::Probe& probe) {
-  return takes_motion(probe.origin, probe.to);
+  if (probe.arc && !capabilities_.arc_probing) {
+    refuse(probe.origin, "probe on an arc");
+    return false;
+  }
+  if (probe.is_rapid && !capabilities_.rapid_probing) {
+    refuse(probe.origin, "probe at rapid traverse");
+    return false;
+  }
+  return takes_motion(probe.origin, probe.to, probe.arc.has_value());
 }
 
 void CapabilityFilter::on_rapid(const interpreter::Rapid& rapid) {

@@ -25,7 +25,9 @@ struct MotionCapabilities {
   bool arcs = false;
   bool threads = false;           ///< feed synchronized to the spindle
   bool spindle_feedback = false;  ///< feed and dwell per revolution
-  bool probing = false;
+  bool probing = false;           ///< on straight lines at a feed
+  bool arc_probing = false;
+  bool rapid_probing = false;
   bool feed_override = false, rapid_override = false, spindle_override = false;
   bool single_block = false;
   bool dry_run = false;    ///< obeys OperatorPanel::dry_run at once

@@ -73,6 +73,8 @@ class SimulatedMachine final : public MotionBackend {
                                    .threads = true,
                                    .spindle_feedback = true,
                                    .probing = true,
+                                   .arc_probing = true,
+                                   .rapid_probing = true,
                                    .feed_override = true,
                                    .rapid_override = true,
                                    .spindle_override = true,

@@ -123,7 +123,9 @@ void PathEncoder::on_thread(const interpreter::Thread& event) {
   if (!event.arc) arrive(event.origin, event.to, PathMove::Thread);
 }
 void PathEncoder::on_probe(const interpreter::Probe& event) {
-  if (event.result) arrive(event.origin, event.result->at, PathMove::Probe);
+  if (!event.result) return;
+  if (event.arc) return follow(arc_of(event), PathMove::Probe);
+  arrive(event.origin, event.result->at, PathMove::Probe);
 }
 
 void PathEncoder::follow(const interpreter::Arc& arc, PathMove move) {

@@ -226,7 +226,9 @@ std::string describe(const Action& action) {
     case ActionKind::Thread:
       return fmt::format("thread to {}, lead {:g} mm", coordinates(action), action.numbers[0]);
     case ActionKind::Probe:
-      return fmt::format("probe to {}, {}", coordinates(action), feed_text(action.feed));
+      return fmt::format("probe{} to {}, {}", action.has_arc ? " on an arc" : "",
+                         coordinates(action),
+                         action.feed == Feed{} ? "rapid" : feed_text(action.feed));
     case ActionKind::Dwell:
       return action.numbers[1] != Action::kNoNumber
                  ? fmt::format("dwell of {:g} revolutions", action.numbers[1])

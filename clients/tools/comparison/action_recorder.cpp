@@ -90,6 +90,11 @@ void ActionRecorder::on_probe(const interpreter::Probe& event) {
   action.to = event.to;
   action.feed = event.feed;
   action.code = static_cast<int>(event.until);
+  if (event.arc) {
+    interpreter::Probe programmed = event;
+    programmed.result.reset();
+    set_arc(action, arc_of(programmed));
+  }
   if (interpreter_ != nullptr) action.lengths = interpreter_->modes().lengths();
   at_ = event.result->at;
 }

@@ -242,9 +242,11 @@ void CheckSummary::on_spindle(const Spindle& spindle) {
 void CheckSummary::on_probe(const Probe& probe) {
   if (!probe.result) return;
   rest();
-  cut({.to = probe.result->at, .length = distance(last_, probe.result->at), .rests = true},
-      probe.feed);
-  move_to(probe.result->at);
+  const Position& at = probe.result->at;
+  if (probe.is_rapid) return on_rapid({probe.origin, at});
+  if (probe.arc) return on_arc(arc_of(probe));
+  cut({.to = at, .length = distance(last_, at), .rests = true}, probe.feed);
+  move_to(at);
 }
 
 void CheckSummary::on_warning(const Warning& warning) {

@@ -62,8 +62,7 @@ class SetupAnswers {
       : setup_(setup), pins_(std::move(pins)), diagnostics_(diagnostics) {}
 
   Result<Answer> operator()(const ProbeQuestion& question, const Origin&) {
-    const Probe& probe = question.probe;
-    return Answer(setup_.workpiece.probe(probe.from, probe.to, probe.until));
+    return Answer(setup_.workpiece.probe(question.probe));
   }
   Result<Answer> operator()(const PromptQuestion& question, const Origin& origin) {
     if (used_ == setup_.answers.size()) {

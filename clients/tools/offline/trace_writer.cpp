@@ -274,6 +274,12 @@ void TraceWriter::on_probe(const Probe& probe) {
   moves_to(at);
   begin("probe", probe.origin);
   position("to", probe.to);
+  if (probe.arc) {
+    Probe programmed = probe;
+    programmed.result.reset();
+    arc_path(arc_of(programmed));
+  }
+  if (probe.is_rapid) member("rapid", true);
   member("until", word_of(probe.until));
   buffer_ += ",\"result\":{\"tripped\":";
   buffer_ += probe.result->tripped ? "true" : "false";

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
+
 namespace dripline::interpreter {
 
 char letter(Axis axis) {
@@ -18,10 +20,32 @@ std::optional<Axis> axis_of(char letter) {
 }
 
 Arc arc_of(const Thread& thread) {
-  const ThreadArc& arc = *thread.arc;
+  const PathArc& arc = *thread.arc;
   return {thread.origin, thread.to, arc.center_first, arc.center_second,
           arc.plane,     arc.turn,  arc.sweep,        Feed::per_revolution(thread.lead),
           false};
+}
+
+Arc arc_of(const Probe& probe) {
+  const PathArc& arc = *probe.arc;
+  Arc passed{probe.origin,      probe.to,   arc.center_first,
+             arc.center_second, arc.plane,  arc.turn,
+             arc.sweep,         probe.feed, true};
+  if (!probe.result || !probe.result->tripped) return passed;
+  passed.to = probe.result->at;
+  const PlaneAxes axes = axes_of(arc.plane);
+  const PlaneVector center{arc.center_first.mm(), arc.center_second.mm()};
+  const PlaneVector start = in_plane(probe.from, axes) - center;
+  const PlaneVector end = in_plane(passed.to, axes) - center;
+  const double sense = arc.turn == Turn::Counterclockwise ? 1 : -1;
+  double radians = sense * turn_between(start, end);
+  if (radians < 0) radians += 2 * Angle::kPi;
+  // What rounding has put before the start or after the end has not moved, or passed all.
+  const double sweep = arc.sweep.radians();
+  const double beyond = radians - sweep, before = 2 * Angle::kPi - radians;
+  if (beyond > 0) radians = before < beyond ? 0 : sweep;
+  passed.sweep = Angle::radians(radians);
+  return passed;
 }
 
 Length mean_lead(const Thread& thread, Length path) {

@@ -158,8 +158,8 @@ struct Arc {
   bool rests = false;  ///< as for a line
 };
 
-/// The arc that a circular thread is cut on; members as in Arc.
-struct ThreadArc {
+/// The arc of a move that has another event than Arc; members as there.
+struct PathArc {
   Length center_first;
   Length center_second;
   Plane plane = Plane::XY;
@@ -172,8 +172,8 @@ struct Thread {
   Position to;
   Length lead;  ///< at the start of the move
   std::optional<Angle> start_angle;
-  std::optional<ThreadArc> arc{};  ///< absent: a straight or tapered thread
-  Length lead_change{};            ///< added to the lead with each revolution
+  std::optional<PathArc> arc{};  ///< absent: a straight or tapered thread
+  Length lead_change{};          ///< added to the lead with each revolution
 };
 /// The path of a circular thread, fed by its lead with each revolution; only with `arc`.
 Arc arc_of(const Thread& thread);
@@ -240,9 +240,13 @@ struct Probe {
   Position from;
   Position to;
   ProbeUntil until = ProbeUntil::Contact;
-  Feed feed;
+  Feed feed;  ///< none at rapid traverse
   std::optional<ProbeResult> result;
+  std::optional<PathArc> arc{};  ///< from `from` to `to`; absent: a straight move
+  bool is_rapid = false;
 };
+/// The arc that a probe move passes: to `to`, or as far as its result; only with `arc`.
+Arc arc_of(const Probe& probe);
 
 struct Output {
   Origin origin;

@@ -192,13 +192,14 @@ void Executor::discard() {
 void Executor::start_probe() {
   interpreter::Probe& probe = *queue_.probe;
   // The interpreter's own end point, so that a trace without a machine is the same.
-  probe.result = workpiece_.probe(probe.from, probe.to, probe.until);
+  probe.result = workpiece_.probe(probe);
   Coordinates target = at_;
   take_over(target, probe.result->at);
-  const Path path = straight_path(at_, target);
+  const Path path = probe.arc ? arc_path(at_, arc_of(probe)) : straight_path(at_, target);
   if (path.length == 0) return finish_probe();
   MoveBuilder builder(limits_);
-  const MoveTask task{.path = path, .pace = Pace::Feed, .feed = probe.feed, .lead = {}};
+  const Pace pace = probe.is_rapid ? Pace::Rapid : Pace::Feed;
+  const MoveTask task{.path = path, .pace = pace, .feed = probe.feed, .lead = {}};
   if (auto refusal = builder.build(task, spindle_, probe_move_)) {
     queue_.alarm = interpreter::Diagnostic{
         .id = refusal->id, .text = std::move(refusal->text), .line = probe.origin.line};

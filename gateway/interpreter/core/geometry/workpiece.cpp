@@ -4,22 +4,46 @@
 #include <cmath>
 #include <optional>
 
+#include "gateway/interpreter/core/geometry/plane_curves.hpp"
+#include "protocol/base/invariant.hpp"
+
 namespace dripline::interpreter {
 namespace {
 
 /// Millimeters: rounding of a position that went through inches and offsets stays far below it.
 constexpr double kOnSurface = 1e-6;
 
-/// A straight move; t = 0 is its start and t = 1 its end.
+constexpr PlaneAxes kTurning = axes_of(Plane::ZX);
+
+/// The circle that an arc follows, in the plane ZX.
+struct Circle {
+  PlaneVector center, start;  ///< `start` from the center
+  double sweep = 0;           ///< radians, counterclockwise positive
+
+  PlaneVector at(double t) const {
+    const double sine = std::sin(sweep * t), cosine = std::cos(sweep * t);
+    return center + PlaneVector{start.first * cosine - start.second * sine,
+                                start.first * sine + start.second * cosine};
+  }
+  /// Of the movement along the first axis there.
+  double direction_of_first(double t) const { return -sweep * (at(t) - center).second; }
+};
+
+/// A move; t = 0 is its start and t = 1 its end.
 struct Move {
   const Position& from;
   const Position& to;
   ProbeUntil until;
   double length;  ///< millimeters over X, Y, Z
+  std::optional<Circle> circle;
 
   double start(Axis axis) const { return from.linear(axis).mm(); }
   double delta(Axis axis) const { return to.linear(axis).mm() - from.linear(axis).mm(); }
-  double at(Axis axis, double t) const { return start(axis) + t * delta(axis); }
+  double at(Axis axis, double t) const {
+    if (circle && axis == kTurning.first) return circle->at(t).first;
+    if (circle && axis == kTurning.second) return circle->at(t).second;
+    return start(axis) + t * delta(axis);
+  }
   /// The move's share that is as long as kOnSurface.
   double tolerance() const { return kOnSurface / length; }
 };
@@ -30,7 +54,55 @@ std::optional<double> on_move(const Move& move, double t) {
   return std::clamp(t, 0.0, 1.0);
 }
 
+/// Where an arc crosses a line of the plane ZX, in the order of the path.
+std::vector<double> crossings(const Move& move, PlaneVector point, PlaneVector direction) {
+  const Circle& circle = *move.circle;
+  std::vector<double> places;
+  const PlaneLine line =
+      line_through(point - circle.center, (1 / interpreter::length(direction)) * direction);
+  const auto met = interpreter::meet(line, PlaneCircle{{}, interpreter::length(circle.start)});
+  if (!met) return places;
+  const double sense = circle.sweep > 0 ? 1 : -1, all = std::fabs(circle.sweep);
+  for (const PlaneVector& crossing : {met->one, met->other}) {
+    double turn = sense * turn_between(circle.start, crossing);
+    if (turn < 0) turn += 2 * Angle::kPi;
+    for (const double angle : {turn, turn - 2 * Angle::kPi})
+      if (const auto place = on_move(move, angle / all)) places.push_back(*place);
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+std::vector<double> crossings(const Move& move, Axis axis, double value) {
+  if (axis == kTurning.first) return crossings(move, {value, 0}, {0, 1});
+  return axis == kTurning.second ? crossings(move, {0, value}, {1, 0}) : std::vector<double>{};
+}
+
+std::optional<double> meet_on_arc(const ProbePlane& plane, const Move& move) {
+  for (const double t : crossings(move, plane.axis, plane.at.mm())) {
+    const bool leaves_material = move.circle->direction_of_first(t) > 0;
+    const bool starts_on = t <= move.tolerance();
+    const bool is_met =
+        move.until == ProbeUntil::Release ? leaves_material : !(starts_on && leaves_material);
+    if (plane.axis != Axis::Z || is_met) return t;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> meet_on_arc(const ProbeCylinder& cylinder, const Move& move) {
+  const double y = move.start(Axis::Y) - cylinder.center_y.mm();
+  const double square = cylinder.radius.mm() * cylinder.radius.mm() - y * y;
+  if (square < 0) return std::nullopt;
+  std::optional<double> first;
+  for (const double x : {-std::sqrt(square), std::sqrt(square)}) {
+    const auto places = crossings(move, Axis::X, cylinder.center_x.mm() + x);
+    if (!places.empty() && !(first && *first < places.front())) first = places.front();
+  }
+  return first;
+}
+
 std::optional<double> meet(const ProbePlane& plane, const Move& move) {
+  if (move.circle) return meet_on_arc(plane, move);
   const double distance = plane.at.mm() - move.start(plane.axis);
   const double delta = move.delta(plane.axis);
   if (std::fabs(delta) < kOnSurface) return std::nullopt;  // along the plane
@@ -45,6 +117,7 @@ std::optional<double> meet(const ProbePlane& plane, const Move& move) {
 }
 
 std::optional<double> meet(const ProbeCylinder& cylinder, const Move& move) {
+  if (move.circle) return meet_on_arc(cylinder, move);
   const double x = move.start(Axis::X) - cylinder.center_x.mm();
   const double y = move.start(Axis::Y) - cylinder.center_y.mm();
   const double dx = move.delta(Axis::X);
@@ -80,9 +153,30 @@ bool is_inside(const ProbeProfile& profile, double x, double z) {
          has_material(profile, x + kOnSurface, z + kOnSurface);
 }
 
+/// `boundaries` of an arc.
+std::vector<double> boundaries_on_arc(const ProbeProfile& profile, const Move& move) {
+  std::vector<double> places{0.0, 1.0};
+  for (std::size_t i = 0; i < profile.points.size(); ++i) {
+    const PlaneVector b{profile.points[i].z.mm(), profile.points[i].x.mm()};
+    const auto at_corner = crossings(move, Axis::X, b.second);
+    places.insert(places.end(), at_corner.begin(), at_corner.end());
+    if (i == 0) continue;
+    const PlaneVector a{profile.points[i - 1].z.mm(), profile.points[i - 1].x.mm()};
+    const PlaneVector piece = b - a;
+    if (piece == PlaneVector{}) continue;
+    for (const double t : crossings(move, a, piece)) {
+      const double along = dot(move.circle->at(t) - a, piece) / dot(piece, piece);
+      if (along >= -1e-9 && along <= 1 + 1e-9) places.push_back(t);
+    }
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
 /// Where the move may go in or out: crossings of the outline, and the X of its corners, below which
 /// the outline may begin or end.
 std::vector<double> boundaries(const ProbeProfile& profile, const Move& move) {
+  if (move.circle) return boundaries_on_arc(profile, move);
   const double dx = move.delta(Axis::X);
   const double dz = move.delta(Axis::Z);
   std::vector<double> places{0.0, 1.0};
@@ -140,17 +234,28 @@ Position point_at(const Move& move, double t) {
       const double end = move.to.raw(axis);
       if (start != end) point.set_raw(axis, start + t * (end - start));
     }
+    if (move.circle) set_in_plane(point, kTurning, move.circle->at(t));
   }
   point.mark_all_of(move.to);
   return point;
 }
 
+void set_circle(const PathArc& arc, Move& move) {
+  invariant(arc.plane == Plane::ZX, "a probe's arc lies in ZX");
+  const PlaneVector center{arc.center_first.mm(), arc.center_second.mm()};
+  const double sense = arc.turn == Turn::Counterclockwise ? 1 : -1;
+  const PlaneVector start = in_plane(move.from, kTurning) - center;
+  move.circle = Circle{center, start, sense * arc.sweep.radians()};
+  move.length = interpreter::length(start) * arc.sweep.radians();
+}
+
 }  // namespace
 
-ProbeResult Workpiece::probe(const Position& from, const Position& to, ProbeUntil until) const {
-  Move move{from, to, until, 0};
+ProbeResult Workpiece::probe(const Probe& probe) const {
+  Move move{probe.from, probe.to, probe.until, 0, std::nullopt};
   move.length = std::hypot(move.delta(Axis::X), move.delta(Axis::Y), move.delta(Axis::Z));
-  ProbeResult result{false, to};
+  if (probe.arc) set_circle(*probe.arc, move);
+  ProbeResult result{false, probe.to};
   if (move.length <= kOnSurface) return result;
   std::optional<double> first;
   const ProbePlane* plane = nullptr;

@@ -51,7 +51,7 @@ bool Run::guards_travel() {
   guard.set_units(state.units);
   guard.set_limits(limits);
   guard.set_zone(zone);
-  guard.place(passes_compensator() ? compensator.sent() : blender.sent());
+  guard.place(sent());
   const bool is_active = zone || maximum.x > 0 || maximum.z > 0 || limits.min_x < limits.max_x ||
                          limits.min_z < limits.max_z;
   guard.set_active(is_active);

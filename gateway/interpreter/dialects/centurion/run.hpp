@@ -69,6 +69,10 @@ struct Run : BlockRun {
   void end_block();
   /// Ends the moves that wait in the stages as they are programmed. False: one was refused.
   bool flush_path();
+  /// Where the moves given out by the stages have led.
+  const Position& sent() const {
+    return passes_compensator() ? compensator.sent() : blender.sent();
+  }
   /// Whether the move of the block ends at rest (G9, G61).
   bool rests() const { return block.parts.rests || state.modes.path == PathMode::ExactStop; }
 

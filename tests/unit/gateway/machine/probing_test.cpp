@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "tests/unit/gateway/machine/test_machine.hpp"
 
@@ -90,6 +91,34 @@ TEST(Probing, AbortedIsNotAnswered) {
   test.machine.abort();
   test.run_all();
   EXPECT_EQ(test.recorder.lines, std::vector<std::string>{"aborted"});
+}
+
+TEST(Probing, OnAnArcStopsWhereItMeetsTheSurface) {
+  TestMachine test(plain_lathe(), face_at(-5));
+  test.machine.begin(Program::at(0, 10));
+  const Origin& origin = test.program.begin_block();
+  interpreter::Probe probe = probe_to(origin, 10, -10);
+  probe.arc = interpreter::PathArc{
+      {}, {}, interpreter::Plane::ZX, interpreter::Turn::Counterclockwise, Angle::degrees(180)};
+  test.machine.begin_probe(probe);
+  const double third = 10 * Angle::degrees(120).radians();
+  EXPECT_NEAR(test.run_all(), trapezoid(third, 10, 1000), 1e-6);
+  ASSERT_EQ(test.recorder.probes.size(), 1u);
+  EXPECT_TRUE(test.recorder.probes[0].result->tripped);
+  EXPECT_NEAR(test.z(), -5, 1e-9);
+  EXPECT_NEAR(test.machine.status().position.raw(Axis::X), std::sqrt(75), 1e-9);
+}
+
+TEST(Probing, AtRapidTraverseNeedsNoFeed) {
+  TestMachine test(plain_lathe(), face_at(-5));
+  const Origin& origin = test.program.begin_block();
+  interpreter::Probe probe = probe_to(origin, 0, -20);
+  probe.feed = {};
+  probe.is_rapid = true;
+  test.machine.begin_probe(probe);
+  const double seconds = test.run_all();
+  EXPECT_NEAR(test.z(), -5, 1e-9);
+  EXPECT_LT(seconds, trapezoid(5, 10, 1000)) << "quicker than at 600 mm/min";
 }
 
 }  // namespace

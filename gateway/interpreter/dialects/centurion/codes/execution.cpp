@@ -11,6 +11,7 @@
 #include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/probe_moves.hpp"
 
 namespace dripline::interpreter::centurion {
 
@@ -63,6 +64,8 @@ bool execute_block(Run& run) {
   Block::Parts& parts = run.block.parts;
   if (parts.stage == Stage::Execution) {
     if (!check_words(run) || !apply_modes(run)) return false;
+    if (parts.probe && !check_probe(run)) [[unlikely]]
+      return false;
     enter(parts, Stage::BeforeMove);
   }
   if (parts.stage == Stage::BeforeMove) {

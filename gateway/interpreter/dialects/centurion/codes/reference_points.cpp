@@ -70,7 +70,7 @@ bool retract_for(Run& run, int code) {
 bool move_in_machine(Run& run) {
   if (!run.block.words.has_any(kEndWords)) return true;
   const MotionMode mode = run.state.modes.motion;
-  if (mode >= MotionMode::Clockwise || run.block.parts.probe) {
+  if (mode >= MotionMode::Clockwise) {
     return run.fail(ErrorCode::IllegalStatement, motion_column(run), "G53 moves on straight lines");
   }
   Target target;

@@ -6,6 +6,7 @@
 
 #include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -127,15 +128,35 @@ void resume_compensation(Run& run) {
   run.blender.turn_on(nose_of(run, run.state.nose.code == 1));
 }
 
+bool check_uncompensated(Run& run, std::string_view what) {
+  const NoseUse& nose = run.state.nose;
+  if (nose.code == 0 || nose.radius_mm == 0) return true;
+  return run.fail(
+      ErrorCode::IllegalStatement, motion_column(run),
+      fmt::format("{} within G{}: compensation has to be off (G40)", what, 40 + nose.code));
+}
+
+bool is_at_program(const Run& run) {
+  constexpr double kRounding = 1e-6;  // millimeters
+  const Point at = machine_of(run, run.state.position);
+  const Position& sent = run.sent();
+  return std::fabs((sent.linear(Axis::X) - run.length(at.x)).mm()) <= kRounding &&
+         std::fabs((sent.linear(Axis::Z) - run.length(at.z)).mm()) <= kRounding;
+}
+
 void suppress_output(Run& run, bool is_suppressed) {
   begin_use(run);
   run.blender.suppress_output(is_suppressed);
 }
 
+bool refuse_misfit(Run& run) {
+  return run.fail(ErrorCode::RadiusTooSmall, 0, "the scaled radius does not span the points");
+}
+
 bool check_path(Run& run) {
   if (const auto& misfit = run.transform.misfit()) {
     run.origin.line = misfit->line;
-    return run.fail(ErrorCode::RadiusTooSmall, 0, "the scaled radius does not span the points");
+    return refuse_misfit(run);
   }
   if (const auto& stopped = run.guard.fault()) {
     run.origin.line = stopped->origin.line;

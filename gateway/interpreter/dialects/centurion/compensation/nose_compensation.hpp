@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 /// Tool nose radius compensation (manual: G40 to G42, tool types): how G40, G41, G42, the tool's
@@ -22,10 +24,16 @@ bool update_compensation(Run& run);
 /// and resume it after them.
 void cancel_compensation(Run& run);
 void resume_compensation(Run& run);
+/// False, with an alarm: compensation offsets the path, in which `what` has no meaning.
+bool check_uncompensated(Run& run, std::string_view what);
+/// Whether the moves given out lead to the program's point: those of compensation end beside it.
+bool is_at_program(const Run& run);
 /// Around the move of a G65 without P.
 void suppress_output(Run& run, bool is_suppressed);
 
 /// After every block: false, with the control's alarm, when the path cannot be offset.
 bool check_path(Run& run);
+/// The alarm of an arc that different factors of scaling have left without a circle.
+bool refuse_misfit(Run& run);
 
 }  // namespace dripline::interpreter::centurion

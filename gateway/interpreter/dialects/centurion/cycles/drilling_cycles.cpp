@@ -235,9 +235,6 @@ bool bore_with_stop(Run& run, const Hole& hole) {
 }
 
 bool make_hole(Run& run) {
-  if (run.block.parts.probe) {
-    return run.fail(ErrorCode::IllegalStatement, 0, "a probe move is no cycle");
-  }
   Hole hole;
   if (!read_hole(run, hole)) return false;
   const unsigned code = cycle_code(run);

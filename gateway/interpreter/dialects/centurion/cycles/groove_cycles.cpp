@@ -227,9 +227,6 @@ class GrooveCutter {
 };
 
 bool cut_groove(Run& run) {
-  if (run.block.parts.probe) {
-    return run.fail(ErrorCode::IllegalStatement, 0, "a probe move is no cycle");
-  }
   const bool is_face = run.axis_code() == 74;
   Groove groove;
   if (!read_groove(run, is_face ? kOnFace : kOnDiameter, groove)) return false;

@@ -138,7 +138,7 @@ bool count_passes(Run& run, const MultipleThread& thread) {
   return true;
 }
 
-Length path_of(const Run& run, const Target& target, const std::optional<ThreadArc>& arc) {
+Length path_of(const Run& run, const Target& target, const std::optional<PathArc>& arc) {
   if (!arc) return run.length(distance(run.state.position, target.to));
   const Length radius = hypot(run.length(target.to.z) - arc->center_first,
                               run.length(target.to.x) - arc->center_second);
@@ -159,7 +159,7 @@ void take_lead_change(Run& run) {
   run.block.words.drop(Address::K);
 }
 
-bool thread_to(Run& run, const Target& target, const std::optional<ThreadArc>& arc) {
+bool thread_to(Run& run, const Target& target, const std::optional<PathArc>& arc) {
   Lead lead;
   if (!read_lead(run, lead)) return false;
   if (!arc && target.to == run.state.position) return true;

@@ -19,7 +19,7 @@ bool takes_lead(const Run& run);
 /// G34: before the block's words are taken for a move, its K becomes the change of the lead.
 void take_lead_change(Run& run);
 /// A block with G32 to G36: instead of the line or the arc to `to`. `arc` is of a circular thread.
-bool thread_to(Run& run, const Target& target, const std::optional<ThreadArc>& arc);
+bool thread_to(Run& run, const Target& target, const std::optional<PathArc>& arc);
 
 /// G92.
 bool cut_single_thread(Run& run);

@@ -9,6 +9,7 @@
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/probe_moves.hpp"
 
 namespace dripline::interpreter::centurion {
 
@@ -136,7 +137,7 @@ bool emit_arc(Run& run, const ArcCenter& arc, const Target& target) {
   if (is_thread) {
     return thread_to(
         run, target,
-        ThreadArc{event.center_first, event.center_second, event.plane, event.turn, event.sweep});
+        PathArc{event.center_first, event.center_second, event.plane, event.turn, event.sweep});
   }
   event.feed = run.active_feed();
   event.rests = run.rests();
@@ -144,6 +145,7 @@ bool emit_arc(Run& run, const ArcCenter& arc, const Target& target) {
   state.moved_axes = 3;
   state.last_arc_center = arc.center;
   state.last_arc_radius = arc.radius;
+  if (run.block.parts.probe) return probe_arc(run, event);
   announce_arc(run, arc.is_known ? std::optional(arc.radius) : std::nullopt);
   run.events().on_arc(event);
   arrive(run, target.to);
@@ -207,9 +209,9 @@ bool refuse_missing_center(Run& run) {
 bool move_on_arc(Run& run) {
   const Words& words = run.block.words;
   RetainedWords& retained = run.state.retained;
-  if (run.block.parts.axis_row != kNoRow || run.block.parts.probe) {
+  if (run.block.parts.axis_row != kNoRow) {
     return run.fail(ErrorCode::IllegalStatement, motion_column(run),
-                    "G53 and PROBE move on straight lines");
+                    fmt::format("G{} moves on straight lines", run.axis_code()));
   }
   const bool has_radius = words.has(Address::R);
   if (has_radius) {

@@ -129,7 +129,7 @@ bool check_corner_words(Run& run) {
 bool has_trig_help(const Run& run) {
   const Transformation& how = run.state.transformation;
   if (how.scales && std::fabs(how.factor.x) != std::fabs(how.factor.z)) return false;
-  return !run.options.is_dnc_fast && run.block.parts.axis_row == kNoRow &&
+  return !run.options.is_dnc_fast && !run.block.parts.probe && run.block.parts.axis_row == kNoRow &&
          run.block.parts.thread_code == 0 && !run.state.modes.is_incremental &&
          !run.block.words.has_any(set_of(Address::U, Address::W)) &&
          (run.parameters.byte(kSpecialFlags) & kTrigHelpOff) == 0;

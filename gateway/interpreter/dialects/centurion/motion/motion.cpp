@@ -6,6 +6,7 @@
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/probe_moves.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -75,27 +76,6 @@ void position_to(Run& run, const Target& target) {
   rapid_to(run, target.to, target.named);
 }
 
-bool start_probe(Run& run, const Target& target) {
-  if (run.state.pattern.phase == PatternPhase::Reading) {
-    return run.fail(ErrorCode::IllegalStatement, motion_column(run),
-                    "a probe move in a pattern that is roughed");
-  }
-  if (run.state.modes.motion == MotionMode::Rapid) {
-    return run.fail(ErrorCode::NotSupported, motion_column(run), "a probe move under G0");
-  }
-  if (target.to == run.state.position) return true;
-  ProbeQuestion question;
-  question.probe.origin = run.origin;
-  const Point from = machine_of(run, run.state.position);
-  const Point to = machine_of(run, target.to);
-  question.probe.from = marked_position(run, from, from, target.named);
-  question.probe.to = marked_position(run, from, to, target.named);
-  question.probe.until = *run.block.parts.probe;
-  question.probe.feed = run.active_feed();
-  run.events();  // the header comes before anything that follows the question
-  return run.ask(question);
-}
-
 }  // namespace
 
 bool read_target(Run& run, Target& target) {
@@ -151,9 +131,8 @@ bool move(Run& run) {
   } else if (!read_target(run, target)) {
     return false;
   }
-  if (run.block.parts.probe) [[unlikely]] {
-    return check_feed(run) && start_probe(run, target);
-  }
+  if (run.block.parts.probe) [[unlikely]]
+    return probe_line(run, target);
   if (run.block.parts.thread_code != 0) [[unlikely]]
     return thread_to(run, target, std::nullopt);
   if (mode == MotionMode::Rapid) {
@@ -170,18 +149,6 @@ bool move(Run& run) {
       {run.origin, event_position(run, target.to, target.named), run.active_feed(), run.rests()});
   arrive(run, target.to);
   return true;
-}
-
-void finish_probe(Run& run, const ProbeResult& result) {
-  Probe probe = std::get<ProbeQuestion>(run.question).probe;
-  probe.origin = run.origin;
-  probe.result = result;
-  const double mm = run.state.mm_per_unit();
-  const Point at{result.at.linear(Axis::X).mm() / mm, result.at.linear(Axis::Z).mm() / mm};
-  const Point from = machine_of(run, run.state.position);
-  probe.result->at = marked_position(run, from, at, {probe.to.has(Axis::X), probe.to.has(Axis::Z)});
-  run.machine_events().on_probe(probe);
-  arrive(run, programmed_of(run, at));
 }
 
 void rapid_to(Run& run, const Point& to, AxesNamed named) {

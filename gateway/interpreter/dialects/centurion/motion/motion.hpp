@@ -13,8 +13,6 @@ struct AxesNamed {
 
 /// Moves in the active motion mode, if the block names an end point. A probe move asks.
 bool move(Run& run);
-/// The answer to a probe move's question.
-void finish_probe(Run& run, const ProbeResult& result);
 
 /// Where the words lead, from the position and the active zero (or the machine's).
 struct Target {

@@ -71,6 +71,7 @@ bool TransformStage::place_center(Arc& arc, const Point& start, const Point& end
 }
 
 bool TransformStage::transform(Arc& arc) const {
+  if (!run_.state.transformation.is_on()) return true;
   const Point start = machine_of(run_, run_.state.position);
   const Point end = machine_of(run_, point_of(arc.to.linear(Axis::Z), arc.to.linear(Axis::X)));
   arc.to = moved(arc.to);
@@ -98,7 +99,7 @@ void TransformStage::on_thread(const Thread& event) {
       misfit_ = event.origin;
       return;
     }
-    thread.arc = ThreadArc{arc.center_first, arc.center_second, arc.plane, arc.turn, arc.sweep};
+    thread.arc = PathArc{arc.center_first, arc.center_second, arc.plane, arc.turn, arc.sweep};
   }
   out().on_thread(thread);
 }

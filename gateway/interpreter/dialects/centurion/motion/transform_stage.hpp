@@ -48,6 +48,9 @@ class TransformStage final : public EventFilter {
   /// passed on.
   const std::optional<Origin>& misfit() const { return misfit_; }
 
+  /// Moves an arc that begins at the run's position. False: a misfit.
+  bool transform(Arc& arc) const;
+
   void on_rapid(const Rapid& event) override;
   void on_line(const Line& event) override;
   void on_arc(const Arc& event) override;
@@ -56,7 +59,6 @@ class TransformStage final : public EventFilter {
  private:
   Position moved(const Position& to) const;
   Point point_of(Length z, Length x) const;
-  bool transform(Arc& arc) const;
   bool place_center(Arc& arc, const Point& start, const Point& end) const;
 
   const Run& run_;

@@ -180,6 +180,21 @@ double TravelGuard::max_on_line(const Position& to) const {
   return maximum;
 }
 
+double TravelGuard::max_on_arc() const {
+  const bool has_both = max_.x > 0 && max_.z > 0;
+  return has_both ? std::min(max_.x, max_.z) : max_.x + max_.z;
+}
+
+bool TravelGuard::allows(Probe& probe) {
+  if (!is_active_) return true;
+  const Spot from = at_;
+  probe.feed = followed(probe.feed, probe.arc ? max_on_arc() : max_on_line(probe.to));
+  const bool is_allowed =
+      probe.arc ? allows_arc(arc_of(probe)) : allows_line(probe.origin, probe.to);
+  at_ = from;
+  return is_allowed;
+}
+
 void TravelGuard::on_rapid(const Rapid& event) {
   if (!is_active_) return out().on_rapid(event);
   if (allows_line(event.origin, event.to)) out().on_rapid(event);
@@ -192,9 +207,8 @@ void TravelGuard::on_line(const Line& event) {
 }
 void TravelGuard::on_arc(const Arc& event) {
   if (!is_active_) return out().on_arc(event);
-  const bool has_both = max_.x > 0 && max_.z > 0;
   Arc arc = event;
-  arc.feed = followed(event.feed, has_both ? std::min(max_.x, max_.z) : max_.x + max_.z);
+  arc.feed = followed(event.feed, max_on_arc());
   if (allows_arc(event)) out().on_arc(arc);
 }
 void TravelGuard::on_thread(const Thread& event) {
@@ -204,9 +218,9 @@ void TravelGuard::on_thread(const Thread& event) {
   if (is_allowed) out().on_thread(event);
 }
 void TravelGuard::on_probe(const Probe& event) {
-  if (!is_active_) return out().on_probe(event);
-  const Position& end = event.result ? event.result->at : event.to;
-  if (allows_line(event.origin, end)) out().on_probe(event);
+  if (is_active_ && fault_) return;
+  if (event.result) place(event.result->at);
+  out().on_probe(event);
 }
 
 }  // namespace dripline::interpreter::centurion

@@ -48,6 +48,10 @@ class TravelGuard final : public EventFilter {
   const std::optional<TravelFault>& fault() const { return fault_; }
   void reset() { fault_.reset(); }
 
+  /// Before a probe move, which may end anywhere on its path: whether all of it is allowed. Reduces
+  /// its feed.
+  bool allows(Probe& probe);
+
   void on_rapid(const Rapid& event) override;
   void on_line(const Line& event) override;
   void on_arc(const Arc& event) override;
@@ -67,6 +71,7 @@ class TravelGuard final : public EventFilter {
   bool arc_crosses_zone(const Arc& arc) const;
   Feed followed(Feed feed, double maximum) const;
   double max_on_line(const Position& to) const;
+  double max_on_arc() const;
   bool refuse(ErrorCode code, const Origin& origin, std::string detail);
 
   std::string place_text(const Spot& at) const;

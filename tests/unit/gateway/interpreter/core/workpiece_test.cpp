@@ -1,6 +1,7 @@
 #include "gateway/interpreter/core/geometry/workpiece.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 namespace dripline::interpreter {
 namespace {
@@ -141,6 +142,67 @@ TEST(Workpiece, OtherAxesStopInProportionAndAreMarked) {
   const ProbeResult result = plane(Axis::Z, -5).probe(from, to, kContact);
   EXPECT_DOUBLE_EQ(result.at.rotary(Axis::C).degrees(), 45);
   EXPECT_TRUE(result.at.has(Axis::C));
+}
+
+/// Counterclockwise about X0 Z0 in the plane ZX, from angle `from` (0 is +Z) by `sweep` degrees.
+Probe around(double radius, double from, double sweep, ProbeUntil until = kContact) {
+  const auto at = [radius](double degrees) {
+    const double angle = Angle::degrees(degrees).radians();
+    return turned(radius * std::sin(angle), radius * std::cos(angle));
+  };
+  Probe probe;
+  probe.from = at(from);
+  probe.to = at(from + sweep);
+  probe.until = until;
+  probe.arc = PathArc{{},
+                      {},
+                      Plane::ZX,
+                      sweep > 0 ? Turn::Counterclockwise : Turn::Clockwise,
+                      Angle::degrees(std::fabs(sweep))};
+  return probe;
+}
+
+TEST(Workpiece, AnArcMeetsAPlaneWhereItCrossesIt) {
+  const Workpiece face = plane(Axis::Z, -5);
+  expect_at(face.probe(around(10, 0, 180)), 10 * std::sin(Angle::degrees(60).radians()), 0, -5);
+  expect_at(face.probe(around(10, 0, -180)), -10 * std::sin(Angle::degrees(60).radians()), 0, -5);
+  EXPECT_FALSE(face.probe(around(10, 0, 119.9)).tripped);
+  EXPECT_FALSE(face.probe(around(4.9, 0, 360)).tripped);
+  const Workpiece wall = plane(Axis::X, 8);
+  expect_at(wall.probe(around(10, 0, 180)), 8, 0, 6);
+  expect_at(wall.probe(around(10, 90, 90)), 8, 0, -6);
+}
+
+TEST(Workpiece, AnArcLeavesAPlaneThatItStartsOnAndMeetsItAgain) {
+  const Workpiece face = plane(Axis::Z, 0);
+  const Probe over = around(10, 270, 200);  // off the face at X-10, back onto it at X10
+  expect_at(face.probe(over), 10, 0, 0);
+  EXPECT_FALSE(face.probe(around(10, 270, 170)).tripped);
+  expect_at(face.probe(around(10, 230, 170, kRelease)), -10, 0, 0);
+  EXPECT_FALSE(face.probe(around(10, 80, 90, kRelease)).tripped);
+}
+
+TEST(Workpiece, AnArcMeetsAProfileAndACylinder) {
+  const Workpiece cone = profile({{0, 0}, {5, 0}, {15, -10}, {15, -40}});  // X - 5 = -Z
+  const double x = (5 + std::sqrt(2 * 144 - 25.0)) / 2;  // of the circle of radius 12
+  expect_at(cone.probe(around(12, 0, 180)), x, 0, 5 - x);
+  expect_at(cone.probe(around(12, 170, 100, kRelease)), 0, 0, -12);
+  Workpiece boss;
+  boss.add(ProbeCylinder{Length::mm(2), {}, Length::mm(4)});
+  expect_at(boss.probe(around(10, 0, 180)), 6, 0, 8);
+}
+
+TEST(Workpiece, AnArcEndsAtItsTargetWithoutContact) {
+  const ProbeResult missed = Workpiece{}.probe(around(10, 0, 270));
+  EXPECT_FALSE(missed.tripped);
+  EXPECT_TRUE(missed.at.same_point(around(10, 0, 270).to));
+  Probe probe = around(10, 0, 270);
+  probe.result = missed;
+  EXPECT_DOUBLE_EQ(arc_of(probe).sweep.degrees(), 270);
+  probe.result = plane(Axis::X, 10 * std::sin(Angle::degrees(210).radians())).probe(probe);
+  EXPECT_NEAR(arc_of(probe).sweep.degrees(), 210, 1e-9) << "as far as the contact";
+  probe.result = ProbeResult{true, probe.from};
+  EXPECT_EQ(arc_of(probe).sweep.degrees(), 0);
 }
 
 }  // namespace
