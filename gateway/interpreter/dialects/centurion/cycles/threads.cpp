@@ -145,6 +145,14 @@ Length path_of(const Run& run, const Target& target, const std::optional<PathArc
   return radius * arc->sweep.radians();
 }
 
+/// After G40 the next move leads the tool to the program's point, and would be tapered.
+bool begins_at_program(Run& run) {
+  if (!run.state.uses_compensator || run.block.is_back_line()) return true;
+  if (!run.flush_path()) return false;
+  return is_at_program(run) || run.fail(ErrorCode::IllegalStatement, motion_column(run),
+                                        "a thread ends compensation: G40 needs a move before it");
+}
+
 }  // namespace
 
 bool takes_lead(const Run& run) {
@@ -161,7 +169,7 @@ void take_lead_change(Run& run) {
 
 bool thread_to(Run& run, const Target& target, const std::optional<PathArc>& arc) {
   Lead lead;
-  if (!read_lead(run, lead)) return false;
+  if (!read_lead(run, lead) || !begins_at_program(run)) return false;
   if (!arc && target.to == run.state.position) return true;
   Thread event;
   event.origin = run.origin;
@@ -261,6 +269,7 @@ double word_or_parameter(Run& run, Address address, int number) {
 }
 
 bool read_lead(Run& run, Lead& lead) {
+  if (!check_uncompensated(run, "a thread")) return false;
   const Words& words = run.block.words;
   const double most = run.state.units == Units::Inch ? 999.9999 : 99999.99;
   if (words.has(Address::F) && words.has(Address::E)) {
