@@ -238,7 +238,12 @@ void add_turning_options(Command command, GraphicsCommand& options) {
   constexpr const char* kGroup = "Lathe programs";
   command
       .add_flag("--path", options.shows_path,
-                "Draw the tool path over the part: feed green, rapid red")
+                "Draw the tool path over the part: feed green, rapid red, of a Centurion's G71 to "
+                "G73 the finish pattern yellow")
+      .group(kGroup);
+  command
+      .add_flag("--part-path", options.shows_part_path,
+                "Draw a Centurion's part path yellow: as programmed, without nose compensation")
       .group(kGroup);
   command.add_flag("--limits", options.shows_limits, "Draw the setup's travel limits")
       .group(kGroup);

@@ -35,7 +35,8 @@ struct GraphicsCommand {
   // of turned parts
   std::vector<std::string> tool_widths;  ///< 5=10
   double insert_degrees = 55;
-  bool shows_path = false, shows_limits = false, shows_zone = false, has_front_turret = false;
+  bool shows_path = false, shows_part_path = false;
+  bool shows_limits = false, shows_zone = false, has_front_turret = false;
 };
 
 /// Low and high on each axis that was named, in millimeters.

@@ -12,6 +12,8 @@
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/graphics/turned_views.hpp"
 #include "clients/tools/offline/offline_run.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
+#include "gateway/interpreter/dialects/centurion/part_path.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -125,7 +127,8 @@ Result<graphics::TurnedView> view_of(const GraphicsCommand& command,
   if (command.view == "full") view.above = TurnedSide::Outside;
   if (command.view == "section") view.below = TurnedSide::Section;
   if (command.view == "path") view.above = view.below = TurnedSide::Nothing;
-  view.shows_path = command.shows_path || command.view == "path";
+  view.shows_part_path = command.shows_part_path;
+  view.shows_path = command.shows_path || (command.view == "path" && !command.shows_part_path);
   view.has_front_turret = command.has_front_turret || is_front_turret(setup.control);
   view.width = std::clamp<std::size_t>(command.size.value_or(kUsualCells), 320, 4096);
   const auto window = window_of(command, simulation.part() ? &*simulation.part() : nullptr);
@@ -161,8 +164,38 @@ std::string contour_json(const TurnedSection& part) {
       .dump();
 }
 
+struct Drawing {
+  const TurningSimulation& simulation;
+  std::vector<graphics::PathPiece> part_path;
+};
+
+bool is_roughing(std::string_view cycle) {
+  return cycle == "rough turning" || cycle == "rough facing" || cycle == "pattern repeat";
+}
+
+/// Interprets the program again, as its control draws the part path. Errors: as run_offline.
+Result<std::vector<graphics::PathPiece>> part_path_of(const OfflineProgram& program,
+                                                      graphics::TurningSettings settings) {
+  const interpreter::Dialect dialect = interpreter::centurion::part_path_dialect();
+  const interpreter::Interpreter* control = nullptr;
+  settings.follows_pattern = [&control] { return is_roughing(control->modes().cycle); };
+  settings.on_progress = nullptr;
+  TurningSimulation simulation(std::move(settings));
+  auto source = program.source();
+  auto run = interpreter::OfflineRun::begin(dialect, program.setup(), source, simulation);
+  if (!run) return fail(run.error());
+  control = &run->interpreter();
+  for (;;) {
+    constexpr std::uint64_t kBlocks = 1'000'000;
+    const auto is_over = run->step(kBlocks);
+    if (!is_over) return fail(is_over.error());
+    if (*is_over) return simulation.path();
+  }
+}
+
 Result<void> write_files(const GraphicsCommand& command, const interpreter::Setup& setup,
-                         const TurningSimulation& simulation) {
+                         const Drawing& drawing) {
+  const TurningSimulation& simulation = drawing.simulation;
   const TurnedSection* part = simulation.part() ? &*simulation.part() : nullptr;
   if (!command.heights.empty()) {
     if (part == nullptr) return fail(Errc::NotFound, "without a bar there is no contour");
@@ -171,11 +204,14 @@ Result<void> write_files(const GraphicsCommand& command, const interpreter::Setu
   if (command.output.empty() && command.print.empty()) return {};
   const auto view = view_of(command, setup, simulation);
   if (!view) return fail(view.error());
-  const auto picture = graphics::draw_turned(part, simulation.path(), *view);
+  std::vector<graphics::PathPiece> path = simulation.path();
+  path.insert(path.end(), drawing.part_path.begin(), drawing.part_path.end());
+  const auto picture = graphics::draw_turned(part, path, *view);
   return picture ? write_picture(command, setup, *picture) : fail(picture.error());
 }
 
-void report(Context& context, const TurningSimulation& simulation) {
+void report(Context& context, const Drawing& drawing) {
+  const TurningSimulation& simulation = drawing.simulation;
   const auto& part = simulation.part();
   const double left = part ? part->volume() : 0;
   const double removed = simulation.bar_volume() - left;
@@ -188,6 +224,7 @@ void report(Context& context, const TurningSimulation& simulation) {
     context.print(json_text({{"bar", std::move(bar)},
                              {"cuts", simulation.cuts()},
                              {"moves", simulation.path().size() + simulation.left_out()},
+                             {"part_moves", drawing.part_path.size()},
                              {"removed_mm3", removed},
                              {"volume_mm3", left}}));
   } else if (part) {
@@ -196,6 +233,8 @@ void report(Context& context, const TurningSimulation& simulation) {
   } else {
     context.print(fmt::format("{} moves, no bar\n", simulation.path().size()));
   }
+  if (!context.wants_json && !drawing.part_path.empty())
+    context.print(fmt::format("{} pieces of the part path\n", drawing.part_path.size()));
   if (simulation.left_out() > 0) {
     fmt::print(stderr, "dnc: the last {} moves are not in the picture: at most {}\n",
                simulation.left_out(), TurningSimulation::kMaxPieces);
@@ -214,8 +253,12 @@ Result<void> check_view(const GraphicsCommand& command) {
 
 int show_turned(Context& context, const GraphicsCommand& command, const OfflineProgram& program) {
   if (auto checked = check_view(command); !checked) return complain(checked.error());
+  const bool has_part_path = program.dialect().name == interpreter::kCenturionDialect.name;
+  if (command.shows_part_path && !has_part_path)
+    return complain(Error{Errc::Unsupported, "--part-path: only a Centurion draws one"});
   auto settings = settings_of(command, program.setup());
   if (!settings) return complain(settings.error());
+  const graphics::TurningSettings part_settings = *settings;
   SystemClock clock;
   LiveArea area = LiveArea::on_stderr();
   const std::uint64_t size = program.text().size();
@@ -236,9 +279,15 @@ int show_turned(Context& context, const GraphicsCommand& command, const OfflineP
                           "one: --blank X0:50,Z-80:0, or draw --view path"});
   }
   simulation.finish();
-  if (auto written = write_files(command, program.setup(), simulation); !written)
+  Drawing drawing{simulation, {}};
+  if (has_part_path && (command.shows_part_path || command.shows_path || command.view == "path")) {
+    auto part_path = part_path_of(program, part_settings);
+    if (!part_path) return complain_offline(part_path.error());
+    drawing.part_path = std::move(*part_path);
+  }
+  if (auto written = write_files(command, program.setup(), drawing); !written)
     return complain(written.error());
-  report(context, simulation);
+  report(context, drawing);
   if (!outcome->alarm) return kExitOk;
   complain(Error{Errc::Syntax,
                  fmt::format("the program alarms in {}: {}; what it cut until then is shown",

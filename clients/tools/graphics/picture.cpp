@@ -17,6 +17,8 @@ Color color_of(Shade shade, Ink ink) {
       return {shade, static_cast<std::uint8_t>(shade / 4), static_cast<std::uint8_t>(shade / 4)};
     case Ink::Green:
       return {static_cast<std::uint8_t>(shade / 4), shade, static_cast<std::uint8_t>(shade / 4)};
+    case Ink::Yellow:
+      return {shade, shade, static_cast<std::uint8_t>(shade / 4)};
     default:
       return {shade, shade, shade};
   }

@@ -16,7 +16,7 @@ inline constexpr Shade kBlack = 0;
 inline constexpr Shade kWhite = 255;
 
 /// What a pixel is drawn with; shades of gray print, colors are for screens alone.
-enum class Ink : std::uint8_t { Gray, Red, Green };
+enum class Ink : std::uint8_t { Gray, Red, Green, Yellow };
 
 /// A gray picture with colored lines, row by row from the top left.
 class Picture {

@@ -42,7 +42,14 @@ class Screen {
   double scale_, sign_;
 };
 
-Frame frame_around(const TurnedSection* part, std::span<const PathPiece> path, bool shows_path) {
+bool is_shown(const PathPiece& piece, const TurnedView& view) {
+  if (piece.kind == PathKind::Part) return view.shows_part_path;
+  if (piece.kind == PathKind::FinishPattern) return view.shows_path || view.shows_part_path;
+  return view.shows_path;
+}
+
+Frame frame_around(const TurnedSection* part, std::span<const PathPiece> path,
+                   const TurnedView& view) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Frame frame{{kFar, kFar}, {-kFar, -kFar}};
   const auto add = [&frame](double z, double x) {
@@ -56,7 +63,7 @@ Frame frame_around(const TurnedSection* part, std::span<const PathPiece> path, b
   }
   // without a part the feeds decide: rapid moves come from far away
   for (const PathPiece& piece : path) {
-    if (part != nullptr || !shows_path || piece.is_rapid) continue;
+    if (part != nullptr || !is_shown(piece, view) || piece.kind == PathKind::Rapid) continue;
     add(piece.from.z, piece.from.x);
     add(piece.to.z, piece.to.x);
   }
@@ -154,13 +161,16 @@ SectionPoint on(const Screen& screen, const SectionPoint& point) {
   return {screen.left(point.z), screen.top(point.x)};
 }
 
-void draw_path(Picture& picture, const Screen& screen, std::span<const PathPiece> path) {
+void draw_path(Picture& picture, const Screen& screen, std::span<const PathPiece> path,
+               const TurnedView& view) {
   for (const PathPiece& piece : path) {
+    if (!is_shown(piece, view)) continue;
     const SectionPoint from = on(screen, piece.from), to = on(screen, piece.to);
-    if (piece.is_rapid) {
+    if (piece.kind == PathKind::Rapid) {
       draw_dashed(picture, from, to, kRapidLine, kDash, Ink::Red);
     } else {
-      picture.draw_line(from.z, from.x, to.z, to.x, kFeedLine, Ink::Green);
+      const Ink ink = piece.kind == PathKind::Feed ? Ink::Green : Ink::Yellow;
+      picture.draw_line(from.z, from.x, to.z, to.x, kFeedLine, ink);
     }
   }
 }
@@ -180,7 +190,7 @@ void draw_frame(Picture& picture, const Screen& screen, const Frame& frame, Shad
 
 Result<Picture> draw_turned(const TurnedSection* part, std::span<const PathPiece> path,
                             const TurnedView& view) {
-  const Frame window = view.window.value_or(frame_around(part, path, view.shows_path));
+  const Frame window = view.window.value_or(frame_around(part, path, view));
   const double length = window.high.z - window.low.z, height = window.high.x - window.low.x;
   if (!(length > 0) || !(height > 0) || !std::isfinite(length) || !std::isfinite(height)) {
     return fail(Errc::LimitExceeded, "a window of {} by {} mm shows nothing", length, height);
@@ -192,7 +202,7 @@ Result<Picture> draw_turned(const TurnedSection* part, std::span<const PathPiece
               kAxisDash);
   if (view.limits) draw_frame(picture, screen, *view.limits, kLimitLine);
   if (view.zone) draw_frame(picture, screen, *view.zone, kZoneLine);
-  if (view.shows_path) draw_path(picture, screen, path);
+  draw_path(picture, screen, path, view);
   return picture;
 }
 

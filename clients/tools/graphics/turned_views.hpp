@@ -21,14 +21,15 @@ struct TurnedView {
   TurnedSide below = TurnedSide::Outside;
   /// The part shown, radii positive above the axis; absent: all that is drawn.
   std::optional<Frame> window{};
-  bool shows_path = false;
+  bool shows_path = false;                ///< the tool's, and what a cycle roughs towards
+  bool shows_part_path = false;           ///< all of the part's
   std::optional<Frame> limits{}, zone{};  ///< software limits, safe zone
   bool has_front_turret = false;          ///< +X down
   std::size_t width = 1024;               ///< pixels; the height follows, up to twice as much
 };
 
-/// The part (absent: the path alone) and the tool path: feeds as green lines, rapid moves red and
-/// dashed, in the colors of the Centurion's screen.
+/// The part (absent: the paths alone) and the paths in the colors of the Centurion's screen: feeds
+/// green, rapid moves red and dashed, the part's path and the finish pattern of cycles yellow.
 /// Errors: LimitExceeded (there is nothing to show, or a window without extent).
 Result<Picture> draw_turned(const TurnedSection* part, std::span<const PathPiece> path,
                             const TurnedView& view);

@@ -30,6 +30,7 @@ TurningSimulation::TurningSimulation(TurningSettings settings)
 }
 
 void TurningSimulation::begin(const SectionExtent& bar) {
+  if (settings_.follows_pattern) return;
   auto made = TurnedSection::make(bar, settings_.cells_along);
   if (!made) {
     failure_ = made.error();
@@ -130,13 +131,19 @@ void TurningSimulation::go_around(const interpreter::Arc& arc, Travel travel) {
 
 void TurningSimulation::go(const SectionPoint& to, Travel travel) {
   const SectionPoint from = point(at_);
-  if (draws_) note({from, to, travel == Travel::Rapid});
+  if (draws_) note(from, to, travel);
   if (part_) cut(from, to, travel);
 }
 
-void TurningSimulation::note(const PathPiece& piece) {
+void TurningSimulation::note(const SectionPoint& from, const SectionPoint& to, Travel travel) {
+  const bool is_rapid = travel == Travel::Rapid;
+  PathKind kind = is_rapid ? PathKind::Rapid : PathKind::Feed;
+  if (settings_.follows_pattern) {
+    if (is_rapid) return;
+    kind = settings_.follows_pattern() ? PathKind::FinishPattern : PathKind::Part;
+  }
   if (path_.size() < kMaxPieces) {
-    path_.push_back(piece);
+    path_.push_back({from, to, kind});
   } else {
     ++left_out_;
   }

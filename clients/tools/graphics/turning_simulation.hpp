@@ -20,14 +20,24 @@ struct TurningSettings {
   double insert_degrees = 55;
   interpreter::Position start;
   std::size_t cells_along = 1024;
+  /// The program's part path in place of the tool's: nothing is cut, and rapid moves are left out.
+  /// Asked at each piece: whether a roughing cycle follows its pattern.
+  std::function<bool()> follows_pattern;
   /// Called now and then with the block that was just cut: for a progress bar.
   std::function<void(const interpreter::Origin&)> on_progress;
 };
 
-/// One straight piece of the tool path.
+enum class PathKind : std::uint8_t {
+  Feed,
+  Rapid,
+  Part,           ///< as programmed, without nose compensation
+  FinishPattern,  ///< the same, in the pattern that a cycle roughs
+};
+
+/// One straight piece of a path.
 struct PathPiece {
   SectionPoint from, to;  ///< of the imaginary tip; x may lie beyond the axis
-  bool is_rapid = false;
+  PathKind kind = PathKind::Feed;
 };
 
 /// Turns a bar with what a program does: a sink for its events. The tool path is kept too, between
@@ -67,7 +77,7 @@ class TurningSimulation final : public interpreter::EventSink {
   void begin(const SectionExtent& bar);
   void go(const SectionPoint& to, Travel travel);
   void go_around(const interpreter::Arc& arc, Travel travel);
-  void note(const PathPiece& piece);
+  void note(const SectionPoint& from, const SectionPoint& to, Travel travel);
   void cut(const SectionPoint& from, const SectionPoint& to, Travel travel);
   SectionPoint point(const interpreter::Position& position) const;
   const std::vector<ConvexOutline>& pieces(Travel travel, bool is_on_axis);

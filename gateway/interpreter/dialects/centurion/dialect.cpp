@@ -1,5 +1,6 @@
 #include "gateway/interpreter/core/dialects.hpp"
 #include "gateway/interpreter/dialects/centurion/options.hpp"
+#include "gateway/interpreter/dialects/centurion/part_path.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -17,15 +18,26 @@ namespace {
 
 using namespace centurion;
 
-Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
-                                          EventSink& sink) {
-  auto options = read_options(setup);
+Result<std::unique_ptr<Interpreter>> make_with(Result<ControlOptions> options, const Setup& setup,
+                                               ProgramSource& source, EventSink& sink) {
   if (!options) return fail(options.error());
   ModalState state;
   Parameters parameters;
   if (auto loaded = load_memory(setup, state, parameters); !loaded) return fail(loaded.error());
   return std::unique_ptr<Interpreter>(std::make_unique<CenturionInterpreter>(
       std::move(*options), std::move(state), parameters, source, sink));
+}
+
+Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
+                                          EventSink& sink) {
+  return make_with(read_options(setup), setup, source, sink);
+}
+
+Result<std::unique_ptr<Interpreter>> make_part_path(const Setup& setup, ProgramSource& source,
+                                                    EventSink& sink) {
+  auto options = read_options(setup);
+  if (options) options->draws_part_path = true;
+  return make_with(std::move(options), setup, source, sink);
 }
 
 /// The text without blanks and comments, in capitals.
@@ -120,5 +132,11 @@ const Dialect kCenturionDialect{
     .refusal_words = &refusal_words,
     .text = {.is_one_shot = &is_one_shot},
     .status_fields = kStatusFields};
+
+Dialect centurion::part_path_dialect() {
+  Dialect dialect = kCenturionDialect;
+  dialect.make = &make_part_path;
+  return dialect;
+}
 
 }  // namespace dripline::interpreter

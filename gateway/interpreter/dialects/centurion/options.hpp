@@ -42,6 +42,7 @@ struct ControlOptions {
   bool is_dnc_fast = false;            ///< `dnc_mode = "fast"`: what that mode refuses
   bool is_mdi = false;                 ///< `mode = "mdi"`: one block, no M98
   bool is_verify = false;              ///< `mode = "verify"`
+  bool draws_part_path = false;        ///< part_path.hpp; no option of a setup
   bool interlocks_coolant = false;     ///< `coolant_interlock`: coolant runs while the spindle runs
   bool has_custom_codes = false;
   std::array<int, 10> custom_g{};          ///< bound to O9010-O9019; 0 none

@@ -231,6 +231,29 @@ TEST_F(DncTurning, TurnsAndDraws) {
   EXPECT_NEAR(contour.at("outer_radius").front().get<double>(), 10, 0.1);
 }
 
+TEST_F(DncTurning, DrawsThePathsOfToolAndPart) {
+  dnc.write("pin.nc",
+            "O7\nG21 G98 F100\nP156=50\nP157=20\nT0101M6\nM3 S500\nG0 X22 Z2\n"
+            "G71 P1 Q2 U1 W.5 D2 R1\nN1 G0 X10\nG1 Z-20\nX18 Z-30\nN2 X22\n"
+            "G0 X8\nG1 G42 Z0\nX10 Z-1\nG40 X30\nM30\n");
+  const auto drawn = [this](auto... options) {
+    const auto result = graphics("--view", "path", "-o", "path.png", "--json", options...);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out).at("part_moves"), 6) << result.out;
+    return dnc.read("path.png");
+  };
+  const std::string tool = drawn(), part = drawn("--part-path"),
+                    both = drawn("--part-path", "--path");
+  EXPECT_NE(tool, part);
+  EXPECT_NE(both, part);
+  EXPECT_NE(both, tool);
+  EXPECT_NE(graphics("--part-path").out.find("6 pieces of the part path"), std::string::npos);
+  dnc.write("mill.nc", "O1\nG21 G98 F100\nG0 X16. Z2.\nG1 Z-30.\nM30\n");
+  const auto other = dnc({"graphics", "--control", "fanuc-t", "mill.nc", "--part-path"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.err.find("only a Centurion"), std::string::npos) << other.err;
+}
+
 TEST_F(DncTurning, TakesAnotherBarAndWindow) {
   const auto result =
       graphics("--blank", "X10:30,Z-40:1", "--magnify", "X0:32,Z-20:2", "-o", "tube.png", "--json");

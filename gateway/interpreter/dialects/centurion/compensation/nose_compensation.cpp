@@ -27,7 +27,8 @@ constexpr std::uint8_t kCompensationOff = 4;  ///< of the special flags
 
 NoseUse wanted_use(const Run& run) {
   NoseUse use;
-  const bool is_disabled = (run.parameters.byte(kSpecialFlags) & kCompensationOff) != 0;
+  const bool is_disabled =
+      (run.parameters.byte(kSpecialFlags) & kCompensationOff) != 0 || run.options.draws_part_path;
   use.code = is_disabled ? std::uint8_t{0} : run.state.modes.compensation;
   if (use.code == 0) return use;
   const Transformation& how = run.state.transformation;

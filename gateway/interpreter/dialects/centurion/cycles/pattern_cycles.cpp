@@ -115,7 +115,11 @@ bool end_reading(Run& run) {
   restore_modes(run);
   if (!undo_transformation(run)) return false;
   run.origin = cycle.origin;
-  if (cycle.code == 73) {
+  if (run.options.draws_part_path) {
+    cycle.finish = cycle.rough = {};
+    cycle.passes = 1;
+    cycle.phase = PatternPhase::Repeats;
+  } else if (cycle.code == 73) {
     if (cycle.moves.empty()) return refuse(run, cycle.origin, "the pattern has no moves");
     cycle.phase = PatternPhase::Repeats;
   } else {

@@ -5,8 +5,9 @@
 
 #include "clients/tools/graphics/turned_views.hpp"
 #include "clients/tools/offline/offline_run.hpp"
+#include "gateway/interpreter/core/dialects.hpp"
 #include "gateway/interpreter/core/program_source.hpp"
-#include "gateway/interpreter/registry.hpp"
+#include "gateway/interpreter/dialects/centurion/part_path.hpp"
 
 /// Turned parts: CEN-227. Volumes are those of the bodies that geometry books have.
 namespace dripline::graphics {
@@ -21,9 +22,10 @@ double cylinder(double diameter, double length) {
 /// Turns `text` (metric, on a Centurion); tool 1 is an outside tool of type 3, 2 a boring bar, 3 a
 /// drill of 10 mm, 4 a blade of 3 mm. Sharp, so that radii do not blur the volumes.
 TurningSimulation turned(const std::string& text, std::optional<SectionExtent> bar = {},
-                         double nose = 0) {
+                         double nose = 0, const std::function<bool()>& follows_pattern = {}) {
   TurningSettings settings;
   settings.bar = bar;
+  settings.follows_pattern = follows_pattern;
   settings.cells_along = 800;
   settings.widths = {{3, 10.0}, {4, 3.0}};
   interpreter::Setup setup;
@@ -42,8 +44,9 @@ TurningSimulation turned(const std::string& text, std::optional<SectionExtent> b
   TurningSimulation simulation(std::move(settings));
   const std::string program = "G21 G98 F100\n" + text;
   interpreter::MemorySource source(program);
-  const auto dialect = interpreter::find_dialect("centurion");
-  const auto run = interpreter::run_offline(**dialect, setup, source, simulation);
+  const interpreter::Dialect dialect = follows_pattern ? interpreter::centurion::part_path_dialect()
+                                                       : interpreter::kCenturionDialect;
+  const auto run = interpreter::run_offline(dialect, setup, source, simulation);
   EXPECT_TRUE(run) << run.error().what;
   if (run && run->alarm) ADD_FAILURE() << run->alarm->text;
   simulation.finish();
@@ -116,9 +119,55 @@ TEST(Turning, TheProgramSaysItsBar) {
 TEST(Turning, TheWayIsKeptWhileGraphicsAreOn) {
   const auto simulation = turned("G0 X50 Z2\nM90\nG1 Z1\nZ0\nM91\nZ-1\n", kBar);
   ASSERT_EQ(simulation.path().size(), 2u);
-  EXPECT_TRUE(simulation.path()[0].is_rapid);
-  EXPECT_FALSE(simulation.path()[1].is_rapid);
+  EXPECT_EQ(simulation.path()[0].kind, PathKind::Rapid);
+  EXPECT_EQ(simulation.path()[1].kind, PathKind::Feed);
   EXPECT_EQ(simulation.path()[1].to.z, -1);
+}
+
+/// Radius and Z of the ends of the pieces of a part path.
+std::vector<std::pair<double, double>> part_path(const std::string& text) {
+  std::vector<std::pair<double, double>> ends;
+  for (const PathPiece& piece : turned(text, kBar, 0.8, [] { return false; }).path()) {
+    EXPECT_EQ(piece.kind, PathKind::Part);
+    ends.emplace_back(piece.to.x, piece.to.z);
+  }
+  return ends;
+}
+
+/// CEN-227: verify's PART.
+TEST(Turning, ThePartPathIsThatOfTheProgramWithoutCompensation) {
+  const std::vector<std::pair<double, double>> programmed{{10, 0}, {10, -10}, {15, -20}, {20, -20}};
+  EXPECT_EQ(part_path("T0101M6\nG0 X30 Z2\nG1 G42 X20 Z0\nZ-10\nX30 Z-20\nG40 X40\n"), programmed);
+}
+
+TEST(Turning, ThePartPathOfARoughingCycleIsItsPattern) {
+  const std::string pattern = "N1 G1 G42 X20\nZ-10\nX30 Z-20\nN2 G40 X42\nG1 X50\n";
+  const std::vector<std::pair<double, double>> followed{
+      {10, 2}, {10, -10}, {15, -20}, {21, -20}, {25, 2}};
+  for (const char* cycle :
+       {"G71 P1 Q2 U1 W.5 I1 D2 R1\n", "G72 P1 Q2 U1 W.5 I1 D2 R1\n", "G73 P1 Q2 U1 W.5 I1 D3\n"})
+    EXPECT_EQ(part_path("T0101M6\nM3 S500\nG0 X42 Z2\n" + std::string(cycle) + pattern), followed)
+        << cycle << "and the next move begins at the start point";
+}
+
+TEST(TurnedViews, DrawThePartPathYellow) {
+  const std::vector<PathPiece> path{{{0, 10}, {-20, 10}, PathKind::Feed},
+                                    {{0, 5}, {-20, 5}, PathKind::Part},
+                                    {{0, 8}, {-20, 8}, PathKind::FinishPattern}};
+  TurnedView view{.above = TurnedSide::Nothing, .below = TurnedSide::Nothing};
+  view.window = Frame{{-20, 0}, {0, 20}};
+  view.width = 400;
+  const auto inks = [&] {
+    const auto picture = draw_turned(nullptr, path, view);
+    return std::vector{picture->ink_at(200, 200), picture->ink_at(200, 300),
+                       picture->ink_at(200, 240)};
+  };
+  view.shows_path = true;
+  EXPECT_EQ(inks(), (std::vector{Ink::Green, Ink::Gray, Ink::Yellow}));
+  view.shows_part_path = true;
+  EXPECT_EQ(inks(), (std::vector{Ink::Green, Ink::Yellow, Ink::Yellow})) << "both";
+  view.shows_path = false;
+  EXPECT_EQ(inks(), (std::vector{Ink::Gray, Ink::Yellow, Ink::Yellow}));
 }
 
 TEST(Turning, RefusesABarWithoutExtent) {
