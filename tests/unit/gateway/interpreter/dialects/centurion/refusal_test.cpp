@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         CycleCase{"x_is_no_word_of_a_hole", "G81 X1 R.1 Z-1", "CEN0501 2:5"},
         CycleCase{"two_cycles", "G81 G82 R.1 Z-1", "CEN0518 2:5"},
-        CycleCase{"probe_in_a_cycle", "PROBE1 G81 R.1 Z-1", "CEN0518 2:0"},
+        CycleCase{"probe_in_a_cycle", "PROBE1 G81 R.1 Z-1", "CEN0518 2:12"},
         CycleCase{"too_deep", "G81 R.1 Z-100000", "CEN0544 2:5"},
         CycleCase{"dwell_negative", "G82 R.1 Z-1 P-1", "CEN0539 2:13"},
         CycleCase{"dwell_too_long", "G89 R.1 Z-1 P10000", "CEN0539 2:13"},
