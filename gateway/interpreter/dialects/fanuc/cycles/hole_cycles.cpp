@@ -37,7 +37,7 @@ enum class Step : std::uint8_t {
   FormerDirection,  ///< the spindle as before the cycle, clockwise when it did not turn
   ShiftAway,
   ShiftBack,
-  ByHand,  ///< the operator retracts to the return level
+  ByHand,  ///< the operator retracts to R; what is left of that path is made after it
 };
 
 using enum Step;
@@ -64,7 +64,9 @@ constexpr std::array kCycles{
     CycleRow{87,
              {Orient, ShiftAway, RapidToRetract, ShiftBack, FormerDirection, FeedToBottom, Dwell,
               Orient, ShiftAway, RapidToInitial, ShiftBack, FormerDirection}},
-    CycleRow{88, {RapidToRetract, FeedToBottom, Dwell, SpindleOff, ByHand, FormerDirection}},
+    CycleRow{88,
+             {RapidToRetract, FeedToBottom, Dwell, SpindleOff, ByHand, RapidToRetract,
+              FormerDirection, RapidToReturn}},
     CycleRow{89, {RapidToRetract, FeedToBottom, Dwell, FeedToRetract, RapidToReturn}}};
 
 const CycleRow& cycle_row(std::uint8_t code) {
@@ -210,8 +212,6 @@ class Hole {
         return shift(-1);
       case ByHand:
         run_.events().on_stop({run_.origin, StopKind::Operator});
-        at_[place(axes_.normal)] = return_level();
-        arrive(run_, machine_point(run_, at_));
         return true;
     }
     return true;
