@@ -32,6 +32,11 @@ std::string describe(const Fault& fault, Units units) {
       return "arc in another plane than the compensated one";
     case FaultKind::ArcTooLarge:
       return "the other end of the move lies within the circle of its arc";
+    case FaultKind::RadiusAtArc:
+      return fmt::format("the cutter radius changes at the arc of line {}", fault.next.line);
+    case FaultKind::FlatSideChange:
+      return fmt::format("the side changes between lines {} and {}, which meet at a flat angle",
+                         fault.origin.line, fault.next.line);
     case FaultKind::TooMuchBetween:
       return fmt::format("more than {} events or {} characters between two compensated moves",
                          look_ahead::kMaxHeldEvents, look_ahead::kMaxHeldText);

@@ -18,6 +18,8 @@ enum class FaultKind : std::uint8_t {
   StartUpTooClose,     ///< the tool is within one radius of the end of a tangential start-up move
   OtherPlane,          ///< an arc in another plane than the compensated one
   ArcTooLarge,     ///< a start-up or cancel arc: the other end of its move lies within the circle
+  RadiusAtArc,     ///< an arc that would begin with one radius and end with another
+  FlatSideChange,  ///< the side changes, and the offset elements meet far from the corner
   TooMuchBetween,  ///< more events between two elements than kMaxHeldEvents or kMaxHeldText
 };
 

@@ -50,6 +50,14 @@ enum class Resume : std::uint8_t {
   OwnNormal  ///< a straight piece to its own normal first
 };
 
+/// A corner between two cutters: a new radius, or the other side.
+enum class CutterChange : std::uint8_t {
+  OwnNormals,  ///< a radius: each element on its own offset, a corner as any other; a side: on its
+               ///< own normal each, connected by a straight piece
+  AtNextEnd    ///< a radius: the corner is that of the old one, the next element ends with the new
+               ///< one, and has to be straight; a side: where both offset elements meet, if they do
+};
+
 struct Policy {
   OutsideCorner outside = OutsideCorner::ExtendTangents;
   /// The largest change of direction that ExtendTangents rounds with one point; above it, two.
@@ -58,6 +66,7 @@ struct Policy {
   StartUp start_up = StartUp::NextNormal;
   Cancel cancel = Cancel::OwnNormal;
   Resume resume = Resume::Straight;
+  CutterChange cutter_change = CutterChange::OwnNormals;
   /// Directions that differ by no more than this go straight on.
   Angle tangent_tolerance = Angle::radians(1e-9);
   /// So many blocks in a row without motion in the plane are looked across; one more ends the
@@ -103,10 +112,9 @@ class CompensationSink : public EventSink {
   virtual void on_uncounted_block_end(const Origin& event) = 0;
 
   /// The next move in the plane is the start-up move. While on: the elements from here on are
-  /// offset by the new cutter; for another plane compensation is canceled and started again. On the
-  /// same side a corner between two radii is a corner as any other; between two sides the first
-  /// element ends and the second begins on its own normal, connected by a straight piece.
-  /// `start_up` replaces the policy's for this one time.
+  /// offset by the new cutter; for another plane compensation is canceled and started again. The
+  /// corner between two cutters is as `Policy::cutter_change` has it. `start_up` replaces the
+  /// policy's for this one time.
   void turn_on(const Cutter& cutter, std::optional<StartUp> start_up = {}) {
     on_compensation({Command::Kind::TurnOn, cutter, start_up});
   }

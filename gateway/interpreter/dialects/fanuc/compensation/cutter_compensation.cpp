@@ -137,6 +137,11 @@ bool read_direction(Run& run, PlaneVector& direction) {
   return true;
 }
 
+void end_on_normal(Run& run) {
+  run.blender.flush();
+  run.compensator.flush();
+}
+
 bool refuse_corner(Run& run, std::string_view why) {
   return run.fail(ErrorCode::CornerMoveNotAllowed, run.block.parts.g_column, why);
 }
@@ -153,6 +158,7 @@ bool reaches_machine(const Block& block) {
 
 compensation::Policy policy_of(const ControlOptions& options) {
   compensation::Policy policy;
+  policy.cutter_change = compensation::CutterChange::AtNextEnd;
   if (options.start_up_b) {
     policy.start_up = compensation::StartUp::Corner;
     policy.cancel = compensation::Cancel::Corner;
@@ -230,6 +236,8 @@ bool apply_compensation(Run& run) {
   state.g[kCompensationGroup] = code;
   if (code != 40) {
     if (changes) return turn_on(run);
+    // Alone it has the move before it end on its own normal, whatever the corner.
+    if (!block.words.has_any(kAxisWords)) end_on_normal(run);
   } else if (was_on) {
     run.blender.flush();
     run.compensator.turn_off();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gateway/interpreter/core/geometry/plane_curves.hpp"
 
@@ -251,7 +252,37 @@ CornerEnd cancel_corner(const Policy& policy, const Element& first, Element& sec
   return at_point(second, first.own_end());
 }
 
+CornerEnd contour_corner(const Policy& policy, const Element& first, Element& second);
+
+/// The tool changes to the other side where the two offset elements meet. Far from the corner that
+/// is no change of side any more.
+CornerEnd sides_crossed(const Policy& policy, const Element& first, Element& second) {
+  constexpr double kFarthest = 2;  // radii
+  const bool is_straight =
+      !first.is_arc && !second.is_arc &&
+      std::fabs(Turning(first, second).sine) <= policy.tangent_tolerance.radians();
+  const auto point = is_straight ? std::nullopt : meet(first, second);
+  if (!point) return normals_joined(first, second);
+  const double radius = std::fmax(std::fabs(first.offset), std::fabs(second.offset));
+  if (length(*point - first.end) > kFarthest * radius) return refusal(FaultKind::FlatSideChange);
+  return at_point(second, *point);
+}
+
+/// The second element begins where the old radius leads, and ends with its own.
+CornerEnd tapered(const Policy& policy, const Element& first, Element& second) {
+  if (second.is_arc) return refusal(FaultKind::RadiusAtArc);
+  const double offset = std::exchange(second.offset, first.offset);
+  const CornerEnd corner =
+      first.offset == 0 ? at_point(second, first.end) : contour_corner(policy, first, second);
+  second.offset = offset;
+  return corner;
+}
+
 CornerEnd contour_corner(const Policy& policy, const Element& first, Element& second) {
+  const bool takes_next_end = policy.cutter_change == CutterChange::AtNextEnd;
+  if (takes_next_end && first.offset * second.offset < 0)
+    return sides_crossed(policy, first, second);
+  if (takes_next_end && first.offset != second.offset) return tapered(policy, first, second);
   if (first.offset * second.offset <= 0) return normals_joined(first, second);
   const Turning turn(first, second);
   switch (shape_of(turn, second.offset, policy.tangent_tolerance.radians())) {
