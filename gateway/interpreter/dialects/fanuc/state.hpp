@@ -95,10 +95,11 @@ struct Rotation {
 /// What a hole cycle keeps from block to block: levels in program coordinates of the hole's axis.
 struct CycleData {
   double initial = 0;
-  double retract = 0;  ///< R
-  double bottom = 0;   ///< Z
-  double depth = 0;    ///< Q, a length above 0
-  double dwell = 0;    ///< P, seconds
+  double initial_raw = 0;  ///< the same in machine coordinates
+  double retract = 0;      ///< R
+  double bottom = 0;       ///< Z
+  double depth = 0;        ///< Q, a length above 0
+  double dwell = 0;        ///< P, seconds
   bool has_retract = false;
   bool has_bottom = false;
   bool has_depth = false;

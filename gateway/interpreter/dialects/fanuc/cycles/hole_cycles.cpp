@@ -1,6 +1,5 @@
 #include "gateway/interpreter/dialects/fanuc/execution/execution.hpp"
 
-#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,16 +7,12 @@
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
+#include "gateway/interpreter/dialects/fanuc/cycles/cycle_data.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
-
-/// Of G51; 1 without it.
-double scale_along(const ModalState& state, Axis axis) {
-  return state.g[kScalingGroup] == 51 ? std::fabs(state.scaling.factor[place(axis)]) : 1;
-}
 
 /// One thing a cycle does at its hole.
 enum class Step : std::uint8_t {
@@ -76,20 +71,6 @@ const CycleRow& cycle_row(std::uint8_t code) {
 
 /// Of a thread that a rigid tap cuts, millimeters.
 constexpr double kMaxPitch = 500;
-
-/// Feeds of one block, so that a step never delivers without bound.
-constexpr double kMaxPecks = 100'000;
-
-bool is_tapping(std::uint8_t code) {
-  return code == 74 || code == 84;
-}
-
-/// A rigid tap goes down in strokes of Q, unless there is none or it is 0.
-bool pecks_in_tap(const Run& run) {
-  const ModalState& state = run.state;
-  return state.is_rigid_tapping && is_tapping(state.g[kCycleGroup]) && state.cycle.has_depth &&
-         state.cycle.depth > 0;
-}
 
 /// One hole while it is made. Levels and places are program coordinates.
 class Hole {
@@ -249,107 +230,6 @@ class Hole {
   SpindleState former_;
 };
 
-bool read_repeats(Run& run, double& repeats) {
-  const Words& words = run.block.words;
-  const RepeatAddress by = run.options.repeat_address;
-  const bool by_k = by != RepeatAddress::L && words.has(K);
-  const bool by_l = by != RepeatAddress::K && words.has(L);
-  repeats = 1;
-  if (!by_k && !by_l) return true;
-  const Word& word = words[by_k ? K : L];
-  run.ledger.take(set_of(by_k ? K : L));
-  repeats = run.whole(word);
-  if (repeats >= 0 && repeats <= 9999 && repeats == std::trunc(repeats)) return true;
-  return run.fail(ErrorCode::TooManyDigits, word.column,
-                  fmt::format("{} repeats are not 0 to 9999", repeats));
-}
-
-/// The word of the hole's own axis.
-Address level_word(const Run& run) {
-  constexpr std::array<Address, 3> kLevels{X, Y, Z};
-  return kLevels[place(axes_of(run.state.plane()).normal)];
-}
-
-/// Z, R, Q and P of the block; R counts from the initial level in G91, Z from R.
-bool keep_data(Run& run, double present) {
-  ModalState& state = run.state;
-  CycleData& data = state.cycle;
-  const Words& words = run.block.words;
-  const Address level = level_word(run);
-  const bool is_incremental = state.is_incremental();
-  if (words.has(R)) {
-    const double value = run.length(words[R]);
-    data.retract = is_incremental ? data.initial + value : value;
-    data.has_retract = true;
-  } else if (!data.has_retract) {
-    data.retract = present;
-  }
-  if (words.has(level)) {
-    const double value = run.length(words[level]);
-    data.bottom = is_incremental ? data.retract + value : value;
-    data.has_bottom = true;
-  } else if (!data.has_bottom) {
-    data.bottom = data.retract;
-  }
-  if (words.has(Q)) {
-    data.depth = std::fabs(run.length(words[Q]));
-    data.has_depth = true;
-  }
-  if (words.has(P) && !run.block.parts.p_is_work_system) data.dwell = run.whole(words[P]) / 1000;
-  const std::uint8_t code = state.g[kCycleGroup];
-  const bool pecks = code == 73 || code == 83;
-  if (pecks && !(data.has_depth && data.depth > 0)) {
-    return run.fail(ErrorCode::NoQ, run.block.parts.g_column);
-  }
-  const bool shifts = data.has_depth && data.depth > 0;
-  if (code == 87 && !shifts) {
-    return run.fail(ErrorCode::NoQ, run.block.parts.g_column,
-                    "G87 would go down to R without its shift");
-  }
-  if (code == 76 && !shifts) run.warn(WarningCode::CycleWithoutShift, run.block.parts.g_column);
-  if (!is_tapping(code)) return true;
-  if (!state.is_rigid_tapping && state.spindle.revolutions == 0) {
-    run.warn(WarningCode::TapWithoutSpeed, run.block.parts.g_column);
-  }
-  if (!state.is_rigid_tapping && words.has(Q) && data.depth > 0) {
-    return run.fail(ErrorCode::ImproperCommand, words.column(Q),
-                    "a tap pecks only in rigid tapping (M29)");
-  }
-  if (pecks_in_tap(run) && run.block.names(kCycleGroup) && !words.has(Q)) {
-    run.warn(WarningCode::KeptPeck, run.block.parts.g_column);
-  }
-  return true;
-}
-
-/// Rapids end at R, and go on to the initial level: R lies between it and the bottom. What else is
-/// written runs, as on the control, but not without a word.
-void check_levels(Run& run) {
-  const CycleData& data = run.state.cycle;
-  const double down = data.bottom - data.retract;
-  const double approach = data.retract - data.initial;
-  if (!data.has_bottom || !data.has_retract) {
-    run.warn(WarningCode::CycleLevels, run.block.parts.g_column,
-             data.has_retract ? "no bottom is written, R is taken"
-                              : "no R is written, the level reached is taken");
-  } else if (run.state.g[kCycleGroup] != 87 && down * approach < 0) {
-    run.warn(
-        WarningCode::CycleLevels, run.block.parts.g_column,
-        fmt::format("initial {:.6g}, R {:.6g}, bottom {:.6g}", run.in_units(Axis::Z, data.initial),
-                    run.in_units(Axis::Z, data.retract), run.in_units(Axis::Z, data.bottom)));
-  }
-}
-
-bool check_pecks(Run& run, double repeats) {
-  const CycleData& data = run.state.cycle;
-  const std::uint8_t code = run.state.g[kCycleGroup];
-  if (code != 73 && code != 83 && !pecks_in_tap(run)) return true;
-  const double scale = scale_along(run.state, axes_of(run.state.plane()).normal);
-  const double pecks = std::fabs(data.bottom - data.retract) * scale / data.depth * repeats;
-  if (pecks <= kMaxPecks) return true;
-  return run.fail(ErrorCode::LoopLimit, run.block.words.column(Q),
-                  fmt::format("{:.0f} pecks in one block", pecks));
-}
-
 /// Where the next hole is; the hole's own axis stays at the level reached.
 bool position_hole(Run& run, Point3& at) {
   const PlaneAxes axes = axes_of(run.state.plane());
@@ -368,8 +248,10 @@ bool position_hole(Run& run, Point3& at) {
 }  // namespace
 
 void begin_cycle_mode(Run& run) {
+  const Axis axis = axes_of(run.state.plane()).normal;
   run.state.cycle = CycleData{};
-  run.state.cycle.initial = program_position(run)[place(axes_of(run.state.plane()).normal)];
+  run.state.cycle.initial = program_position(run)[place(axis)];
+  run.state.cycle.initial_raw = run.state.position.raw(axis);
 }
 
 bool execute_cycle(Run& run) {
@@ -382,6 +264,7 @@ bool execute_cycle(Run& run) {
   run.ledger.take(kAxisWords | set_of(R, Q));  // Q stays, for a cycle that has a use for it
   const double present = program_position(run)[place(axes_of(state.plane()).normal)];
   double repeats = 1;
+  if (!check_initial_level(run)) return false;
   const bool is_new = words.has_any(set_of(R, level_word(run))) || run.block.parts.begins_cycle;
   if (!keep_data(run, present) || !read_repeats(run, repeats)) return false;
   if (!check_pecks(run, repeats)) return false;
