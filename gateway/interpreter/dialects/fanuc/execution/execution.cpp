@@ -67,21 +67,21 @@ bool apply_modes(Run& run) {
   if (block.names(kFeedGroup) && state.is_inverse_time()) state.feed = {};  // F of G94 is gone
   if (block.names(kUnitsGroup)) change_units(run);
   if (block.names(kPathGroup)) show_override_inhibit(run);
-  if (block.names(kPolarGroup)) {
+  const bool changes_plane =
+      block.names(kPlaneGroup) && state.g[kPlaneGroup] != block.g[kPlaneGroup];
+  if (block.names(kPolarGroup) || changes_plane) {
     state.polar_angle = 0;
     state.polar_radius.reset();
   }
-  if (block.names(kPlaneGroup)) {
-    if (state.is_compensating() && state.g[kPlaneGroup] != block.g[kPlaneGroup]) {
+  if (changes_plane) {
+    if (state.is_compensating())
       return run.fail(ErrorCode::PlaneInCompensation, block.parts.g_column);
-    }
-    if (state.g[kRotationGroup] == 68 && state.g[kPlaneGroup] != block.g[kPlaneGroup] &&
+    if (state.g[kRotationGroup] == 68 &&
         !(block.names(kRotationGroup) && block.g[kRotationGroup] == 69)) {
       return run.fail(ErrorCode::RotationPlane, block.parts.g_column);
     }
     // Z of the holes before would become the depth along another axis.
-    if (state.is_cycle() && !block.parts.begins_cycle &&
-        state.g[kPlaneGroup] != block.g[kPlaneGroup]) {
+    if (state.is_cycle() && !block.parts.begins_cycle) {
       return run.fail(ErrorCode::IllegalPlane, block.parts.g_column,
                       "a hole cycle is canceled before its axis changes");
     }

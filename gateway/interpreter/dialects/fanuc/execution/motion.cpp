@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/polar_coordinates.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/rotary_plane.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/length_in_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
@@ -20,45 +21,6 @@ constexpr double kMaxInches = 9999.9999 * Length::kMillimetersPerInch;
 bool refuse_range(Run& run, Axis axis, double value) {
   return run.fail(ErrorCode::TooManyDigits, run.block.words.first_column(set_of_axis(axis)),
                   fmt::format("{}{} is beyond the range", letter(axis), run.in_units(axis, value)));
-}
-
-/// G16: of the plane's two words the first is a radius, the second an angle. A radius of G90 is
-/// about the program's zero, and stays; one of G91 is about the present place, for its block. An
-/// angle of G91 counts from the last one.
-bool place_by_angle(Run& run, Point3& point) {
-  ModalState& state = run.state;
-  const Words& words = run.block.words;
-  const PlaneAxes axes = axes_of(state.plane());
-  const auto first = static_cast<std::size_t>(axes.first);
-  const auto second = static_cast<std::size_t>(axes.second);
-  const Address radius_word = kWordOfAxis[first];
-  const Address angle_word = kWordOfAxis[second];
-  if (!words.has(radius_word) && !words.has(angle_word)) return true;
-  const bool is_incremental = state.is_incremental();
-  if (is_incremental && !words.has(radius_word) && !state.polar_radius) {
-    return run.fail(ErrorCode::ImproperCommand, words.column(angle_word),
-                    fmt::format("an angle of G16 in G91 without a radius: {} in G90 comes before",
-                                letter(radius_word)));
-  }
-  const Point3 center = is_incremental && words.has(radius_word) ? point : Point3{};
-  const PlaneVector out{point[first] - center[first], point[second] - center[second]};
-  const double present = state.polar_radius.value_or(dripline::interpreter::length(out));
-  const double radius = words.has(radius_word) ? run.length(words[radius_word]) : present;
-  state.polar_radius =
-      is_incremental && words.has(radius_word) ? std::nullopt : std::optional(radius);
-  double angle =
-      is_incremental ? state.polar_angle : std::atan2(out.second, out.first) * (180 / Angle::kPi);
-  if (words.has(angle_word)) angle = run.angle(words[angle_word]) + (is_incremental ? angle : 0);
-  state.polar_angle = angle;
-  const double turn = angle * (Angle::kPi / 180);
-  point[first] = center[first] + radius * std::cos(turn);
-  point[second] = center[second] + radius * std::sin(turn);
-  return true;
-}
-
-/// Whether G16 reads the word as a radius or an angle.
-bool is_polar_word(const ModalState& state, std::size_t axis) {
-  return state.is_polar() && static_cast<Axis>(axis) != axes_of(state.plane()).normal;
 }
 
 /// With scaling, rotation or polar coordinates.
