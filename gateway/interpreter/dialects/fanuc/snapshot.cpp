@@ -14,11 +14,11 @@ void visit(Archive& archive, ModalState& state) {
           state.length_in_axes.taken, state.length_in_axes.bare, state.length_in_axes.doubtful,
           state.length_in_axes.is_even, state.turning, state.box, state.contour, state.modes_before,
           state.rotary, state.parameters, state.enters_parameters, state.mirror, state.scaling,
-          state.rotation, state.cycle, state.zone, state.intermediate, state.has_intermediate,
-          state.imaginary, state.held, state.skip, state.last, state.polar_angle,
-          state.polar_radius, state.offset_list, state.is_rigid_tapping, state.locals,
-          state.commons, state.kept, state.extra, state.counters, state.calls, state.loops,
-          state.modals, state.modal_active, state.jump, state.limits);
+          state.rotation, state.open_axes, state.cycle, state.zone, state.intermediate,
+          state.has_intermediate, state.imaginary, state.held, state.skip, state.last,
+          state.polar_angle, state.polar_radius, state.offset_list, state.is_rigid_tapping,
+          state.locals, state.commons, state.kept, state.extra, state.counters, state.calls,
+          state.loops, state.modals, state.modal_active, state.jump, state.limits);
 }
 
 namespace {

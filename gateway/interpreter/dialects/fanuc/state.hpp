@@ -255,6 +255,7 @@ struct ModalState {
   Mirror mirror;
   Scaling scaling;
   Rotation rotation;
+  std::uint8_t open_axes = 0;  ///< of X, Y, Z, bit 0 = X; see check_open_axes
   CycleData cycle;
   StrokeZone zone;  ///< G22
   AxisValues intermediate{};

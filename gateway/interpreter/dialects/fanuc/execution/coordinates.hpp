@@ -34,10 +34,11 @@ CoordinateFrame frame_of(const Run& run);
 /// Arcs change their direction: an odd number of mirrored axes in the plane.
 bool is_plane_mirrored(const ModalState& state, Plane plane);
 
-/// G50, G51, G68, G68.2, G69. False: an alarm.
-/// G50.1, G51.1.
-bool apply_mirror(Run& run);
-bool apply_scaling(Run& run);
-bool apply_rotation(Run& run);
+/// G50.1, G51.1, G50, G51, G68, G68.2, G69. False: an alarm.
+bool apply_transformations(Run& run);
+/// The words of G22, G51, G51.1, G68 and G68.2; any others have no use.
+void take_data_words(Run& run);
+/// Whether the axis words of the block say where they lead after G68 or G69. False: an alarm.
+bool check_open_axes(Run& run);
 
 }  // namespace dripline::interpreter::fanuc

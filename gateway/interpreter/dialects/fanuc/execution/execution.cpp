@@ -104,9 +104,7 @@ bool apply_frames(Run& run) {
   const Block& block = run.block;
   if (block.names(kWorkGroup) && !select_work_system(run)) return false;
   if (block.names(kStrokeGroup) && !set_stroke_zone(run)) return false;
-  if (block.names(kMirrorGroup) && !apply_mirror(run)) return false;
-  if (block.names(kScalingGroup) && !apply_scaling(run)) return false;
-  if (block.names(kRotationGroup) && !apply_rotation(run)) return false;
+  if (!apply_transformations(run)) return false;
   if (!apply_length_offset(run)) return false;
   if (!apply_compensation(run)) return false;
   // Its level is one of the plane and the coordinates that the block itself selects.
@@ -315,7 +313,7 @@ bool execute_motion(Run& run) {
   if (moves_in_program(block)) note_programmed_axes(run);
   if (is_data_code(block.parts.one_shot)) return execute_one_shot(run);
   if (words_are_data(block)) {
-    run.ledger.take_all();
+    take_data_words(run);
     return true;
   }
   if (run.state.is_cycle()) {

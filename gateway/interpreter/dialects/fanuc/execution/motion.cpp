@@ -83,6 +83,8 @@ bool read_target(Run& run, Position& to) {
   const ModalState& state = run.state;
   const Words& words = run.block.words;
   to = state.position;
+  if (state.open_axes != 0 && !check_open_axes(run)) [[unlikely]]
+    return false;
   if (run.rotary.is_on()) [[unlikely]]
     return read_rotary_target(run, to);
   const bool is_incremental = state.is_incremental();

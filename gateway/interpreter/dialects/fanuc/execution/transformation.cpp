@@ -80,6 +80,11 @@ bool begin_rotation(Run& run) {
   if (was_on && state.rotation.plane != state.plane()) {
     return run.fail(ErrorCode::RotationPlane, run.block.parts.g_column);
   }
+  const AddressSet center_words = set_of_axis(axes.first) | set_of_axis(axes.second);
+  if (was_on && (words.present() & center_words) != center_words) {
+    return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column,
+                    "another G68 names its center: the present place has two coordinates");
+  }
   const Point3 present = program_position(run);
   constexpr std::array<Address, 3> kCenter{X, Y, Z};
   // Under scaling the center is scaled as any point is; a mirror image reverses the rotation.
@@ -189,6 +194,12 @@ bool is_plane_mirrored(const ModalState& state, Plane plane) {
   return turns_round(axes.first) != turns_round(axes.second);
 }
 
+namespace {
+
+bool ends_rotation(const Block& block) {
+  return block.names(kRotationGroup) && block.g[kRotationGroup] == 69;
+}
+
 bool apply_mirror(Run& run) {
   ModalState& state = run.state;
   const Words& words = run.block.words;
@@ -221,19 +232,105 @@ bool apply_mirror(Run& run) {
 }
 
 bool apply_scaling(Run& run) {
-  if (run.block.g[kScalingGroup] == 51 && !begin_scaling(run)) return false;
-  run.state.g[kScalingGroup] = run.block.g[kScalingGroup];
+  ModalState& state = run.state;
+  const std::uint8_t code = run.block.g[kScalingGroup];
+  const bool rotates = state.g[kRotationGroup] == 68 && !ends_rotation(run.block);
+  if (rotates && (code == 51 || state.g[kScalingGroup] == 51)) {
+    return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column,
+                    "scaling begins before G68 and ends after G69");
+  }
+  if (code == 51 && !begin_scaling(run)) return false;
+  state.g[kScalingGroup] = code;
   update_transformed(run);
   return true;
 }
 
+/// The manual leaves open what an axis that G68 or G69 has given another coordinate does when the
+/// next block does not name it: some controls move it, others leave it where it is.
+void note_open_axes(Run& run, const Point3& before) {
+  constexpr double kSame = 1e-6;
+  const Point3 now = program_position(run);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::fabs(now[i] - before[i]) <= kSame) continue;
+    run.state.open_axes = static_cast<std::uint8_t>(run.state.open_axes | 1u << i);
+  }
+}
+
 bool apply_rotation(Run& run) {
+  ModalState& state = run.state;
   const std::uint8_t code = run.block.g[kRotationGroup];
+  const bool rotates = code == 68 || state.g[kRotationGroup] == 68;
+  const Point3 before = rotates ? program_position(run) : Point3{};
   if (code == 68 && !begin_rotation(run)) return false;
   if (code == kTiltedPlane && !begin_tilted_plane(run)) return false;
   if (code == 69 && run.tilted.kind() == Tilt::Kind::Plane && !end_tilted_plane(run)) return false;
-  run.state.g[kRotationGroup] = run.block.g[kRotationGroup];
+  state.g[kRotationGroup] = code;
   update_transformed(run);
+  if (rotates) note_open_axes(run, before);
+  return true;
+}
+
+/// G51, G51.1 and G68 are alone among the codes that take X, Y and Z, which each would read.
+bool check_frame_words(Run& run) {
+  const Block& block = run.block;
+  const bool scales = block.names(kScalingGroup) && block.g[kScalingGroup] == 51;
+  const bool mirrors = block.names(kMirrorGroup) && block.g[kMirrorGroup] == kMirrorOn;
+  const bool rotates = block.names(kRotationGroup) && block.g[kRotationGroup] == 68;
+  const bool is_other = block.names(kStrokeGroup) ||
+                        (block.parts.one_shot != Block::kNoCode && block.parts.one_shot != 9);
+  const int users = int{scales} + int{mirrors} + int{rotates};
+  if (users == 0 || users + int{is_other} == 1) return true;
+  return run.fail(ErrorCode::ImproperCommand, block.parts.g_column,
+                  "two codes of the block take X, Y and Z");
+}
+
+}  // namespace
+
+bool apply_transformations(Run& run) {
+  const Block& block = run.block;
+  constexpr std::uint32_t kGroups = 1u << kMirrorGroup | 1u << kScalingGroup | 1u << kRotationGroup;
+  if ((block.parts.groups & kGroups) == 0) return true;
+  return check_frame_words(run) && (!block.names(kMirrorGroup) || apply_mirror(run)) &&
+         (!block.names(kScalingGroup) || apply_scaling(run)) &&
+         (!block.names(kRotationGroup) || apply_rotation(run));
+}
+
+void take_data_words(Run& run) {
+  const Block& block = run.block;
+  const std::uint8_t rotation = block.names(kRotationGroup) ? block.g[kRotationGroup] : 69;
+  if (rotation == kTiltedPlane) return run.ledger.take_all();
+  AddressSet taken = set_of(X, Y, Z);
+  if (rotation == 68) {
+    const PlaneAxes axes = axes_of(run.state.plane());
+    taken = set_of_axis(axes.first) | set_of_axis(axes.second) | set_of(R);
+  } else if (!block.names(kMirrorGroup)) {
+    taken |= kCenterWords;
+  }
+  run.ledger.take(taken);
+}
+
+bool check_open_axes(Run& run) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  constexpr std::array<Address, 3> kNames{X, Y, Z};
+  unsigned named = 0;
+  for (std::size_t i = 0; i < 3; ++i) named |= unsigned{words.has(kNames[i])} << i;
+  const std::uint8_t one_shot = run.block.parts.one_shot;
+  if ((named & state.open_axes) == 0 || one_shot == 28 || one_shot == 30) return true;
+  const bool rotates = state.g[kRotationGroup] == 68;
+  if (state.is_incremental()) {
+    if (rotates) return true;
+    return run.fail(ErrorCode::ImproperCommand, words.first_column(kAxisWords),
+                    "the first move after G69 is one of G90");
+  }
+  if (state.is_polar()) named = state.open_axes;
+  if (const unsigned missing = state.open_axes & ~named; missing != 0) {
+    const char name = letter(kNames[static_cast<std::size_t>(std::countr_zero(missing))]);
+    return run.fail(
+        ErrorCode::ImproperCommand, words.first_column(kAxisWords),
+        fmt::format("the first move after {} names {} too", rotates ? "G68" : "G69", name));
+  }
+  state.open_axes = static_cast<std::uint8_t>(state.open_axes & ~named);
   return true;
 }
 

@@ -34,6 +34,11 @@ constexpr std::uint8_t bit_of(std::size_t axis) {
   return static_cast<std::uint8_t>(1U << axis);
 }
 
+/// The block gives its coordinate.
+void close_axis(ModalState& state, std::size_t axis) {
+  state.open_axes &= static_cast<std::uint8_t>(~bit_of(axis));
+}
+
 std::uint8_t axes_with_length(const ActiveModes& modes) {
   std::uint8_t axes = 0;
   if (modes.tool_length_x != Length{}) axes |= bit_of(0);
@@ -59,6 +64,7 @@ void note_machine_axes(Run& run) {
   axes.is_even = false;
   for (std::size_t i = 0; i < axes.taken.size(); ++i) {
     if (!run.block.words.has(kWordOfAxis[i])) continue;
+    close_axis(run.state, i);
     axes.taken[i] = 0;
     axes.bare |= bit_of(i);
     if (run.state.is_compensating())
@@ -71,9 +77,11 @@ void note_machine_axes(Run& run) {
 void note_set_axes(Run& run) {
   LengthInAxes& axes = run.state.length_in_axes;
   const Lengths lengths = in_force(run);
-  for (std::size_t i = 0; i < lengths.size(); ++i)
-    if (run.block.words.has(kWordOfAxis[i]) && axes.taken[i] != lengths[i])
-      axes.doubtful |= bit_of(i);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    if (!run.block.words.has(kWordOfAxis[i])) continue;
+    close_axis(run.state, i);
+    if (axes.taken[i] != lengths[i]) axes.doubtful |= bit_of(i);
+  }
 }
 
 std::uint8_t bare_axes(const ModalState& state, const ActiveModes& modes) {

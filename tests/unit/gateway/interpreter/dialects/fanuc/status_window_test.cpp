@@ -64,7 +64,8 @@ TEST(FanucStatusWindow, KnowsProgramCoordinatesUnderATransformation) {
 }
 
 TEST(FanucStatusWindow, SaysWhenTheFrameHasChanged) {
-  ProgramRun run("G21 G90 G54\nG1 F100. X1.\nX2.\nG52 X5.\nX3.\nG68 X0 Y0 R90.\nX4.\nG69\nM30\n");
+  ProgramRun run(
+      "G21 G90 G54\nG1 F100. X1.\nX2.\nG52 X5.\nX3.\nG68 X0 Y0 R90.\nX4. Y0\nG69\nM30\n");
   std::vector<std::uint32_t> changes;
   for (int block = 0; block < 8; ++block) {
     run.step(1);
