@@ -235,6 +235,7 @@ bool moves_in_plane(const Run& run, const Position& to) {
 }
 
 /// The intermediate point is reached with the compensation's vector, the reference point without.
+/// It is kept in program coordinates: a change of zero before G29 shifts it.
 bool return_to(Run& run, std::size_t point) {
   ModalState& state = run.state;
   Position to;
@@ -243,7 +244,7 @@ bool return_to(Run& run, std::size_t point) {
   for (const Axis axis : kAllAxes) {
     if (!names_axis(run, axis)) continue;
     const auto i = static_cast<std::size_t>(axis);
-    state.intermediate[i] = to.raw(axis);
+    state.intermediate[i] = to.raw(axis) - state.origin[i];
     state.has_intermediate = static_cast<std::uint16_t>(state.has_intermediate | 1u << i);
   }
   if (!rapid_to(run, to)) return false;
@@ -269,7 +270,7 @@ bool come_back(Run& run) {
       is_known = false;
       continue;
     }
-    middle.set_raw(axis, state.intermediate[i]);
+    middle.set_raw(axis, state.intermediate[i] + state.origin[i]);
   }
   if (!is_known) run.warn(WarningCode::ReturnWithoutReference, run.block.parts.g_column);
   if (!rapid_to(run, middle)) return false;
