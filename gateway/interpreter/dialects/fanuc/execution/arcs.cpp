@@ -187,7 +187,9 @@ bool move_on_arc(Run& run) {
   arc.turn = state.g[kMotionGroup] == 2 ? Turn::Clockwise : Turn::Counterclockwise;
   arc.start = program_position(run);
   arc.end = program_point(state, end);
-  if (words.has(R) && run.length(words[R]) != 0) {
+  if (words.has(R)) {
+    if (run.length(words[R]) == 0)
+      return run.fail(ErrorCode::IllegalRadius, words.column(R), "R is 0");
     if (is_same_point(flat(arc, arc.start), flat(arc, arc.end))) {
       run.warn(WarningCode::ArcWithoutMove, words.column(R));
       return line_to(run, end, run.active_feed());  // nothing, or the third axis alone
