@@ -65,6 +65,21 @@ bool read_assignment(Run& run, const char*& at) {
   return true;
 }
 
+/// A number or an operand that must be whole; of GOTO, DO and END.
+bool read_count(Run& run, const char*& at, double& value) {
+  at = skip_blanks(at);
+  const char* start = at;
+  if (!is_digit(*at) && *at != '#' && *at != '[')
+    return refuse_format(run, at, "a number is expected here");
+  if (!read_operand(run, at, 1, value)) return false;
+  if (std::isnan(value)) value = 0;
+  if (is_digit(*start) && value != std::trunc(value)) {
+    return run.fail(ErrorCode::DecimalPoint, run.column(start));
+  }
+  value = std::round(value);
+  return true;
+}
+
 bool read_goto(Run& run, const char* start, const char*& at) {
   if (is_from_line(run)) return refuse_in_dnc(run, start);
   double number = 0;

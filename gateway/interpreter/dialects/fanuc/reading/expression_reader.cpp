@@ -137,7 +137,15 @@ class Terms {
   }
   void take() { at_ = after_; }
   int rank(Operator op) const { return fanuc::rank(op); }
-  Computed apply(Operator op, double left, double right) const { return combine(op, left, right); }
+  Computed apply(Operator op, double left, double right) {
+    if (takes_conditions_ && language::is_comparison(op)) {
+      const std::uint32_t level = 1u << brackets_;
+      is_chained_ |= (compared_ & level) != 0;
+      compared_ |= level;
+      has_comparison_ = true;
+    }
+    return combine(op, left, right);
+  }
   bool fault(MathFault fault) { return here(code_of(fault), {}); }
 
   bool operand(double& value) {
@@ -149,10 +157,13 @@ class Terms {
     return ok;
   }
 
+  bool is_condition() const { return has_comparison_ && !is_chained_; }
+
   /// `at` is on the opening bracket. With `second`, another value may follow a comma.
   bool bracketed(double& value, std::optional<double>* second = nullptr) {
     if (brackets_ == kMaxBrackets) return here(ErrorCode::Brackets, "more than 5 levels");
     ++brackets_;
+    compared_ &= ~(1u << brackets_);
     ++at_;
     if (!language::evaluate(*this, takes_conditions_ ? kConditionRank : kSumRank, value))
       return false;
@@ -328,6 +339,9 @@ class Terms {
   const char*& at_;
   const char* after_ = nullptr;  ///< of the operator seen last
   bool takes_conditions_;
+  bool has_comparison_ = false;
+  bool is_chained_ = false;     ///< two comparisons within one pair of brackets
+  std::uint32_t compared_ = 0;  ///< bit per level of brackets
   double least_;
   int depth_ = 0;
   int brackets_ = 0;
@@ -356,7 +370,13 @@ bool read_condition(Run& run, const char*& at, bool& holds) {
   if (*at != '[') return run.fail(ErrorCode::MacroFormat, run.column(at), "[ is expected here");
   Terms terms(run, at, true, 1);
   double value = 0;
+  const char* start = at;
   if (!terms.bracketed(value)) return false;
+  // What a number is worth as a condition, and `1 EQ #1 AND 2 EQ #2`, is not stated.
+  if (!terms.is_condition()) {
+    return run.fail(ErrorCode::MacroFormat, run.column(start),
+                    "a condition is one comparison; several are each in brackets");
+  }
   holds = or_zero(value) != 0;
   return true;
 }
@@ -368,21 +388,6 @@ bool read_operand(Run& run, const char*& at, double least, double& value) {
   if (!terms.operand(value)) return false;
   if (is_negative) value = -value;  // of null still null
   return check_range(run, at, value);
-}
-
-bool read_count(Run& run, const char*& at, double& value) {
-  at = skip_blanks(at);
-  const char* start = at;
-  if (!is_digit(*at) && *at != '#' && *at != '[') {
-    return run.fail(ErrorCode::MacroFormat, run.column(at), "a number is expected here");
-  }
-  if (!read_operand(run, at, 1, value)) return false;
-  value = or_zero(value);
-  if (is_digit(*start) && value != std::trunc(value)) {
-    return run.fail(ErrorCode::DecimalPoint, run.column(start));
-  }
-  value = std::round(value);
-  return true;
 }
 
 bool read_variable_number(Run& run, const char*& at, int& number) {

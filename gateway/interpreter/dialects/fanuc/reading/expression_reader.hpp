@@ -14,8 +14,6 @@ bool read_condition(Run& run, const char*& at, bool& holds);
 /// What may follow an address instead of a number: an optional sign, then a variable or an
 /// expression in brackets. ROUND goes to `least`, the least increment of the address.
 bool read_operand(Run& run, const char*& at, double least, double& value);
-/// A number or an operand as above, that must be whole; for GOTO, DO and END.
-bool read_count(Run& run, const char*& at, double& value);
 /// `#` and which one: the variable's number. `at` is on the #.
 bool read_variable_number(Run& run, const char*& at, int& number);
 
