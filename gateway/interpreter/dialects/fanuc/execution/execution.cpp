@@ -60,11 +60,12 @@ bool apply_modes(Run& run) {
   constexpr std::uint32_t kPlain = 1u << kDistanceGroup | 1u << kFeedGroup | 1u << kReturnGroup |
                                    1u << kSpindleGroup | 1u << kPathGroup | 1u << kUnitsGroup |
                                    1u << kPolarGroup;
+  // What a control makes of the number under another mode is not known: F comes again.
+  if (block.names(kFeedGroup) && block.g[kFeedGroup] != state.g[kFeedGroup]) state.feed = {};
   for (std::uint32_t left = block.parts.groups & kPlain; left != 0; left &= left - 1) {
     const auto group = static_cast<std::size_t>(std::countr_zero(left));
     state.g[group] = block.g[group];
   }
-  if (block.names(kFeedGroup) && state.is_inverse_time()) state.feed = {};  // F of G94 is gone
   if (block.names(kUnitsGroup)) change_units(run);
   if (block.names(kPathGroup)) show_override_inhibit(run);
   const bool changes_plane =
