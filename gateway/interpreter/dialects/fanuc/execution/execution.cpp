@@ -125,6 +125,9 @@ bool dwell(Run& run) {
   const Words& words = run.block.words;
   double seconds = 0;
   std::uint32_t column = 0;
+  if (words.has(P) && words.has_any(set_of(X, U))) {
+    return run.fail(ErrorCode::ImproperCommand, words.column(P), "G04 takes X or P, not both");
+  }
   if (words.has(X) || words.has(U)) {
     const Word& word = words[words.has(X) ? X : U];
     run.ledger.take(set_of(words.has(X) ? X : U));
