@@ -167,30 +167,6 @@ bool set_imaginary(Run& run) {
   return true;
 }
 
-/// G05 P, G05.1 Q and G08 P prepare the control for many short blocks, and change no path. What
-/// else these codes do with other numbers (cycles from binary data, smoothing) is not known here.
-bool set_look_ahead(Run& run) {
-  const Block& block = run.block;
-  const Words& words = block.words;
-  const std::uint8_t code = block.parts.one_shot;
-  const Address address = code == kContourControl ? Q : P;
-  const std::string_view name = code == kContourControl ? "G05.1" : code == 5 ? "G05" : "G08";
-  const double on = code == 5 ? 10000 : 1;
-  const double value = words.has(address) ? run.whole(words[address]) : -1;
-  run.ledger.take(set_of(address));
-  if (value != 0 && value != on) {
-    return run.fail(
-        ErrorCode::ImproperG, block.parts.g_column,
-        fmt::format("{} with {}0 or {}{} only", name, letter(address), letter(address), on));
-  }
-  if (words.has_any(kAxisWords)) {
-    return run.fail(ErrorCode::ImproperCommand, words.first_column(kAxisWords),
-                    fmt::format("a move beside {}", name));
-  }
-  run.warn(WarningCode::LookAhead, block.parts.g_column);
-  return true;
-}
-
 bool execute_one_shot(Run& run) {
   Block& block = run.block;
   if (block.parts.one_shot != 4) run.state.box.code = 0;  // the manual: other codes clear its data

@@ -16,6 +16,9 @@ void turn_spindle(Run& run, SpindleState state);
 /// What the program keeps the operator's hands off: G63, #3003, #3004.
 OverrideInhibit override_inhibit(const Run& run);
 void show_override_inhibit(Run& run);
+/// G05 P, G05.1 Q and G08 P prepare the control for many short blocks, and change no path. What
+/// else these codes do with other numbers (cycles from binary data, smoothing) is not known here.
+bool set_look_ahead(Run& run);
 /// What M02 and M30 switch off.
 void all_off(Run& run);
 
