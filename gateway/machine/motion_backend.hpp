@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/machine/execution_sink.hpp"
 #include "gateway/machine/machine_status.hpp"
 #include "gateway/machine/operator_panel.hpp"
@@ -39,6 +40,15 @@ struct MotionCapabilities {
   /// ... by axes of its own, which go to the program's position + length (`set_lengths`). False:
   /// the axes are those of the program, and a length has no place.
   bool adds_lengths = false;
+  bool jog = false;  ///< moves an axis without a program (`MotionBackend::jog`)
+};
+
+/// One axis moves by a distance, without a program; a click of a handwheel is one.
+struct Jog {
+  interpreter::Axis axis = interpreter::Axis::X;
+  double distance = 0;                      ///< mm or degrees; X of a lathe as a radius
+  double feed_per_minute = 0;               ///< no override changes it
+  interpreter::LengthDisplay display = {};  ///< of a refusal
 };
 
 /// What a back end without signals answers.
@@ -150,6 +160,21 @@ class MotionBackend {
   virtual Result<void> unlock() {
     return fail(Errc::Unsupported, "this machine has nothing to unlock");
   }
+
+  /// Begins a jog of a machine that `check_begin` finds ready where its axes are, while no program
+  /// runs. It ends by itself, with its link or the gateway lost too. Errors: Unsupported, Busy,
+  /// LimitExceeded (the end is beyond the travel); nothing moves then.
+  virtual Result<void> jog(const Jog&) {
+    return fail(Errc::Unsupported, "this machine moves by programs alone: it is not jogged");
+  }
+  /// Until the axes rest again and their position is known, or the jog is lost. `poll` lets it
+  /// move where time is simulated.
+  virtual bool is_jogging() const { return false; }
+  /// Slows down along the path and drops the rest; so do `hold`, `abort`, the emergency stop and a
+  /// feed override of 0 on the panel.
+  virtual void stop_jog() {}
+  /// What has ended the last jog before its end besides a stop; empty: nothing has.
+  virtual std::string jog_fault() const { return {}; }
 
   // -- what it does now -----------------------------------------------------------------------
   /// Why no program can begin or continue, for the operator; empty: no reason of the machine's.

@@ -62,6 +62,9 @@ class SimulatedMachine final : public MotionBackend {
     executor_.turn_handwheel(program_time.count());
   }
   void abort() override { executor_.abort(); }
+  Result<void> jog(const Jog& jog) override { return executor_.jog(jog); }
+  bool is_jogging() const override { return executor_.is_jogging(); }
+  void stop_jog() override { executor_.stop_jog(); }
 
   MachineState state() const override { return executor_.state(); }
   bool is_moving() const override { return executor_.is_moving(); }
@@ -83,7 +86,8 @@ class SimulatedMachine final : public MotionBackend {
                                    .handwheel = true,
                                    .simulated_time = true,
                                    .places_axes = true,
-                                   .tool_lengths = true};
+                                   .tool_lengths = true,
+                                   .jog = true};
   // Each refers to those above it.
   const MachineLimits limits_;
   const interpreter::Workpiece workpiece_;

@@ -14,7 +14,7 @@ Executor::Executor(const Parts& parts)
       spindle_(parts.limits.spindle) {}
 
 void Executor::begin(const interpreter::Position& at) {
-  is_held_ = is_aborting_ = hold_waits_ = skips_tap_ = false;
+  is_held_ = is_aborting_ = hold_waits_ = skips_tap_ = is_jogging_ = false;
   lock_ = {};
   handwheel_seconds_ = 0;
   discard();
@@ -64,6 +64,10 @@ double Executor::pass(double by, std::size_t max_actions) {
       }
       used += std::max(left, 0.0);
       motion_.pass_all();
+      if (is_jogging_) {
+        end_jog();
+        continue;
+      }
       if (!motion_.reaches_end()) {
         if (may_discard()) discard();
         return used;
@@ -221,7 +225,7 @@ void Executor::finish_probe() {
 
 /// More was queued: the present move may end faster than when it was the last one.
 void Executor::look_ahead_again() {
-  if (!motion_.is_active() || &motion_.move() == &probe_move_) return;
+  if (!is_of_queue()) return;
   const double before = motion_.move().exit_square;
   planner_.ensure(queue_, panel_);
   if (motion_.move().exit_square != before) motion_.change(goal(motion_.move()));
@@ -229,7 +233,7 @@ void Executor::look_ahead_again() {
 
 void Executor::plan_motion_again() {
   if (!motion_.is_active()) return;
-  if (&motion_.move() != &probe_move_) planner_.ensure(queue_, panel_);
+  if (is_of_queue()) planner_.ensure(queue_, panel_);
   motion_.change(goal(motion_.move()));
 }
 
@@ -245,7 +249,7 @@ Coordinates Executor::position() const {
 
 double Executor::buffered() const {
   double seconds = queue_.seconds();
-  if (motion_.is_active() && motion_.move().path.length > 0)
+  if (motion_.is_active() && !is_jogging_ && motion_.move().path.length > 0)
     seconds -= queue_.front().seconds * motion_.distance() / motion_.move().path.length;
   if (is_dwelling_) seconds -= queue_.front().seconds - dwell_left_;
   return std::max(seconds, 0.0);

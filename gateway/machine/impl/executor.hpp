@@ -8,6 +8,7 @@
 #include "gateway/machine/impl/profile.hpp"
 #include "gateway/machine/machine_limits.hpp"
 #include "gateway/machine/machine_status.hpp"
+#include "gateway/machine/motion_backend.hpp"
 #include "gateway/machine/operator_panel.hpp"
 
 namespace dripline::machine::impl {
@@ -96,6 +97,10 @@ class Executor {
   bool resume();
   void abort();
   void turn_handwheel(double seconds);
+  /// See MotionBackend.
+  Result<void> jog(const Jog& jog);
+  bool is_jogging() const { return is_jogging_; }
+  void stop_jog();
 
   MachineState state() const;
   bool is_moving() const;
@@ -115,6 +120,11 @@ class Executor {
   bool skips(const Action& action) const;
   void start(const Move& move);
   void start_probe();
+  void end_jog();
+  /// The present move is one of the queue: no probe's, no jog.
+  bool is_of_queue() const {
+    return motion_.is_active() && &motion_.move() != &probe_move_ && !is_jogging_;
+  }
   void finish_move();
   void finish_probe();
   void finish_action();
@@ -153,7 +163,10 @@ class Executor {
 
   Motion motion_;  ///< the present move, if any
   Move probe_move_;
-  bool is_dwelling_ = false;  ///< the front of the queue is a wait that has begun
+  Move jog_move_;
+  bool is_jogging_ = false;       ///< from its beginning until the axes rest
+  bool is_jog_stopping_ = false;  ///< they slow down before its end
+  bool is_dwelling_ = false;      ///< the front of the queue is a wait that has begun
   bool dwell_follows_spindle_ = false;
   double dwell_left_ = 0;       ///< at 100 % spindle, where it follows that
   double speed_ = 0;            ///< between two moves

@@ -20,7 +20,7 @@ constexpr std::string_view kTapByHandwheel =
 }  // namespace
 
 double Executor::advance(double by, std::size_t max_actions) {
-  if (!is_driven_by_hand()) return pass(by, max_actions);
+  if (is_jogging_ || !is_driven_by_hand()) return pass(by, max_actions);
   const double used = pass(std::min(by, handwheel_seconds_), max_actions);
   handwheel_seconds_ = std::max(0.0, handwheel_seconds_ - used);
   // Travel of the handwheel while nothing can move is dropped.
@@ -39,6 +39,7 @@ void Executor::turn_handwheel(double seconds) {
 }
 
 bool Executor::is_moving() const {
+  if (is_jogging_) return true;
   return speed() > 0 && !(is_driven_by_hand() && handwheel_seconds_ == 0);
 }
 
@@ -70,6 +71,8 @@ bool Executor::skips(const Action& action) const {
 
 /// Only a move that an operator can interrupt obeys a hold; an abort stops everything.
 MotionGoal Executor::goal(const Move& move) const {
+  if (is_jogging_)
+    return {.cruise = is_jog_stopping_ ? 0 : std::min(move.ceiling, move.speed), .exit = 0};
   if (is_aborting_ || (is_held_ && !delays_hold(lock_))) return {.cruise = 0, .exit = 0};
   return {.cruise = move.wanted_speed(lock_.seen(panel_)), .exit = std::sqrt(move.exit_square)};
 }
@@ -79,6 +82,7 @@ void Executor::set_panel(const OperatorPanel& panel) {
   if (next == panel_) return;
   const bool is_pressed = next.emergency_stop && !panel_.emergency_stop;
   panel_ = next;
+  if (is_jogging_ && (panel_.emergency_stop || panel_.feed_override == 0)) stop_jog();
   if (is_pressed) press_emergency_stop();
   if (panel_.dry_run && !panel_.dry_run_spindle && spindle_.is_turning()) {
     withheld_spindle_ = spindle_.programmed();
@@ -119,6 +123,7 @@ void Executor::press_emergency_stop() {
 }
 
 void Executor::hold() {
+  if (is_jogging_) return stop_jog();
   if (is_held_ || is_over()) return;
   is_held_ = true;
   hold_waits_ = lock_.hold == FeedHoldInhibit::Later;
@@ -136,6 +141,7 @@ bool Executor::resume() {
 }
 
 void Executor::abort() {
+  if (is_jogging_) return stop_jog();
   if (is_aborting_ || is_over()) return;
   is_aborting_ = true;
   if (speed() > 0)
