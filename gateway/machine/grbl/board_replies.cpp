@@ -34,6 +34,7 @@ void BoardSession::on(const OkReply&, SteadyTime now) {
     resting_since_.reset();
     end_homing(now);
     if (line.front() != '$') tracker_.answered();
+    if (take_jog_answer(line, now)) return;
     if (counter_.unanswered_lines() == 0) {
       longest_ = {};
       next_poll_ = std::min(next_poll_, now + milliseconds(5));  // the report that shows it is done
@@ -52,6 +53,10 @@ void BoardSession::on(const ErrorReply& error, SteadyTime now) {
   std::string line;
   const bool is_known = counter_.answered(line);
   end_homing(now);
+  if (jog_ && is_known) {
+    return end_jog(
+        fmt::format("the board refuses it: error {}, {}", error.code, error_text(error.code)));
+  }
   if (!is_active_) return;
   if (is_known) line.pop_back();
   raise("GRB0002",
@@ -182,6 +187,7 @@ void BoardSession::on(const StatusReport& report, SteadyTime now) {
   if (is_first) moved_to_ = position_, moved_at_ = now;
   watch_state(report, now);
   if (stop_ != Stop::None) return;
+  watch_jog(report, now);
   if (!tracker_.reported(report, now) && is_active_)
     return raise("GRB0007",
                  fmt::format("the board reports line {}, which it was not sent", *report.line),

@@ -46,6 +46,7 @@ void BoardSession::lost(const std::string& reason) {
 }
 
 void BoardSession::drop_lines() {
+  if (jog_) end_jog(fault_ ? fault_->text : "the board was reset, or its line was lost");
   counter_.reset();
   tracker_.drop();
   preamble_ = Preamble::None;
@@ -80,7 +81,7 @@ void BoardSession::ask(SteadyTime now) {
   asked_at_ = now;
   if (!unanswered_poll_) unanswered_poll_ = now;
   // Nothing more is sent before the last line is executed.
-  const bool is_awaited = counter_.unanswered_lines() == 0 && !tracker_.is_empty();
+  const bool is_awaited = (counter_.unanswered_lines() == 0 && !tracker_.is_empty()) || jog_;
   next_poll_ = now + (is_awaited   ? limits_.poll / 2
                       : is_active_ ? limits_.poll
                                    : limits_.idle_poll);

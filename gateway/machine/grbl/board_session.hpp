@@ -93,6 +93,11 @@ class BoardSession final : public streamed::Device {
   Result<void> home(SteadyTime now) override { return reference(true, now); }
   Result<void> unlock(SteadyTime now) override { return reference(false, now); }
   std::string hold_reason() const override;
+  /// `$J=`, which changes no mode of the board; stopped by its own real-time byte.
+  Result<void> jog(const Jog& jog, SteadyTime now) override;
+  bool is_jogging() const override { return jog_.has_value(); }
+  void stop_jog(SteadyTime now) override;
+  std::string jog_fault() const override { return jog_fault_; }
   void switch_off() override;
   bool is_connected() const override;
 
@@ -136,6 +141,10 @@ class BoardSession final : public streamed::Device {
   void reset_board(SteadyTime now);
   void drop_lines();
   void end_homing(SteadyTime now);
+  void cancel_jog(SteadyTime now);
+  void end_jog(std::string fault);
+  bool take_jog_answer(const std::string& line, SteadyTime now);
+  void watch_jog(const StatusReport& report, SteadyTime now);
   bool has_every_axis(const StatusReport& report) const;
   void take_position(const StatusReport& report);
   void watch_state(const StatusReport& report, SteadyTime now);
@@ -165,6 +174,12 @@ class BoardSession final : public streamed::Device {
   std::optional<ModesReply> modes_;
   std::optional<ProbeReply> probe_;
   std::optional<streamed::DeviceFault> fault_;
+  struct JogInHand {
+    bool is_answered = false;  ///< the board has it: a report made since shows it
+    std::optional<SteadyTime> cancelled_at;
+  };
+  std::optional<JogInHand> jog_;
+  std::string jog_fault_;
   std::string last_alarm_;  ///< its number and text, for the operator
   std::string not_ready_ = "the board is not connected";
 

@@ -22,7 +22,8 @@ constexpr MotionCapabilities kCapabilities{.axes = {},
                                            .simulated_time = false,
                                            .places_axes = false,
                                            .tool_lengths = true,
-                                           .adds_lengths = true};
+                                           .adds_lengths = true,
+                                           .jog = true};
 
 std::unique_ptr<streamed::CommandWriter> make_commands() {
   return std::make_unique<BoardCommands>();
@@ -76,6 +77,7 @@ BoardOutput GrblMachine::exchange(std::span<const std::byte> bytes) {
 void GrblMachine::line_closing() {
   const Lock lock = lock_device();
   forbid(lock);
+  session_->stop_jog(now());
   if (!session_->is_empty()) session_->hold(now());
 }
 

@@ -38,7 +38,8 @@ enum class BoardState : std::uint8_t {
 std::string_view to_string(BoardState state);
 
 /// Single bytes that a board acts on at once, outside of its lines.
-inline constexpr char kAskStatus = '?', kFeedHold = '!', kCycleStart = '~', kSoftReset = '\x18';
+inline constexpr char kAskStatus = '?', kFeedHold = '!', kCycleStart = '~', kSoftReset = '\x18',
+                      kJogCancel = '\x85';
 
 struct OkReply {};
 struct ErrorReply {

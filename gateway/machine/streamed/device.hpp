@@ -86,6 +86,15 @@ class Device {
   virtual void set_overrides(const OperatorPanel& panel) = 0;
   virtual Result<void> home(SteadyTime now) = 0;
   virtual Result<void> unlock(SteadyTime now) = 0;
+  /// One axis by a distance, with no program active, at rest and ready. Errors: Unsupported, Busy.
+  virtual Result<void> jog(const Jog&, SteadyTime /*now*/) {
+    return fail(Errc::Unsupported, "this machine moves by programs alone: it is not jogged");
+  }
+  /// Until a report made after the jog shows the axes at rest, or it is lost.
+  virtual bool is_jogging() const { return false; }
+  virtual void stop_jog(SteadyTime /*now*/) {}
+  /// As MotionBackend's.
+  virtual std::string jog_fault() const { return {}; }
   /// Why it cannot leave a hold, for the operator; empty: it can.
   virtual std::string hold_reason() const { return {}; }
 

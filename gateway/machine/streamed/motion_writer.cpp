@@ -51,6 +51,27 @@ std::string trimmed(double value, int decimals) {
   return text == "-0" ? "0" : text;
 }
 
+/// Where soft limits are in force the device would stop in the middle of the program instead.
+std::optional<Refusal> check_travel(const TextRules& rules, const Coordinates& from,
+                                    const Coordinates& to,
+                                    const interpreter::LengthDisplay& display) {
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    if (!rules.has(i) || !rules.axes[i]->travel || to[i] == from[i]) continue;
+    const TextRules::Range travel = *rules.axes[i]->travel;
+    const double slack = rules.axes[i]->tolerance;
+    if (to[i] >= travel.low - slack && to[i] <= travel.high + slack) continue;
+    const auto axis = static_cast<Axis>(i);
+    return Refusal{"MCH0001",
+                   fmt::format("{} {} is outside the machine's travel of {} to {}{}",
+                               interpreter::shown_axis(axis, to[i], display),
+                               interpreter::shown_unit(axis, display.units),
+                               interpreter::shown_axis_number(axis, travel.low, display),
+                               interpreter::shown_axis_number(axis, travel.high, display),
+                               rules.axes[i]->travel_setting)};
+  }
+  return std::nullopt;
+}
+
 interpreter::Position position_of(const Coordinates& point, const TextRules& rules) {
   interpreter::Position position;
   for (std::size_t i = 0; i < kMaxAxes; ++i)
@@ -110,26 +131,7 @@ std::optional<Refusal> MotionWriter::target_of(const interpreter::Position& to,
     target[i] = value;
   }
   if (!is_finite(target)) return Refusal{"MCH0006", "a move without a finite length"};
-  return check_travel(target);
-}
-
-/// Where soft limits are in force the device would stop in the middle of the program instead.
-std::optional<Refusal> MotionWriter::check_travel(const Coordinates& target) const {
-  for (std::size_t i = 0; i < kMaxAxes; ++i) {
-    if (!rules_.has(i) || !rules_.axes[i]->travel || target[i] == at_[i]) continue;
-    const TextRules::Range travel = *rules_.axes[i]->travel;
-    const double slack = rules_.axes[i]->tolerance;
-    if (target[i] >= travel.low - slack && target[i] <= travel.high + slack) continue;
-    const auto axis = static_cast<Axis>(i);
-    return Refusal{"MCH0001",
-                   fmt::format("{} {} is outside the machine's travel of {} to {}{}",
-                               interpreter::shown_axis(axis, target[i], display_),
-                               interpreter::shown_unit(axis, display_.units),
-                               interpreter::shown_axis_number(axis, travel.low, display_),
-                               interpreter::shown_axis_number(axis, travel.high, display_),
-                               rules_.axes[i]->travel_setting)};
-  }
-  return std::nullopt;
+  return check_travel(rules_, at_, target, display_);
 }
 
 /// `length`: of the program's path.
@@ -271,7 +273,7 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
     if (!rules_.has(axis))
       return Refusal{"MCH0002", fmt::format("the machine has no {} axis", letter_of(axis))};
   for (const Coordinates& extreme : extremes(path))
-    if (auto refusal = check_travel(extreme)) return refusal;
+    if (auto refusal = check_travel(rules_, at_, extreme, display_)) return refusal;
   double feed = 0;
   if (auto refusal = feed_of(event.feed, at_, length, feed)) return refusal;
   bool has_rotary = false;

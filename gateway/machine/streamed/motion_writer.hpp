@@ -7,6 +7,12 @@
 
 namespace dripline::machine::streamed {
 
+/// An axis that would leave its travel on the way from one point of the machine to another;
+/// nothing: none does, or no travel is known.
+std::optional<Refusal> check_travel(const TextRules& rules, const Coordinates& from,
+                                    const Coordinates& to,
+                                    const interpreter::LengthDisplay& display);
+
 /// A piece of motion as the device gets it.
 struct MotionText {
   std::vector<std::string> lines;  ///< G-code without line ends
@@ -49,7 +55,6 @@ class MotionWriter {
     bool rests = false;
   };
   std::optional<Refusal> target_of(const interpreter::Position& to, Coordinates& target) const;
-  std::optional<Refusal> check_travel(const Coordinates& target) const;
   std::optional<Refusal> straight(const Motion& motion, const Coordinates& to, MotionText& text);
   std::optional<Refusal> straight_line(const Motion& motion, const Coordinates& to,
                                        MotionText& text);

@@ -51,11 +51,15 @@ const MotionCapabilities& StreamedMachine::capabilities() const {
   return capabilities_;
 }
 
+Result<void> StreamedMachine::check_device() const {
+  if (auto ready = device_.check_ready(); !ready) return ready;
+  return check_machine(stated_, device_.rules());
+}
+
 Result<void> StreamedMachine::check_begin(const Position& at) const {
   const Lock lock(mutex_);
-  if (auto ready = device_.check_ready(); !ready) return ready;
+  if (auto ready = check_device(); !ready) return ready;
   const TextRules& rules = device_.rules();
-  if (auto same = check_machine(stated_, rules); !same) return same;
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     const double wanted = at.raw(static_cast<Axis>(i));
     if (!rules.has(i)) {
@@ -166,6 +170,7 @@ void StreamedMachine::set_panel(const OperatorPanel& panel) {
       device_.restart(now());
     }
     hold_by_override();
+    if (is_override_hold_ && device_.is_jogging()) device_.stop_jog(now());
   }
   if (panel_.emergency_stop) report_off();
   wake();
@@ -200,6 +205,7 @@ void StreamedMachine::report_off() {
 }
 
 void StreamedMachine::hold() {
+  if (is_jogging()) return stop_jog();
   {
     const Lock lock(mutex_);
     is_held_by_override_ = false;
@@ -225,6 +231,7 @@ bool StreamedMachine::resume() {
 }
 
 void StreamedMachine::abort() {
+  if (is_jogging()) return stop_jog();
   {
     const Lock lock(mutex_);
     if (is_over() || is_aborting_) return;

@@ -56,6 +56,10 @@ class StreamedMachine : public MotionBackend {
   void abort() override;
   Result<void> home() override;
   Result<void> unlock() override;
+  Result<void> jog(const Jog& jog) override;
+  bool is_jogging() const override;
+  void stop_jog() override;
+  std::string jog_fault() const override;
 
   std::string notice() const override;
   MachineState state() const override;
@@ -105,6 +109,8 @@ class StreamedMachine : public MotionBackend {
   void hold_by_override();
   void report_off();
   MachineState current_state() const;
+  Result<void> check_device() const;
+  Result<void> begin_jog(const Jog& jog);
   template <class Call>
   void tell(Lock& lock, const Call& call);
 

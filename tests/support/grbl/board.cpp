@@ -80,6 +80,12 @@ void GrblBoard::raise_alarm(int code) {
   state_ = State::Alarm;
 }
 
+void GrblBoard::cancel_jog() {
+  if (state_ != State::Jog || is_braking_) return;
+  is_braking_ = true;
+  brake_left_ = options_.brake_seconds;
+}
+
 void GrblBoard::open_door() {
   is_door_open_ = true;
   if (state_ == State::Alarm) return;
@@ -109,6 +115,7 @@ void GrblBoard::on_real_time(char byte) {
   const auto change = [](int& value, int by) { value = std::clamp(value + by, 10, 200); };
   switch (static_cast<unsigned char>(byte)) {
     case '!':
+      if (state_ == State::Jog) return cancel_jog();
       if (state_ != State::Run && state_ != State::Idle) return;
       is_braking_ = state_ == State::Run;
       brake_left_ = options_.brake_seconds;
@@ -121,7 +128,8 @@ void GrblBoard::on_real_time(char byte) {
       return;
     case 0x18: {
       if (ignores_reset) return;
-      const bool was_moving = state_ == State::Run || is_braking_ || homing_ > 0;
+      const bool was_moving =
+          state_ == State::Run || state_ == State::Jog || is_braking_ || homing_ > 0;
       soft_reset();
       if (was_moving) {
         say("ALARM:3");
@@ -131,6 +139,10 @@ void GrblBoard::on_real_time(char byte) {
       }
       return greet();
     }
+    case 0x85:
+      if (options_.is_grbl_hal) rx_.clear();
+      if (!ignores_jog_cancel) cancel_jog();
+      return;
     case 0x90:
       feed_override_ = 100;
       return;
@@ -186,7 +198,12 @@ void GrblBoard::step(double seconds) {
     move_axes(seconds);
     brake_left_ -= seconds;
     if (brake_left_ <= 0 || moves_.empty()) is_braking_ = false;
-  } else if (state_ == State::Run) {
+    if (!is_braking_ && state_ == State::Jog) {
+      moves_.clear();
+      end_ = from_ = at_;
+      state_ = State::Idle;
+    }
+  } else if (state_ == State::Run || state_ == State::Jog) {
     move_axes(seconds);
     if (moves_.empty() && waiting_.empty()) state_ = State::Idle;
   } else if (state_ == State::Idle && dwell_ > 0) {
@@ -197,7 +214,8 @@ void GrblBoard::step(double seconds) {
 void GrblBoard::move_axes(double seconds) {
   while (seconds > 0 && !moves_.empty() && !is_stuck) {
     Move& move = moves_.front();
-    const double factor = (move.is_rapid ? rapid_override_ : feed_override_) / 100.0;
+    const double factor =
+        move.is_jog ? 1 : (move.is_rapid ? rapid_override_ : feed_override_) / 100.0;
     const double speed = std::min(move.rate * factor, options_.max_rate) / 60;
     const double go = std::min(move.left, speed * seconds);
     seconds -= speed > 0 ? go / speed : seconds;
@@ -264,7 +282,7 @@ std::string GrblBoard::words_of(const Point& point) const {
 }
 
 void GrblBoard::report() {
-  static constexpr std::array kNames{"Idle", "Run", "Hold", "Alarm", "Door", "Check"};
+  static constexpr std::array kNames{"Idle", "Run", "Hold", "Alarm", "Door", "Check", "Jog"};
   std::string text = "<" + std::string(kNames[static_cast<std::size_t>(state_)]);
   if (state_ == State::Hold) text += is_braking_ ? ":1" : ":0";
   if (state_ == State::Door) text += is_braking_ ? ":2" : is_door_open_ ? ":1" : ":0";

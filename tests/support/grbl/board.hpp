@@ -52,10 +52,13 @@ class GrblBoard {
   std::vector<Done> done;          ///< ends of moves, when the axes have reached them
   std::vector<std::string> lines;  ///< as parsed, without N
   std::string real_time;           ///< real-time bytes other than `?`
+  std::vector<std::string> jogs;   ///< lines of jogs that were taken
   bool has_overrun = false;        ///< a character arrived with the receive buffer full
   Point position() const { return at_; }
   double traveled() const { return traveled_; }
-  bool is_moving() const { return state_ == State::Run || (is_braking_ && !moves_.empty()); }
+  bool is_moving() const {
+    return state_ == State::Run || state_ == State::Jog || (is_braking_ && !moves_.empty());
+  }
   bool is_spindle_on() const { return spindle_ > 0; }
   int feed_override() const { return feed_override_; }
   int rapid_override() const { return rapid_override_; }
@@ -72,6 +75,7 @@ class GrblBoard {
   void close_door() { is_door_open_ = false; }
   void enter_check_mode() { state_ = State::Check; }
   bool ignores_reset = false;
+  bool ignores_jog_cancel = false;
   bool is_mute = false;          ///< answers nothing
   bool is_stuck = false;         ///< reports Run, the axes stand
   bool swallows_lines = false;   ///< lines are lost in transit
@@ -84,18 +88,20 @@ class GrblBoard {
   bool is_probe_closed = false;  ///< before the probe move
 
  private:
-  enum class State { Idle, Run, Hold, Alarm, Door, Check };
+  enum class State { Idle, Run, Hold, Alarm, Door, Check, Jog };
   struct Move {
     std::uint32_t number = 0;
     Point to{};
     double length = 0, rate = 0;  ///< mm, mm/min
-    bool is_rapid = false, ends_line = false, is_probe = false;
+    bool is_rapid = false, ends_line = false, is_probe = false, is_jog = false;
     double left = 0;
   };
   struct Words;
 
   void on_real_time(char byte);
   void soft_reset();
+  int jog(const std::string& line);
+  void cancel_jog();
   void greet();
   void step(double seconds);
   void take_lines();

@@ -222,7 +222,42 @@ int GrblBoard::execute(const Words& words) {
   return 0;
 }
 
+/// As the firmware: within the soft limits of a homed board, at a feed that no override changes.
+int GrblBoard::jog(const std::string& line) {
+  const Words words(line.substr(3));
+  if (state_ == State::Alarm) return 9;
+  if (state_ != State::Idle) return 8;
+  if (!words.is_good || !words.m.empty()) return 16;
+  bool is_relative = !is_absolute_;
+  for (const int code : words.g) {
+    if (code != 200 && code != 210 && code != 900 && code != 910 && code != 530) return 16;
+    if (code == 910) is_relative = true;
+  }
+  if (!words.has_axis()) return 26;
+  if (!words.has('F')) return 22;
+  const bool was_absolute = std::exchange(is_absolute_, !is_relative);
+  const Point to = target_of(words);
+  is_absolute_ = was_absolute;
+  for (std::size_t i = 0; settings_[20] == "1" && i < options_.axes; ++i) {
+    const double travel = std::stod(settings_[130 + static_cast<int>(i)]);
+    const double low = options_.is_zero_at_low_end ? 0 : -travel;
+    if (to[i] < low || to[i] > low + travel) return 15;
+  }
+  jogs.push_back(line);
+  add_line(to, words.value('F'), false, 0);
+  if (waiting_.empty()) return 0;
+  waiting_.back().is_jog = true;
+  waiting_.back().ends_line = false;
+  from_ = at_;
+  moves_.push_back(waiting_.back());
+  waiting_.clear();
+  state_ = State::Jog;
+  return 0;
+}
+
 int GrblBoard::system_command(const std::string& line) {
+  if (line.starts_with("$J=")) return jog(line);
+  if (state_ == State::Jog) return 8;
   if (state_ == State::Run || state_ == State::Hold) return 8;
   if (line == "$I") {
     say("[VER:1.1f.20170801:]");
