@@ -124,6 +124,7 @@ class Machine:
             give_up("LinuxCNC runs %s, not %s" % (self.stat.ini_filename, self.ini_path))
         self.has_program = False
         self.file = None
+        self.jogged_axis = None
 
     def wait_for_status(self):
         end = time.monotonic() + 5
@@ -228,13 +229,33 @@ class Machine:
             c.teleop_enable(0)
             c.wait_complete(COMMAND_WAIT)
             c.home(-1)
+        elif what == "jog":
+            return self.jog(order)
+        elif what == "stop_jog":
+            c.jog(linuxcnc.JOG_STOP, 0, order["axis"])
+            self.jogged_axis = None
         elif what == "hal":
             say(signal(order["name"]))
         else:
             return "unknown command " + what
         return ""
 
+    def jog(self, order):
+        """By one step along an axis of the machine; LinuxCNC ends it by itself."""
+        self.to_mode(linuxcnc.MODE_MANUAL)
+        self.command.teleop_enable(1)
+        self.command.wait_complete(COMMAND_WAIT)
+        self.stat.poll()
+        if self.stat.task_mode != linuxcnc.MODE_MANUAL or self.stat.motion_mode != linuxcnc.TRAJ_MODE_TELEOP:
+            return "it does not change to manual mode with axes that move together"
+        self.jogged_axis = order["axis"]
+        self.command.jog(linuxcnc.JOG_INCREMENT, 0, order["axis"], order["velocity"], order["distance"])
+        self.command.wait_complete(COMMAND_WAIT)
+        return ""
+
     def leave(self):
+        if self.jogged_axis is not None:
+            self.command.jog(linuxcnc.JOG_STOP, 0, self.jogged_axis)
         if self.has_program:
             self.command.abort()
             self.remove_program()

@@ -22,7 +22,8 @@ constexpr MotionCapabilities kCapabilities{.axes = {},
                                            .simulated_time = false,
                                            .places_axes = false,
                                            .tool_lengths = true,
-                                           .adds_lengths = true};
+                                           .adds_lengths = true,
+                                           .jog = true};
 
 std::unique_ptr<streamed::CommandWriter> make_commands() {
   return std::make_unique<LinuxCncCommands>();

@@ -47,6 +47,7 @@ void Session::lost(const std::string& reason) {
   commands_.clear();
   status_.reset();
   if (!fault_) trouble_ = reason;
+  if (jog_) end_jog(reason);
   if (!was_open) return;
   if (feed_ == Feed::Wanted) end_feed();
   if (feed_ != Feed::None) {
@@ -135,6 +136,8 @@ void Session::on(const DoneReply& done, SteadyTime now) {
   if (done.number > command_number_)
     return raise("LCN0007", "the helper answers a command that it was never sent", now);
   done_number_ = std::max(done_number_, done.number);
+  if (jog_ && done.number == jog_->number && !done.problem.empty())
+    return end_jog(fmt::format("LinuxCNC refuses it: {}", one_line(done.problem)));
   if (!done.problem.empty() && is_active_)
     raise("LCN0006", fmt::format("LinuxCNC refuses a command: {}", one_line(done.problem)), now);
 }
@@ -199,6 +202,7 @@ void Session::on(const StatusReply& status, SteadyTime now) {
   if (feed_ == Feed::Reading) watch_hold(now);
   watch_end(now);
   watch_state(now);
+  watch_jog(now);
 }
 
 void Session::begin_stop(SteadyTime now) {
@@ -300,7 +304,7 @@ bool Session::is_at_rest() const {
 
 bool Session::is_moving() const {
   return phase_ == Phase::Ready && status_ &&
-         (status_->velocity > kStandstill || status_->is_homing);
+         (status_->velocity > kStandstill || status_->is_homing || jog_);
 }
 
 double Session::feed_per_minute() const {

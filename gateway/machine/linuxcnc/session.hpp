@@ -15,6 +15,7 @@ struct SessionLimits {
   std::chrono::milliseconds reason{150};     ///< for LinuxCNC's message, when it has stopped
   std::chrono::milliseconds stall{30'000};   ///< without any change
   std::chrono::milliseconds flush{5}, dry{30};
+  std::chrono::milliseconds still{100}, late{500};  ///< a jog has ended: at its end, before it
   std::size_t bytes_per_second = 1024 * 1024;
   std::size_t lines_ahead = 400;  ///< sent and not executed
   /// Motion ahead of the axes, without the time that they need to come to rest: it continues when
@@ -83,6 +84,11 @@ class Session final : public streamed::Device {
   void set_overrides(const OperatorPanel& panel) override;
   Result<void> home(SteadyTime now) override;
   Result<void> unlock(SteadyTime now) override;
+  /// By LinuxCNC's own incremental jog, in its teleop mode.
+  Result<void> jog(const Jog& jog, SteadyTime now) override;
+  bool is_jogging() const override { return jog_.has_value(); }
+  void stop_jog(SteadyTime now) override;
+  std::string jog_fault() const override { return jog_fault_; }
   void switch_off() override {}  ///< the end of a program does it
   bool is_connected() const override { return phase_ == Phase::Ready; }
   bool is_moving() const override;
@@ -122,6 +128,8 @@ class Session final : public streamed::Device {
   void watch_end(SteadyTime now);
   void watch_state(SteadyTime now);
   void watch_stall(SteadyTime now);
+  void end_jog(std::string fault);
+  void watch_jog(SteadyTime now);
   void begin_stop(SteadyTime now);
   void abort(SteadyTime now);
   void end_program(SteadyTime now);
@@ -163,6 +171,16 @@ class Session final : public streamed::Device {
     SteadyTime since{};
   };
   std::optional<AskedSignal> signal_;
+  struct JogInHand {
+    std::size_t axis = 0;
+    std::uint64_t number = 0;  ///< of its command
+    double to = 0;             ///< of the axis, mm or degrees
+    Coordinates at{};          ///< as reported last
+    SteadyTime still_since{};
+    bool is_stopped = false;
+  };
+  std::optional<JogInHand> jog_;
+  std::string jog_fault_;
 
   bool is_active_ = false, is_held_ = false, is_resuming_ = false, was_paused_ = false;
   bool is_stopping_ = false, aborts_first_ = false, is_emergency_ = false;

@@ -79,7 +79,7 @@ Result<void> Session::check_ready() const {
   if (auto referenced = check_reference(); !referenced) return referenced;
   if (feed_ != Feed::None || status_->interpreter != InterpreterState::Idle)
     return fail(Errc::Busy, "LinuxCNC is executing a program");
-  if (!is_at_rest()) return fail(Errc::Busy, "the axes are moving");
+  if (!is_at_rest() || jog_) return fail(Errc::Busy, "the axes are moving");
   return {};
 }
 
@@ -286,6 +286,7 @@ Result<void> Session::unlock(SteadyTime) {
     return fail(Errc::Busy, "{}",
                 trouble_.empty() ? "LinuxCNC has not reported its state yet" : trouble_);
   if (is_active_ || feed_ != Feed::None) return fail(Errc::Busy, "a program is active");
+  if (jog_) return fail(Errc::Busy, "the axes are moving");
   if (status_->state == TaskState::Estop && shown_number_ >= must_obey_)
     return fail(Errc::Busy, "LinuxCNC is in emergency stop: reset it first");
   must_obey_ = command(R"("do":"on")");
