@@ -202,6 +202,10 @@ class Interpreter {
   /// axis does not draw it straight out of a cut.
   virtual bool tilts_tool(const Position& /*machine*/) const { return false; }
 
+  /// Why the control would not let its axes go straight from one place of the machine to another:
+  /// its own limits of travel and zones; empty: it has nothing against it. Before the first block.
+  virtual std::string travel_fault(const Position& /*from*/, const Position& /*to*/) { return {}; }
+
   /// Both only at a block boundary, that is, not while a question is open.
   virtual Snapshot snapshot() const = 0;
   /// Continues from a snapshot of the same dialect and version. Errors: Unsupported, Corrupt; state

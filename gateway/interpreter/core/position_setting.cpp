@@ -1,27 +1,13 @@
 #include "gateway/interpreter/core/position_setting.hpp"
 
 #include <fmt/format.h>
-#include <charconv>
 #include <cmath>
 
+#include "gateway/interpreter/core/operator_words.hpp"
 #include "protocol/base/units.hpp"
 
 namespace dripline::interpreter {
 namespace {
-
-std::string_view take_word(std::string_view& text) {
-  const std::size_t end = text.find(' ');
-  const std::string_view word = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return word;
-}
-
-template <class Number>
-bool read(std::string_view word, Number& number) {
-  const char* const end = word.data() + word.size();
-  const auto done = std::from_chars(word.data(), end, number);
-  return done.ec == std::errc{} && done.ptr == end && !word.empty();
-}
 
 /// As controls have them: G54, G54.1P7, G59.3.
 bool is_offset_name(std::string_view name) {
@@ -54,7 +40,7 @@ Result<PositionSetting> parse_position_setting(std::string_view text) {
   PositionSetting setting;
   const std::string_view kind = take_word(text);
   if (kind == "tool") {
-    if (!read(take_word(text), setting.tool) || setting.tool < 1) return refuse();
+    if (!read_number(take_word(text), setting.tool) || setting.tool < 1) return refuse();
   } else if (kind != "datum") {
     return refuse();
   }
@@ -64,7 +50,7 @@ Result<PositionSetting> parse_position_setting(std::string_view text) {
     word = take_word(text);
   }
   const auto axis = word.size() == 1 ? axis_of(word[0]) : std::nullopt;
-  if (!axis || !read(take_word(text), setting.value) || !std::isfinite(setting.value))
+  if (!axis || !read_number(take_word(text), setting.value) || !std::isfinite(setting.value))
     return refuse();
   setting.axis = *axis;
   const std::string_view unit = take_word(text);

@@ -22,6 +22,9 @@ class CenturionInterpreter final : public BlockInterpreter<CenturionInterpreter>
   }
   Result<void> begin_next_text() override;
   ActiveModes modes() const override;
+  std::string travel_fault(const Position& from, const Position& to) override {
+    return run_.travel_fault(from, to);
+  }
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
 

@@ -1,5 +1,7 @@
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
+#include <fmt/core.h>
+
 #include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -62,6 +64,12 @@ bool Run::guards_travel() {
 void Run::end_block() {
   if (front != nullptr) return blender.on_block_end(origin);
   sink.on_block_end(origin);
+}
+
+std::string Run::travel_fault(const Position& from, const Position& to) {
+  if (!guards_travel()) return {};
+  const auto fault = guard.fault_on_line(from, to);
+  return fault ? fmt::format("{}: {}", error_row(fault->code).text, fault->detail) : std::string();
 }
 
 Position Run::present_position() const {

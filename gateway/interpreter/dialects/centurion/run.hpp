@@ -102,6 +102,9 @@ struct Run : BlockRun {
 
   /// The machine's position, as an event shows it.
   Position present_position() const;
+  /// What the control has against the straight path between two places of the machine; empty:
+  /// nothing.
+  std::string travel_fault(const Position& from, const Position& to);
   /// To be called when anything has changed that the active coordinates are the sum of.
   void update_origin();
   /// The G code that decides what the axis words of the block mean; 0: they are a move's.

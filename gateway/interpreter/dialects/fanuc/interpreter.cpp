@@ -250,6 +250,11 @@ bool FanucInterpreter::tilts_tool(const Position& at) const {
   return machine.exists() && tool_direction(machine, pose_of(machine, at))[2] < 1 - kStraight;
 }
 
+std::string FanucInterpreter::travel_fault(const Position& from, const Position& to) {
+  if (!run_.options.checks_stroke() && !run_.state.zone.is_on) return {};
+  return stroke_fault(run_.options, run_.state.zone, {from, to, run_.length_display()});
+}
+
 void FanucInterpreter::after_restore() {
   run_.text.invalidate();
   run_.block.clear();

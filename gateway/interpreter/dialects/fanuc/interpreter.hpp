@@ -20,6 +20,7 @@ class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
   bool tilts_tool(const Position& machine) const override;
+  std::string travel_fault(const Position& from, const Position& to) override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
 

@@ -360,6 +360,13 @@ Result<void> TncInterpreter::begin_next_text() {
   return {};
 }
 
+std::string TncInterpreter::travel_fault(const Position& from, const Position& to) {
+  EventSink none;
+  TravelLimits limits(none, run_.options.limit_low, run_.options.limit_high);
+  limits.check_line({}, from, to);
+  return limits.reached() ? text_of(*limits.reached()) : std::string();
+}
+
 void TncInterpreter::after_restore() {
   run_.reader.drop_window();
   run_.reader.seek(run_.state.at);

@@ -25,6 +25,7 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>,
   Result<void> begin_next_text() override;
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
+  std::string travel_fault(const Position& from, const Position& to) override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
   std::vector<std::string> live_names() const override;

@@ -77,12 +77,15 @@ bool Run::fail_as(ErrorCode code, std::string_view text) {
   return BlockRun::fail({error_row(code).id, text}, 0);
 }
 
+std::string text_of(const LimitReached& limit) {
+  return fmt::format("{} {}{}", error_row(ErrorCode::LimitSwitch).text, letter(limit.axis),
+                     limit.is_positive ? '+' : '-');
+}
+
 bool Run::fail_at_limit() {
   const LimitReached& limit = *limits.reached();
   origin = limit.origin;
-  return fail_as(ErrorCode::LimitSwitch,
-                 fmt::format("{} {}{}", error_row(ErrorCode::LimitSwitch).text, letter(limit.axis),
-                             limit.is_positive ? '+' : '-'));
+  return fail_as(ErrorCode::LimitSwitch, text_of(limit));
 }
 
 bool Run::ask(Question asked) {

@@ -132,6 +132,9 @@ struct Run : BlockRun {
   [[gnu::cold]] void deliver_header();
 };
 
+/// As its alarm states it: "limit switch X+".
+std::string text_of(const LimitReached& limit);
+
 /// The state between two blocks; snapshot.cpp.
 Snapshot take_snapshot(const Run& run);
 /// Errors: Unsupported (another dialect or version), Corrupt. `run` is then unchanged.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "gateway/interpreter/core/shown_length.hpp"
 
@@ -137,6 +138,14 @@ bool TravelGuard::allows_line(const Origin& origin, const Position& to) {
   }
   at_ = end;
   return true;
+}
+
+std::optional<TravelFault> TravelGuard::fault_on_line(const Position& from, const Position& to) {
+  place(from);
+  (void)allows_line({}, to);
+  auto fault = std::exchange(fault_, std::nullopt);
+  place(from);
+  return fault;
 }
 
 bool TravelGuard::allows_arc(const Arc& arc) {

@@ -47,6 +47,8 @@ class TravelGuard final : public EventFilter {
   /// After a fault only alarms pass.
   const std::optional<TravelFault>& fault() const { return fault_; }
   void reset() { fault_.reset(); }
+  /// Of a straight move that is not made; the machine is at `from`.
+  std::optional<TravelFault> fault_on_line(const Position& from, const Position& to);
 
   /// Before a probe move, which may end anywhere on its path: whether all of it is allowed. Reduces
   /// its feed.
