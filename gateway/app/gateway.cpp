@@ -65,6 +65,15 @@ Gateway::Gateway(Parts parts)
                   .machine = *machine_,
                   .memory = memory_,
                   .run = run_}),
+      jogger_({.options = parts_.options,
+               .dialect = parts_.dialect,
+               .setup = parts_.setup,
+               .clock = parts_.clock,
+               .machine = *machine_,
+               .positions = positions_,
+               .consent = consent_,
+               .run = run_,
+               .has_line = parts_.line != nullptr}),
       status_({.gateway_session = parts_.session,
                .dialect = parts_.dialect,
                .setup = parts_.setup,
@@ -118,6 +127,7 @@ void Gateway::on(const ServerSeen& server, SteadyTime) {
 
 void Gateway::on(const StopRequested& stop, SteadyTime) {
   process::log_info("stopping on signal {} machine={}", stop.signal, parts_.options.machine);
+  (void)stop_jog("with the gateway");
   stop_requested_ = true;
 }
 
@@ -125,6 +135,8 @@ SteadyTime Gateway::turn(SteadyTime now) {
   server_.announce();
   if (line_) line_->poll(now);
   loop_.step(now);
+  jogger_.step(now);
+  answer_jog();
   commands_.send();
   // First: a client that learns of a run's end finds the position where the run has left it.
   server_.send_status(now, [this] {
@@ -137,7 +149,7 @@ SteadyTime Gateway::turn(SteadyTime now) {
 
 SteadyTime Gateway::next_turn(SteadyTime now) const {
   const SteadyTime next_tick = parts_.options.speed.factor ? now + kTick : now;
-  if (loop_.is_moving()) return next_tick;
+  if (loop_.is_moving() || jogger_.is_active()) return next_tick;
   if (loop_.is_looking_through()) return now;
   constexpr std::chrono::milliseconds kSoon{20};
   const bool must_send = !server_.is_announced() || !commands_.is_sent();
@@ -160,6 +172,8 @@ dds::Status Gateway::status() const {
                                       .line_fault = line_ ? line_->fault() : "",
                                       .refused_by_server = server_.refused()});
   status.switches = panel_.switches();
+  status.jog = jogger_.status();
+  if (jogger_.is_active()) status.mode = dds::ControllerMode::Manual;
   return status;
 }
 

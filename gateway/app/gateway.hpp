@@ -7,6 +7,7 @@
 
 #include "gateway/app/command_log.hpp"
 #include "gateway/app/inbox.hpp"
+#include "gateway/app/jog/jogger.hpp"
 #include "gateway/app/line_operator.hpp"
 #include "gateway/app/machine_gateway.hpp"
 #include "gateway/app/memory/position_setter.hpp"
@@ -78,10 +79,13 @@ class Gateway final : public MachineGateway {
   Reply start(const dds::Command& command);
   Reply operate(const dds::Command& command);
   Reply set_position(const dds::Command& command);
+  std::optional<Reply> begin_jog(const dds::Command& command);
+  bool stop_jog(std::string_view why);
+  void answer_jog();
   Reply resume();
   std::optional<Reply> refusal_of_fault() const;
   void answer_query(const dds::Command& command);
-  void keep_answer(const dds::Command& command, const Reply& reply);
+  void keep_answer(const std::string& command, const Reply& reply);
   Reply carry_out(const PanelCommand& command);
   Reply cycle_start();
   Reply rewind_tape();
@@ -103,6 +107,7 @@ class Gateway final : public MachineGateway {
   PanelController panel_;
   RunLoop loop_;
   PositionSetter positions_;
+  Jogger jogger_;
   std::unique_ptr<LineOperator> line_;  ///< null: programs come from the server
   StatusBuilder status_;
   bool stop_requested_ = false;

@@ -54,13 +54,23 @@ void Gateway::on(const dds::Command& command, SteadyTime) {
     if (!is_stop) return;  // its sender tries again
   }
   if (known && *known) return commands_.answer(command.id, **known);
+  if (jogger_.is_of(command.id)) return;  // it is answered when the axis rests
+  if (command.action == CommandAction::Jog) {
+    const auto refusal = begin_jog(command);
+    process::log_info("command {} jog {} {}{} {}", command.id, command.argument,
+                      refusal ? "refused: " : "begun", refusal ? refusal->reason : "",
+                      run_.label());
+    if (refusal) keep_answer(command.id, *refusal);
+    if (refusal) commands_.answer(command.id, *refusal);
+    return server_.want_status();
+  }
   const Reply reply = carry_out(command, is_stop);
   process::log_info("command {} {} {}{}{} {}", command.id, dds::to_string(command.action),
                     reply.is_accepted ? "accepted" : "refused", reply.reason.empty() ? "" : ": ",
                     reply.reason, run_.label());
   const bool is_kept = reply.is_accepted && (command.action == CommandAction::Start ||
                                              command.action == CommandAction::SetPosition);
-  if (!is_kept) keep_answer(command, reply);
+  if (!is_kept) keep_answer(command.id, reply);
   commands_.answer(command.id, reply);
 }
 
@@ -89,12 +99,37 @@ bool Gateway::stops(const dds::Command& command) const {
 
 /// After a kill a command may be carried out twice; that does no harm, because the run it was meant
 /// for has ended then. Records of half a block wait, and so does this.
-void Gateway::keep_answer(const dds::Command& command, const Reply& reply) {
-  commands_.stage(command.id, reply);
+void Gateway::keep_answer(const std::string& command, const Reply& reply) {
+  commands_.stage(command, reply);
   if (!recorder_.is_between_blocks()) return;
   const auto done = run_.session ? recorder_.commit() : outbox_.commit();
   if (!done)
-    process::log_error("command {} not kept: {} {}", command.id, done.error().what, run_.label());
+    process::log_error("command {} not kept: {} {}", command, done.error().what, run_.label());
+}
+
+/// Not one whose sender has another gateway in mind, nor one that comes late: nobody expects the
+/// move any more.
+std::optional<Reply> Gateway::begin_jog(const dds::Command& command) {
+  if (auto refusal = validity_.refusal(command, parts_.clock.steady_now()))
+    return refuse(*std::move(refusal));
+  if (auto refusal = panel_.refusal_without_consent(command)) return refusal;
+  return jogger_.begin(command);
+}
+
+/// False: nothing is jogged.
+bool Gateway::stop_jog(std::string_view why) {
+  if (!jogger_.is_active()) return false;
+  jogger_.stop(why);
+  return true;
+}
+
+void Gateway::answer_jog() {
+  const auto answer = jogger_.take_answer();
+  if (!answer) return;
+  process::log_info("jog {} ended: {} {}", answer->command, answer->reply.reason, run_.label());
+  keep_answer(answer->command, answer->reply);
+  commands_.answer(answer->command, answer->reply);
+  server_.want_status();
 }
 
 Reply Gateway::carry_out(const dds::Command& command, bool is_stop) {
@@ -104,6 +139,10 @@ Reply Gateway::carry_out(const dds::Command& command, bool is_stop) {
     return refuse(*std::move(refusal));
   }
   if (command.action == CommandAction::Start) return start(command);
+  const bool is_hold = command.action == CommandAction::Hold;
+  if ((is_hold || command.action == CommandAction::Abort) && stop_jog("by command")) return {};
+  if (command.argument == dds::kJogAbort && command.action == CommandAction::Abort)
+    return refuse("nothing is jogged");
   if (auto refusal = panel_.refusal_without_consent(command)) return *refusal;
   if (command.action == CommandAction::SetPosition) return set_position(command);
   if (command.action == CommandAction::Playback) {
@@ -122,6 +161,7 @@ std::optional<Reply> Gateway::refusal_of_start(const dds::Command& command) cons
   if (auto known = commands_.find_start(command.run)) return known;
   if (line_)
     return refuse(fmt::format("this machine takes its programs from line {}", line_->address()));
+  if (jogger_.is_active()) return refuse(std::string(kIsJogging));
   if (command.run.empty() || command.run.size() > report::RunJournal::kMaxRun)
     return refuse("a start needs a run of 1 to 40 bytes");
   if (run_.session)
@@ -185,6 +225,7 @@ Reply Gateway::set_position(const dds::Command& command) {
   if (run_.session)
     return refuse(fmt::format("run {} is active: nothing is set while a program runs",
                               run_.session->run().run));
+  if (jogger_.is_active()) return refuse(std::string(kIsJogging));
   if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStop));
   if (auto refusal = refusal_of_fault()) return *refusal;
   const auto before = memory_.save();
@@ -243,6 +284,7 @@ Reply Gateway::carry_out(const PanelCommand& command) {
   using Verb = PanelCommand::Verb;
   switch (command.verb) {
     case Verb::RemoteEnable:
+      if (command.value == 0) (void)stop_jog("without the remote enable");
       return panel_.set_remote_enable(command.value == 1);
     case Verb::EmergencyStop:
       return panel_.set_emergency_stop_at_panel(command.value == 1);
@@ -264,6 +306,8 @@ Reply Gateway::carry_out(const PanelCommand& command) {
     default:
       break;
   }
+  const bool is_stop = command.verb == Verb::Hold || command.verb == Verb::Abort;
+  if (is_stop && stop_jog("at the machine's panel")) return {};
   if (!run_.is_active()) return refuse("no run is active");
   switch (command.verb) {
     case Verb::CycleStart:
@@ -295,6 +339,7 @@ Reply Gateway::cycle_start() {
 /// Only at the machine: the person who moves its axes must see them.
 Reply Gateway::reference_axes(bool is_homing) {
   if (run_.session) return refuse(fmt::format("run {} is active", run_.session->run().run));
+  if (jogger_.is_active()) return refuse(std::string(kIsJogging));
   if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStopIsPressed));
   const auto done = is_homing ? machine_->home() : machine_->unlock();
   if (!done) return refuse(done.error().what);

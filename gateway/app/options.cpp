@@ -92,6 +92,30 @@ Result<void> set_cycle_start_wait(Options& options, std::string_view text) {
   return {};
 }
 
+/// Errors: Syntax; LimitExceeded (not `least` to `most`).
+Result<double> parse_size(std::string_view text, double least, double most) {
+  double value = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value, std::chars_format::fixed);
+  if (error != std::errc() || end != last) return fail(Errc::Syntax, "'{}' is no number", text);
+  if (value >= least && value <= most) return value;
+  return fail(Errc::LimitExceeded, "{} is not {} to {}", text, least, most);
+}
+
+Result<void> set_jog_step(Options& options, std::string_view text) {
+  const auto step = parse_size(text, 0, 100);
+  if (!step) return fail(step.error());
+  options.jog_step = *step;
+  return {};
+}
+
+Result<void> set_jog_feed(Options& options, std::string_view text) {
+  const auto feed = parse_size(text, 0.1, 10'000);
+  if (!feed) return fail(feed.error());
+  options.jog_feed = *feed;
+  return {};
+}
+
 using process::number_value;
 using process::text_value;
 using process::Written;
@@ -197,6 +221,14 @@ constexpr std::array kRows{
     OptionRow{"cycle-start-wait-s", "NUMBER", "s", "1800",
               "End a run that has waited this long for cycle start at the machine",
               set_by(Written::Number, set_cycle_start_wait)},
+    OptionRow{"jog-step", "NUMBER", "mm or degrees", "1",
+              "Largest step of an axis that is jogged from the network (dnc machine jog), 0 to "
+              "100; 0: none is allowed",
+              set_by(Written::TextOrNumber, set_jog_step)},
+    OptionRow{"jog-feed", "NUMBER", "per minute", "300",
+              "Highest feed of such a step, and that of one without a feed; mm or degrees, 0.1 to "
+              "10000",
+              set_by(Written::TextOrNumber, set_jog_feed)},
     OptionRow{"execution-probe", "FILE", "", "none",
               "For tests: count in this file what was executed",
               text_value<&Options::execution_probe>()}};

@@ -65,6 +65,9 @@ struct GatewayOptions {
   std::optional<bool> unattended;
   bool is_unattended = true;
   std::chrono::seconds cycle_start_wait{1800};  ///< then a run without cycle start ends
+  /// The largest step of a jog from the network, mm or degrees (0: none is allowed), and its
+  /// highest feed per minute.
+  double jog_step = 1, jog_feed = 300;
   /// Between two checkpoints of a run, for restarts; no option of its own.
   std::chrono::milliseconds checkpoint_interval{5000};
 };

@@ -221,6 +221,15 @@ void members(V&& v, Is<Screen> auto& m) {
   v(DRIPLINE_MEMBER(further_block), FreeText{});
 }
 
+/// Likewise.
+template <class V>
+void members(V&& v, Is<JogStatus> auto& m) {
+  v(DRIPLINE_MEMBER_AS(step, jog_step));
+  v(DRIPLINE_MEMBER_AS(feed, jog_feed));
+  v(DRIPLINE_MEMBER_AS(is_moving, jog_is_moving));
+  v(DRIPLINE_MEMBER_AS(refusal, jog_refusal), FreeText{});
+}
+
 template <class V>
 void members(V&& v, Is<Status> auto& m) {
   v(DRIPLINE_MEMBER(machine), MachineName{}, Internal{});
@@ -257,6 +266,7 @@ void members(V&& v, Is<Status> auto& m) {
   v(DRIPLINE_MEMBER(serial_line), PresentIf{DRIPLINE_FIELD(serial_line.is_present)}, Internal{});
   v(Member{"screen", m.screen, "", WholeSample{}}, PresentIf{DRIPLINE_FIELD(has_screen)});
   v(Member{"switches", m.switches, "", WholeSample{}}, PresentIf{DRIPLINE_FIELD(has_switches)});
+  v(Member{"jog", m.jog, "", WholeSample{}}, PresentIf{DRIPLINE_FIELD(has_jog)});
 }
 
 template <class V>

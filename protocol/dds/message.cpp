@@ -26,10 +26,12 @@ Words words_of(RecordKind) {
 }
 
 Words words_of(CommandAction) {
-  static constexpr std::array<std::string_view, 14> kWords{
-      "start",         "hold",           "resume",           "abort",     "answer", "switch",
-      "feed_override", "rapid_override", "spindle_override", "handwheel", "refuse", "query",
-      "set_position",  "playback"};
+  static constexpr std::array<std::string_view, 15> kWords{
+      "start",         "hold",           "resume",
+      "abort",         "answer",         "switch",
+      "feed_override", "rapid_override", "spindle_override",
+      "handwheel",     "refuse",         "query",
+      "set_position",  "playback",       "jog"};
   return kWords;
 }
 

@@ -24,6 +24,8 @@ inline constexpr std::uint32_t kProtocolVersion = 2;
 /// The argument of a start whose text is keyed in (MDI). A gateway that does not know it refuses
 /// its second word.
 inline constexpr std::string_view kMdiStart = "mdi keyed-in";
+/// The argument of an abort that stops a jog and nothing else.
+inline constexpr std::string_view kJogAbort = "jog";
 /// Records of a change that an operator has set name no run, but this and the command's id.
 inline constexpr std::string_view kChangePrefix = "set-";
 inline constexpr std::size_t kMaxBlockBytes = 32 * 1024;
@@ -69,6 +71,7 @@ enum class CommandAction : std::uint8_t {
   Query,   ///< asks for values of the control, and changes nothing; needs a gateway with a Screen
   SetPosition,  ///< a datum or a tool's length from where the axes are; moves nothing
   Playback,     ///< asks for the position as words of a block, and changes nothing
+  Jog,          ///< one axis by a finite step, without a program
 };
 enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, Counterclockwise, Thread };
 enum class CompensationSide : std::uint8_t { Off, Left, Right };
@@ -266,6 +269,14 @@ struct Screen {
   friend bool operator==(const Screen&, const Screen&) = default;
 };
 
+/// Of a machine that can be jogged.
+struct JogStatus {
+  double step = 0, feed = 0;  ///< the largest, mm or degrees; per minute. No step: none is allowed
+  bool is_moving = false;
+  std::string refusal;  ///< why none can begin now; empty: one can
+  friend bool operator==(const JogStatus&, const JogStatus&) = default;
+};
+
 struct Status {
   std::string machine;
   UtcTime time;
@@ -293,6 +304,7 @@ struct Status {
   std::optional<LineStatus> serial_line;  ///< of a gateway beside a control
   std::optional<Screen> screen;           ///< none from an older gateway, nor of such a control
   std::optional<PanelSwitches> switches;  ///< none from an older gateway
+  std::optional<JogStatus> jog;           ///< likewise, nor of a machine that is not jogged
   friend bool operator==(const Status&, const Status&) = default;
 };
 

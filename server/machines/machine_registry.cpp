@@ -290,7 +290,7 @@ bool is_news(const dds::Status& before, const dds::Status& now) {
   const auto compared = [](const dds::Status& s) {
     return std::tie(s.execution, s.mode, s.run, s.program, s.message, s.single_block,
                     s.emergency_stop, s.remote_enable, s.waits_for, s.feed_override,
-                    s.rapid_override, s.spindle_override, s.session, s.axes, s.switches);
+                    s.rapid_override, s.spindle_override, s.session, s.axes, s.switches, s.jog);
   };
   return compared(before) != compared(now) ||
          before.serial_line.has_value() != now.serial_line.has_value();

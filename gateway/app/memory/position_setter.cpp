@@ -58,7 +58,7 @@ struct PositionSetter::Control {
   std::unique_ptr<interpreter::MemorySource> text = std::make_unique<interpreter::MemorySource>("");
   std::unique_ptr<interpreter::EventSink> events = std::make_unique<interpreter::EventSink>();
   std::unique_ptr<interpreter::Interpreter> interpreter;
-  interpreter::RetainedMemory* memory = nullptr;
+  interpreter::RetainedMemory* memory = nullptr;  ///< null: its control keeps nothing
   std::vector<double> numbers;
 };
 
@@ -74,16 +74,22 @@ Result<interpreter::Setup> PositionSetter::setup_of(const std::string& text) con
   return setup;
 }
 
-Result<PositionSetter::Control> PositionSetter::control_with(
+Result<PositionSetter::Control> PositionSetter::make_control(
     const interpreter::Setup& setup) const {
   Control control;
   auto made = parts_.dialect.make(setup, *control.text, *control.events);
   if (!made) return fail(made.error().code, "setup: {}", made.error().what);
   control.interpreter = *std::move(made);
   control.memory = dynamic_cast<interpreter::RetainedMemory*>(control.interpreter.get());
-  if (control.memory == nullptr)
+  if (control.memory != nullptr) (void)control.memory->read_memory(control.numbers);
+  return control;
+}
+
+Result<PositionSetter::Control> PositionSetter::control_with(
+    const interpreter::Setup& setup) const {
+  auto control = make_control(setup);
+  if (control && control->memory == nullptr)
     return fail(Errc::Unsupported, "control {} keeps no datum and no tools", parts_.dialect.name);
-  (void)control.memory->read_memory(control.numbers);
   return control;
 }
 
@@ -264,6 +270,31 @@ Result<PositionChange> PositionSetter::set(const std::string& argument, const st
                        .before = read,
                        .is_diameter = is_diameter,
                        .who = who});
+}
+
+/// Limits are looked up as a program finds them: by the setup, and by what the memory keeps.
+Result<void> PositionSetter::check_jog(Axis axis, double distance,
+                                       const std::string& server_setup) const {
+  auto setup = setup_of(server_setup);
+  if (!setup) return fail(setup.error());
+  if (auto has = check_axis(axis, *setup); !has) return has;
+  if (auto rests = check_rest(); !rests) return rests;
+  auto control = make_control(*setup);
+  if (!control) return fail(control.error());
+  if (control->memory != nullptr) {
+    ControlMemory memory = parts_.memory;  // which this does not change
+    const auto kept = memory.begin(control->memory->memory_cells(), control->numbers, *setup);
+    if (!kept) return fail(kept.error());
+    setup->variables.insert(setup->variables.end(), kept->begin(), kept->end());
+    control = make_control(*setup);
+    if (!control) return fail(control.error());
+  }
+  const interpreter::Position from = setup->start;
+  interpreter::Position to = from;
+  to.set_raw(axis, from.raw(axis) + distance);
+  const std::string fault = control->interpreter->travel_fault(from, to);
+  if (!fault.empty()) return fail(Errc::LimitExceeded, "{}", fault);
+  return {};
 }
 
 Result<ControlMemory> PositionSetter::memory_at_start(const std::string& server_setup) const {

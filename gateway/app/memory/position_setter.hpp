@@ -34,12 +34,18 @@ class PositionSetter {
   /// The words of a block with the position of these axes ("XY") in program coordinates. Errors:
   /// likewise; the memory is as it was.
   Result<std::string> playback(const std::string& axes, const std::string& setup) const;
+  /// Whether an axis may go by a distance (mm or degrees, X of a lathe as a radius) from where the
+  /// axes rest: it is there, their position is certain, and the control's own limits allow it.
+  /// `setup`: likewise. Errors: Unsupported, Busy, Conflict, LimitExceeded; those of the setup.
+  Result<void> check_jog(interpreter::Axis axis, double distance, const std::string& setup) const;
   /// A copy, as the start of a program would find it. Errors: those of the setup and of the memory.
   Result<ControlMemory> memory_at_start(const std::string& setup) const;
 
  private:
   struct Control;
   Result<interpreter::Setup> setup_of(const std::string& setup) const;
+  Result<Control> make_control(const interpreter::Setup& setup) const;
+  /// One that keeps datums and tools.
   Result<Control> control_with(const interpreter::Setup& setup) const;
   Result<std::vector<interpreter::VariableRecord>> begin_memory(
       ControlMemory& memory, const interpreter::Setup& setup) const;

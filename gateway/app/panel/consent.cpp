@@ -40,6 +40,7 @@ bool needs_consent(const dds::Command& command, const machine::OperatorPanel& pa
     case CommandAction::Resume:
     case CommandAction::Answer:
     case CommandAction::Handwheel:
+    case CommandAction::Jog:
       break;
   }
   return true;

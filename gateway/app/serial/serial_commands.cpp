@@ -62,6 +62,8 @@ Reply SerialGateway::carry_out(const dds::Command& command, bool is_stop) {
   if (!consent_.is_given() && needs_consent(command, panel)) return refuse(std::string(kNoConsent));
   if (command.action == CommandAction::Switch && command.argument == "emergency_stop")
     return set_emergency_stop(command.value == 1, false);
+  if (command.action == CommandAction::Jog || command.argument == dds::kJogAbort)
+    return refuse(std::string(kHasOwnPanel));
   if (!run_.is_active() || run_.is_ending()) return refuse("no run is active");
   if (!command.run.empty() && command.run != run_.run().run)
     return refuse(fmt::format("run {} is not active, {} is", command.run, run_.run().run));

@@ -83,6 +83,12 @@ void GatewayFixture::make_attended() {
   restart_gateway();
 }
 
+void GatewayFixture::allow_jogs(double step, double feed) {
+  options_.jog_step = step;
+  options_.jog_feed = feed;
+  restart_gateway();
+}
+
 std::string GatewayFixture::panel(const std::string& line) {
   std::string answer;
   gateway->receive(PanelRequest{parse_panel_command(line).value(),

@@ -49,6 +49,8 @@ class GatewayFixture : public dds::GatewayEndpoint {
   void connect(bool is_up);
   /// People may be at the machine: from the next gateway on, it asks for their consent.
   void make_attended();
+  /// Jogs of that size and feed are allowed; from the next gateway on.
+  void allow_jogs(double step, double feed);
   /// At the machine's panel; the answer.
   std::string panel(const std::string& line);
   /// Turns of `step` until `done` is true, or a (simulated) minute has passed.

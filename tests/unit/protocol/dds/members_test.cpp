@@ -18,7 +18,7 @@ const std::map<std::string, Names> kOutsideTheLists{
     {"Announce", {"heard"}},
     {"ActiveModes", {"is_present"}},
     {"Coordinates", {"is_present", "has_following_error", "has_program"}},
-    {"Status", {"has_screen", "has_switches"}},
+    {"Status", {"has_screen", "has_switches", "has_jog"}},
     {"BlockData", {"crc"}},
     {"LineStatus", {"is_present", "has_upload", "has_call", "has_transfer", "has_asked"}},
     {"LineRequest", {"crc"}},
