@@ -171,6 +171,7 @@ template Reply<Machine> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<Machine>> Client::fetch_list(const std::string&, const char*);
 template Reply<std::vector<Memory>> Client::fetch_list(const std::string&, const char*);
 template Reply<PositionSet> Client::fetch(HttpRequest, std::string_view);
+template Reply<JogDone> Client::fetch(HttpRequest, std::string_view);
 template Reply<PlaybackBlock> Client::fetch(HttpRequest, std::string_view);
 template Reply<ControlValues> Client::fetch(HttpRequest, std::string_view);
 template Reply<Run> Client::fetch(HttpRequest, std::string_view);

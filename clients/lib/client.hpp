@@ -168,6 +168,8 @@ class Client {
   Reply<KeyedInRun> key_in(std::string_view machine, std::string_view text);
   /// A datum, or with a tool its length, from where the axes of a machine without a run are.
   Reply<PositionSet> set_position(std::string_view machine, const PositionToSet& setting);
+  /// One step of an axis of a machine without a run; returns when the axis rests.
+  Reply<JogDone> jog(std::string_view machine, const JogToMake& step);
   /// The position of the axes of these letters as the words of a block.
   Reply<PlaybackBlock> play_back(std::string_view machine, std::string_view axes);
   Reply<std::vector<Run>> runs(const RunQuery& query);

@@ -55,6 +55,13 @@ struct PanelSwitches {
   std::string dry_run, machine_lock, handwheel;
 };
 
+/// What the gateway allows of jogs.
+struct JogStatus {
+  double step = 0, feed = 0;  ///< the largest, mm or degrees; per minute. No step: none is allowed
+  bool moving = false;
+  std::string refusal;  ///< why none can begin now; empty: one can
+};
+
 /// What the control's screen shows; texts are empty where it shows none.
 struct Screen {
   std::string units = "mm";   ///< or inch
@@ -81,6 +88,7 @@ struct MachineStatus {
   std::optional<Screen> screen =
       {};  ///< absent: an older gateway or server, or a control on a line
   std::optional<PanelSwitches> switches = {};  ///< absent: an older gateway or server
+  std::optional<JogStatus> jog = {};           ///< absent: likewise, or the machine is not jogged
 };
 
 /// What a control's own position display shows. Values of the API are millimeters and radii.
@@ -118,6 +126,13 @@ struct PositionSet {
   /// Of the tool in force along the axis, and of the work offset that a length is of; in the unit
   /// of the first cell.
   std::optional<double> length = {}, zero = {};
+};
+/// Where an axis is after a step.
+struct JogDone {
+  std::string machine, text, axis;
+  double position = 0, moved = 0;  ///< machine coordinates; X of a lathe is a diameter
+  std::string unit;                ///< mm, in, deg
+  bool reached = false;            ///< false: it was stopped before its end
 };
 struct PlaybackBlock {
   std::string machine, block;

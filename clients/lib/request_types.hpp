@@ -174,6 +174,14 @@ struct PositionToSet {
   std::optional<std::uint64_t> tool = {};  ///< none: a datum
 };
 
+/// One step of one axis.
+struct JogToMake {
+  std::string axis;
+  double distance = 0;
+  std::string unit;                 ///< mm, in; deg or empty of a rotary axis
+  std::optional<double> feed = {};  ///< per minute; none: the highest that the gateway takes
+};
+
 /// The configuration of a port; saving replaces all of it.
 struct PortRequest {
   std::string name, machine, address;

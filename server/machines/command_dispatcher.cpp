@@ -24,6 +24,10 @@ bool may_stop(const dds::Command& command) {
          dds::is_override(command.action) || command.action == dds::CommandAction::Refuse;
 }
 
+bool is_jog(const dds::Command& command) {
+  return command.action == dds::CommandAction::Jog;
+}
+
 }  // namespace
 
 CommandDispatcher::CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock& clock,
@@ -35,13 +39,21 @@ CommandDispatcher::CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock&
       options_(std::move(options)),
       on_late_start_(std::move(on_late_start)) {}
 
+std::chrono::milliseconds CommandDispatcher::life_of(const dds::Command& command) const {
+  return is_jog(command) ? options_.jog_expiry : options_.expiry;
+}
+
 SteadyTime CommandDispatcher::stamp(dds::Command& command) {
+  const auto life = life_of(command);
   command.id = make_command_id();
-  command.expires = may_stop(command) ? UtcTime::max() : clock_.now() + options_.expiry;
+  command.expires = may_stop(command) ? UtcTime::max() : clock_.now() + life;
+  // One that has begun to move is not given to the next gateway, which would move again.
+  if (is_jog(command) && options_.gateway_of)
+    command.session = options_.gateway_of(command.machine).session;
   command.server = session_;
   const std::lock_guard lock(mutex_);
   command.number = ++last_number_;
-  return clock_.steady_now() + options_.expiry;
+  return clock_.steady_now() + life;
 }
 
 Result<void> CommandDispatcher::send(dds::Command command) {
@@ -53,6 +65,11 @@ Result<void> CommandDispatcher::send(dds::Command command) {
 Result<void> CommandDispatcher::send_to_present(dds::Command command, SteadyTime deadline) {
   if (options_.gateway_of) {
     const auto gateway = options_.gateway_of(command.machine);
+    if (is_jog(command) && command.session != gateway.session) {
+      return fail(Errc::Conflict,
+                  "machine {}: its gateway was replaced; whether the axis has moved is not known",
+                  command.machine);
+    }
     command.session = gateway.session;
     if (gateway.steady_ahead) {
       command.deadline =
@@ -97,7 +114,7 @@ Result<dds::CommandResult> CommandDispatcher::send_and_await(dds::Command comman
 }
 
 Result<void> CommandDispatcher::write_in_time(const dds::Command& command, SteadyTime deadline) {
-  const auto limit = std::chrono::steady_clock::now() + options_.expiry;
+  const auto limit = std::chrono::steady_clock::now() + life_of(command);
   for (;;) {
     auto written = send_to_present(command, deadline);
     if (written || written.error().code != Errc::Timeout) return written;
@@ -107,10 +124,11 @@ Result<void> CommandDispatcher::write_in_time(const dds::Command& command, Stead
 }
 
 Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
-  const auto expiry = std::chrono::steady_clock::now() + options_.expiry;
-  const auto limit = expiry + options_.grace;
   std::unique_lock lock(mutex_);
   const Waiting& waiting = waiting_.at(id);
+  const auto wait = is_jog(waiting.command) ? options_.jog_end : options_.expiry;
+  const auto expiry = std::chrono::steady_clock::now() + wait;
+  const auto limit = expiry + options_.grace;
   const auto is_resolved = [&] { return waiting.result.has_value() || is_stopping_; };
   for (auto next = std::chrono::steady_clock::now() + options_.repeat; next < expiry;
        next += options_.repeat) {
@@ -118,9 +136,11 @@ Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
     dds::Command again = waiting.command;
     lock.unlock();
     // A full queue or a disconnected machine: the next round tries again, until the limit.
-    [[maybe_unused]] const auto written = send_to_present(std::move(again), waiting.deadline);
+    const auto written = send_to_present(std::move(again), waiting.deadline);
     lock.lock();
     if (waiting.is_seen) break;
+    if (!written && written.error().code == Errc::Conflict && !waiting.result)
+      return fail(Errc::Timeout, "{}", written.error().what);
   }
   const auto soon = std::chrono::steady_clock::now() + kForReason;
   const bool is_decided =
@@ -136,8 +156,7 @@ Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
   }
   if (is_decided) return fail(Errc::Io, "the server is stopping");
   return fail(Errc::Timeout, "machine {} did not answer {} within {} s", waiting.command.machine,
-              dds::to_string(waiting.command.action),
-              std::chrono::duration<double>(options_.expiry).count());
+              dds::to_string(waiting.command.action), std::chrono::duration<double>(wait).count());
 }
 
 void CommandDispatcher::on_result(const dds::CommandResult& result) {

@@ -23,6 +23,9 @@ class CommandDispatcher {
   struct Options {
     std::chrono::milliseconds expiry{5000};
     std::chrono::milliseconds grace{1000};  ///< for a result given just before the expiry
+    /// Of a jog, which moves an axis: it is begun at once or never, and answered at its end. The
+    /// longest that a gateway takes has to end within the second.
+    std::chrono::milliseconds jog_expiry{2000}, jog_end{17'000};
     /// A command without an answer is sent again, with the same id, to the gateway present then:
     /// the first may have been lost with a connection, or have gone to a gateway that was just
     /// replaced.
@@ -68,6 +71,7 @@ class CommandDispatcher {
     SteadyTime deadline;   ///< by the server's clock
     bool is_seen = false;  ///< the machine shows the run that this starts
   };
+  std::chrono::milliseconds life_of(const dds::Command& command) const;
   SteadyTime stamp(dds::Command& command);
   Result<void> send_to_present(dds::Command command, SteadyTime deadline);
   Result<void> write_in_time(const dds::Command& command, SteadyTime deadline);

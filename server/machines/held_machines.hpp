@@ -78,6 +78,7 @@ class HeldMachines final : public MachineControl {
   Result<PositionAnswer> position(const PositionRequest& request) override {
     return inner_.position(request);
   }
+  Result<JogAnswer> jog(const JogRequest& request) override { return inner_.jog(request); }
 
  private:
   Result<void> hold(const CommandRequest& request, const std::string& machine);

@@ -130,6 +130,16 @@ struct PositionAnswer {
   std::string details = {};
 };
 
+/// One axis of a machine without a run by one step.
+struct JogRequest {
+  std::string machine;
+  std::string move;  ///< interpreter::to_text(JogMove)
+};
+struct JogAnswer {
+  std::string text;     ///< where the axis is now, and why it has not come further
+  std::string details;  ///< the same as JSON: axis, position, moved, unit, reached
+};
+
 /// Receives what happens at the machines. Called on worker threads, never two calls for one machine
 /// at once; must return soon.
 struct MachineListener {
@@ -170,6 +180,9 @@ class MachineControl {
   /// Sets a datum or a tool's length in the control's memory, or asks for a position; nothing
   /// moves. Errors: as for values, Busy (refused, with the gateway's reason).
   virtual Result<PositionAnswer> position(const PositionRequest& request) = 0;
+  /// Returns when the axis rests, at most some 20 s later. Errors: likewise; Timeout also where its
+  /// gateway was replaced meanwhile: whether the axis has moved is not known then.
+  virtual Result<JogAnswer> jog(const JogRequest& request) = 0;
 };
 
 }  // namespace dripline::machines

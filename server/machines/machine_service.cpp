@@ -263,6 +263,10 @@ Result<void> MachineService::command_machine(const CommandRequest& request) {
   const auto view = connected_machine(request.machine);
   if (!view) return fail(view.error());
   if (auto fits = check_command(request, *view); !fits) return fits;
+  // To an older gateway it would be the abort of its run.
+  if (request.action == dds::CommandAction::Abort) {
+    if (auto knows = check_knows(*view, dds::CommandAction::Jog); !knows) return knows;
+  }
   dds::Command command;
   command.machine = request.machine;
   command.action = request.action;
@@ -270,65 +274,6 @@ Result<void> MachineService::command_machine(const CommandRequest& request) {
   command.value = request.value;
   process::log_info("command {} machine={}", dds::to_string(request.action), request.machine);
   return owned_parts_->commands.carry_out(std::move(command));
-}
-
-Result<std::string> MachineService::values(const ValueQuery& query) {
-  Parts* parts = this->parts();
-  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
-  const auto view = connected_machine(query.machine);
-  if (!view) return fail(view.error());
-  if (view->has_serial_line()) {
-    return fail(Errc::Unsupported,
-                "machine {}: its control is at the end of a line, and its values are there",
-                query.machine);
-  }
-  if (view->status && !view->status->screen) {
-    return fail(Errc::Unsupported,
-                "machine {}: its gateway {} is older and answers no questions for values",
-                query.machine, view->machine.gateway_version);
-  }
-  dds::Command command;
-  command.machine = query.machine;
-  command.action = dds::CommandAction::Query;
-  // Before its first run the gateway shows what this would give the control.
-  const auto setup = setup_of(*view);
-  if (!setup) return fail(setup.error());
-  if (*setup) command.setup = (*setup)->text;
-  command.argument = query.beginning;
-  command.value = static_cast<double>(query.passed_over);
-  return parts->commands.ask(std::move(command));
-}
-
-/// With the setup that a start would get: what it gives is the base of what the memory keeps.
-Result<PositionAnswer> MachineService::position(const PositionRequest& request) {
-  Parts* parts = this->parts();
-  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
-  const auto view = machine_for_work(request.machine);
-  if (!view) return fail(view.error());
-  if (view->has_serial_line()) {
-    return fail(Errc::Unsupported,
-                "machine {}: its control is at the end of a line: set it there, where the "
-                "position is",
-                request.machine);
-  }
-  using dds::CommandAction;
-  dds::Command command;
-  command.action = request.is_playback ? CommandAction::Playback : CommandAction::SetPosition;
-  if (view->commands <= static_cast<std::uint32_t>(command.action)) {
-    return fail(Errc::Unsupported, "machine {}: its gateway {} is older and does not know {}",
-                request.machine, view->machine.gateway_version, dds::to_string(command.action));
-  }
-  const auto setup = setup_of(*view);
-  if (!setup) return fail(setup.error());
-  if (*setup) command.setup = (*setup)->text;
-  command.machine = request.machine;
-  command.argument = request.argument;
-  if (!request.is_playback) command.program = request.who;
-  auto result = parts->commands.result_of(std::move(command));
-  if (!result) return fail(result.error());
-  const std::string change = std::string(dds::kChangePrefix) + result->id;
-  return PositionAnswer{request.is_playback ? "" : change, std::move(result->reason),
-                        std::move(result->values)};
 }
 
 /// The sender has got an error for this start, so it must not run.

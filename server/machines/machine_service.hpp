@@ -60,6 +60,7 @@ class MachineService final : public MachineControl {
   Result<void> command(const CommandRequest& request) override;
   Result<std::string> values(const ValueQuery& query) override;
   Result<PositionAnswer> position(const PositionRequest& request) override;
+  Result<JogAnswer> jog(const JogRequest& request) override;
   dds::Rejected rejected() const;
   /// Promises: LineQueries::ask.
   Result<dds::LineData> ask_line(dds::LineRequest request,
@@ -93,6 +94,10 @@ class MachineService final : public MachineControl {
   Result<MachineView> machine_for_work(const std::string& name) const;
   Result<storage::Run> make_run(const StartRequest& request, const MachineView& view);
   Result<std::optional<storage::SetupRevision>> setup_of(const MachineView& view);
+  /// Whether its gateway is not older than the command. Errors: Unsupported.
+  static Result<void> check_knows(const MachineView& view, dds::CommandAction action);
+  /// For a machine without a run, with the setup that a start would get.
+  Result<dds::Command> command_at_rest(const std::string& machine, dds::CommandAction action);
   Result<void> check_restart(const StartRequest& request, const storage::Run& run);
   Result<storage::Run> conclude_start(const storage::Run& run, const Result<void>& outcome);
 

@@ -264,6 +264,16 @@ Result<machines::PositionAnswer> MachineRouter::position(const machines::Positio
   return lines_.machine(request.machine) ? lines_.position(request) : gateways_.position(request);
 }
 
+Result<machines::JogAnswer> LineMachines::jog(const machines::JogRequest& request) {
+  return fail(Errc::Unsupported,
+              "machine {}: its control is at the end of a line: jog it there, in sight of the axes",
+              request.machine);
+}
+
+Result<machines::JogAnswer> MachineRouter::jog(const machines::JogRequest& request) {
+  return lines_.machine(request.machine) ? lines_.jog(request) : gateways_.jog(request);
+}
+
 Result<std::string> MachineRouter::values(const machines::ValueQuery& query) {
   return lines_.machine(query.machine) ? lines_.values(query) : gateways_.values(query);
 }

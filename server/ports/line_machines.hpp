@@ -31,6 +31,7 @@ class LineMachines final : public machines::MachineControl {
   Result<void> command(const machines::CommandRequest& request) override;
   Result<std::string> values(const machines::ValueQuery& query) override;
   Result<machines::PositionAnswer> position(const machines::PositionRequest& request) override;
+  Result<machines::JogAnswer> jog(const machines::JogRequest& request) override;
 
   /// The same as `start` for callers that must not wait: `started` is called on the machine's
   /// strand. `wire_name` is what the control calls the program; empty: as the library does.
@@ -72,6 +73,7 @@ class MachineRouter final : public machines::MachineControl {
   Result<void> command(const machines::CommandRequest& request) override;
   Result<std::string> values(const machines::ValueQuery& query) override;
   Result<machines::PositionAnswer> position(const machines::PositionRequest& request) override;
+  Result<machines::JogAnswer> jog(const machines::JogRequest& request) override;
 
  private:
   storage::RunStore& runs_;

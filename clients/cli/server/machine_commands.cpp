@@ -4,6 +4,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/server/display_text.hpp"
+#include "clients/cli/server/jog_commands.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/position_commands.hpp"
 #include "clients/cli/server/run_control.hpp"
@@ -243,6 +244,7 @@ void add_machine_commands(Command app, Context& context) {
   add_value_verbs(group, context);
   add_mdi(group, context);
   add_position_verbs(group, context);
+  add_jog_verbs(group, context);
 
   auto watched = std::make_shared<std::string>();
   auto watch = group.add_subcommand("watch", "Follow a machine, or all, until Ctrl-C");

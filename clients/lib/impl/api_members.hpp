@@ -87,6 +87,11 @@ void members(V& v, Is<PanelSwitches> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<JogStatus> auto& x) {
+  DRIPLINE_MEMBERS(step, feed, moving, refusal);
+}
+
+template <class V>
 void members(V& v, Is<MachineStatus> auto& x) {
   DRIPLINE_MEMBERS(time, execution, mode, run, program, sent, accepted, executed, total_bytes,
                    offset, line, sequence, position, feed_mm_per_min, spindle_rpm, feed_override,
@@ -96,6 +101,7 @@ void members(V& v, Is<MachineStatus> auto& x) {
   DRIPLINE_MEMBERS(remote_enable, waits_for);
   v.later("screen", x.screen);
   v.later("switches", x.switches);
+  v.later("jog", x.jog);
 }
 
 template <class V>
@@ -127,6 +133,11 @@ void members(V& v, Is<PositionSet> auto& x) {
   v.later("cells", x.cells);
   v.later("length", x.length);
   v.later("zero", x.zero);
+}
+
+template <class V>
+void members(V& v, Is<JogDone> auto& x) {
+  DRIPLINE_MEMBERS(machine, text, axis, position, moved, unit, reached);
 }
 
 template <class V>

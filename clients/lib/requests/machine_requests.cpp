@@ -37,6 +37,13 @@ Reply<PositionSet> Client::set_position(std::string_view machine, const Position
   return fetch<PositionSet>(with_method("POST", path_of("machines", machine) + what), dumped(body));
 }
 
+Reply<JogDone> Client::jog(std::string_view machine, const JogToMake& step) {
+  Json body{{"axis", step.axis}, {"distance", step.distance}};
+  if (!step.unit.empty()) body["unit"] = step.unit;
+  if (step.feed) body["feed"] = *step.feed;
+  return fetch<JogDone>(with_method("POST", path_of("machines", machine) + "/jog"), dumped(body));
+}
+
 Reply<PlaybackBlock> Client::play_back(std::string_view machine, std::string_view axes) {
   return fetch<PlaybackBlock>(
       get(with_query(path_of("machines", machine) + "/playback", "axes", axes)));

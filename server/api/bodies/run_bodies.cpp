@@ -20,7 +20,8 @@ constexpr std::size_t kMaxArgument = 255;  ///< of the command's member in the I
 struct ActionRow {
   std::string_view name;
   dds::CommandAction action;
-  std::string_view needs;  ///< n(ame), t(ext), v(alue)
+  std::string_view needs;          ///< n(ame), t(ext), v(alue)
+  std::string_view argument = {};  ///< that it always has
 };
 constexpr std::array kActions{
     ActionRow{"hold", dds::CommandAction::Hold, ""},
@@ -32,6 +33,7 @@ constexpr std::array kActions{
     ActionRow{"rapid_override", dds::CommandAction::RapidOverride, "v"},
     ActionRow{"spindle_override", dds::CommandAction::SpindleOverride, "v"},
     ActionRow{"handwheel", dds::CommandAction::Handwheel, "v"},
+    ActionRow{"stop_jog", dds::CommandAction::Abort, "", dds::kJogAbort},
 };
 
 Result<const ActionRow*> find_action(std::string_view name) {
@@ -160,7 +162,13 @@ Result<std::string> decode_restart(std::string_view body) {
   return at;
 }
 
-Result<machines::CommandRequest> decode_command(std::string_view body) {
+namespace {
+
+bool stops_jog(const machines::CommandRequest& command) {
+  return command.action == dds::CommandAction::Abort && !command.argument.empty();
+}
+
+Result<machines::CommandRequest> decode_any_command(std::string_view body) {
   auto object = JsonObject::parse(body);
   if (!object) return fail(object.error());
   const std::string name = object->required_text("action", kMaxName);
@@ -184,8 +192,36 @@ Result<machines::CommandRequest> decode_command(std::string_view body) {
   }
   machines::CommandRequest command;
   command.action = (*row)->action;
-  command.argument = text.value_or(switch_name.value_or(""));
+  command.argument = text.value_or(switch_name.value_or(std::string((*row)->argument)));
   command.value = value.value_or(0);
+  return command;
+}
+
+/// Of an axis: its letter, in capitals. Errors: Syntax.
+Result<interpreter::Axis> read_axis(const std::string& letter) {
+  const auto axis = letter.size() == 1 ? interpreter::axis_of(letter[0]) : std::nullopt;
+  if (axis) return *axis;
+  return fail(Errc::Syntax, "axis '{}' is none of X Y Z A B C U V W", letter);
+}
+
+/// Errors: Syntax.
+Result<void> check_unit(interpreter::Axis axis, const std::optional<std::string>& unit) {
+  if (!unit) return {};
+  if (interpreter::is_rotary(axis)) {
+    if (*unit == "deg") return {};
+    return fail(Errc::Syntax, "unit '{}' of axis {}, which turns: its value is in degrees", *unit,
+                interpreter::letter(axis));
+  }
+  if (*unit == "mm" || *unit == "in") return {};
+  return fail(Errc::Syntax, "unit '{}' is neither mm nor in", *unit);
+}
+
+}  // namespace
+
+Result<machines::CommandRequest> decode_command(std::string_view body) {
+  auto command = decode_any_command(body);
+  if (command && stops_jog(*command))
+    return fail(Errc::Unsupported, "action 'stop_jog' is for a machine, not for a run");
   return command;
 }
 
@@ -214,16 +250,12 @@ Result<interpreter::PositionSetting> decode_position_setting(std::string_view bo
   const auto unit = object->optional_text("unit", 3);
   std::string offset = object->optional_text("offset", 16).value_or("");
   if (auto good = object->finish(); !good) return fail(good.error());
-  const auto axis = letter.size() == 1 ? interpreter::axis_of(letter[0]) : std::nullopt;
-  if (!axis) return fail(Errc::Syntax, "axis '{}' is none of X Y Z A B C U V W", letter);
+  const auto axis = read_axis(letter);
+  if (!axis) return fail(axis.error());
   if (!value) return fail(Errc::Syntax, "value is missing");
   if (!(std::abs(*value) <= kMaxValue))
     return fail(Errc::LimitExceeded, "value {} is not {} to {}", *value, -kMaxValue, kMaxValue);
-  if (interpreter::is_rotary(*axis) && unit && *unit != "deg")
-    return fail(Errc::Syntax, "unit '{}' of axis {}, which turns: its value is in degrees", *unit,
-                letter);
-  if (!interpreter::is_rotary(*axis) && unit && *unit != "mm" && *unit != "in")
-    return fail(Errc::Syntax, "unit '{}' is neither mm nor in", *unit);
+  if (auto fits = check_unit(*axis, unit); !fits) return fail(fits.error());
   if (!unit && *value != 0 && !interpreter::is_rotary(*axis))
     return fail(Errc::Syntax, "value {} needs a unit: mm or in", *value);
   if (is_tool && (tool == 0 || tool > kMaxTool))
@@ -242,18 +274,46 @@ Result<interpreter::PositionSetting> decode_position_setting(std::string_view bo
   return interpreter::parse_position_setting(interpreter::to_text(setting));
 }
 
+Result<interpreter::JogMove> decode_jog(std::string_view body) {
+  constexpr double kMaxValue = 1e6;
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const std::string letter = object->required_text("axis", 1);
+  const auto distance = object->optional_number("distance");
+  const auto unit = object->optional_text("unit", 3);
+  const auto feed = object->optional_number("feed");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  const auto axis = read_axis(letter);
+  if (!axis) return fail(axis.error());
+  if (auto fits = check_unit(*axis, unit); !fits) return fail(fits.error());
+  if (!unit && !interpreter::is_rotary(*axis))
+    return fail(Errc::Syntax, "unit is missing: mm or in");
+  if (!distance || *distance == 0) return fail(Errc::Syntax, "distance is missing, or 0");
+  if (!(std::abs(*distance) <= kMaxValue))
+    return fail(Errc::LimitExceeded, "distance {} is not {} to {}", *distance, -kMaxValue,
+                kMaxValue);
+  if (feed && !(*feed > 0 && *feed <= kMaxValue))
+    return fail(Errc::LimitExceeded, "feed {} is not above 0 and at most {}", *feed, kMaxValue);
+  const interpreter::JogMove move{
+      .axis = *axis,
+      .distance = *distance,
+      .units = unit == "in" ? interpreter::Units::Inch : interpreter::Units::Millimeter,
+      .feed = feed};
+  return interpreter::parse_jog_move(interpreter::to_text(move));  // as its gateway reads it
+}
+
 Result<machines::CommandRequest> decode_machine_command(std::string_view body) {
-  auto command = decode_command(body);
+  auto command = decode_any_command(body);
   if (!command) return command;
   using dds::CommandAction;
   const bool is_of_panel = command->action == CommandAction::Switch ||
                            command->action == CommandAction::FeedOverride ||
                            command->action == CommandAction::RapidOverride ||
-                           command->action == CommandAction::SpindleOverride;
+                           command->action == CommandAction::SpindleOverride || stops_jog(*command);
   if (is_of_panel) return command;
   return fail(Errc::Unsupported,
-              "action '{}' is for a run; a machine takes switch, feed_override, rapid_override and "
-              "spindle_override",
+              "action '{}' is for a run; a machine takes switch, feed_override, rapid_override, "
+              "spindle_override and stop_jog",
               dds::to_string(command->action));
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/interpreter/core/jog_move.hpp"
 #include "gateway/interpreter/core/position_setting.hpp"
 #include "server/machines/machine_control.hpp"
 #include "storage/job_store.hpp"
@@ -33,14 +34,17 @@ Result<std::optional<std::uint64_t>> decode_loaded_setup(std::string_view body);
 
 /// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
 Result<machines::CommandRequest> decode_command(std::string_view body);
-/// The same for a machine's panel: switches and overrides. Unsupported: an action of a run.
 /// The text that is keyed in: its lines, each with its end. Errors: Syntax (none, a control
 /// character), LimitExceeded (its length).
 Result<std::string> decode_mdi(std::string_view body);
+/// For a machine's panel: switches and overrides, and the end of a jog. Unsupported: an action of a
+/// run.
 Result<machines::CommandRequest> decode_machine_command(std::string_view body);
 /// {"axis", "value", "unit"?, "offset"?} of a datum; of a touch-off also "tool". A value of a
 /// linear axis other than 0 needs its unit, mm or in; that of a rotary one is in degrees.
 Result<interpreter::PositionSetting> decode_position_setting(std::string_view body, bool is_tool);
+/// {"axis", "distance", "unit", "feed"?}; the unit of a rotary axis may be left out: deg.
+Result<interpreter::JogMove> decode_jog(std::string_view body);
 inline constexpr double kMaxOverride = 10;
 inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one command
 

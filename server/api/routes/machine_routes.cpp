@@ -6,6 +6,7 @@
 #include "protocol/base/names.hpp"
 #include "protocol/base/utf8.hpp"
 #include "server/api/api.hpp"
+#include "server/api/audited.hpp"
 #include "server/api/bodies/run_bodies.hpp"
 #include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
@@ -317,20 +318,12 @@ Response set_position(Services& services, const Request& request, bool is_tool) 
                                   .argument = interpreter::to_text(*setting),
                                   .who = request.who.name,
                                   .is_playback = false};
-  library::AuditTrail::Change change{.who = request.who,
-                                     .action = is_tool ? "machine.touch_off" : "machine.datum",
-                                     .subject = name,
-                                     .detail = asked.argument};
-  if (auto written = services.audit.write_before(change); !written)
-    return error_response(written.error());
-  const auto answer = services.machines.position(asked);
-  if (answer) {
-    change.detail += ": " + answer->text;
-  } else {
-    const bool is_unknown = answer.error().code == Errc::Timeout;
-    change.detail += is_unknown ? ": not answered" : ": refused, " + answer.error().what;
-  }
-  services.audit.write(std::move(change));
+  const auto answer = ask_audited(services.audit,
+                                  {.who = request.who,
+                                   .action = is_tool ? "machine.touch_off" : "machine.datum",
+                                   .subject = name,
+                                   .detail = asked.argument},
+                                  [&] { return services.machines.position(asked); });
   if (!answer) return error_response(answer.error());
   return json_response(200, position_json(name, asked.argument, *answer));
 }
@@ -340,6 +333,25 @@ Response set_datum(Services& services, const Request& request) {
 }
 Response touch_off(Services& services, const Request& request) {
   return set_position(services, request, true);
+}
+
+/// The answer comes when the axis rests.
+Response jog(Services& services, const Request& request) {
+  const auto move = decode_jog(request.body);
+  if (!move) return error_response(move.error());
+  const std::string name = request.parameter("name");
+  if (const auto view = services.machines.machine(name); !view) return error_response(view.error());
+  const machines::JogRequest asked{name, interpreter::to_text(*move)};
+  const auto answer = ask_audited(
+      services.audit,
+      {.who = request.who, .action = "machine.jog", .subject = name, .detail = asked.move},
+      [&] { return services.machines.jog(asked); });
+  if (!answer) return error_response(answer.error());
+  json view = json::parse(answer->details, nullptr, false);
+  if (!view.is_object()) view = json::object();
+  view["machine"] = name;
+  view["text"] = answer->text;
+  return json_response(200, view);
 }
 
 Response play_back(Services& services, const Request& request) {
@@ -379,6 +391,7 @@ void add_machine_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/machines/{name}/datum", with(services, set_datum), Waits::ForMachine);
   router.add("POST", "/api/v1/machines/{name}/touch-off", with(services, touch_off),
              Waits::ForMachine);
+  router.add("POST", "/api/v1/machines/{name}/jog", with(services, jog), Waits::ForMachine);
   router.add("GET", "/api/v1/machines/{name}/playback", with(services, play_back),
              Waits::ForMachine);
 }

@@ -49,8 +49,17 @@ class FakeMachines final : public machines::MachineControl {
     return machines::PositionAnswer{"set-1", "G54.X is 87.5, it was 100", details};
   }
 
+  Result<machines::JogAnswer> jog(const machines::JogRequest& request) override {
+    jogs.push_back(request);
+    if (refusal) return fail(*refusal);
+    if (auto view = machine(request.machine); !view) return fail(view.error());
+    return machines::JogAnswer{
+        "X 12.5 mm", R"({"axis":"X","position":12.5,"moved":-1.5,"unit":"mm","reached":true})"};
+  }
+
   std::vector<machines::MachineView> views;
   std::vector<machines::PositionRequest> positions;
+  std::vector<machines::JogRequest> jogs;
   std::vector<machines::ValueQuery> asked;
   std::string answer =
       R"({"values":[{"name":"P10","value":7.5},{"name":"P11","value":null}],"next":null,)"

@@ -315,6 +315,9 @@ TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
       "POST", "/api/v1/machines/{name}/touch-off",
       post("/api/v1/machines/lathe-1/touch-off",
            {{"tool", 3}, {"axis", "X"}, {"value", 40.02}, {"unit", "mm"}, {"offset", "G54"}}));
+  expect_described("POST", "/api/v1/machines/{name}/jog",
+                   post("/api/v1/machines/lathe-1/jog",
+                        {{"axis", "X"}, {"distance", -1.5}, {"unit", "mm"}, {"feed", 300}}));
   expect_described("GET", "/api/v1/machines/{name}/playback",
                    get("/api/v1/machines/lathe-1/playback?axes=XZ"));
   expect_described("POST", "/api/v1/machines/{name}/mdi",

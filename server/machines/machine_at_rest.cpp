@@ -1,0 +1,88 @@
+// What is asked of a machine besides runs, and what an operator does with its axes at rest.
+#include "protocol/process/log.hpp"
+#include "server/machines/machine_service.hpp"
+
+namespace dripline::machines {
+
+Result<void> MachineService::check_knows(const MachineView& view, dds::CommandAction action) {
+  if (view.commands > static_cast<std::uint32_t>(action)) return {};
+  return fail(Errc::Unsupported, "machine {}: its gateway {} is older and does not know {}",
+              view.machine.name, view.machine.gateway_version, dds::to_string(action));
+}
+
+Result<std::string> MachineService::values(const ValueQuery& query) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  const auto view = connected_machine(query.machine);
+  if (!view) return fail(view.error());
+  if (view->has_serial_line()) {
+    return fail(Errc::Unsupported,
+                "machine {}: its control is at the end of a line, and its values are there",
+                query.machine);
+  }
+  if (view->status && !view->status->screen) {
+    return fail(Errc::Unsupported,
+                "machine {}: its gateway {} is older and answers no questions for values",
+                query.machine, view->machine.gateway_version);
+  }
+  dds::Command command;
+  command.machine = query.machine;
+  command.action = dds::CommandAction::Query;
+  // Before its first run the gateway shows what this would give the control.
+  const auto setup = setup_of(*view);
+  if (!setup) return fail(setup.error());
+  if (*setup) command.setup = (*setup)->text;
+  command.argument = query.beginning;
+  command.value = static_cast<double>(query.passed_over);
+  return parts->commands.ask(std::move(command));
+}
+
+/// With the setup that a start would get: what it gives is the base of what the memory keeps.
+Result<dds::Command> MachineService::command_at_rest(const std::string& machine,
+                                                     dds::CommandAction action) {
+  const auto view = machine_for_work(machine);
+  if (!view) return fail(view.error());
+  if (view->has_serial_line()) {
+    return fail(Errc::Unsupported,
+                "machine {}: its control is at the end of a line: do it there, where the axes are",
+                machine);
+  }
+  if (auto knows = check_knows(*view, action); !knows) return fail(knows.error());
+  const auto setup = setup_of(*view);
+  if (!setup) return fail(setup.error());
+  dds::Command command;
+  command.machine = machine;
+  command.action = action;
+  if (*setup) command.setup = (*setup)->text;
+  return command;
+}
+
+Result<PositionAnswer> MachineService::position(const PositionRequest& request) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  using dds::CommandAction;
+  auto command = command_at_rest(
+      request.machine, request.is_playback ? CommandAction::Playback : CommandAction::SetPosition);
+  if (!command) return fail(command.error());
+  command->argument = request.argument;
+  if (!request.is_playback) command->program = request.who;
+  auto result = parts->commands.result_of(*std::move(command));
+  if (!result) return fail(result.error());
+  const std::string change = std::string(dds::kChangePrefix) + result->id;
+  return PositionAnswer{request.is_playback ? "" : change, std::move(result->reason),
+                        std::move(result->values)};
+}
+
+Result<JogAnswer> MachineService::jog(const JogRequest& request) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  auto command = command_at_rest(request.machine, dds::CommandAction::Jog);
+  if (!command) return fail(command.error());
+  command->argument = request.move;
+  process::log_info("command jog machine={} {}", request.machine, request.move);
+  auto result = parts->commands.result_of(*std::move(command));
+  if (!result) return fail(result.error());
+  return JogAnswer{std::move(result->reason), std::move(result->values)};
+}
+
+}  // namespace dripline::machines
