@@ -16,12 +16,12 @@ using test_support::LinuxCnc;
 
 class LinuxCncSystem : public MotionSystem {
  protected:
-  void start(const std::string& control) {
+  void start(const std::string& control, const std::vector<std::string>& more = {}) {
     if (const std::string missing = LinuxCnc::missing(); !missing.empty())
       GTEST_SKIP() << "skipped: " << missing;
     linuxcnc.emplace();
     linuxcnc->start();
-    start_system(control, "linuxcnc:" + linuxcnc->ini());
+    start_system(control, "linuxcnc:" + linuxcnc->ini(), more);
   }
   /// As the example's README has it.
   void turn_on(const std::string& program) {
@@ -101,6 +101,59 @@ TEST_F(LinuxCncSystem, BlocksKeyedInMoveTheMachineAndAnAbortStopsIt) {
   EXPECT_EQ(system->wait_ended(id).value("state", ""), "aborted");
   ASSERT_TRUE(eventually([&] { return linuxcnc->rests(); }));
   EXPECT_LT(linuxcnc->position()[0], begun_at + 300);
+}
+
+TEST_F(LinuxCncSystem, AJogIsLinuxCncsOwnAndMdiGoesOnFromThere) {
+  start("fanuc", {"--jog-step", "50", "--jog-feed", "3000"});
+  if (IsSkipped() || HasFatalFailure()) return;
+  system->push("end", "O1\nM30\n");
+  turn_on("end");
+  EXPECT_EQ(system->wait_ended(start_run("end")).value("state", ""), "completed");
+  const auto jog = [&](double distance, double feed) {
+    return system->rest().post(
+        "/api/v1/machines/lathe-1/jog",
+        {{"axis", "X"}, {"distance", distance}, {"unit", "mm"}, {"feed", feed}});
+  };
+  const auto x = [&] { return linuxcnc->position()[0]; };
+  const auto comes_to = [&](double place) {
+    return eventually([&] { return std::fabs(x() - place) < 0.001; });
+  };
+  const double begun_at = x();
+  // An override of LinuxCNC's own would make it quicker than it was asked for.
+  const auto override = system->rest().post("/api/v1/machines/lathe-1/commands",
+                                            {{"action", "feed_override"}, {"value", 2}});
+  EXPECT_EQ(override.status, 200) << override.body;
+  for (const double distance : {20.0, -15.0}) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto done = jog(distance, 600);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    ASSERT_EQ(done.status, 200) << done.body;
+    EXPECT_EQ(done.json()["reached"], true) << done.body;
+    EXPECT_GT(took.count(), std::fabs(distance) / 10 * 0.9) << "at the feed, whatever the override";
+  }
+  EXPECT_TRUE(comes_to(begun_at + 5)) << x();
+  const auto beyond = jog(-50, 3000);
+  EXPECT_TRUE(beyond.status == 200 || beyond.body.find("travel") != std::string::npos)
+      << beyond.body;
+  if (beyond.status == 200) {
+    EXPECT_EQ(jog(50, 3000).status, 200);
+  }
+  const auto mdi =
+      system->rest().post("/api/v1/machines/lathe-1/mdi", {{"text", "G21 G91 G1 X2. F2400\n"}});
+  ASSERT_EQ(mdi.status, 201) << mdi.body;
+  EXPECT_EQ(system->wait_ended(mdi.json().value("id", "")).value("state", ""), "completed");
+  EXPECT_TRUE(comes_to(begun_at + 7)) << x();
+  test_support::RestClient::Reply stopped;
+  std::thread mover([&] { stopped = jog(50, 600); });
+  EXPECT_TRUE(eventually([&] { return x() > begun_at + 9; }));
+  const auto stop =
+      system->rest().post("/api/v1/machines/lathe-1/commands", {{"action", "stop_jog"}});
+  mover.join();
+  EXPECT_EQ(stop.status, 200) << stop.body;
+  ASSERT_EQ(stopped.status, 200) << stopped.body;
+  EXPECT_EQ(stopped.json()["reached"], false) << stopped.body;
+  ASSERT_TRUE(eventually([&] { return linuxcnc->rests(); }));
+  EXPECT_LT(x(), begun_at + 50);
 }
 
 TEST_F(LinuxCncSystem, AKilledGatewayLeavesNoMotionAndClaimsNothing) {
