@@ -1,5 +1,5 @@
 // The commands that the API has for a machine and for its run.
-import type { CommandRequest, DatumRequest, KeyedInRun, PositionSet, Run, RunRequest } from '../../generated/api';
+import type { CommandRequest, DatumRequest, JogDone, JogRequest, KeyedInRun, PositionSet, Run, RunRequest } from '../../generated/api';
 import { pathOf, send } from '../api/request';
 
 /// The server answers in 6 s, or 16 s where its database hangs. No second command is sent before: a hold or an abort must not wait for a server that is frozen.
@@ -60,6 +60,11 @@ export type PositionToSet = DatumRequest & { tool?: number };
 /// From where the axes of a machine without a run are.
 export function setPosition(machine: string, setting: PositionToSet): Promise<PositionSet> {
   return send<PositionSet>('POST', pathOf('machines', machine, setting.tool === undefined ? 'datum' : 'touch-off'), { json: setting });
+}
+
+/// One step of one axis of a machine without a run; the answer comes when it rests.
+export function jog(machine: string, step: JogRequest): Promise<JogDone> {
+  return send<JogDone>('POST', pathOf('machines', machine, 'jog'), { json: step }, kLimitMs);
 }
 
 /// `at` empty: after the block executed last.

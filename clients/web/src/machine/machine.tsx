@@ -8,6 +8,7 @@ import { dateTimeText, numberText, texts } from '../texts/texts';
 import { Blocks } from './blocks';
 import { ExecutedPath } from './executed_path';
 import { ExecutingText } from './executing_text';
+import { Jog } from './jog';
 import { MachineQueue, NextJob } from './jobs/queue';
 import { LiveValues } from './live_values';
 import { MachineMemory } from './memory';
@@ -43,6 +44,7 @@ function Now({ name }: { name: string }) {
           {!hasRun && <NextJob key={`next ${name}`} name={name} />}
           {!hasRun && <StartForm key={name} machine={machine} />}
           <Mdi key={`mdi ${name}`} machine={machine} isShown={!hasRun} />
+          {!hasRun && status && <Jog key={`jog ${name}`} machine={machine} status={status} />}
           {!hasRun && status && <SetPosition key={`set ${name}`} machine={machine} status={status} />}
           {hasPath && executing && <ExecutedPath key={executing.id} run={executing} status={status} />}
           {run && <RunRecords run={run.id} />}

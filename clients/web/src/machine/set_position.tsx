@@ -8,7 +8,7 @@ import { CommandFault, useCommand } from '../parts/command';
 import { SureButton } from '../parts/sure_button';
 import { texts } from '../texts/texts';
 import { setPosition, type PositionToSet } from './commands';
-import { sortAxes, unitOf } from './units';
+import { isRotary, sortAxes, unitOf } from './units';
 
 /// null: not a number as it is typed, comma or point.
 export function readNumber(text: string): number | null {
@@ -17,7 +17,6 @@ export function readNumber(text: string): number | null {
 }
 
 const kDatum = 'datum';
-const kRotary = 'ABC';
 
 function SetForm({ machine, axes }: { machine: Machine; axes: string[] }) {
   const t = texts().machine;
@@ -37,9 +36,9 @@ function SetForm({ machine, axes }: { machine: Machine; axes: string[] }) {
   const number = Number(tool);
   const isGood = chosen !== '' && value !== null && (!isTool || (Number.isInteger(number) && number > 0));
   const unit = unitOf(display).name;
-  const shownUnit = kRotary.includes(chosen) ? '°' : unit;
+  const shownUnit = isRotary(chosen) ? '°' : unit;
   const setting: PositionToSet = {
-    axis: chosen, value: value ?? 0, unit: kRotary.includes(chosen) ? 'deg' : unit === 'inch' ? 'in' : 'mm', ...(offset !== '' && { offset }), ...(isTool && { tool: number }),
+    axis: chosen, value: value ?? 0, unit: isRotary(chosen) ? 'deg' : unit === 'inch' ? 'in' : 'mm', ...(offset !== '' && { offset }), ...(isTool && { tool: number }),
   };
   const thing = isTool ? t.lengthOf(tool) : offset;
   const send = () => command.send(async () => setAnswer((await setPosition(machine.name, setting) as PositionSet).text));

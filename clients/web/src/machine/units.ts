@@ -19,6 +19,10 @@ export function unitOf(display: Display): LengthUnit {
   return display?.units === 'inch' ? kInch : kMillimeter;
 }
 
+export function isRotary(axis: string): boolean {
+  return kRotary.includes(axis);
+}
+
 /// Whether this axis is shown as a diameter.
 export function isDiameter(axis: string, display: Display): boolean {
   return axis === 'X' && display?.x === 'diameter';
@@ -27,7 +31,7 @@ export function isDiameter(axis: string, display: Display): boolean {
 /// Of an axis: rotary ones are in degrees, whatever the unit.
 export function axisText(axis: string, value: number | undefined, unit: LengthUnit, isDoubled = false): string {
   if (value === undefined) return '–';
-  return kRotary.includes(axis) ? `${numberText(value, 3)}°` : lengthText(isDoubled ? 2 * value : value, unit);
+  return isRotary(axis) ? `${numberText(value, 3)}°` : lengthText(isDoubled ? 2 * value : value, unit);
 }
 
 export function lengthText(mm: number, unit: LengthUnit): string {

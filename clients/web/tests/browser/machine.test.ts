@@ -105,6 +105,29 @@ test('a datum is set from the position, and the position is taken as a block', a
   await shop.stopMachine('mill-3');
 });
 
+test('an axis is jogged by buttons that are enabled first, and a step is stopped', async () => {
+  await shop.startMachine('mill-4', { control: 'fanuc' });
+  const { page, complaints } = await visit('#/machine/mill-4');
+  const part = page.getByRole('region', { name: 'Jog', exact: true });
+  const plus = part.getByRole('button', { name: 'X +1 mm', exact: true });
+  await part.getByLabel('Step').selectOption('1');
+  assert.equal(await plus.isDisabled(), true, 'not enabled yet');
+  await pressTwice(part.getByRole('button', { name: 'Enable the buttons' }), part.getByRole('button', { name: 'Press again: the buttons move mill-4' }));
+  await plus.click();
+  await part.getByRole('status').getByText('X 1 mm').waitFor();
+  await page.locator('.position').getByText('1.000').first().waitFor();
+  assert.deepEqual(await findBarriers(page), []);
+  await part.getByLabel('Feed').selectOption('0.1');
+  await part.getByRole('button', { name: 'X −1 mm', exact: true }).click();
+  await part.getByRole('button', { name: 'Stop', exact: true }).click();
+  await part.getByRole('status').getByText(/^X \S+ mm, stopped by command/).waitFor();
+  await shop.api('POST', 'machines/mill-4/commands', { action: 'switch', name: 'emergency_stop', value: 1 });
+  await part.getByText(/the emergency stop is pressed/).waitFor();
+  assert.equal(await plus.isDisabled(), true, 'and the reason is shown');
+  assertNoComplaints(complaints);
+  await shop.stopMachine('mill-4');
+});
+
 test('an aborted run is continued where it was', async () => {
   const { page } = await visit('#/machine/mill-1/runs');
   await page.getByText('Restart').first().click();

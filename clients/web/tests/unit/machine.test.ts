@@ -3,10 +3,11 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { probingOf, recordText } from '../../src/live/record_text';
 import { startBody } from '../../src/machine/commands';
+import { stepsOf } from '../../src/machine/jog';
 import { addRow, columnsOf, readTables, setCell } from '../../src/machine/setup/setup_tables';
 import { holds, numberLines, rangeAround, type TextWindow } from '../../src/machine/text_window';
 import { blocksOf, hasField, positionsOf, usedValues } from '../../src/machine/screen';
-import { axisText, isDiameter, lengthText, sortAxes, unitOf } from '../../src/machine/units';
+import { axisText, isDiameter, kInch, kMillimeter, lengthText, sortAxes, unitOf } from '../../src/machine/units';
 import { canStartAt, placeOf } from '../../src/machine/start_places';
 import { diffLines, foldDiff } from '../../src/parts/diff';
 import { record, status } from './samples';
@@ -164,4 +165,11 @@ test('a control has no fields of another', () => {
 test('of a control\'s values those are listed that are in use', () => {
   const one = (name: string, value: number | null) => ({ name, value });
   assert.deepEqual(usedValues([one('P1', 0), one('P2', -1), one('#5', null), one('P3', 0.1)]).map(({ name }) => name), ['P2', 'P3']);
+});
+
+test('steps of a jog are from the resolution of the display to what the gateway takes', () => {
+  assert.deepEqual(stepsOf(kMillimeter, 1), [0.001, 0.01, 0.1, 1]);
+  assert.deepEqual(stepsOf(kMillimeter, 50), [0.001, 0.01, 0.1, 1, 10]);
+  assert.deepEqual(stepsOf(kInch, 1), [0.0001, 0.001, 0.01]);
+  assert.deepEqual(stepsOf(kMillimeter, 0), []);
 });

@@ -6,7 +6,7 @@ export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<
     time: '2026-11-23T12:00:00Z', execution: 'READY', mode: 'AUTOMATIC', run: 'run-1', program: 'O0100', sent: 0, accepted: 0, executed: 0,
     total_bytes: 0, offset: 0, line: 1, sequence: null, position: { X: 0, Z: 0 }, feed_mm_per_min: 0, spindle_rpm: 0, feed_override: 1,
     rapid_override: 1, spindle_override: 1, buffered_seconds: 0, single_block: false, message: null, outbox: 0, modes: null, coordinates: null,
-    emergency_stop: false, remote_enable: 'unattended', waits_for: 'nothing', screen: null, switches: null, ...changed,
+    emergency_stop: false, remote_enable: 'unattended', waits_for: 'nothing', screen: null, switches: null, jog: null, ...changed,
   };
 }
 
