@@ -81,7 +81,9 @@ class Gateway final : public MachineGateway {
   Reply set_position(const dds::Command& command);
   std::optional<Reply> begin_jog(const dds::Command& command);
   bool stop_jog(std::string_view why);
+  void on_jog(const dds::Command& command);
   void answer_jog();
+  void give_answer(const std::string& command, const Reply& reply);
   Reply resume();
   std::optional<Reply> refusal_of_fault() const;
   void answer_query(const dds::Command& command);

@@ -55,15 +55,7 @@ void Gateway::on(const dds::Command& command, SteadyTime) {
   }
   if (known && *known) return commands_.answer(command.id, **known);
   if (jogger_.is_of(command.id)) return;  // it is answered when the axis rests
-  if (command.action == CommandAction::Jog) {
-    const auto refusal = begin_jog(command);
-    process::log_info("command {} jog {} {}{} {}", command.id, command.argument,
-                      refusal ? "refused: " : "begun", refusal ? refusal->reason : "",
-                      run_.label());
-    if (refusal) keep_answer(command.id, *refusal);
-    if (refusal) commands_.answer(command.id, *refusal);
-    return server_.want_status();
-  }
+  if (command.action == CommandAction::Jog) return on_jog(command);
   const Reply reply = carry_out(command, is_stop);
   process::log_info("command {} {} {}{}{} {}", command.id, dds::to_string(command.action),
                     reply.is_accepted ? "accepted" : "refused", reply.reason.empty() ? "" : ": ",
@@ -107,12 +99,26 @@ void Gateway::keep_answer(const std::string& command, const Reply& reply) {
     process::log_error("command {} not kept: {} {}", command, done.error().what, run_.label());
 }
 
+void Gateway::on_jog(const dds::Command& command) {
+  const auto refusal = begin_jog(command);
+  process::log_info("command {} jog {} {}{} {}", command.id, command.argument,
+                    refusal ? "refused: " : "begun", refusal ? refusal->reason : "", run_.label());
+  if (refusal) give_answer(command.id, *refusal);
+  server_.want_status();
+}
+
+void Gateway::give_answer(const std::string& command, const Reply& reply) {
+  keep_answer(command, reply);
+  commands_.answer(command, reply);
+}
+
 /// Not one whose sender has another gateway in mind, nor one that comes late: nobody expects the
 /// move any more.
 std::optional<Reply> Gateway::begin_jog(const dds::Command& command) {
   if (auto refusal = validity_.refusal(command, parts_.clock.steady_now()))
     return refuse(*std::move(refusal));
   if (auto refusal = panel_.refusal_without_consent(command)) return refusal;
+  if (auto refusal = refusal_of_fault()) return refusal;
   return jogger_.begin(command);
 }
 
@@ -127,8 +133,7 @@ void Gateway::answer_jog() {
   const auto answer = jogger_.take_answer();
   if (!answer) return;
   process::log_info("jog {} ended: {} {}", answer->command, answer->reply.reason, run_.label());
-  keep_answer(answer->command, answer->reply);
-  commands_.answer(answer->command, answer->reply);
+  give_answer(answer->command, answer->reply);
   server_.want_status();
 }
 

@@ -1,6 +1,7 @@
 #include "clients/cli/server/jog_commands.hpp"
 
 #include <fmt/core.h>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,7 +28,16 @@ client::Reply<std::string> shown_unit(client::Client& client, const std::string&
   return std::string(display && display->units == "inch" ? "in" : "mm");
 }
 
+/// In JSON it would be nothing, which means the highest feed.
+bool is_number(const client::JogToMake& step) {
+  return std::isfinite(step.distance) && std::isfinite(step.feed.value_or(0));
+}
+
 int jog(Context& context, client::Client& client, const JogCommand& given) {
+  if (!is_number(given.step)) {
+    fmt::print(stderr, "dnc: distance and feed are numbers\n");
+    return kExitUsage;
+  }
   JogCommand command = given;
   if (command.step.unit.empty() && !is_rotary(command.step.axis)) {
     const auto unit = shown_unit(client, command.machine);
@@ -65,8 +75,10 @@ void add_jog_verbs(Command group, Context& context) {
                   "Unit of DISTANCE and --feed; without it that of the control's display. Rotary "
                   "axes: degrees")
       .check(one_of({"mm", "in", "deg"}));
-  command.add_option("--feed", options->step.feed,
-                     "Feed per minute; without it the highest that the gateway takes");
+  command
+      .add_option("--feed", options->step.feed,
+                  "Feed per minute; without it the highest that the gateway takes")
+      .check(positive_number());
   add_json_flag(command, context);
   command.footer(
       "A click of a handwheel is such a step. It is refused while a run is active, another step "

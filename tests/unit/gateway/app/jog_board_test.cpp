@@ -1,0 +1,115 @@
+// Jogs of a board of the Grbl class.
+#include "gateway/machine/grbl/grbl_machine.hpp"
+#include "tests/support/grbl/board.hpp"
+#include "tests/unit/gateway/app/jog_fixture.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+using interpreter::Dialect;
+using machine::grbl::GrblMachine;
+using test_support::GrblBoard;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+using namespace std::chrono_literals;
+
+class JoggedBoard : public testing::Test {
+ protected:
+  void start(const Dialect& control, const std::string& toml = "",
+             GrblBoard::Options options = {}) {
+    board.emplace(std::move(options));
+    shop = std::make_unique<JogShop>(control, toml);
+    shop->motion = [this](machine::ExecutionSink& sink) {
+      auto made = std::make_unique<GrblMachine>(GrblMachine::Settings{
+          .sink = sink, .clock = std::shared_ptr<const Clock>(&shop->clock, [](const auto*) {})});
+      machine = made.get();
+      machine->line_opened();
+      return made;
+    };
+    shop->each_turn = [this] {
+      for (int i = 0; i < 10; ++i) {
+        board->pass(0.001);
+        const std::string in = is_cut ? std::string() : board->take_output();
+        const auto out = machine->exchange(std::as_bytes(std::span(in)));
+        if (!is_cut) board->receive(out.real_time + out.lines);
+      }
+    };
+    shop->restart_gateway();
+    ASSERT_TRUE(shop->run_until([&] { return shop->status && machine->notice().empty(); }));
+  }
+  std::optional<GrblBoard> board;
+  std::unique_ptr<JogShop> shop;
+  GrblMachine* machine = nullptr;
+  bool is_cut = false;
+};
+
+TEST_F(JoggedBoard, AProgramAndMdiAfterItBeginWhereTheBoardIs) {
+  start(interpreter::kRs274NgcDialect, "[[tool]]\nnumber = 1\nlength = 50.0\n");
+  ASSERT_EQ(shop->run("G21 G90 F600\nG43 H1\nG0 X3 Z-20\nM2\n"), "completed");
+  ASSERT_NEAR(board->position()[2], 30, 1e-3);
+  EXPECT_EQ(shop->jog("Z 2 mm F600"), "Z -18 mm") << "as the machine shows it";
+  EXPECT_NEAR(board->position()[2], 32, 1e-3);
+  ASSERT_EQ(shop->mdi("G21 G91 G1 Z1 F600\n"), "completed");
+  EXPECT_NEAR(board->position()[2], 33, 1e-3);
+  EXPECT_EQ(shop->jog("X -1.25 mm F600"), "X 1.75 mm");
+  ASSERT_EQ(shop->run("G21 G91 G1 X1 F600\nM2\n"), "completed");
+  EXPECT_NEAR(board->position()[0], 2.75, 1e-3);
+  EXPECT_EQ(board->jogs.size(), 2U);
+}
+
+TEST_F(JoggedBoard, ARefusalOfTheBoardIsTheAnswer) {
+  start(interpreter::kFanucDialect);
+  board->refuses_line = 1;
+  EXPECT_THAT(shop->jog("X 1 mm F600"), StartsWith("refused: the board refuses it: error 20"));
+  EXPECT_EQ(board->traveled(), 0);
+  EXPECT_EQ(shop->jog("X 1 mm F600"), "X 1 mm");
+}
+
+TEST_F(JoggedBoard, AStepWhoseLineIsLostEndsByItselfAndIsNotRepeated) {
+  start(interpreter::kFanucDialect);
+  const auto command = shop->begin("X 5 mm F600");
+  shop->pass(200ms);
+  is_cut = true;
+  machine->line_lost("the line is closed");
+  EXPECT_THAT(shop->end_of(command), AllOf(StartsWith("refused: "), HasSubstr("last position")));
+  shop->pass(3s);
+  EXPECT_NEAR(board->position()[0], 5, 1e-6);
+  is_cut = false;
+  machine->line_opened();
+  shop->pass(3s);
+  EXPECT_NEAR(board->position()[0], 5, 1e-6);
+  EXPECT_NEAR(shop->at(0), 5, 1e-6);
+  EXPECT_EQ(board->jogs.size(), 1U);
+}
+
+TEST_F(JoggedBoard, AGatewayThatIsKilledMeanwhileFindsTheBoardAtRest) {
+  start(interpreter::kFanucDialect);
+  const auto command = shop->begin("X 2 mm F600");
+  shop->pass(100ms);
+  shop->restart_gateway();
+  shop->gateway->receive(command, shop->clock.steady);
+  shop->pass(5s);
+  const double at = board->position()[0];
+  EXPECT_LE(at, 2 + 1e-6);
+  EXPECT_NEAR(shop->at(0), at, 1e-6);
+  EXPECT_EQ(board->jogs.size(), 1U);
+}
+
+TEST_F(JoggedBoard, NotHomedIsNotJogged) {
+  board.emplace(GrblBoard::Options{.is_locked = true});
+  shop = std::make_unique<JogShop>(interpreter::kFanucDialect);
+  shop->motion = [this](machine::ExecutionSink& sink) {
+    auto made = std::make_unique<GrblMachine>(GrblMachine::Settings{
+        .sink = sink, .clock = std::shared_ptr<const Clock>(&shop->clock, [](const auto*) {})});
+    machine = made.get();
+    machine->line_opened();
+    return made;
+  };
+  shop->restart_gateway();
+  EXPECT_THAT(shop->jog("X 1 mm"), StartsWith("refused: "));
+  EXPECT_EQ(board->jogs.size(), 0U);
+}
+
+}  // namespace
+}  // namespace dripline::gateway
