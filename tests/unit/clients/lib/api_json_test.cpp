@@ -24,6 +24,7 @@ nlohmann::json status_json() {
       "datum":{"X":1,"Z":0},"shift":{"X":-0.5,"Z":0},"rotation":30,"basic_rotation":0.5,
       "scale":{"X":0.5,"Z":1},"mirrored":["X"],"pole":{"X":3,"Y":4}}},
       "emergency_stop":true,"remote_enable":"not_given","waits_for":"cycle_start",
+      "jog":{"step":1.0,"feed":300.0,"moving":true,"refusal":null},
       "switches":{"optional_stop":"on","block_skip":"off","skip_levels":"2,9","dry_run":null,
       "machine_lock":null,"handwheel":"off"}})");
 }
@@ -37,6 +38,9 @@ TEST(ApiJson, ReadsAMachineWithItsStatus) {
   EXPECT_EQ(machine->status->position.at("Z"), -2);
   EXPECT_EQ(machine->status->sequence, 20);
   EXPECT_EQ(machine->status->message, "");
+  ASSERT_TRUE(machine->status->jog);
+  EXPECT_TRUE(machine->status->jog->moving);
+  EXPECT_EQ(machine->status->jog->refusal, "");
   ASSERT_TRUE(machine->status->switches);
   EXPECT_EQ(machine->status->switches->optional_stop, "on");
   EXPECT_EQ(machine->status->switches->dry_run, "");
