@@ -112,8 +112,7 @@ void Gateway::give_answer(const std::string& command, const Reply& reply) {
   commands_.answer(command, reply);
 }
 
-/// Not one whose sender has another gateway in mind, nor one that comes late: nobody expects the
-/// move any more.
+/// Not one for another gateway, nor a late one, whose sender does not expect the move any more.
 std::optional<Reply> Gateway::begin_jog(const dds::Command& command) {
   if (auto refusal = validity_.refusal(command, parts_.clock.steady_now()))
     return refuse(*std::move(refusal));
