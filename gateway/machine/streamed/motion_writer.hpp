@@ -7,8 +7,8 @@
 
 namespace dripline::machine::streamed {
 
-/// An axis that would leave its travel on the way from one point of the machine to another;
-/// nothing: none does, or no travel is known.
+/// An axis that would leave its travel between two points of the machine; nothing: none does, or no
+/// travel is known.
 std::optional<Refusal> check_travel(const TextRules& rules, const Coordinates& from,
                                     const Coordinates& to,
                                     const interpreter::LengthDisplay& display);

@@ -295,7 +295,7 @@ TEST(Jog, WhoseAnswerCannotBeKeptIsNotRepeatedEither) {
   const auto refused = shop.jog_command("X 1 mm F6000");
   EXPECT_EQ(shop.answer_to(refused), "refused: the machine is being jogged");
   EXPECT_EQ(shop.end_of(moving), fmt::format("X {:.4g} mm", at + 10));
-  EXPECT_EQ(shop.answer_to(refused), "refused: the machine is being jogged") << "as it was told";
+  EXPECT_EQ(shop.answer_to(refused), "refused: the machine is being jogged") << "as before";
 }
 
 TEST(Jog, IsRefusedByAMachineThatHasNone) {
