@@ -114,7 +114,7 @@ Result<void> Jogger::begin_step(const dds::Command& command) {
                .from = from,
                .distance = distance,
                .last = now,
-               .limit = now + seconds(takes) + kLate,
+               .limit = now + seconds(std::max(takes, kLongest)) + kLate,
                .why_stopped = {}};
   return {};
 }

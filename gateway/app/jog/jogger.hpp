@@ -52,7 +52,8 @@ class Jogger {
 
   /// A step that would take longer at its feed is refused, in seconds.
   static constexpr double kLongest = 10;
-  /// A step that has not ended so long after its time is stopped, and then given up.
+  /// An axis may be slower than the feed: so long after kLongest the step is stopped, and then
+  /// given up.
   static constexpr std::chrono::seconds kLate{2};
 
  private:

@@ -58,6 +58,14 @@ TEST_F(JoggedBoard, AProgramAndMdiAfterItBeginWhereTheBoardIs) {
   EXPECT_EQ(board->jogs.size(), 2U);
 }
 
+TEST_F(JoggedBoard, WhoseAxisIsSlowerThanTheFeedIsWaitedFor) {
+  start(interpreter::kFanucDialect, "", {.max_rate = 60});
+  EXPECT_EQ(shop->end_of(shop->begin("X 5 mm F6000")), "X 5 mm");
+  EXPECT_THAT(shop->end_of(shop->begin("X 50 mm F6000")),
+              HasSubstr("stopped because its time was over"));
+  EXPECT_LT(board->position()[0], 20);
+}
+
 TEST_F(JoggedBoard, ARefusalOfTheBoardIsTheAnswer) {
   start(interpreter::kFanucDialect);
   board->refuses_line = 1;
