@@ -46,10 +46,26 @@ class Parts {
   std::string url_, timeout_;
 };
 
-/// Whether the server answers a new connection.
-bool is_answering(const ConnectOptions& options) {
-  const Parts parts(options);
-  return PQpingParams(parts.keys(), parts.values().data(), 1) == PQPING_OK;
+/// Of the server that a connection has, where its URL names several.
+struct Place {
+  std::string host, address, port;
+};
+
+Place place_of(PGconn* connection) {
+  return {text_of(PQhost(connection)), text_of(PQhostaddr(connection)),
+          text_of(PQport(connection))};
+}
+
+/// Whether the server there answers a new connection. What comes after the URL replaces what is in
+/// it: another host of the URL must not answer for this one.
+bool is_answering(const ConnectOptions& options, const Place& place) {
+  const std::string timeout = std::to_string(options.connect_timeout.count());
+  constexpr std::array<const char*, 6> kKeys{"connect_timeout", "dbname", "host",
+                                             "hostaddr",        "port",   nullptr};
+  const std::array<const char*, 6> values{timeout.c_str(),    options.url.c_str(),
+                                          place.host.c_str(), place.address.c_str(),
+                                          place.port.c_str(), nullptr};
+  return PQpingParams(kKeys.data(), values.data(), 1) == PQPING_OK;
 }
 
 /// libpq's words may have the whole URL in them only when it cannot be read, and then it is not
@@ -71,7 +87,9 @@ Result<Database> Database::connect(const ConnectOptions& options) {
   if (connection == nullptr) return fail(Errc::Io, "no memory for a connection");
   auto link = std::make_unique<Link>(
       connection, Link::Patience{.silence = options.silence,
-                                 .is_answering = [options] { return is_answering(options); }});
+                                 .is_answering = [options, place = place_of(connection)] {
+                                   return is_answering(options, place);
+                                 }});
   if (PQstatus(connection) != CONNECTION_OK) return fail(refused(connection));
   PQsetNoticeProcessor(
       connection, [](void*, const char*) {}, nullptr);

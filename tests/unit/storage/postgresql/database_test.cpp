@@ -259,6 +259,20 @@ TEST_F(FrozenDatabase, IsGivenUpWhileItIsSentMuch) {
   EXPECT_FALSE(database->is_alive());
 }
 
+/// As after a failover in which the former primary hangs: its successor answers, but not for it.
+TEST_F(FrozenDatabase, IsGivenUpWhileAnotherHostOfTheUrlAnswers) {
+  const auto other = test::TestCluster::make();
+  ASSERT_NE(other, nullptr);
+  ConnectOptions options = impatient();
+  const std::string other_url = other->url();
+  options.url += "," + other_url.substr(other_url.find("host=") + 5);
+  auto database = Database::connect(options);
+  ASSERT_TRUE(database) << database.error().what;
+  cluster_->freeze();
+  EXPECT_FALSE(database->execute("SELECT 1"));
+  EXPECT_FALSE(database->is_alive());
+}
+
 TEST_F(FrozenDatabase, AStatementMayTakeLongWhileTheServerAnswersOthers) {
   auto database = Database::connect(impatient());
   ASSERT_TRUE(database) << database.error().what;
