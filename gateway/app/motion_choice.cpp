@@ -108,16 +108,18 @@ Result<void> check_linuxcnc_address(std::string_view address) {
   return fail(found.error().code, "motion linuxcnc: {}", found.error().what);
 }
 
+constexpr std::string_view kSimulated = "simulated", kLine = "line";
+
 struct MotionRow {
   std::string_view name, form;
   Result<void> (*check)(std::string_view address);
   Result<machine::MotionFactory> (*make)(const MotionTask&);
 };
 constexpr std::array kRows{
-    MotionRow{"simulated", "simulated", needs_no_address, simulated},
+    MotionRow{kSimulated, "simulated", needs_no_address, simulated},
     MotionRow{"linuxcnc", "linuxcnc:INI", check_linuxcnc_address, linuxcnc},
     MotionRow{"grbl", "grbl:ADDRESS", check_board_address, grbl},
-    MotionRow{"line", "line:ADDRESS", check_line_address, control_on_line},
+    MotionRow{kLine, "line:ADDRESS", check_line_address, control_on_line},
 };
 
 Result<const MotionRow*> find_row(std::string_view text) {
@@ -140,12 +142,12 @@ std::string motion_names() {
 }
 
 bool is_real_motion(std::string_view name) {
-  return words_of(name).name != kRows.front().name;
+  return words_of(name).name != kSimulated;
 }
 
 std::string line_address_of(std::string_view name) {
   const MotionWords words = words_of(name);
-  return words.name == kRows.back().name ? std::string(words.address) : std::string();
+  return words.name == kLine ? std::string(words.address) : std::string();
 }
 
 Result<void> check_motion(std::string_view name) {
