@@ -28,6 +28,7 @@ struct Options {
   int kills = 0;
   std::uint32_t cells = 64, discovery_ms = 250, lease_ms = 2000;
   std::string server;  ///< empty: the one beside this program
+  std::string store;   ///< ShopOptions::store
   std::string events = "/api/v1/events";
   bool has_watch = true, is_json = false;
 };
@@ -88,6 +89,7 @@ void kill_again_and_again(const Options& options, Shop& shop, Figures& figures) 
 
 Figures run(const Options& options, const std::string& programs, std::size_t machines) {
   Shop shop({.server = options.server.empty() ? programs + "/dncd" : options.server,
+             .store = options.store,
              .programs = programs,
              .machines = machines,
              .changes = options.changes,
@@ -186,6 +188,7 @@ int main(int argc, char** argv) {
   app.add_option("--discovery-ms", options.discovery_ms, "Between two announcements of DDS");
   app.add_option("--lease-ms", options.lease_ms, "Silence after which either end is lost");
   app.add_option("--server", options.server, "Another dncd than the one beside this program");
+  app.add_option("--store", options.store, "URL of an empty PostgreSQL database, for one number");
   app.add_option("--events", options.events, "The event stream that is read");
   app.add_flag("--unwatched", is_unwatched, "Nobody reads the events");
   app.add_flag("--json", options.is_json, "One JSON object for each number of machines");

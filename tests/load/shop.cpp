@@ -10,11 +10,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <thread>
 
+#include "storage/postgresql/database.hpp"
 #include "storage/sqlite/database.hpp"
-#include "storage/sqlite/statement.hpp"
 #include "tests/load/gateway.hpp"
 
 namespace dripline::load {
@@ -24,7 +25,7 @@ using namespace std::chrono_literals;
 using test_support::ChildProcess;
 using test_support::eventually;
 namespace fs = std::filesystem;
-namespace sqlite = storage::sqlite;
+namespace sql = storage::sql;
 
 constexpr std::size_t kPerProcess = 100;  ///< gateways; more do not fit select()
 constexpr auto kPatience = 300s;
@@ -75,11 +76,26 @@ struct Sent {
   std::uint64_t epoch = 0, records = 0;
 };
 
+template <typename Engine>
+std::unique_ptr<sql::Database> opened(Result<Engine> database) {
+  if (!database) give_up(database.error().what);
+  return std::make_unique<Engine>(std::move(*database));
+}
+
+/// The server's: the one of the URL, or the file in its state folder.
+std::unique_ptr<sql::Database> open_database(const std::string& store, const fs::path& state) {
+  if (!store.empty()) return opened(storage::postgresql::Database::connect({.url = store}));
+  return opened(storage::sqlite::Database::open(state / "dripline.sqlite",
+                                                {.access = storage::sqlite::Access::ReadOnly}));
+}
+
 /// The numbers of a machine's records have no gap, and each has the text it was sent with.
-void compare(sqlite::Database& database, const std::string& machine, const Sent& sent, Kept& kept) {
+void compare(sql::Database& database, const std::string& machine, const Sent& sent, Kept& kept) {
   auto query = database.prepare(
-      "SELECT count(*), sum(kind = 'output' AND text = 'LOAD ' || ?1 || ' ' || number), "
-      "sum(kind = 'run_started'), sum(epoch = ?2 AND number <= ?3) FROM record "
+      "SELECT count(*), "
+      "count(*) FILTER (WHERE kind = 'output' AND text = 'LOAD ' || ?1 || ' ' || number), "
+      "count(*) FILTER (WHERE kind = 'run_started'), "
+      "count(*) FILTER (WHERE epoch = ?2 AND number <= ?3) FROM record "
       "WHERE machine = (SELECT id FROM machine WHERE name = ?1)");
   if (!query) give_up(query.error().what);
   query->bind(machine, sent.epoch, sent.records);
@@ -121,6 +137,7 @@ void Shop::start_server() {
                                    std::to_string(options_.lease_ms)};
   if (options_.cells != dds::kFewestCells)  // an earlier server does not know the option
     command.insert(command.end(), {"--dds-cells", std::to_string(options_.cells)});
+  if (!options_.store.empty()) command.insert(command.end(), {"--store", options_.store});
   server_.emplace(command, folder_.path() / "dncd.out");
   const auto answers = [&] {
     token_ = read_file(state / "token");
@@ -225,9 +242,7 @@ Kept Shop::drain() {
       [&] { return std::all_of(gateways_.begin(), gateways_.end(), is_drained); }, kPatience);
   if (!are_all) give_up("records are not acknowledged");
   Kept kept;
-  auto database = sqlite::Database::open(folder_.path() / "server" / "dripline.sqlite",
-                                         {.access = sqlite::Access::ReadOnly});
-  if (!database) give_up(database.error().what);
+  const auto database = open_database(options_.store, folder_.path() / "server");
   for (const auto& gateway : gateways_) {
     std::istringstream lines(gateway.output());
     for (std::string line; std::getline(lines, line);) {

@@ -15,6 +15,7 @@ namespace dripline::load {
 
 struct ShopOptions {
   std::string server;    ///< dncd
+  std::string store;     ///< URL of an empty database; empty: SQLite in its state folder
   std::string programs;  ///< folder of load_gateways
   std::size_t machines = 10;
   double changes = 5, records = 1;   ///< a second, of each machine
