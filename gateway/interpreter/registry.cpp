@@ -50,7 +50,7 @@ CallReader call_reader(std::string_view name) {
   if (name == kCenturionDialect.name) return &centurion::program_calls;
   if (name == kRs274NgcDialect.name) return &rs274ngc::program_calls;
   if (name == kTnc155Dialect.name) return &tnc155::program_calls;
-  if (name == kItncDialect.name) return &tnc155::later_program_calls;
+  if (name == kItncDialect.name) return &tnc155::itnc_program_calls;
   return nullptr;
 }
 

@@ -19,9 +19,9 @@ namespace {
 using namespace tnc155;
 
 /// "datum": where the workpiece's datum lies in machine coordinates.
-Result<void> load_datum(const Setup& setup, bool is_later, State& state) {
+Result<void> load_datum(const Setup& setup, bool is_itnc, State& state) {
   for (const OffsetRecord& offset : setup.offsets) {
-    if (is_later && offset.name.starts_with("preset")) continue;  // of the options
+    if (is_itnc && offset.name.starts_with("preset")) continue;  // of the options
     if (offset.name != "datum") {
       return fail(Errc::Unsupported, "offset {}: this control has datum", offset.name);
     }
@@ -79,14 +79,14 @@ Result<std::unique_ptr<Interpreter>> make_with(Result<ControlOptions> options, c
                                                ProgramSource& source, EventSink& sink) {
   if (!options) return fail(options.error());
   State state;
-  if (options->is_later) state.q.resize(kLaterParameters);
+  if (options->is_itnc) state.q.resize(kItncParameters);
   std::vector<ToolDefinition> tools;
-  if (auto done = load_datum(setup, options->is_later, state); !done) return fail(done.error());
+  if (auto done = load_datum(setup, options->is_itnc, state); !done) return fail(done.error());
   if (auto done = load_parameters(setup, state); !done) return fail(done.error());
   if (options->central_tool_file) {
     if (auto fits = check_tool_store(setup); !fits) return fail(fits.error());
   }
-  if (auto done = load_tools(setup, tools, options->is_later ? kLastLaterTool : kLastTool); !done)
+  if (auto done = load_tools(setup, tools, options->is_itnc ? kLastItncTool : kLastTool); !done)
     return fail(done.error());
   auto pockets = load_pockets(setup, *options);
   if (!pockets) return fail(pockets.error());
@@ -117,7 +117,7 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
 
 Result<std::unique_ptr<Interpreter>> make_later(const Setup& setup, ProgramSource& source,
                                                 EventSink& sink) {
-  return make_with(read_later_options(setup), setup, source, sink);
+  return make_with(read_itnc_options(setup), setup, source, sink);
 }
 
 /// Capitals and marks without blanks, line ends kept.
@@ -143,7 +143,7 @@ bool has_iso_start(const std::string& text) {
 }
 
 /// Programs of later controls: a name that is no number, and words that a TNC 155 has not.
-bool is_of_later_control(const std::string& text) {
+bool is_itnc(const std::string& text) {
   constexpr std::string_view kBegin = "BEGINPGM";
   const std::size_t begin = text.find(kBegin);
   if (begin == std::string::npos) return false;
@@ -162,7 +162,7 @@ constexpr int kOther = 60;  ///< the other family of this language
 int likelihood(std::string_view head, std::string_view) {
   const std::string text = squeeze(head);
   if (contains(text, "BEGINPGM") && (contains(text, "MM") || contains(text, "INCH"))) {
-    return is_of_later_control(text) ? kOther : 100;
+    return is_itnc(text) ? kOther : 100;
   }
   if (has_iso_start(text)) return 90;
   if (contains(text, "TOOLCALL") || contains(text, "CYCLDEF") || contains(text, "CALLLBL")) {
@@ -191,11 +191,11 @@ ScreenSettings screen(const Setup& setup) {
 constexpr std::array kStatusFields{status_field::kCompensation, status_field::kToolLengthZ,
                                    status_field::kToolRadius};
 
-int later_likelihood(std::string_view head, std::string_view) {
+int itnc_likelihood(std::string_view head, std::string_view) {
   const std::string text = squeeze(head);
   const bool has_frame =
       contains(text, "BEGINPGM") && (contains(text, "MM") || contains(text, "INCH"));
-  return has_frame && is_of_later_control(text) ? 100 : 0;
+  return has_frame && is_itnc(text) ? 100 : 0;
 }
 
 }  // namespace
@@ -220,10 +220,10 @@ const Dialect kTnc155Dialect{.name = "tnc155",
 
 const Dialect kItncDialect{.name = "itnc",
                            .title = "HEIDENHAIN TNC 426/430, iTNC 530 (plain language)",
-                           .likelihood = &later_likelihood,
+                           .likelihood = &itnc_likelihood,
                            .make = &make_later,
                            .waits_at_tool_change = true,
-                           .options = &list_later_options,
+                           .options = &list_itnc_options,
                            .text = {.kind = TextForm::Kind::PlainLanguage},
                            .status_fields = kStatusFields,
                            .moves_with_length = true};

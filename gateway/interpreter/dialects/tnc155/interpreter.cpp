@@ -25,10 +25,10 @@ TncInterpreter::TncInterpreter(ControlOptions options, State state,
                                EventSink& sink, std::vector<ToolName> tool_names)
     : gate_(gate_of(state, sink)),
       run_(std::move(options), source, gate_ ? *gate_ : sink),
-      search_(source, {run_.options.iso_continuation, {}, run_.options.is_later}),
-      calls_ahead_(source, {run_.options.iso_continuation, {}, run_.options.is_later}),
-      definitions_ahead_(source, {run_.options.iso_continuation, {}, run_.options.is_later}),
-      way_back_(source, {run_.options.iso_continuation, {}, run_.options.is_later}) {
+      search_(source, {run_.options.iso_continuation, {}, run_.options.is_itnc}),
+      calls_ahead_(source, {run_.options.iso_continuation, {}, run_.options.is_itnc}),
+      definitions_ahead_(source, {run_.options.iso_continuation, {}, run_.options.is_itnc}),
+      way_back_(source, {run_.options.iso_continuation, {}, run_.options.is_itnc}) {
   run_.state = std::move(state);
   run_.reader.set_block_skip(run_.options.block_skip);
   if (gate_) gate_->attach(run_.state.start);
@@ -89,7 +89,7 @@ bool TncInterpreter::name_program() {
   if (read != ReadState::Ready) return read != ReadState::NotYet;
   run_.state.program_number = reading.program.number;
   run_.state.units = reading.program.units;
-  if (run_.options.is_later) run_.state.program_name = parts.later.name;
+  if (run_.options.is_itnc) run_.state.program_name = parts.itnc.name;
   return true;
 }
 

@@ -18,7 +18,7 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>,
                  ProgramSource& source, EventSink& sink, std::vector<ToolName> tool_names = {});
 
   bool set_block_skip(std::uint16_t levels) override {
-    if (!run_.options.is_later) return false;
+    if (!run_.options.is_itnc) return false;
     run_.reader.set_block_skip((levels & 2u) != 0);
     return true;
   }

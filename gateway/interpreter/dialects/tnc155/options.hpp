@@ -33,7 +33,7 @@ struct ControlOptions {
   std::optional<Axis> kept_tool_axis;  ///< of the run before, until TOOL CALL names one
   bool compares_rounded = false;       ///< FN 9 to FN 12: within rounding, else all binary digits
   bool block_skip = false;             ///< Switches::block_skip, of a later control
-  bool is_later = false;               ///< TNC 426/430, iTNC 530: the rules of later/
+  bool is_itnc = false;                ///< TNC 426/430, iTNC 530: the rules of itnc/
 
   // touch probe
   double probe_clearance = 2;
@@ -106,8 +106,8 @@ inline constexpr OptionKey kStartPass =
            "it has there; 0: it must come there once",
            "0", {0, 1'000'000});
 
-/// The options of the later controls, which are fewer; later/later_options.cpp. Errors as above.
-Result<ControlOptions> read_later_options(const Setup& setup);
-std::vector<ListedOption> list_later_options();
+/// The options of the later controls, which are fewer; itnc/itnc_options.cpp. Errors as above.
+Result<ControlOptions> read_itnc_options(const Setup& setup);
+std::vector<ListedOption> list_itnc_options();
 
 }  // namespace dripline::interpreter::tnc155

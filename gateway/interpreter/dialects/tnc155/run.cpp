@@ -35,15 +35,15 @@ Run::Run(ControlOptions control_options, ProgramSource& program_source, EventSin
       compensator(policy(), sink),
       blender(corner_policy(), compensator),
       reader(program_source,
-             ReaderOptions{options.iso_continuation, options.version, options.is_later}) {}
+             ReaderOptions{options.iso_continuation, options.version, options.is_itnc}) {}
 
 void Run::deliver_header() {
   state.has_header = true;
   ProgramHeader header;
-  header.control = options.is_later ? "itnc" : "tnc155";
+  header.control = options.is_itnc ? "itnc" : "tnc155";
   const std::string name = fmt::format("{}", state.program_number);
   if (state.program_number >= 0) header.name = name;
-  if (options.is_later) header.name = state.program_name;
+  if (options.is_itnc) header.name = state.program_name;
   header.units = state.units;
   sink.on_program(header);
 }

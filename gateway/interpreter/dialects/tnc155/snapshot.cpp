@@ -41,7 +41,7 @@ void visit(Archive& archive, State& state) {
 namespace {
 
 std::string_view dialect_of(const Run& run) {
-  return run.options.is_later ? "itnc" : "tnc155";
+  return run.options.is_itnc ? "itnc" : "tnc155";
 }
 constexpr std::uint32_t kVersion = 10;
 
@@ -58,8 +58,8 @@ bool is_plausible(const State& state) {
       [&](const ProgramFrame& frame) { return frame.label_base <= state.labels.size(); });
   return are_levels_right && state.transformation.scale != 0 && state.phase <= RunPhase::Alarmed &&
          state.labels.size() <= kMaxLabelLevels && state.programs.size() <= kMaxProgramLevels &&
-         state.known_labels.size() <= kMaxLabels && state.definitions.size() <= kLastLaterTool &&
-         (state.q.size() == kParameterCount || state.q.size() == kLaterParameters) &&
+         state.known_labels.size() <= kMaxLabels && state.definitions.size() <= kLastItncTool &&
+         (state.q.size() == kParameterCount || state.q.size() == kItncParameters) &&
          state.cycle_words.size() <= 32 && state.pockets.size() <= kMaxStoredTools &&
          is_plausible(state.cycle.machining) && is_plausible(state.cycle.draft) &&
          state.cycle.probe.q >= 0 && state.cycle.probe.q <= 99;

@@ -27,7 +27,7 @@ inline AxisValues values_of(const Position& position) {
 inline constexpr int kParameterCount = 100;  ///< Q0 to Q99
 inline constexpr int kLastTool = 254;
 inline constexpr int kLastLabel = 254;
-inline constexpr int kLastLaterTool = 32'767;
+inline constexpr int kLastItncTool = 32'767;
 
 inline constexpr std::size_t kMaxLabelLevels = 8;  ///< subprograms and repeats together
 inline constexpr std::size_t kMaxProgramLevels = 4;

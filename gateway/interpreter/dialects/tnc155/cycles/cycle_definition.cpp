@@ -8,7 +8,7 @@
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -164,7 +164,7 @@ bool take_place(Run& run, const Block& block) {
 /// A contour ends as by M98 before what it is made of changes (manual: coordinate transformations).
 /// Whether it does on a later control is not known.
 bool transform(Run& run, const Transformation& changed) {
-  if (run.options.is_later) run.state.needs_side |= run.state.is_compensating();
+  if (run.options.is_itnc) run.state.needs_side |= run.state.is_compensating();
   end_contour(run, true);
   change_transformation(run, changed);
   return true;
@@ -311,7 +311,7 @@ bool take_machining(Run& run, const Block& block, const CyclePart& part) {
 bool define_cycle(Run& run, const Block& block) {
   if (!take_place(run, block)) return false;
   if (block.part == 0) return true;
-  if (run.options.is_later && !later::check_order(run, block)) return false;
+  if (run.options.is_itnc && !itnc::check_order(run, block)) return false;
   switch (block.cycle) {
     case kDatumShift:
       return shift_datum(run, block);
@@ -328,9 +328,9 @@ bool define_cycle(Run& run, const Block& block) {
   }
   CycleState& cycle = run.state.cycle;
   if (!take_machining(run, block, cycle_parts(block.cycle)[block.part])) return false;
-  if (cycle.is_complete && run.options.is_later) take_direction(cycle.draft);
+  if (cycle.is_complete && run.options.is_itnc) take_direction(cycle.draft);
   if (cycle.is_complete) cycle.machining = cycle.draft;
-  if (cycle.is_complete && run.options.is_later) cycle.is_modal_call = false;
+  if (cycle.is_complete && run.options.is_itnc) cycle.is_modal_call = false;
   return true;
 }
 

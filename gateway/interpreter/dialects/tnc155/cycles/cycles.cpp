@@ -12,7 +12,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
@@ -175,7 +175,7 @@ bool call_cycle(Run& run) {
   const MachiningCycle& cycle = run.state.cycle.machining;
   if (cycle.number == 0) return run.fail(ErrorCode::CycleIncomplete, "no cycle was defined");
   if (cycle.number == kProgram) return call_cycle_program(run, cycle.program);
-  if (cycle.number >= later::kFirstTable) return later::run_table(run);
+  if (cycle.number >= itnc::kFirstTable) return itnc::run_table(run);
   if (!refuse_before_positioning(run, "a cycle call")) return false;
   if (!check_machining(run, cycle)) return false;
   return run_machining(run, cycle);

@@ -113,7 +113,7 @@ AheadSearch::LabelUse AheadSearch::label_use() const {
     use.returns = block.kind == BlockKind::LabelCall && block.repeats == Block::kNone;
     const std::int32_t label = std::max(use.set, use.used);
     const std::hash<std::string_view> hash;
-    if (label > 255) use.later = hash(parts_.later.name) + static_cast<std::size_t>(label);
+    if (label > 255) use.later = hash(parts_.itnc.name) + static_cast<std::size_t>(label);
     return use;
   }
   const IsoBlock& block = reader_.iso_block();

@@ -153,7 +153,7 @@ bool change_compensation(Run& run, const Block& block, const PlaneMove& move) {
     return refuse_start(run, "G27 is followed by the block with G40 that leaves the contour");
   }
   if (side != state.compensation) {
-    if (run.options.is_later) return refuse_start(run, "between RL and RR comes a block with R0");
+    if (run.options.is_itnc) return refuse_start(run, "between RL and RR comes a block with R0");
     if (state.joins) {
       run.blender.turn_on(cutter_of(state, side));
     } else {
@@ -179,7 +179,7 @@ void shape_corner(Run& run) {
 /// Whether a side of a corner is certain to lie in the plane. A later control takes one coordinate
 /// while RL or RR is in force (iTNC 530, User's Manual: corner rounding, chamfer and its example).
 bool takes_one_coordinate(const Run& run) {
-  return run.options.is_later && run.state.is_compensating();
+  return run.options.is_itnc && run.state.is_compensating();
 }
 
 /// The second side of a corner must lie in the plane as the first one does, and in its contour.

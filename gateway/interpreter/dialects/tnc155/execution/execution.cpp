@@ -10,7 +10,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/word_check.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -19,8 +19,8 @@ namespace {
 bool begin_program(Run& run, const Block& block) {
   State& state = run.state;
   if (!state.has_header && state.programs.empty()) {
-    if (run.options.is_later) {
-      state.program_name = run.parts.later.name;
+    if (run.options.is_itnc) {
+      state.program_name = run.parts.itnc.name;
     } else {
       state.program_number = block.target;
     }
@@ -48,16 +48,16 @@ bool move(Run& run, const Block& block) {
     case BlockKind::RadiusArc:
       return run_radius_arc(run, block);
     case BlockKind::Approach:
-      return later::approach(run, block);
+      return itnc::approach(run, block);
     case BlockKind::Departure:
-      return later::depart(run, block);
+      return itnc::depart(run, block);
     default:
       return run_single_axis(run, block);
   }
 }
 
 bool move_across(Run& run, const Block& block) {
-  return later::move_in_pole_plane(run, block, move);
+  return itnc::move_in_pole_plane(run, block, move);
 }
 
 /// M99 and M89: the machining cycle, after the motion.
@@ -85,8 +85,8 @@ bool finish_m(Run& run, int m, bool has_moved) {
 }
 
 bool positioning(Run& run, const Block& block) {
-  if (run.options.is_later) [[unlikely]]
-    return later::position(run, block, run.state.pole_plane ? move_across : move);
+  if (run.options.is_itnc) [[unlikely]]
+    return itnc::position(run, block, run.state.pole_plane ? move_across : move);
   if (block.m == Block::kNone && !run.state.cycle.is_modal_call) [[likely]]
     return move(run, block);
   if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
@@ -103,7 +103,7 @@ bool check_no_coordinates(Run& run, int m) {
 }
 
 bool stop_block(Run& run, const Block& block) {
-  if (run.options.is_later) return later::stop_block(run, block);
+  if (run.options.is_itnc) return itnc::stop_block(run, block);
   const int m = block.m;
   if (!check_no_coordinates(run, m)) return false;
   if (m != Block::kNone && !begin_m(run, m)) return false;
@@ -119,7 +119,7 @@ bool stop_block(Run& run, const Block& block) {
 }
 
 bool cycle_call(Run& run, const Block& block) {
-  if (run.options.is_later) return later::cycle_call(run, block);
+  if (run.options.is_itnc) return itnc::cycle_call(run, block);
   if (!check_no_coordinates(run, block.m)) return false;
   if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
   run.state.cycle.is_modal_call = false;
@@ -136,7 +136,7 @@ bool function(Run& run, const Block& block) {
 }
 
 bool pole(Run& run, const Block& block) {
-  return run.options.is_later ? later::set_pole(run, block) : set_pole(run, block);
+  return run.options.is_itnc ? itnc::set_pole(run, block) : set_pole(run, block);
 }
 
 bool end_by_block(Run& run, const Block&) {
@@ -145,7 +145,7 @@ bool end_by_block(Run& run, const Block&) {
 }
 
 bool chamfer(Run& run, const Block& block) {
-  return run.options.is_later ? later::corner(run, block) : make_blend(run, block);
+  return run.options.is_itnc ? itnc::corner(run, block) : make_blend(run, block);
 }
 
 bool round(Run& run, const Block& block) {
@@ -153,7 +153,7 @@ bool round(Run& run, const Block& block) {
 }
 
 bool tool(Run& run, const Block& block) {
-  return run.options.is_later ? later::call_tool(run, block) : call_tool(run, block);
+  return run.options.is_itnc ? itnc::call_tool(run, block) : call_tool(run, block);
 }
 
 bool call(Run& run, const Block& block) {
@@ -186,16 +186,16 @@ constexpr std::array<bool (*)(Run&, const Block&),
              define_blank,
              probe,
              positioning /* RadiusArc */,
-             later::assign,
-             later::compare,
-             later::raise_error,
-             later::read_system,
-             later::define_table,
-             later::cycle_call_at,
-             later::print,
+             itnc::assign,
+             itnc::compare,
+             itnc::raise_error,
+             itnc::read_system,
+             itnc::define_table,
+             itnc::cycle_call_at,
+             itnc::print,
              positioning /* Approach */,
              positioning /* Departure */,
-             later::accept};
+             itnc::accept};
 
 [[gnu::cold, gnu::noinline]] bool refuse_left_words(Run& run, const Block& block) {
   const std::string words = language::listed(run.ledger.left(), [&](std::size_t i) {
@@ -219,8 +219,8 @@ bool execute(Run& run, const Block& block) {
         ErrorCode::CycleIncomplete,
         fmt::format("CYCL DEF {} ends before its last sub-block", run.state.cycle.defining));
   }
-  if (needs_check(block) && !(run.options.is_later ? later::check_plane_angles(run, block)
-                                                   : check_words(run, block))) [[unlikely]]
+  if (needs_check(block) && !(run.options.is_itnc ? itnc::check_plane_angles(run, block)
+                                                  : check_words(run, block))) [[unlikely]]
     return false;
   run.ledger.open((1u << block.coordinate_count) - 1);
   if (!kExecute[static_cast<std::size_t>(block.kind)](run, block)) return false;

@@ -29,7 +29,7 @@ std::size_t label_base(const State& state) {
 
 bool check_label(Run& run, std::int32_t label) {
   if (label == 0) return run.fail(ErrorCode::JumpToLabelZero);
-  if (label >= 1 && (label <= kLastLabel || run.options.is_later)) return true;
+  if (label >= 1 && (label <= kLastLabel || run.options.is_itnc)) return true;
   return run.fail(ErrorCode::EntryOutOfRange,
                   fmt::format("label {} is not 1 to {}", label, kLastLabel));
 }
@@ -40,7 +40,7 @@ void request(Run& run, JumpKind kind, std::int32_t number, std::int32_t repeats 
   jump.number = static_cast<std::uint32_t>(number);
   jump.repeats = static_cast<std::uint32_t>(repeats);
   jump.call = run.reader.block_place();
-  jump.name = run.options.is_later ? run.parts.later.name : std::string();
+  jump.name = run.options.is_itnc ? run.parts.itnc.name : std::string();
 }
 
 /// The repeat that this block controls, if it is active.
@@ -188,7 +188,7 @@ BlockOutcome find_program(Run& run, TextSearch& search) {
 }  // namespace
 
 BlockOutcome check_first_labels(Run& run, TextSearch& search, ProgramIndex program) {
-  const bool is_wanted = run.options.is_later || run.options.checks_calls;
+  const bool is_wanted = run.options.is_itnc || run.options.checks_calls;
   if (!is_wanted || run.options.blockwise_restrictions || run.options.is_mdi) {
     return BlockOutcome::Finished;
   }
@@ -216,7 +216,7 @@ bool meet_label(Run& run, const Block& block) {
                    run.reader.block_place(),
                    block.number,
                    {}};
-  if (block.target == kNameLabel) label.name = run.parts.later.name;
+  if (block.target == kNameLabel) label.name = run.parts.itnc.name;
   const auto known = std::ranges::lower_bound(state.known_labels, label, comes_before);
   if (known == state.known_labels.end() || comes_before(label, *known)) {
     if (state.known_labels.size() == kMaxLabels) {
@@ -267,7 +267,7 @@ namespace {
 /// A later control cancels the compensation at the call (iTNC 530, User's Manual, tool
 /// compensation): where the tool would leave the contour is not known here.
 bool refuse_in_contour(Run& run) {
-  if (!run.options.is_later || !run.state.is_compensating()) return true;
+  if (!run.options.is_itnc || !run.state.is_compensating()) return true;
   return run.fail(ErrorCode::PathOffsetWronglyStarted,
                   "CALL PGM with RL or RR in force: R0 comes before it");
 }

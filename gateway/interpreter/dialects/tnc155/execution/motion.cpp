@@ -286,7 +286,7 @@ bool run_polar_arc(Run& run, const Block& block) {
   const double from = turn_between({1, 0}, start) * (180 / Angle::kPi);
   const double angle = run.number(block.angle);
   const bool is_left = arc.turn == Turn::Counterclockwise;
-  if (run.options.is_later && block.is_angle_incremental && angle != 0 && (angle > 0) != is_left)
+  if (run.options.is_itnc && block.is_angle_incremental && angle != 0 && (angle > 0) != is_left)
     return run.fail(ErrorCode::WrongSign,
                     fmt::format("IPA {} with DR{}", angle, is_left ? '+' : '-'));
   const double to = block.is_angle_incremental ? from + angle : angle;

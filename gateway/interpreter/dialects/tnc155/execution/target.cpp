@@ -9,7 +9,7 @@ namespace {
 constexpr double kFastest = 15'999;     ///< millimeters per minute
 constexpr double kFastestInch = 6'299;  ///< tenths of an inch per minute
 constexpr double kFastestLater = 99'999.999;
-constexpr double kFastestLaterInch = 39'370;
+constexpr double kFastestItncInch = 39'370;
 constexpr double kTenthsPerInch = 10;
 
 /// Where the present nominal position is, seen from the pole; on it there is a radius, and no
@@ -63,9 +63,9 @@ bool read_polar(Run& run, const Block& block, Target& target) {
 bool read_cycle_feed(Run& run, const Value& word, double& feed) {
   feed = run.number(word);
   const bool is_inch = run.state.units == Units::Inch;
-  const double fastest = run.options.is_later ? (is_inch ? kFastestLaterInch : kFastestLater)
-                         : is_inch            ? kFastestInch
-                                              : kFastest;
+  const double fastest = run.options.is_itnc ? (is_inch ? kFastestItncInch : kFastestLater)
+                         : is_inch           ? kFastestInch
+                                             : kFastest;
   if (!(feed >= 0 && feed <= fastest)) {
     return run.fail(ErrorCode::EntryOutOfRange, fmt::format("F{} is not 0 to {}", feed, fastest));
   }

@@ -87,9 +87,9 @@ bool choose(Run& run, int number) {
   if (data == nullptr) return run.fail(ErrorCode::ToolDefMissing, fmt::format("tool {}", number));
   tool.number = number;
   tool.data = *data;
-  tool.data.length += run.length(run.parts.later.delta_length);
-  tool.data.radius += run.length(run.parts.later.delta_radius);
-  if (run.options.is_later && tool.data.radius < 0) {
+  tool.data.length += run.length(run.parts.itnc.delta_length);
+  tool.data.radius += run.length(run.parts.itnc.delta_radius);
+  if (run.options.is_itnc && tool.data.radius < 0) {
     return run.fail(ErrorCode::EntryOutOfRange,
                     fmt::format("DR makes the radius {}", tool.data.radius));
   }
@@ -104,7 +104,7 @@ bool define_tool(Run& run, const Block& block) {
     run.events().on_tool({run.origin, block.target, true, {}, {}});
     return true;
   }
-  const int last_tool = run.options.is_later ? kLastLaterTool : kLastTool;
+  const int last_tool = run.options.is_itnc ? kLastItncTool : kLastTool;
   if (block.target < 1 || block.target > last_tool) {
     return run.fail(ErrorCode::EntryOutOfRange,
                     fmt::format("tool {} is not 1 to {}", block.target, last_tool));
@@ -116,7 +116,7 @@ bool define_tool(Run& run, const Block& block) {
 
 std::uint64_t reach_of_definition(const Run& run, const Block& block) {
   if (block.kind != BlockKind::ToolCall || block.target <= 0 ||
-      run.options.blockwise_restrictions || run.options.is_later ||
+      run.options.blockwise_restrictions || run.options.is_itnc ||
       find_known(run, block.target) != nullptr) {
     return 0;
   }
@@ -128,7 +128,7 @@ bool call_tool(Run& run, const Block& block) {
   State& state = run.state;
   const bool is_change = block.target != Block::kNone;
   const bool names_axis = block.axis.has_value() || block.is_fourth_axis;
-  if (block.axis && !run.options.is_later && !check_axis(run, *block.axis)) return false;
+  if (block.axis && !run.options.is_itnc && !check_axis(run, *block.axis)) return false;
   if (is_change || names_axis) {
     // Tool 0 has no radius: the travel to the tool change position is not compensated (manual: TOOL
     // CALL 0).

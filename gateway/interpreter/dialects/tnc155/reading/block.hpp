@@ -64,7 +64,7 @@ enum class BlockKind : std::uint8_t {
   CycleCall,        ///< CYCL CALL, G79
   BlankForm,        ///< DEF BLK FORM, G30, G31
   Probe,            ///< TCH PROBE 0.0 and 0.1; G55 is both
-  // of later controls alone (later/)
+  // of later controls alone (itnc/)
   RadiusArc,    ///< CR
   Assignment,   ///< Q1 = formula, FN 0 to FN 8, FN 13
   Comparison,   ///< FN 9 to FN 12

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/tnc155/later/later_words.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_words.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -21,7 +21,7 @@ struct BlockParts {
 
   std::size_t count = 0;
   std::array<Block, kMax> blocks;
-  LaterWords later;  ///< of a later control's one block
+  ItncWords itnc;  ///< of a later control's one block
 };
 
 }  // namespace dripline::interpreter::tnc155

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/tnc155/later/later_end.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_end.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_end.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/word_check.hpp"
@@ -81,7 +81,7 @@ bool BlockReader::read_peeked(ReadingState state, BlockParts& parts) {
 
 ReadState BlockReader::load(ReadingState& state) {
   WindowState loaded = WindowState::Ready;
-  if (options_.is_later) [[unlikely]]
+  if (options_.is_itnc) [[unlikely]]
     return load_later(state);
   switch (state.program.form) {
     case Form::Plain:
@@ -137,10 +137,10 @@ ReadState BlockReader::show(Form form) {
 ReadState BlockReader::load_later(ReadingState& state) {
   state.program.form = Form::Plain;
   for (;;) {
-    const WindowState loaded = window_.load(place_.program, place_.offset, LaterEnd{&is_one_line_});
+    const WindowState loaded = window_.load(place_.program, place_.offset, ItncEnd{&is_one_line_});
     if (loaded != WindowState::Ready) return complain_of(loaded);
     text_end_ = window_.end();
-    text_ = LaterEnd::skip(window_.begin(), text_end_);
+    text_ = ItncEnd::skip(window_.begin(), text_end_);
     if (text_ == text_end_) return ReadState::End;
     if (!skips_ || !is_skipped(text_, text_end_)) return ReadState::Ready;
     pass_over();
@@ -156,7 +156,7 @@ void BlockReader::pass_over() {
 }
 
 bool BlockReader::read_later(ReadingState& state, BlockParts& parts) {
-  if (!read_later_block(text_, text_end_, state, parts, fault_)) return false;
+  if (!read_itnc_block(text_, text_end_, state, parts, fault_)) return false;
   note_plain_block(parts.blocks[0], state);
   return true;
 }
@@ -204,7 +204,7 @@ bool BlockReader::read(ReadingState& state, BlockParts& parts) {
            resolve_words(state, parts);
   }
   Block& block = parts.blocks[0];
-  if (options_.is_later) [[unlikely]]
+  if (options_.is_itnc) [[unlikely]]
     return read_later(state, parts);
   if (!read_plain_block(text_, text_end_, state, block, fault_)) return false;
   const ControlVersion& version = options_.version;

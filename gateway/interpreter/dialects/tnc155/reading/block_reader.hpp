@@ -20,7 +20,7 @@ Form detect_form(std::string_view head);
 struct ReaderOptions {
   bool iso_continuation = true;  ///< an ISO line without a number continues the block before it
   ControlVersion version = {};   ///< blocks that need a feature it lacks are Wrong
-  bool is_later = false;         ///< plain language of later controls (later/)
+  bool is_itnc = false;          ///< plain language of later controls (itnc/)
 };
 
 enum class ReadState : std::uint8_t {

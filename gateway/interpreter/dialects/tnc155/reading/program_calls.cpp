@@ -12,7 +12,7 @@ namespace {
 Result<ProgramCalls> calls_of(const Result<ControlOptions>& options, ProgramSource& source,
                               ProgramIndex program) {
   if (!options) return fail(options.error());
-  BlockReader reader(source, {options->iso_continuation, options->version, options->is_later});
+  BlockReader reader(source, {options->iso_continuation, options->version, options->is_itnc});
   TextPlace start;
   start.program = program;
   reader.seek(start);
@@ -35,9 +35,9 @@ Result<ProgramCalls> calls_of(const Result<ControlOptions>& options, ProgramSour
     for (const Block& block : parts) {
       const bool is_call = block.kind == BlockKind::ProgramCall || block.kind == BlockKind::Print ||
                            (block.kind == BlockKind::CycleDefinition && block.cycle == 12);
-      const bool has_name = is_call && !parts.later.name.empty();
+      const bool has_name = is_call && !parts.itnc.name.empty();
       if (!is_call || (block.target == Block::kNone && !has_name)) continue;
-      calls.add({.name = has_name ? parts.later.name : fmt::format("{}", block.target),
+      calls.add({.name = has_name ? parts.itnc.name : fmt::format("{}", block.target),
                  .earlier = {},
                  .line = reader.block_place().line});
     }
@@ -53,9 +53,9 @@ Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source,
   return calls_of(read_options(setup), source, program);
 }
 
-Result<ProgramCalls> later_program_calls(const Setup& setup, ProgramSource& source,
-                                         ProgramIndex program) {
-  return calls_of(read_later_options(setup), source, program);
+Result<ProgramCalls> itnc_program_calls(const Setup& setup, ProgramSource& source,
+                                        ProgramIndex program) {
+  return calls_of(read_itnc_options(setup), source, program);
 }
 
 }  // namespace dripline::interpreter::tnc155

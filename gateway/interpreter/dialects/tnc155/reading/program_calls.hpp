@@ -10,7 +10,7 @@ namespace dripline::interpreter::tnc155 {
 Result<ProgramCalls> program_calls(const Setup& setup, ProgramSource& source, ProgramIndex program);
 
 /// The same for the later controls.
-Result<ProgramCalls> later_program_calls(const Setup& setup, ProgramSource& source,
-                                         ProgramIndex program);
+Result<ProgramCalls> itnc_program_calls(const Setup& setup, ProgramSource& source,
+                                        ProgramIndex program);
 
 }  // namespace dripline::interpreter::tnc155

@@ -114,7 +114,7 @@ std::string LabelSet::text() const {
 }
 
 TextSearch::TextSearch(ProgramSource& source, ReaderOptions options)
-    : reader_(source, options), is_later_(options.is_later) {}
+    : reader_(source, options), is_itnc_(options.is_itnc) {}
 
 TextSearch::Index& TextSearch::index_of(ProgramIndex program) {
   Index* oldest = &indexes_[0];
@@ -186,7 +186,7 @@ void TextSearch::note(Index& index, std::string_view text) {
   ++index.blocks;
   const BlockHead head = read_head(text, index.progress.state.program.form);
   index.is_complete = head.is_end;
-  if (const std::size_t at = is_later_ ? continued_label(text) : 0; at != 0) [[unlikely]] {
+  if (const std::size_t at = is_itnc_ ? continued_label(text) : 0; at != 0) [[unlikely]] {
     const std::string_view rest = text.substr(at);
     index.second = {reader_.block_place(), head.number};
     index.doubled = fmt::format("a label behind ~, in the continuation of {}: {}",
@@ -196,13 +196,13 @@ void TextSearch::note(Index& index, std::string_view text) {
     return;
   }
   if (head.is_skipped) {
-    if (!is_later_ || (head.label < 0 && head.name.empty())) return;
+    if (!is_itnc_ || (head.label < 0 && head.name.empty())) return;
     index.doubled = fmt::format("a label behind a slash: {}", text);
     index.second = {reader_.block_place(), head.number};
     return;
   }
-  const std::int32_t last = is_later_ ? kLastLaterLabel : kLastLabel;
-  const bool is_name = is_later_ && !head.name.empty();
+  const std::int32_t last = is_itnc_ ? kLastItncLabel : kLastLabel;
+  const bool is_name = is_itnc_ && !head.name.empty();
   if (!is_name && (head.label <= 0 || head.label > last)) return;
   note_label(index, head, {reader_.block_place(), head.number});
 }

@@ -36,7 +36,7 @@ struct LabelSet {
 /// changes the answer. The windows of other readers of the source are stale after a search.
 ///
 /// A label that is set twice makes every jump of its program ambiguous, so a label is only found in
-/// a program that was searched to its end. Memory: kMaxNames and kLastLaterLabel labels of a
+/// a program that was searched to its end. Memory: kMaxNames and kLastItncLabel labels of a
 /// program.
 class TextSearch {
  public:
@@ -93,7 +93,7 @@ class TextSearch {
   Outcome next_block(Progress& progress, std::string_view& text);
 
   BlockReader reader_;
-  bool is_later_;
+  bool is_itnc_;
   std::array<Index, kIndexes> indexes_;
   std::uint64_t uses_ = 0;
   std::string reason_;

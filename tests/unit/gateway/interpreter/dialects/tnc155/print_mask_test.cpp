@@ -1,10 +1,10 @@
-#include "gateway/interpreter/dialects/tnc155/later/print_mask.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/print_mask.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 /// Masks of FN 16.
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 using testing::ElementsAre;
@@ -60,4 +60,4 @@ TEST(PrintMask, RefusesWhatItDoesNotKnowWithTheLine) {
 }
 
 }  // namespace
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

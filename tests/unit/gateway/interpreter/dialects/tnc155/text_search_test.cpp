@@ -78,9 +78,9 @@ TEST(Tnc155TextSearch, ReadsBlocksOfPlainLanguage) {
 }
 
 /// Why a label cannot be found, in all windows.
-std::string doubled_in(const std::string& text, bool is_later) {
+std::string doubled_in(const std::string& text, bool is_itnc) {
   std::string reason;
-  found_in(text, {.is_later = is_later}, [&](TextSearch& search, TextPlace& place) {
+  found_in(text, {.is_itnc = is_itnc}, [&](TextSearch& search, TextPlace& place) {
     const auto outcome = search.find_label(kMainProgram, 1, {}, place);
     reason = outcome == TextSearch::Outcome::Doubled ? search.doubled() : "";
     return outcome;
@@ -110,7 +110,7 @@ TEST(Tnc155TextSearch, ChecksTheFirstBlocksAlone) {
   const std::string text = "BEGIN PGM A MM\nLBL 1\nL X+1\nLBL 1\n";
   for (const std::uint64_t blocks : {3u, 4u}) {
     WindowedSource source(text, 7);
-    TextSearch search(source, {.is_later = true});
+    TextSearch search(source, {.is_itnc = true});
     EXPECT_EQ(search.check_labels(kMainProgram, blocks) == TextSearch::Outcome::Doubled,
               blocks == 4)
         << blocks;
@@ -122,12 +122,12 @@ TEST(Tnc155TextSearch, KeepsABoundedNumberOfNames) {
   for (std::size_t i = 0; i < TextSearch::kMaxNames; ++i)
     text += "LBL \"N" + std::to_string(i) + "\"\n";
   WindowedSource source(text, 100'000);
-  TextSearch search(source, {.is_later = true});
+  TextSearch search(source, {.is_itnc = true});
   TextPlace found;
   EXPECT_EQ(search.find_label(kMainProgram, 1, {}, found), TextSearch::Outcome::Found);
   text += "LBL \"ONE MORE\"\n";
   WindowedSource longer(text, 100'000);
-  TextSearch refused(longer, {.is_later = true});
+  TextSearch refused(longer, {.is_itnc = true});
   EXPECT_EQ(refused.find_label(kMainProgram, 1, {}, found), TextSearch::Outcome::Doubled);
   EXPECT_EQ(refused.doubled(), "more than 10000 labels with names, or 524288 characters in them");
 }

@@ -4,10 +4,10 @@
 
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/cycle_table_run.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/cycle_table_run.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 bool is_allowed(CycleUse use, double value) {
@@ -163,7 +163,7 @@ bool define_table(Run& run, const Block& block) {
   State& state = run.state;
   const auto rows = cycle_table(block.cycle);
   std::vector<double> values(rows.size());
-  for (const CycleWord& word : run.parts.later.words) {
+  for (const CycleWord& word : run.parts.itnc.words) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].q != word.parameter) continue;
       double value = run.number(word.value);
@@ -211,4 +211,4 @@ bool define_table(Run& run, const Block& block) {
   return true;
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

@@ -7,7 +7,7 @@ namespace dripline::interpreter::tnc155 {
 /// A block of a later control: a line, and those after a `~` at its end. A numbered CYCL DEF goes
 /// on in lines of Q words without numbers, as the TNC 426 writes it. Lines of a comment or of the
 /// structure (`* -`) are no blocks.
-struct LaterEnd {
+struct ItncEnd {
   bool* is_one_line;  ///< as for PlainEnd
 
   const char* operator()(const char* at, const char* limit) const {

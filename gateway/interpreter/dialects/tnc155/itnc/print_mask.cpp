@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/tnc155/later/print_mask.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/print_mask.hpp"
 
 #include <fmt/format.h>
 #include <array>
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "gateway/interpreter/dialects/tnc155/later/later_words.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_words.hpp"
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 constexpr int kWidest = 80;    ///< of a value
@@ -201,4 +201,4 @@ Result<PrintedMask> print_mask(std::string_view mask, std::span<const double> pa
   return Printer(mask, parameters, now).print();
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

@@ -8,9 +8,9 @@
 
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/path.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/cycle_tables.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/cycle_tables.hpp"
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 
 enum Cycle : std::uint8_t {
   kDrill = 200,
@@ -135,4 +135,4 @@ bool stays_within_limits(Run& run, const Moves& moves) {
 /// The last definition was a pattern: its points, and the cycle at each of them.
 bool run_pattern(Run& run, int pattern, const std::vector<double>& words);
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/print_mask.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/print_mask.hpp"
 
 /// FN 16: F-PRINT mask / target. The mask is a text of the program store, read whole before
 /// anything is put out; the block waits for it.
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 constexpr std::size_t kLargestMask = 32 * 1024;
@@ -66,7 +66,7 @@ PrintTarget target_of(const std::string& text) {
 
 bool print(Run& run, const Block&) {
   if (run.state.start.is_searching) return true;  // the run that was interrupted has put it out
-  const std::string& name = run.parts.later.name;
+  const std::string& name = run.parts.itnc.name;
   if (!read_mask(run, name)) return false;
   std::optional<LocalTime> now;
   if (run.answer) now = std::get<LocalTime>(*run.answer);
@@ -78,7 +78,7 @@ bool print(Run& run, const Block&) {
   }
   if (printed->needs_time) return run.ask(TimeQuestion{});
   run.mask.reset();
-  const PrintTarget target = target_of(run.parts.later.target);
+  const PrintTarget target = target_of(run.parts.itnc.target);
   EventSink& events = run.events();
   if (!target.file.empty()) events.on_open({run.origin, target.device, target.file});
   for (const std::string& line : printed->lines)
@@ -87,4 +87,4 @@ bool print(Run& run, const Block&) {
   return true;
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

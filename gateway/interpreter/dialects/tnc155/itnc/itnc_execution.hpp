@@ -4,7 +4,7 @@
 
 /// What blocks of the later controls do where that differs from a TNC 155. Functions return false
 /// when the run cannot continue (`Run::pause`).
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 
 /// Positioning with several M functions and F AUTO; `move` makes the motion.
 bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&));
@@ -44,4 +44,4 @@ double clearance_height(Run& run);
 /// Transformations whose order matters, and whose order the control's manual does not state.
 bool check_order(Run& run, const Block& block);
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 
 /// What a Q parameter of a cycle means: its unit, and what it may be.
 enum class CycleUse : std::uint8_t {
@@ -36,4 +36,4 @@ std::span<const CycleParameter> cycle_table(int cycle);
 /// Of `values`, which are in the order of `rows`; 0 for a parameter that is not among them.
 double value_of(std::span<const CycleParameter> rows, std::span<const double> values, int q);
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

@@ -9,18 +9,18 @@ namespace dripline::interpreter::tnc155 {
 
 /// Reads one block, [begin, end) with all its lines; `*end` can be read. False: `fault` has the
 /// reason. `parts` has one block then.
-bool read_later_block(const char* begin, const char* end, const ReadingState& state,
-                      BlockParts& parts, Fault& fault);
+bool read_itnc_block(const char* begin, const char* end, const ReadingState& state,
+                     BlockParts& parts, Fault& fault);
 
 }  // namespace dripline::interpreter::tnc155
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 
 /// A block in hand: the text, and where its words go.
 struct Reading {
   TextCursor& cursor;
   Block& block;
-  LaterWords& words;
+  ItncWords& words;
   const char* end;                 ///< of the block's first line, without its comment
   bool takes_plane_angle = false;  ///< Q120 to Q122 may be the value
 };
@@ -53,4 +53,4 @@ bool read_function(Reading& in);    ///< after FN
 /// After CYCL DEF; `end` of the whole block.
 bool read_cycle(Reading& in, const char* block_end);
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

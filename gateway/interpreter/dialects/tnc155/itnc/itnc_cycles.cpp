@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/tnc155/later/cycle_tables.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/cycle_tables.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 /// Q200=+2 ;SET-UP CLEARANCE
@@ -16,7 +16,7 @@ bool read_cycle_word(Reading& in, int cycle) {
   const char* start = (cursor.peek(), cursor.at());
   CycleWord word;
   if (!cursor.take('Q') || !cursor.is_digit_next()) return refuse(in, start);
-  if (!cursor.read_integer(word.parameter, 0, kLaterParameters - 1, "Q")) return false;
+  if (!cursor.read_integer(word.parameter, 0, kItncParameters - 1, "Q")) return false;
   if (!cursor.take('=')) return cursor.missing("=");
   const auto table = cycle_table(cycle);
   const auto row = std::ranges::find_if(
@@ -127,4 +127,4 @@ bool read_cycle(Reading& in, const char* block_end) {
   return plain::read_cycle(cursor, in.block);
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

@@ -1,10 +1,10 @@
-#include "gateway/interpreter/dialects/tnc155/later/cycle_tables.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/cycle_tables.hpp"
 
 #include <algorithm>
 
 #include <array>
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 using enum CycleUse;
@@ -120,4 +120,4 @@ double value_of(std::span<const CycleParameter> rows, std::span<const double> va
   return row == rows.end() ? 0 : values[static_cast<std::size_t>(row - rows.begin())];
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

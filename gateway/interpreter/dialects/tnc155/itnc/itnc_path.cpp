@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "gateway/interpreter/dialects/tnc155/later/later_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 /// Of several M functions one may say how the path runs.
@@ -53,7 +53,7 @@ bool read_m(Reading& in, const char* start) {
     in.block.m = static_cast<std::int8_t>(m);
     return true;
   }
-  if (in.words.m_count == LaterWords::kMaxM || is_of_path(m)) {
+  if (in.words.m_count == ItncWords::kMaxM || is_of_path(m)) {
     return in.cursor.wrong(fmt::format("M{} is one too many in the block", m));
   }
   in.words.m[in.words.m_count++] = static_cast<std::int16_t>(m);
@@ -337,4 +337,4 @@ bool read_blank(Reading& in) {
   return in.block.coordinate_count == 3 || cursor.wrong("BLK FORM needs three coordinates");
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

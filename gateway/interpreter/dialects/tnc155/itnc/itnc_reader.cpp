@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/tnc155/later/later_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_reader.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 
 const char* line_without_comment(const char* begin, const char* end) {
   bool is_quoted = false;
@@ -39,7 +39,7 @@ bool read_value(Reading& in, Value& value, std::string_view name) {
   if (cursor.take('Q')) {
     std::int32_t parameter = 0;
     if (!TextCursor::is_digit(*cursor.at())) return refuse(in, start);  // QL, QR, QS
-    if (!cursor.read_integer(parameter, 0, kLaterParameters - 1, "Q")) return false;
+    if (!cursor.read_integer(parameter, 0, kItncParameters - 1, "Q")) return false;
     const bool is_taken = in.takes_plane_angle && is_plane_angle(parameter);
     if (is_of_control(parameter) && !is_taken) return refuse(in, start);
     value = Value::q(parameter, is_negative);
@@ -144,7 +144,7 @@ bool read_label(Reading& in, BlockKind kind, std::int32_t least) {
                            fmt::format("a label of {} characters, at most {}", in.words.name.size(),
                                        kLongestLabel));
   }
-  return in.cursor.read_integer(in.block.target, least, kLastLaterLabel, "LBL");
+  return in.cursor.read_integer(in.block.target, least, kLastItncLabel, "LBL");
 }
 
 bool read_label_call(Reading& in) {
@@ -155,7 +155,7 @@ bool read_label_call(Reading& in) {
       return in.cursor.wrong(
           "REP without a number: CALL LBL alone calls a subprogram, REP 2 repeats");
     }
-    if (!in.cursor.read_integer(in.block.repeats, 0, kLastLaterLabel, "REP")) return false;
+    if (!in.cursor.read_integer(in.block.repeats, 0, kLastItncLabel, "REP")) return false;
     std::int32_t left = 0;  // as a listing shows it; a run begins with all
     if (in.cursor.take('/') && !in.cursor.read_integer(left, 0, in.block.repeats, "REP")) {
       return false;
@@ -304,18 +304,18 @@ bool may_be_skipped(TextCursor& cursor) {
 
 }  // namespace
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc
 
 namespace dripline::interpreter::tnc155 {
 
-bool read_later_block(const char* begin, const char* end, const ReadingState& state,
-                      BlockParts& parts, Fault& fault) {
+bool read_itnc_block(const char* begin, const char* end, const ReadingState& state,
+                     BlockParts& parts, Fault& fault) {
   parts.clear();
-  parts.later.clear();
+  parts.itnc.clear();
   Block& block = parts.add(BlockKind::Line);
-  const char* line_end = later::line_without_comment(begin, end);
+  const char* line_end = itnc::line_without_comment(begin, end);
   TextCursor cursor(begin, line_end, state.program, fault);
-  later::Reading in{cursor, block, parts.later, line_end, false};
+  itnc::Reading in{cursor, block, parts.itnc, line_end, false};
   constexpr std::int32_t kHighest = 99'999'999;
   const char* slash = (cursor.peek(), cursor.at());
   bool is_skipped = cursor.take('/');  // by the switch of the panel; it is off
@@ -328,12 +328,12 @@ bool read_later_block(const char* begin, const char* end, const ReadingState& st
   }
   const char* start = (cursor.peek(), cursor.at());
   if (cursor.is_at_end()) return cursor.unexpected();
-  if (cursor.take("CYCL DEF") && cursor.is_digit_next()) return later::read_cycle(in, end);
+  if (cursor.take("CYCL DEF") && cursor.is_digit_next()) return itnc::read_cycle(in, end);
   cursor.back_to(start);
-  if (is_skipped && !later::may_be_skipped(cursor)) return later::refuse(in, slash);
-  const bool is_read = *start == 'L'   ? later::read_l(in, start)
-                       : *start == 'C' ? later::read_c(in, start)
-                                       : later::read_keyword(in, start);
+  if (is_skipped && !itnc::may_be_skipped(cursor)) return itnc::refuse(in, slash);
+  const bool is_read = *start == 'L'   ? itnc::read_l(in, start)
+                       : *start == 'C' ? itnc::read_c(in, start)
+                                       : itnc::read_keyword(in, start);
   if (!is_read || line_end == end || std::find(line_end, end, '\n') == end) return is_read;
   return cursor.wrong(ErrorCode::NotSupported, start, "~ in a block other than CYCL DEF");
 }

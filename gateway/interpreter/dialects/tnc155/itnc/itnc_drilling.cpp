@@ -6,12 +6,12 @@
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/cycle_table_run.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/cycle_table_run.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
 /// Cycles 200 to 209. Source: iTNC 530 (and TNC 426/430), User's Manual, Cycles: drilling, tapping
 /// and thread milling; the steps of each are in this folder's README.
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 void drill(const Table& table) {
@@ -314,4 +314,4 @@ bool run_table(Run& run) {
   return true;
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

@@ -10,10 +10,10 @@
 /// What blocks of the later controls (TNC 426/430, iTNC 530) have besides the words of a TNC 155.
 namespace dripline::interpreter::tnc155 {
 
-inline constexpr int kLaterParameters = 2000;  ///< Q0 to Q1999
-inline constexpr std::int32_t kLastLaterLabel = 65'534;
+inline constexpr int kItncParameters = 2000;  ///< Q0 to Q1999
+inline constexpr std::int32_t kLastItncLabel = 65'534;
 inline constexpr std::size_t kLongestLabel = 64;  ///< its name: more than the controls take
-/// The label of a block whose label has a name (LaterWords::name); run labels have it plus a
+/// The label of a block whose label has a name (ItncWords::name); run labels have it plus a
 /// number.
 inline constexpr std::int32_t kNameLabel = 1 << 30;
 
@@ -72,7 +72,7 @@ struct CycleWord {
   bool is_rapid = false;  ///< FMAX
 };
 
-struct LaterWords {
+struct ItncWords {
   static constexpr std::size_t kMaxM = 4;
 
   void clear() {

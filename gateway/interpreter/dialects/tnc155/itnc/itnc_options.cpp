@@ -2,7 +2,7 @@
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 
 namespace dripline::interpreter::tnc155 {
-namespace later {
+namespace itnc {
 namespace {
 
 using C = ControlOptions;
@@ -61,20 +61,20 @@ constexpr auto kRows = in_table(
     });
 
 }  // namespace
-}  // namespace later
+}  // namespace itnc
 
-std::vector<ListedOption> list_later_options() {
-  return list_rows(later::kRows);
+std::vector<ListedOption> list_itnc_options() {
+  return list_rows(itnc::kRows);
 }
 
-Result<ControlOptions> read_later_options(const Setup& setup) {
+Result<ControlOptions> read_itnc_options(const Setup& setup) {
   ControlOptions read;
-  read.is_later = true;
+  read.is_itnc = true;
   read.program_start = ProgramStart::Any;
   read.checks_calls = false;
   read.decimal_sign = '.';
   read.block_skip = setup.switches.block_skip;
-  if (auto done = read_rows(later::kRows, setup.control, read); !done) return fail(done.error());
+  if (auto done = read_rows(itnc::kRows, setup.control, read); !done) return fail(done.error());
   if (auto good = check_limits(read); !good) return fail(good.error());
   for (const OffsetRecord& offset : setup.offsets) {
     constexpr std::string_view kPreset = "preset";

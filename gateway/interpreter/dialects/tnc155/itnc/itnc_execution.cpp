@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -13,12 +13,12 @@
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 /// M functions beside the path's own, as they act at the begin and at the end of the block.
 struct Extras {
-  std::array<int, LaterWords::kMaxM> codes{};
+  std::array<int, ItncWords::kMaxM> codes{};
   std::size_t count = 0;
   bool calls_cycle = false;   ///< M99
   bool begins_calls = false;  ///< M89
@@ -30,7 +30,7 @@ bool is_without_effect(int m) {
 }
 
 bool sort_m(Run& run, Extras& extras) {
-  const LaterWords& words = run.parts.later;
+  const ItncWords& words = run.parts.itnc;
   for (std::size_t i = 0; i < words.m_count; ++i) {
     const int m = words.m[i];
     if (m == 99) {
@@ -96,7 +96,7 @@ bool finish(Run& run, const Extras& extras, bool moves = false) {
 }
 
 bool use_tool_feed(Run& run) {
-  if (!run.parts.later.is_auto_feed) return true;
+  if (!run.parts.itnc.is_auto_feed) return true;
   if (!(run.state.tool_feed > 0)) {
     return run.fail(ErrorCode::FeedRateMissing, "F AUTO, and TOOL CALL had no F");
   }
@@ -123,7 +123,7 @@ bool check_shorter_path(Run& run, const Block& block) {
 /// M140: back along the tool axis, in rapid traverse where the block has no F.
 bool retract(Run& run, const Block& block) {
   State& state = run.state;
-  const LaterWords& words = run.parts.later;
+  const ItncWords& words = run.parts.itnc;
   const bool has_axis = state.tool.is_called || run.options.kept_tool_axis;
   const Axis axis =
       state.tool.is_called ? state.tool.axis : run.options.kept_tool_axis.value_or(Axis::Z);
@@ -169,7 +169,7 @@ bool retract(Run& run, const Block& block) {
 }  // namespace
 
 bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
-  const LaterWords& words = run.parts.later;
+  const ItncWords& words = run.parts.itnc;
   const bool moves = block.coordinate_count != 0 || block.kind == BlockKind::PolarLine ||
                      block.kind == BlockKind::PolarArc;
   if (moves && block.kind != BlockKind::Approach) run.state.is_rapid_next = block.is_rapid;
@@ -276,7 +276,7 @@ bool cycle_call_at(Run& run, const Block& block) {
   if (!sort_m(run, extras) || !check_modal_call(run, extras, false)) return false;
   if (!begin_codes(run, extras) || !use_tool_feed(run)) return false;
   Pace pace = kRapid;
-  const Value& feed = run.parts.later.feed;
+  const Value& feed = run.parts.itnc.feed;
   if (feed.is_programmed()) {
     pace.is_rapid = false;
     if (!read_cycle_feed(run, feed, pace.feed)) return false;
@@ -303,7 +303,7 @@ bool cycle_call_at(Run& run, const Block& block) {
 bool corner(Run& run, const Block& block) {
   State& state = run.state;
   const double feed = state.feed;
-  const Value& own = run.parts.later.feed;
+  const Value& own = run.parts.itnc.feed;
   if (own.is_programmed() && !read_cycle_feed(run, own, state.feed)) return false;
   if (!use_tool_feed(run)) return false;
   const bool is_made = make_blend(run, block);
@@ -349,8 +349,8 @@ bool check_plane_angles(Run& run, const Block& block) {
 }
 
 bool accept(Run& run, const Block&) {
-  run.state.has_plane_angles |= run.parts.later.is_plane;
-  run.warn("TNC-ACCEPTED", fmt::format("{} is not followed", run.parts.later.name));
+  run.state.has_plane_angles |= run.parts.itnc.is_plane;
+  run.warn("TNC-ACCEPTED", fmt::format("{} is not followed", run.parts.itnc.name));
   return true;
 }
 
@@ -375,4 +375,4 @@ bool check_order(Run& run, const Block& block) {
                               block.cycle, before));
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

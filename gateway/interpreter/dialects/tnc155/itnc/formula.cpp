@@ -6,9 +6,9 @@
 #include "gateway/interpreter/core/language/expression.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 using language::Computed;
@@ -158,7 +158,7 @@ bool set(Run& run, std::int32_t parameter, double value) {
 /// continues that of the run before.
 bool note_in_search(Run& run, const Block& block) {
   if (!run.state.start.is_searching) return true;
-  for (const FormulaStep& step : run.parts.later.formula) {
+  for (const FormulaStep& step : run.parts.itnc.formula) {
     const bool is_program =
         step.kind == FormulaStep::Kind::Parameter && !is_of_control(step.parameter);
     if (is_program) note_use(run, step.parameter);
@@ -200,13 +200,13 @@ void warn_of_rounding(Run& run, int function, double a, double b) {
 
 bool assign(Run& run, const Block& block) {
   double value = 0;
-  return note_in_search(run, block) && evaluate(run, run.parts.later.formula, value) &&
+  return note_in_search(run, block) && evaluate(run, run.parts.itnc.formula, value) &&
          set(run, block.target, value);
 }
 
 bool compare(Run& run, const Block& block) {
   double a = 0, b = 0;
-  const LaterWords& words = run.parts.later;
+  const ItncWords& words = run.parts.itnc;
   if (!evaluate(run, words.formula, a) || !evaluate(run, words.second, b)) return false;
   if (differ_by_rounding(a, b)) {
     warn_of_rounding(run, block.function, a, b);
@@ -227,7 +227,7 @@ bool raise_error(Run& run, const Block& block) {
 /// iTNC 530, User's Manual: FN 18, table of system data. What is not here is an alarm.
 bool read_system(Run& run, const Block& block) {
   const State& state = run.state;
-  const auto& ids = run.parts.later.ids;
+  const auto& ids = run.parts.itnc.ids;
   const int id = ids[0], number = ids[1], place = ids[2];
   const double unit = state.mm_per_unit();
   const bool is_moved = place >= 1 && place <= 3 && state.machine.has(static_cast<Axis>(place - 1));
@@ -252,4 +252,4 @@ bool read_system(Run& run, const Block& block) {
                   fmt::format("FN 18: SYSREAD ID{} NR{} IDX{}", id, number, place));
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

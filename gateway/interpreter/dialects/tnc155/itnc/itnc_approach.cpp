@@ -5,14 +5,14 @@
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
 /// APPR and DEP. Source: TNC 410, TNC 426 and iTNC 530, User's Manuals: contour approach and
 /// departure. The tool's center goes to the auxiliary point with the feed (or FMAX) of the block
 /// before, with LCT that of the block, then to its own place at the first contour point with the
 /// feed of the block. LEN is the length of the second of these moves, for LN after the tool's
 /// radius; R is the radius of its arc: the manuals' examples have R5 with tools of 7.5 to 12.5.
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 constexpr std::uint8_t kNormal = 1, kCircle = 2, kLineAndCircle = 3;
@@ -91,7 +91,7 @@ PlaneVector rotated(PlaneVector vector, double degrees) {
 TangentArc tangent_arc(Run& run, Compensation side, PlaneVector from, PlaneVector along) {
   const State& state = run.state;
   const double tool = state.tool.data.radius / state.transformation.factor(state.plane);
-  const double radius = run.length(run.parts.later.arc_radius);
+  const double radius = run.length(run.parts.itnc.arc_radius);
   const bool is_left = side == Compensation::Left;
   const PlaneVector normal = (is_left ? 1.0 : -1.0) * left_of(along);
   TangentArc arc;
@@ -190,7 +190,7 @@ PlaneVector begin_direction(Run& run, const Block& next, PlaneVector from) {
 PlaneVector offset(Run& run, const Block& block, Compensation side, PlaneVector along,
                    double sign) {
   const State& state = run.state;
-  const double distance = run.length(run.parts.later.length);
+  const double distance = run.length(run.parts.itnc.length);
   const double radius = state.tool.data.radius / state.transformation.factor(state.plane);
   const PlaneVector normal = (side == Compensation::Left ? 1.0 : -1.0) * left_of(along);
   if (block.part == kNormal) return (radius + distance) * normal;
@@ -203,19 +203,19 @@ bool check_sizes(Run& run, const Block& block, std::string_view name) {
                     fmt::format("{} {} of {} is not {}", word, value, name, range));
   };
   if (!is_by_circle(block)) {
-    const double distance = run.length(run.parts.later.length);
+    const double distance = run.length(run.parts.itnc.length);
     return distance > 0 || refuse_size("LEN", distance, "above 0");
   }
-  const double radius = run.length(run.parts.later.arc_radius);
+  const double radius = run.length(run.parts.itnc.arc_radius);
   if (block.part == kLineAndCircle) return radius > 0 || refuse_size("R", radius, "above 0");
-  const double angle = run.number(run.parts.later.center_angle);
+  const double angle = run.number(run.parts.itnc.center_angle);
   if (radius == 0) return refuse_size("R", radius, "above or below 0");
   return (angle > 0 && angle <= 360) || refuse_size("CCA", angle, "above 0, up to 360");
 }
 
 /// Coordinates, or PR and PA; LEN, R and CCA are read where they are used.
 bool read_point(Run& run, const Block& block, Target& target) {
-  if (!run.parts.later.is_polar) {
+  if (!run.parts.itnc.is_polar) {
     read_coordinates(run, block, target);
     run.state.polar.is_current = false;
     return true;
@@ -249,7 +249,7 @@ bool move_height(Run& run, const Target& wanted, const Pace& pace) {
 
 bool use_feed(Run& run, const Block& block, Pace& pace) {
   State& state = run.state;
-  if (run.parts.later.is_auto_feed) {
+  if (run.parts.itnc.is_auto_feed) {
     if (!(state.tool_feed > 0)) {
       return run.fail(ErrorCode::FeedRateMissing, "F AUTO, and TOOL CALL had no F");
     }
@@ -279,7 +279,7 @@ bool approach_by_circle(Run& run, const Block& block, const Target& target, Plan
   const TangentArc arc = tangent_arc(run, block.compensation, begin, along);
   Pace pace;
   PlaneVector to;
-  double sweep = run.number(run.parts.later.center_angle);
+  double sweep = run.number(run.parts.itnc.center_angle);
   if (block.part == kLineAndCircle) {
     const PlaneVector from = nominal_in_plane(state);
     const auto touched = tangent_point(arc, from, true);
@@ -304,7 +304,7 @@ bool depart_by_circle(Run& run, const Block& block, const Target& target, PlaneV
                       const Pace& pace) {
   State& state = run.state;
   const TangentArc arc = tangent_arc(run, state.compensation, nominal_in_plane(state), along);
-  double sweep = run.number(run.parts.later.center_angle);
+  double sweep = run.number(run.parts.itnc.center_angle);
   PlaneVector to = arc.center + rotated(arc.at - arc.center, arc.sign() * sweep);
   if (block.part == kLineAndCircle) {
     const PlaneVector end = in_plane(state, target);
@@ -390,4 +390,4 @@ bool depart(Run& run, const Block& block) {
   return !has_height || move_height(run, target, pace);
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

@@ -10,7 +10,7 @@
 #include "protocol/base/result.hpp"
 
 /// The mask of FN 16: F-PRINT, which says how texts and values are put out. Pure.
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 
 /// What a mask makes of the values now. Each line of it is quoted text, with a `%` for each value
 /// that is listed after it: `"X = %9.3LF", Q31;`. Values are Q parameters as the program has them
@@ -25,4 +25,4 @@ struct PrintedMask {
 Result<PrintedMask> print_mask(std::string_view mask, std::span<const double> parameters,
                                const std::optional<LocalTime>& now);
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

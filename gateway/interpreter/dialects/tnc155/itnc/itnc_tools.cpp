@@ -4,10 +4,10 @@
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
 /// TOOL CALL of the later controls.
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 /// The number of the setup's tool with this name.
@@ -29,12 +29,12 @@ bool find_tool_name(Run& run, const std::string& name, std::int32_t& number) {
 
 bool call_tool(Run& run, const Block& block) {
   State& state = run.state;
-  const LaterWords& words = run.parts.later;
+  const ItncWords& words = run.parts.itnc;
   Block call = block;
   if (!words.name.empty() && !find_tool_name(run, words.name, call.target)) return false;
   if (words.tool.is_programmed()) {
     const double number = run.number(words.tool);
-    if (!(number >= 0 && number <= kLastLaterTool) || number != static_cast<int>(number)) {
+    if (!(number >= 0 && number <= kLastItncTool) || number != static_cast<int>(number)) {
       return run.fail(ErrorCode::EntryOutOfRange, fmt::format("TOOL CALL {}", number));
     }
     call.target = static_cast<std::int32_t>(number);
@@ -52,4 +52,4 @@ bool call_tool(Run& run, const Block& block) {
   return true;
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

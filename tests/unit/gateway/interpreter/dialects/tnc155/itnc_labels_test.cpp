@@ -62,7 +62,7 @@ std::string program(std::string_view begin, int moves, std::string_view end) {
 
 constexpr int kBeyondTheFirstBlocks = 4000;
 
-TEST(LaterLabels, TwiceInTheFirstBlocksAreRefusedBeforeTheProgramMoves) {
+TEST(ItncLabels, TwiceInTheFirstBlocksAreRefusedBeforeTheProgramMoves) {
   const std::string text = program("", 100, "LBL 3\nLBL 3\n");
   MemorySource source(text);
   Moves moves;
@@ -71,7 +71,7 @@ TEST(LaterLabels, TwiceInTheFirstBlocksAreRefusedBeforeTheProgramMoves) {
   EXPECT_THAT(moves.alarm, HasSubstr("LBL 3 is set in line 103 and in line 104"));
 }
 
-TEST(LaterLabels, TwiceFarBehindAreRefusedBeforeTheFirstJump) {
+TEST(ItncLabels, TwiceFarBehindAreRefusedBeforeTheFirstJump) {
   const std::string text = program("CALL LBL \"A\"\nL X+7\nM30\nLBL \"A\"\n", kBeyondTheFirstBlocks,
                                    "LBL 0\nLBL 3\nLBL 3\n");
   MemorySource source(text);
@@ -81,7 +81,7 @@ TEST(LaterLabels, TwiceFarBehindAreRefusedBeforeTheFirstJump) {
   EXPECT_THAT(moves.alarm, HasSubstr("LBL 3 is set in line 4008 and in line 4009"));
 }
 
-TEST(LaterLabels, TwiceFarBehindAreRefusedAtARepeatOfAPartThatJustRan) {
+TEST(ItncLabels, TwiceFarBehindAreRefusedAtARepeatOfAPartThatJustRan) {
   const std::string text =
       program("LBL 1\nL X+7\nCALL LBL 1 REP 2\n", kBeyondTheFirstBlocks, "LBL 1\n");
   MemorySource source(text);
@@ -91,7 +91,7 @@ TEST(LaterLabels, TwiceFarBehindAreRefusedAtARepeatOfAPartThatJustRan) {
   EXPECT_THAT(moves.alarm, HasSubstr("NUMBER ALREADY ALLOCATED: LBL 1 is set in line 3 and in"));
 }
 
-TEST(LaterLabels, TwiceWithoutAJumpAreRefusedWhereTheSecondOneIsMet) {
+TEST(ItncLabels, TwiceWithoutAJumpAreRefusedWhereTheSecondOneIsMet) {
   const std::string text = program("LBL \"A\"\n", kBeyondTheFirstBlocks, "LBL \"A\"\nL X+7\n");
   MemorySource source(text);
   Moves moves;
@@ -100,7 +100,7 @@ TEST(LaterLabels, TwiceWithoutAJumpAreRefusedWhereTheSecondOneIsMet) {
   EXPECT_THAT(moves.alarm, HasSubstr("LBL \"A\" is set in line 3 and in line 4004"));
 }
 
-TEST(LaterLabels, TwiceAreRefusedAfterAResumptionToo) {
+TEST(ItncLabels, TwiceAreRefusedAfterAResumptionToo) {
   const std::string text =
       program("L X+2\nCALL LBL 1\nM30\nLBL 1\n", kBeyondTheFirstBlocks, "LBL 0\nLBL 3\nLBL 3\n");
   MemorySource source(text), again(text);
@@ -114,7 +114,7 @@ TEST(LaterLabels, TwiceAreRefusedAfterAResumptionToo) {
   EXPECT_THAT(rest.alarm, HasSubstr("LBL 3 is set in"));
 }
 
-TEST(LaterLabels, TwiceRefuseAStartInTheMiddle) {
+TEST(ItncLabels, TwiceRefuseAStartInTheMiddle) {
   const std::string text = "0 BEGIN PGM P MM\n1 L X+1 Y+0 R0 F100\n2 L X+2 Y+1\n3 LBL 4\n4 LBL 4\n";
   MemorySource source(text);
   Moves moves;
@@ -124,7 +124,7 @@ TEST(LaterLabels, TwiceRefuseAStartInTheMiddle) {
 }
 
 /// A start after a label with a name that a later block leads back to is refused, as with a number.
-TEST(LaterLabels, WithNamesAreSeenByAStartInTheMiddle) {
+TEST(ItncLabels, WithNamesAreSeenByAStartInTheMiddle) {
   for (const std::string_view label : {"7", "\"A\""}) {
     const std::string text = fmt::format(
         "0 BEGIN PGM P MM\n1 LBL {0}\n2 L X+2 Y+1 R0 F100\n3 CALL LBL {0} REP 3\n4 END PGM P MM\n",
@@ -137,7 +137,7 @@ TEST(LaterLabels, WithNamesAreSeenByAStartInTheMiddle) {
   }
 }
 
-TEST(LaterLabels, HaveNamesOfABoundedLength) {
+TEST(ItncLabels, HaveNamesOfABoundedLength) {
   for (const std::size_t size : {64u, 65u}) {
     const std::string text =
         fmt::format("BEGIN PGM P MM\nLBL \"{}\"\nL X+1 R0 F100\n", std::string(size, 'N'));
@@ -149,7 +149,7 @@ TEST(LaterLabels, HaveNamesOfABoundedLength) {
   }
 }
 
-TEST(LaterLabels, OfSubprogramsThatOthersCallDoNotRefuseAStart) {
+TEST(ItncLabels, OfSubprogramsThatOthersCallDoNotRefuseAStart) {
   for (const std::string_view label : {"700", "\"A\""}) {
     const std::string text = fmt::format(
         "0 BEGIN PGM P MM\n1 CALL LBL {0}\n2 L X+2 Y+1 R0 F100\n3 CALL LBL {0}\n4 M30\n"
@@ -162,7 +162,7 @@ TEST(LaterLabels, OfSubprogramsThatOthersCallDoNotRefuseAStart) {
   }
 }
 
-TEST(LaterLabels, AProgramWithoutJumpsIsReadOnceAndAheadInItsFirstBlocksOnly) {
+TEST(ItncLabels, AProgramWithoutJumpsIsReadOnceAndAheadInItsFirstBlocksOnly) {
   const std::string text = program("", 100'000, "");
   WatchedSource source(text);
   Moves moves;
@@ -171,7 +171,7 @@ TEST(LaterLabels, AProgramWithoutJumpsIsReadOnceAndAheadInItsFirstBlocksOnly) {
   EXPECT_LT(source.farthest, 3'200u * 6);
 }
 
-TEST(LaterBlockSkip, RefusesALabelAndTheEndInBothPositionsOfTheSwitch) {
+TEST(ItncBlockSkip, RefusesALabelAndTheEndInBothPositionsOfTheSwitch) {
   for (const std::string_view block : {"/ LBL 4", "/3 LBL \"A\"", "3 / END PGM P MM"}) {
     for (const std::string_view setup : {"", "[switches]\nblock_skip = true\n"}) {
       const std::string text = fmt::format("BEGIN PGM P MM\n{}\nL X+2 R0 F100\n", block);
@@ -185,7 +185,7 @@ TEST(LaterBlockSkip, RefusesALabelAndTheEndInBothPositionsOfTheSwitch) {
   }
 }
 
-TEST(LaterBlockSkip, FollowsTheSwitchFromTheNextBlockOn) {
+TEST(ItncBlockSkip, FollowsTheSwitchFromTheNextBlockOn) {
   const std::string text = "BEGIN PGM P MM\n/ L X+1 R0 F100\nL X+2 R0 F100\n/ L X+3\nL X+4\n";
   MemorySource source(text);
   Moves moves;

@@ -4,12 +4,12 @@
 
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/cycle_table_run.hpp"
-#include "gateway/interpreter/dialects/tnc155/later/later_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/cycle_table_run.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
 /// Cycles 220 and 221: they act where they are defined, and call the cycle that was defined before
 /// them at each of their points (TNC 426, TNC 320 and iTNC 530, User's Manuals: point patterns).
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 constexpr double kMaxPoints = 2'000;
@@ -183,4 +183,4 @@ bool run_pattern(Run& run, int cycle, const std::vector<double>& words) {
   return is_made;
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

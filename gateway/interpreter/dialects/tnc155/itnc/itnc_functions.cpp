@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <charconv>
 
-#include "gateway/interpreter/dialects/tnc155/later/later_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
-namespace dripline::interpreter::tnc155::later {
+namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
 constexpr std::size_t kMaxSteps = 200;
@@ -60,7 +60,7 @@ bool read_operand(Reading& in, Formula& formula) {
   if (cursor.take('Q')) {
     if (!TextCursor::is_digit(*cursor.at())) return refuse(in, start);  // QL, QR, QS
     step.kind = Kind::Parameter;
-    if (!cursor.read_integer(step.parameter, 0, kLaterParameters - 1, "Q")) return false;
+    if (!cursor.read_integer(step.parameter, 0, kItncParameters - 1, "Q")) return false;
     const bool is_known = step.parameter == kToolRadius || step.parameter == kToolAxis ||
                           step.parameter == kInchProgram || step.parameter == kToolLength ||
                           is_plane_angle(step.parameter);
@@ -159,7 +159,7 @@ bool read_signed(Reading& in, Formula& formula) {
 bool read_target(Reading& in) {
   if (!in.cursor.take('Q') || !in.cursor.is_digit_next()) return in.cursor.missing("Q");
   const char* start = in.cursor.at();
-  if (!in.cursor.read_integer(in.block.target, 0, kLaterParameters - 1, "Q")) return false;
+  if (!in.cursor.read_integer(in.block.target, 0, kItncParameters - 1, "Q")) return false;
   if (is_of_control(in.block.target)) return refuse(in, start);
   return in.cursor.take('=') || in.cursor.missing("=");
 }
@@ -217,7 +217,7 @@ bool read_jump(Reading& in, int number) {
     in.block.target = kNameLabel;
     return read_quoted(in, in.words.name) && cursor.ends();
   }
-  return cursor.read_integer(in.block.target, 1, kLastLaterLabel, "GOTO LBL") && cursor.ends();
+  return cursor.read_integer(in.block.target, 1, kLastItncLabel, "GOTO LBL") && cursor.ends();
 }
 
 bool read_error(Reading& in) {
@@ -267,7 +267,7 @@ bool read_print(Reading& in) {
 bool read_assignment(Reading& in) {
   in.block.kind = BlockKind::Assignment;
   const char* start = in.cursor.at();
-  if (!in.cursor.read_integer(in.block.target, 0, kLaterParameters - 1, "Q")) return false;
+  if (!in.cursor.read_integer(in.block.target, 0, kItncParameters - 1, "Q")) return false;
   if (is_of_control(in.block.target)) return refuse(in, start);
   if (!in.cursor.take('=')) return in.cursor.missing("=");
   return read_sum(in, in.words.formula, 0) && (in.cursor.is_at_end() || refuse(in, in.cursor.at()));
@@ -286,4 +286,4 @@ bool read_function(Reading& in) {
   return refuse(in, start);
 }
 
-}  // namespace dripline::interpreter::tnc155::later
+}  // namespace dripline::interpreter::tnc155::itnc

@@ -14,14 +14,14 @@ std::vector<std::string> detected(std::string_view head) {
 }
 using Names = std::vector<std::string>;
 
-TEST(LaterControls, AreKnownByTheNameOfTheProgramAndTheirOwnWords) {
+TEST(ItncControls, AreKnownByTheNameOfTheProgramAndTheirOwnWords) {
   EXPECT_EQ(detected("0 BEGIN PGM PART MM\n1 L X+1\n"), Names{"itnc"});
   EXPECT_EQ(detected("0 BEGIN PGM 2.5D PART INCH\n"), Names{"itnc"});
   EXPECT_EQ(detected("0 BEGIN PGM 17 MM\n1 CYCL DEF 200 DRILLING ~\n"), Names{"itnc"});
   EXPECT_EQ(detected("0 BEGIN PGM 17 MM\n1 L X+1\n"), Names{"tnc155"});
 }
 
-TEST(LaterControls, CallProgramsByTheirNames) {
+TEST(ItncControls, CallProgramsByTheirNames) {
   MemorySource source(
       "BEGIN PGM A MM\nCALL PGM TNC:\\PARTS\\SUB-1.H\n5 CALL PGM \"SUB 2\"\nEND PGM A MM\n");
   const auto calls = call_reader("itnc")({}, source, kMainProgram);
@@ -41,7 +41,7 @@ std::string refusal(std::string_view setup) {
   return made ? "" : made.error().what;
 }
 
-TEST(LaterControls, RefuseSetupsThatTheyHaveNotWithTheName) {
+TEST(ItncControls, RefuseSetupsThatTheyHaveNotWithTheName) {
   EXPECT_EQ(
       refusal("[[variable]]\nname = \"Q1999\"\nvalue = 1\n[[offset]]\nname = \"preset3\"\nX = 1\n"),
       "");
