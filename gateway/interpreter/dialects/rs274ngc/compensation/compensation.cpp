@@ -132,6 +132,15 @@ Target moved_to(const Run& run, const Target& target, PlaneVector to) {
   return moved;
 }
 
+Target corner_end(const Run& run, const Target& next, PlaneVector to) {
+  constexpr AxisBits kXyz = bit_of(Axis::X) | bit_of(Axis::Y) | bit_of(Axis::Z);
+  Target corner = next;
+  corner.named = static_cast<AxisBits>(next.named & ~kXyz);
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+    corner.to[index_of(axis)] = run.state.position[index_of(axis)];
+  return moved_to(run, corner, to);
+}
+
 bool is_inside(const Run& run, Turn turn) {
   return (run.state.compensation.side == Side::Left) == (turn == Turn::Counterclockwise);
 }

@@ -144,6 +144,7 @@ struct Entry {
   PlaneVector tool;
   double normal = 0;              ///< of the tool at the start of the next move
   std::optional<Turn> next_turn;  ///< of an arc
+  const Target* next = nullptr;   ///< not at the end of compensation
 };
 
 /// A path straight back leads into a valley, not around a point, where the arc beside it (the next
@@ -169,10 +170,7 @@ double travel_of(const Run& run, const Entry& entry) {
 }
 
 /// About the programmed corner, at the height where the held moves end; not held itself.
-bool make_corner(Run& run, PlaneVector to, bool is_rapid, const Feed& feed) {
-  Target here;
-  here.to = run.state.position;
-  const Target target = moved_to(run, here, to);
+bool make_corner(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
   const bool is_lathe = run.state.compensation.orientation != 0;
   if (is_lathe) run.held.on_block_end({});  // makes it the sink
   bool ok = true;
@@ -180,6 +178,7 @@ bool make_corner(Run& run, PlaneVector to, bool is_rapid, const Feed& feed) {
     rapid_to(run, target);
   } else {
     const PlaneVector center = programmed_point(run);
+    const PlaneVector to = point_of(run, target.to);
     const double sweep = sweep_of(center, tool_point(run), to, corner_turn(run));
     ok = arc_to(run, target, {center.first, center.second, corner_turn(run), sweep}, feed);
   }
@@ -198,9 +197,9 @@ bool join(Run& run, const Entry& entry, const Curve& next, bool is_rapid, const 
       return finish_held(run, entry.tool, travel);
     case Corner::Convex: {
       const double normal = entry.normal - run.state.rotation * (Angle::kPi / 180);
+      const PlaneVector to = along(programmed_point(run), normal, run.state.compensation.radius);
       return finish_held(run, entry.tool, travel) &&
-             make_corner(run, along(programmed_point(run), normal, run.state.compensation.radius),
-                         is_rapid, feed);
+             make_corner(run, corner_end(run, *entry.next, to), is_rapid, feed);
     }
     case Corner::Concave:
       break;
@@ -317,7 +316,7 @@ bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& fee
   const PlaneVector stop = along(end, normal, compensation.radius);
   const double turned = run.state.rotation * (Angle::kPi / 180);
   const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)), normal + turned,
-                    std::nullopt};
+                    std::nullopt, &target};
   const Curve next{false, machine_point(run, stop), direction(start, end) + turned, 0};
   if (!run.held.empty() && !join(run, entry, next, is_rapid, feed)) return false;
   Hold(run).line(moved_to(run, target, stop), is_rapid, feed);
@@ -339,7 +338,7 @@ bool trimmed_arc(Run& run, const Target& target, PlaneVector center, Turn turn, 
   const double outward = direction(center, start);
   const double turned = run.state.rotation * (Angle::kPi / 180);
   const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)),
-                    (inside ? outward + Angle::kPi : outward) + turned, turn};
+                    (inside ? outward + Angle::kPi : outward) + turned, turn, &target};
   const Curve next{true, machine_point(run, center), 0, path};
   if (!run.held.empty() && !join(run, entry, next, false, feed)) return false;
   const PlaneVector stop = along(center, direction(center, end), path);
@@ -368,7 +367,7 @@ bool stop_trimming(Run& run) {
   Compensation& compensation = run.state.compensation;
   if (compensation.is_first) return true;
   const Entry end{machine_point(run, programmed_point(run)), machine_point(run, tool_point(run)), 0,
-                  std::nullopt};
+                  std::nullopt, nullptr};
   if (!finish_held(run, end.tool, travel_of(run, end))) return false;
   Position tool = run.state.machine;
   put(run, tool, end.tool);

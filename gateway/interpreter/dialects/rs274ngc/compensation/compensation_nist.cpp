@@ -44,11 +44,9 @@ CornerArc plan_corner(const Run& run, Corner corner, double normal) {
 }
 
 /// About the programmed corner, at the height where the tool is.
-bool make_corner(Run& run, const CornerArc& arc, const Feed& feed) {
-  Target here;
-  here.to = run.state.position;
+bool make_corner(Run& run, const CornerArc& arc, const Target& next, const Feed& feed) {
   const PlaneVector center = programmed_point(run);
-  return arc_to(run, moved_to(run, here, arc.end),
+  return arc_to(run, corner_end(run, next, arc.end),
                 {center.first, center.second, corner_turn(run), arc.sweep}, feed);
 }
 
@@ -93,7 +91,8 @@ bool nist_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) 
   const CornerArc arc = is_rapid ? CornerArc{} : plan_corner(run, corner, normal);
   const double arc_length = corner_length(run, arc);
   const double length = distance(start, end);
-  if (arc.is_needed && !make_corner(run, arc, part_of(feed, arc_length, arc_length + length))) {
+  if (arc.is_needed &&
+      !make_corner(run, arc, target, part_of(feed, arc_length, arc_length + length))) {
     return false;
   }
   move_to(run, moved_to(run, target, along(end, normal, radius)), is_rapid,
@@ -176,7 +175,8 @@ bool nist_arc(Run& run, const Target& target, PlaneVector center, Turn turn, dou
   const double path = inside ? radius - compensation.radius : radius + compensation.radius;
   const double length = path * sweep * (Angle::kPi / 180);
   const double arc_length = corner_length(run, arc);
-  if (arc.is_needed && !make_corner(run, arc, part_of(feed, arc_length, arc_length + length))) {
+  if (arc.is_needed &&
+      !make_corner(run, arc, target, part_of(feed, arc_length, arc_length + length))) {
     return false;
   }
   const PlaneVector stop = along(center, direction(center, end), path);
