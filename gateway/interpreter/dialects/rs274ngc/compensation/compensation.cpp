@@ -14,7 +14,8 @@ namespace {
 /// The orientation of a tool whose nose's center is positioned; so is that of 0, no lathe tool.
 constexpr int kCenterd = 9;
 
-/// D words name a slot or tool; without one it is the tool in the spindle.
+/// D words name a slot or tool; without one, and to LinuxCNC with D0, it is the tool in the
+/// spindle.
 bool read_tool(Run& run, double& diameter, int& orientation) {
   const Words& words = run.block.words;
   const double written = words.value_or('D', run.state.tool.loaded);
@@ -25,7 +26,7 @@ bool read_tool(Run& run, double& diameter, int& orientation) {
     return run.fail_word(ErrorCode::RadiusIndexRange, 'D',
                          fmt::format("D{} is above {}", number, run.options.slots));
   }
-  const Tool* tool = find_tool(run, static_cast<int>(std::fmin(number, 1e9)));
+  const Tool* tool = find_tool_of_word(run, number);
   if (tool == nullptr && run.is_linuxcnc() && words.has('D') && number != 0) {
     return run.fail_word(ErrorCode::ToolNotFound, 'D', fmt::format("D{}", number));
   }

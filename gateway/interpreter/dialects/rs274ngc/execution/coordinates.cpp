@@ -146,7 +146,7 @@ bool tool_of_h(Run& run, double h, const Tool*& tool) {
     return run.fail_word(ErrorCode::OffsetIndexRange, 'H',
                          fmt::format("H{} is above {}", number, run.options.slots));
   }
-  tool = find_tool(run, static_cast<int>(std::min(number, 1e9)));
+  tool = find_tool_of_word(run, number);
   if (tool == nullptr && run.is_linuxcnc() && number != 0) {
     return run.fail_word(ErrorCode::ToolNotFound, 'H', fmt::format("H{}", number));
   }

@@ -78,6 +78,12 @@ const Tool* find_tool(const Run& run, int number) {
   return tool == run.tools.end() ? nullptr : &*tool;
 }
 
+const Tool* find_tool_of_word(const Run& run, double number) {
+  const bool is_in_spindle = run.is_linuxcnc() && number == 0;
+  return find_tool(
+      run, is_in_spindle ? run.state.tool.loaded : static_cast<int>(std::fmin(number, 1e9)));
+}
+
 bool write_tool(Run& run, int l) {
   if (!check_tool_words(run, l)) return false;
   const Words& words = run.block.words;

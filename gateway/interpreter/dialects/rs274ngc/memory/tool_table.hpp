@@ -9,6 +9,9 @@ namespace dripline::interpreter::rs274ngc {
 
 /// The row of a tool, or nullptr.
 const Tool* find_tool(const Run& run, int number);
+/// That of an H or D word, which is whole and not negative. To LinuxCNC 0 is the tool in the
+/// spindle; the NIST program looks for a slot 0.
+const Tool* find_tool_of_word(const Run& run, double number);
 
 /// G10 L1: the words are the row's values. L10: the lengths that make the words the coordinates of
 /// where the tool is; L11: the same in G59.3, without G92. R is the radius, I and J the angles, Q
