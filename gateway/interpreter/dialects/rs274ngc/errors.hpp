@@ -238,6 +238,5 @@ struct ErrorCode {
 inline constexpr std::string_view kCommentLost = "NGC0901";
 inline constexpr std::string_view kDeadCode = "NGC0902";
 inline constexpr std::string_view kDuplicateSetting = "NGC0903";
-inline constexpr std::string_view kUnusedAxisWords = "NGC0904";
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -307,15 +307,15 @@ bool change_axis_offsets(Run& run, int g_code) {
   return true;
 }
 
-void store_home(Run& run, int first) {
-  if (run.block.words.has_any(kAxisWords))
-    run.warn(kUnusedAxisWords, "the point that is stored is the present one, whatever the words");
-  run.ledger.take(kAxisWords);
+/// The point before the line's move.
+bool store_home(Run& run, int first) {
+  if (run.state.compensation.side != Side::Off) return run.fail(ErrorCode::CompHome, 0);
   const Axes machine = machine_with_length(run);
   for (const Axis axis : kAllAxes) {
     run.parameters[static_cast<std::size_t>(first) + index_of(axis)] =
         to_memory(run, axis, machine[index_of(axis)]);
   }
+  return true;
 }
 
 }  // namespace
@@ -325,11 +325,9 @@ bool execute_one_shot(Run& run, int g_code) {
     case 100:
       return set_data(run);
     case 281:
-      store_home(run, kHome);
-      return true;
+      return store_home(run, kHome);
     case 301:
-      store_home(run, kSecondHome);
-      return true;
+      return store_home(run, kSecondHome);
     default:
       return change_axis_offsets(run, g_code);
   }

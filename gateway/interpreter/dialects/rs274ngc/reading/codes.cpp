@@ -59,7 +59,8 @@ constexpr Table<GRow> kG = [] {
   add(OneShot, kBoth, "", 530, 921, 922, 923);
   add_with_axes(OneShot, kBoth, "LPRIJQ", 100);
   add_with_axes(OneShot, kBoth, "", 280, 300, 920);
-  add_with_axes(OneShot, kLater, "", 281, 301, 520);
+  add(OneShot, kLater, "", 281, 301);  // axis words beside them are a move
+  add_with_axes(OneShot, kLater, "", 520);
   add(Lathe, kLater, "", 70, 80);
   add(Plane, kBoth, "", 170, 180, 190);
   add(Plane, kLater, "", 171, 181, 191);

@@ -73,15 +73,6 @@ TEST(UnusedWords, AnAxisOfNoCycleIsAnAlarm) {
   EXPECT_NE(log.lines().back().find("NGC0351"), std::string::npos) << log.lines().back();
 }
 
-TEST(UnusedWords, WordsOfAStoredPointAreAWarning) {
-  const auto setup = parse_setup("[control]\nprofile = \"linuxcnc\"\n").value();
-  const EventLog log = log_of("rs274ngc", "G28.1 X1\nM2\n", setup);
-  const auto is_warning = [](const std::string& line) {
-    return line.find("NGC0904") != std::string::npos;
-  };
-  EXPECT_TRUE(std::any_of(log.lines().begin(), log.lines().end(), is_warning));
-}
-
 /// The search that the fuzz targets and the golden programs are put to finds what it is for.
 TEST(VanishedWord, IsFoundWhereAControlDropsIt) {
   struct Deaf final : Interpreter {
