@@ -214,11 +214,8 @@ bool set_system(Run& run, bool at_current_point) {
   const Words& words = run.block.words;
   if (words.has('I')) return run.fail_word(ErrorCode::UnusedI, 'I');
   if (words.has('J')) return run.fail_word(ErrorCode::UnusedJ, 'J');
-  const double written = words.value_or('P', 0);
-  const double p = run.is_linuxcnc() ? std::trunc(written) : std::round(written);
-  if (!(p >= 0 && p <= kSystems) || (p == 0 && !run.is_linuxcnc())) {
-    return run.fail_word(ErrorCode::G10PRange, 'P', fmt::format("P{} is not in 1 to 9", p));
-  }
+  const double written = words['P'];  // checked with the line
+  const double p = run.is_linuxcnc() ? std::trunc(written + 0.0001) : std::round(written);
   const int system = p == 0 ? run.state.system : static_cast<int>(p);
   const bool is_active = system == run.state.system;
   if (run.state.compensation.side != Side::Off && is_active && run.is_linuxcnc()) {

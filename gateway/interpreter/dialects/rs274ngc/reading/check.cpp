@@ -85,10 +85,24 @@ bool check_one_shot(Run& run) {
   return true;
 }
 
+/// LinuxCNC refuses a P above a whole number, up to its half; a system needs one, 0 is that in
+/// force. Tools are checked where their rows are written.
+bool check_g10_number(Run& run) {
+  const Words& words = run.block.words;
+  const double l = words.value_or('L', -1);
+  const double p = words.value_or('P', -1);
+  const double whole = std::round(p);
+  if (p - whole > 0.0001) return run.fail_word(ErrorCode::G10PInteger, 'P');
+  if ((l != 2 && l != 20) || (whole >= 0 && whole <= kSystems)) return true;
+  return run.fail_word(
+      ErrorCode::G10PRange, 'P',
+      words.has('P') ? fmt::format("P{} is not in 0 to 9", p) : fmt::format("G10 L{} needs P", l));
+}
+
 /// G10 of the NIST program knows L2 only.
 bool check_g10(Run& run) {
   const Words& words = run.block.words;
-  if (run.is_linuxcnc()) return true;
+  if (run.is_linuxcnc()) return check_g10_number(run);
   if (!words.has('L') || words['L'] != 2) return run.fail_word(ErrorCode::G10L, 'L');
   const double p = words.value_or('P', 0);
   const double whole = std::round(p);
