@@ -64,9 +64,11 @@ template <Axis kAxis>
 double relative(const Run& run) {
   return shown(run, kAxis, run.state[kAxis]);
 }
+/// Machine coordinates of the spindle: those of the tool's tip with its length on top.
 template <Axis kAxis>
 double absolute(const Run& run) {
-  return shown(run, kAxis, run.state.machine.raw(kAxis));
+  const double length = run.state.tool_length[index_of(kAxis)];
+  return shown(run, kAxis, run.state.machine.raw(kAxis) + length);
 }
 using R = const Run&;
 double radius_mode(R run) {
