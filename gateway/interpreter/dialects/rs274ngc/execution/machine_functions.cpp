@@ -51,17 +51,30 @@ void apply_override(Run& run, int code) {
   run.events().on_override_inhibit(override_inhibit(run));
 }
 
+/// A setup without tools knows none: any number will do.
+bool is_known_tool(const Run& run, double number) {
+  return run.tools.empty() || number == 0 ||
+         find_tool(run, static_cast<int>(std::fmin(number, 1e9))) != nullptr;
+}
+
+/// M61: the tool that is in the spindle already.
+bool name_tool(Run& run) {
+  const double number = std::round(run.block.words.value_or('Q', -1));
+  if (!(number >= 0 && number <= 99'999)) return run.fail_word(ErrorCode::ToolNumber, 'Q');
+  if (!is_known_tool(run, number)) {
+    return run.fail_word(ErrorCode::ToolNotFound, 'Q', fmt::format("Q{}", number));
+  }
+  run.state.tool.loaded = static_cast<int>(number);
+  return true;
+}
+
 bool change_tool(Run& run, int code) {
   State& state = run.state;
   if (run.is_linuxcnc() && state.compensation.side != Side::Off) {
     return run.fail(ErrorCode::CompNotAllowed, 0, "a tool change");
   }
   if (code == 61) {
-    const double number = run.block.words.value_or('Q', -1);
-    if (!(number >= 0 && number <= 99'999) || number != std::round(number)) {
-      return run.fail_word(ErrorCode::ToolNumber, 'Q');
-    }
-    state.tool.loaded = static_cast<int>(number);
+    if (!name_tool(run)) return false;
   } else {
     if (state.spindle.is_turning()) turn_spindle(run, SpindleState::Off);
     state.tool.loaded = state.tool.selected;
@@ -130,9 +143,7 @@ bool select_tool(Run& run) {
     return run.fail_word(ErrorCode::SlotRange, 'T',
                          fmt::format("T{} is above {}", number, run.options.slots));
   }
-  const bool is_known = run.tools.empty() || number == 0 ||
-                        find_tool(run, static_cast<int>(std::fmin(number, 1e9))) != nullptr;
-  if (run.is_linuxcnc() && !is_known) {
+  if (run.is_linuxcnc() && !is_known_tool(run, number)) {
     return run.fail_word(ErrorCode::ToolNotFound, 'T', fmt::format("T{}", number));
   }
   run.state.tool.selected = static_cast<int>(std::fmin(number, 1e9));
