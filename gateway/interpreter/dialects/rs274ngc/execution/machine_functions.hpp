@@ -24,8 +24,4 @@ bool apply_stops(Run& run);
 /// What M2, M30 and the end of a program reset (NIST 3.6.1).
 bool reset_at_end(Run& run);
 
-void save_modes(const Run& run, SavedModes& saved);
-/// Except for the motion mode. Errors: what of it compensation forbids.
-bool restore_modes(Run& run, const SavedModes& saved);
-
 }  // namespace dripline::interpreter::rs274ngc

@@ -4,6 +4,7 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/execution/flow.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/saved_modes.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
