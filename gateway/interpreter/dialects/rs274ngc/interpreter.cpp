@@ -244,7 +244,7 @@ ActiveModes Rs274NgcInterpreter::modes() const {
   modes.is_length_certain = modes.is_length_plain;
   modes.tool_radius = Length::mm(state.compensation.radius);
   const bool is_inverse = state.modes.feed == FeedMode::InverseTime;
-  modes.feed = is_inverse ? Feed::inverse_time(state.feed) : run_.modal_feed();
+  modes.feed = is_inverse ? Feed::inverse_time(0) : run_.modal_feed();
   modes.cycle = hole_cycle_name(state.modes.motion / 10);
   modes.frame_changes = run_.frame_changes;
   return modes;

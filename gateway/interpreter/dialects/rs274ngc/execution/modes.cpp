@@ -76,7 +76,9 @@ bool apply_feed(Run& run) {
     const FeedMode mode = code == 930   ? FeedMode::InverseTime
                           : code == 940 ? FeedMode::PerMinute
                                         : FeedMode::PerRevolution;
-    if (mode != state.modes.feed) state.feed = 0;  // a rate means nothing in another mode
+    // a rate means nothing in another mode; LinuxCNC still remembers it for M72 in G93
+    const bool is_kept = run.is_linuxcnc() && mode == FeedMode::InverseTime;
+    if (mode != state.modes.feed && !is_kept) state.feed = 0;
     state.modes.feed = mode;
   }
   if (block.words.has('F') && state.modes.feed != FeedMode::InverseTime) {

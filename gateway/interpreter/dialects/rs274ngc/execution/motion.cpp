@@ -138,6 +138,7 @@ bool read_feed(Run& run, bool is_arc, Feed& feed) {
       return run.fail_word(is_arc ? ErrorCode::ZeroFeedArc : ErrorCode::ZeroFeedG1, 'F');
     }
     feed = Feed::inverse_time(words['F']);
+    run.state.feed = 0;  // the rate of G94 or G95 is gone with the first move
     return true;
   }
   if (state.feed == 0) {

@@ -1,6 +1,9 @@
 #include "gateway/interpreter/dialects/rs274ngc/execution/saved_modes.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
+#include <iterator>
 
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
@@ -12,6 +15,23 @@ namespace {
 
 bool has_length(const State& state) {
   return std::ranges::any_of(state.tool_length, [](double length) { return length != 0; });
+}
+
+/// A value as it is read again from text with so many decimals, of which LinuxCNC makes the codes
+/// that bring it back.
+double reread(double value, int decimals) {
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text), "{:.{}f}", value, decimals);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+/// The F word comes back where the value differs; G94 and G95 alone leave none in force. In G93 F
+/// belongs to its line.
+double restored_feed(const SavedModes& saved, const State& state) {
+  if (saved.modes.feed == FeedMode::InverseTime) return state.feed;
+  if (saved.feed != state.feed) return reread(saved.feed, 1);
+  return saved.modes.feed == state.modes.feed ? state.feed : 0;
 }
 
 /// As LinuxCNC writes it: with the codes that differ, G41 to G43 for the tool in the spindle.
@@ -54,10 +74,9 @@ bool restore_modes(Run& run, const SavedModes& saved) {
     return run.fail(ErrorCode::CompPlane, 0, "M70 to M73");
   if (saved.units != state.units) change_units(run, saved.units);
   const std::int16_t motion = state.modes.motion;
-  const bool keeps_feed = saved.modes.feed == state.modes.feed;
+  state.feed = restored_feed(saved, state);
   state.modes = saved.modes;
   state.modes.motion = motion;
-  state.feed = keeps_feed ? saved.feed : 0;
   state.overrides = saved.overrides;
   if (state.has_header) run.events().on_override_inhibit(override_inhibit(run));
   if (!restore_offsets(run, saved)) return false;
