@@ -38,7 +38,14 @@ void apply_coolant(Run& run, int code) {
   run.events().on_coolant({run.origin, flood, mist});
 }
 
-void apply_override(Run& run, int code) {
+/// LinuxCNC refuses them while radius compensation is on, with a radius of 0 too.
+bool is_allowed_now(Run& run, int code) {
+  if (!run.is_linuxcnc() || run.state.compensation.side == Side::Off) return true;
+  return run.fail(ErrorCode::CompNotAllowed, 0, fmt::format("M{}", code));
+}
+
+bool apply_override(Run& run, int code) {
+  if (!is_allowed_now(run, code)) return false;
   Overrides& overrides = run.state.overrides;
   const bool enables = run.block.words.value_or('P', 1) != 0;
   if (code == 48 || code == 49) overrides.speed = overrides.feed = code == 48;
@@ -48,6 +55,7 @@ void apply_override(Run& run, int code) {
   if (code == 53) overrides.hold = enables;
   run.events().on_miscellaneous({run.origin, code});
   run.events().on_override_inhibit(override_inhibit(run));
+  return true;
 }
 
 /// A setup without tools knows none: any number will do.
@@ -212,6 +220,7 @@ bool apply_speed_and_tool(Run& run) {
 bool apply_inputs(Run& run) {
   const int code = run.block.m(MGroup::InputOutput);
   if (code < 0) return true;
+  if (!is_allowed_now(run, code)) return false;
   return code == 66 ? read_input(run) : write_output(run, code);
 }
 
@@ -233,7 +242,9 @@ bool apply_machine_functions(Run& run) {
     }
   }
   if (const int code = block.m(MGroup::Coolant); code >= 0) apply_coolant(run, code);
-  if (const int code = block.m(MGroup::Override); code >= 0) apply_override(run, code);
+  if (const int code = block.m(MGroup::Override); code >= 0 && !apply_override(run, code)) {
+    return false;
+  }
   if (const int code = block.m(MGroup::User); code >= 0) {
     run.events().on_miscellaneous({run.origin, code});
   }
