@@ -125,16 +125,27 @@ bool PostProcessor::check_axes(const Origin& origin, const MoveWords& move) {
   return false;
 }
 
-void PostProcessor::name_feed(Feed feed, MoveWords& move) {
+/// False: per revolution of a spindle that has had no speed, at a target that refuses it.
+bool PostProcessor::name_feed(const Origin& origin, Feed feed, MoveWords& move) {
   const Grid& grid = parts_.grid;
   FeedWord word;
   word.is_per_revolution = feed.per() == Feed::Per::Revolution;
+  if (word.is_per_revolution && grid.target().needs_speed_per_revolution && !has_speed()) {
+    refusal_ = Refusal{
+        fmt::format("feed per revolution: {} needs a spindle speed for it", grid.target().name),
+        origin};
+    return false;
+  }
   const auto& ranges =
       word.is_per_revolution ? grid.target().feed_per_revolution : grid.target().feed;
   word.counts = counts_of(feed.length().mm() / mm_per_unit(grid.units()),
                           range_of(ranges, grid.units()).decimals);
-  if (feed_ == word) return;
-  feed_ = move.feed = word;
+  if (feed_ != word) feed_ = move.feed = word;
+  return true;
+}
+
+bool PostProcessor::has_speed() const {
+  return spindle_ && (spindle_->surface_speed || spindle_->revolutions_per_minute != 0);
 }
 
 void PostProcessor::arrive(const Position& to, const MoveWords& move) {
@@ -158,7 +169,7 @@ void PostProcessor::on_line(const interpreter::Line& event) {
   MoveWords move;
   name_axes(event.to, move);
   if (!check_axes(event.origin, move)) return;
-  name_feed(event.feed, move);
+  if (!name_feed(event.origin, event.feed, move)) return;
   if (move.named.any()) parts_.writer.line(text_, move);
   arrive(event.to, move);
 }
@@ -176,7 +187,7 @@ void PostProcessor::on_arc(const interpreter::Arc& event) {
     if (is_in_plane) arc.named.set(index_of(axis));
     if (!is_in_plane && arc.at[index_of(axis)] != counts_[index_of(axis)]) arc.is_helix = true;
   }
-  name_feed(event.feed, arc);
+  if (!name_feed(event.origin, event.feed, arc)) return;
   arc.plane = event.plane;
   arc.turn = event.turn;
   arc.center = {fitted.first, fitted.second};

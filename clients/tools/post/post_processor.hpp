@@ -75,7 +75,8 @@ class PostProcessor final : public interpreter::EventSink {
   void check_size(const interpreter::Origin& origin);
   void name_axes(const interpreter::Position& to, MoveWords& move);
   bool check_axes(const interpreter::Origin& origin, const MoveWords& move);
-  void name_feed(Feed feed, MoveWords& move);
+  bool name_feed(const interpreter::Origin& origin, Feed feed, MoveWords& move);
+  bool has_speed() const;
   void arrive(const interpreter::Position& to, const MoveWords& move);
 
   Parts parts_;

@@ -61,7 +61,8 @@ constexpr std::array kTargets{
            .max_radius_error = 0.0127,
            .has_surface_speed = true,
            .has_oriented_spindle = true,
-           .stops_spindle_at_tool_change = true},
+           .stops_spindle_at_tool_change = true,
+           .needs_speed_per_revolution = true},
     // NIST IR 6556: radii may differ by 0.002 mm or 0.0002 inch.
     Target{.name = "rs274ngc",
            .dialect = "rs274ngc",

@@ -59,6 +59,7 @@ struct Target {
   bool has_optional_stop = true;
   bool has_oriented_spindle = false;  ///< M19
   bool stops_spindle_at_tool_change = false;
+  bool needs_speed_per_revolution = false;  ///< feeds per revolution without one are an alarm
   bool has_comments = true;
   bool has_inch = true, has_millimeter = true;
 };

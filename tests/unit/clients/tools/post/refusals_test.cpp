@@ -47,6 +47,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 2: feed of 20000 mm/min: tnc155 takes up to 15999"},
         Refused{"per_revolution", "fanuc", "rs274ngc", "G00 X0 Y0\nG95 G01 X5. F.1\nM30\n",
                 "line 2: feed of 0.1 mm per revolution: rs274ngc has feeds per minute alone"},
+        Refused{"no_speed", "fanuc", "linuxcnc", "G00 X0 Y0\nG95 G01 X5. F.1\nM30\n",
+                "line 2: feed per revolution: linuxcnc needs a spindle speed"},
         Refused{"speed_form", "rs274ngc", "fanuc", "G21 S1.2 M3\nG0 X1\nM2\n",
                 "line 1: spindle speed of 1.2 rpm: fanuc takes 0 decimals, so 1"},
         Refused{"speed_range", "rs274ngc", "fanuc", "G21 S30000 M3\nG0 X1\nM2\n",
