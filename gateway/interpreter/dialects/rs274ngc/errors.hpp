@@ -221,7 +221,7 @@ struct ErrorCode {
   static constexpr DiagnosticRow SpindleMode{"NGC0340",
                                              "S or D word missing or negative with spindle mode"};
   static constexpr DiagnosticRow FeedPerRevolution{"NGC0341",
-                                                   "Feed per revolution needs a turning spindle"};
+                                                   "Feed per revolution needs a spindle speed"};
   static constexpr DiagnosticRow IoWords{"NGC0342",
                                          "Words missing or out of range with input or output"};
   static constexpr DiagnosticRow StateStack{"NGC0343", "No saved state to restore"};
@@ -229,6 +229,7 @@ struct ErrorCode {
       "NGC0344", "Polar coordinates with x or y, at the origin or outside of g17"};
   static constexpr DiagnosticRow OrientWords{"NGC0345", "R word missing or out of range with m19"};
   static constexpr DiagnosticRow ToolNumber{"NGC0346", "Q word missing or negative with m61"};
+  static constexpr DiagnosticRow ProbeG95{"NGC0352", "Cannot probe with feed per revolution"};
   static constexpr DiagnosticRow UnusedAxis{"NGC0351", "Nothing on the line takes"};
   static constexpr DiagnosticRow NotSupported{"NGC0350", "Not supported by this interpreter"};
 };

@@ -144,6 +144,8 @@ bool read_feed(Run& run, bool is_arc, Feed& feed) {
   if (state.feed == 0) {
     return run.fail(is_arc ? ErrorCode::ZeroFeedArc : ErrorCode::ZeroFeedG1, 0);
   }
+  if (state.modes.feed == FeedMode::PerRevolution && state.spindle.speed == 0)
+    return run.fail(ErrorCode::FeedPerRevolution, 0);
   feed = run.modal_feed();
   return true;
 }

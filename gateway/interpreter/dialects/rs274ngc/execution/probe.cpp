@@ -13,6 +13,7 @@ bool check_probe(Run& run, const Target& target) {
   if (!words.has_any(set_of("XYZ@^"))) return run.fail(ErrorCode::ProbeNoAxis, 0);
   if (state.compensation.side != Side::Off) return run.fail(ErrorCode::CompProbe, 0);
   if (state.modes.feed == FeedMode::InverseTime) return run.fail(ErrorCode::ProbeG93, 0);
+  if (state.modes.feed == FeedMode::PerRevolution) return run.fail(ErrorCode::ProbeG95, 0);
   if (state.feed == 0) return run.fail(ErrorCode::ZeroFeedProbe, 0);
   for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
     if (target.to[index_of(axis)] != state[axis]) return run.fail(ErrorCode::ProbeRotary, 0);
