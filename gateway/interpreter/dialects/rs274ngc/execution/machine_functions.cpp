@@ -179,6 +179,17 @@ bool apply_state_code(Run& run, int code) {
   return restore_modes(run, SavedModes{saved});
 }
 
+/// M3, M4, M5, M19.
+bool apply_spindle_code(Run& run, int code) {
+  if (code == 19) return orient(run);
+  const auto state = code == 3   ? SpindleState::Clockwise
+                     : code == 4 ? SpindleState::Counterclockwise
+                                 : SpindleState::Off;
+  if (run.state.spindle.state == state && run.block.words.has('S') && code != 5) show_spindle(run);
+  turn_spindle(run, state);
+  return true;
+}
+
 }  // namespace
 
 void turn_spindle(Run& run, SpindleState state) {
@@ -227,19 +238,8 @@ bool apply_inputs(Run& run) {
 bool apply_machine_functions(Run& run) {
   const Block& block = run.block;
   if (const int code = block.m(MGroup::Tool); code >= 0 && !change_tool(run, code)) return false;
-  if (const int code = block.m(MGroup::State); code >= 0 && !apply_state_code(run, code)) {
-    return false;
-  }
   if (const int code = block.m(MGroup::Spindle); code >= 0) {
-    if (code == 19) {
-      if (!orient(run)) return false;
-    } else {
-      const auto state = code == 3   ? SpindleState::Clockwise
-                         : code == 4 ? SpindleState::Counterclockwise
-                                     : SpindleState::Off;
-      if (run.state.spindle.state == state && block.words.has('S') && code != 5) show_spindle(run);
-      turn_spindle(run, state);
-    }
+    if (!(code >= 70 ? apply_state_code(run, code) : apply_spindle_code(run, code))) return false;
   }
   if (const int code = block.m(MGroup::Coolant); code >= 0) apply_coolant(run, code);
   if (const int code = block.m(MGroup::Override); code >= 0 && !apply_override(run, code)) {

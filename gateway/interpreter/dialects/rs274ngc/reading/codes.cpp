@@ -95,6 +95,7 @@ constexpr Table<MRow> kM = [] {
   add(MGroup::Stop, kLater, "", 99);
   add(MGroup::Spindle, kBoth, "", 3, 4, 5);
   add(MGroup::Spindle, kLater, "RPQ", 19);
+  add(MGroup::Spindle, kLater, "", 70, 71, 72, 73);  // of the spindle's group in LinuxCNC
   add(MGroup::Tool, kBoth, "", 6);
   add(MGroup::Tool, kLater, "Q", 61);
   add(MGroup::Coolant, kBoth, "", 7, 8, 9);
@@ -103,7 +104,6 @@ constexpr Table<MRow> kM = [] {
   add(MGroup::InputOutput, kLater, "P", 62, 63, 64, 65);
   add(MGroup::InputOutput, kLater, "PELQ", 66);
   add(MGroup::InputOutput, kLater, "EQ", 67, 68);
-  add(MGroup::State, kLater, "", 70, 71, 72, 73);
   return table;
 }();
 /// M100 to M199: programs of the shop.

@@ -37,10 +37,9 @@ enum class MGroup : std::uint8_t {
   Spindle,
   Coolant,
   Override,
-  State,
   User,
 };
-inline constexpr std::size_t kMGroups = 8;
+inline constexpr std::size_t kMGroups = 7;
 
 struct GRow {
   std::int16_t code;  ///< tenths: G38.2 is 382
