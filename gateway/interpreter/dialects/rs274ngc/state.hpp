@@ -69,6 +69,7 @@ struct ToolModes {
 
 struct Overrides {
   bool speed = true, feed = true, adaptive = false, hold = true;
+  friend bool operator==(const Overrides&, const Overrides&) = default;
 };
 
 /// Words of the cycle that is in force; a line may leave them out. As written.

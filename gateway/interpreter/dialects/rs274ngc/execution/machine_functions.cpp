@@ -10,7 +10,6 @@
 #include "gateway/interpreter/dialects/rs274ngc/memory/tool_table.hpp"
 
 namespace dripline::interpreter::rs274ngc {
-namespace {
 
 void show_spindle(Run& run) {
   const SpindleModes& spindle = run.state.spindle;
@@ -27,6 +26,8 @@ void show_spindle(Run& run) {
   }
   run.events().on_spindle(event);
 }
+
+namespace {
 
 void apply_coolant(Run& run, int code) {
   State& state = run.state;

@@ -5,6 +5,8 @@
 /// Spindle, tools, coolant, inputs and outputs, stops (NIST 3.6, 3.7).
 namespace dripline::interpreter::rs274ngc {
 
+/// Delivers state and speed of the spindle.
+void show_spindle(Run& run);
 /// Shows and keeps a new state of the spindle.
 void turn_spindle(Run& run, SpindleState state);
 

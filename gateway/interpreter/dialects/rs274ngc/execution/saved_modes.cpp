@@ -49,6 +49,64 @@ bool restore_offsets(Run& run, const SavedModes& saved) {
   return saved.has_g92 == has_g92 || execute_one_shot(run, saved.has_g92 ? 923 : 922);
 }
 
+bool is_other_path(const Modes& saved, const Modes& now) {
+  const bool has_tolerance = saved.path == 640;
+  return saved.path != now.path || (has_tolerance && (saved.path_tolerance != now.path_tolerance ||
+                                                      saved.cam_tolerance != now.cam_tolerance));
+}
+
+/// The codes stand on one line, where G41 comes before those that compensation forbids.
+bool check_compensation(Run& run, const SavedModes& saved) {
+  const State& state = run.state;
+  const bool is_on = state.compensation.side != Side::Off;
+  if (is_on && saved.modes.plane != state.modes.plane)
+    return run.fail(ErrorCode::CompPlane, 0, "M70 to M73");
+  if (is_on && saved.overrides != state.overrides)
+    return run.fail(ErrorCode::CompNotAllowed, 0, "a change of the overrides");
+  if (saved.side == Side::Off) return true;
+  if (saved.system != state.system)
+    return run.fail(ErrorCode::CompNotAllowed, 0, "a change of the coordinate system");
+  if (saved.modes.retracts_to_start != state.modes.retracts_to_start)
+    return run.fail(ErrorCode::CompNotAllowed, 0, "a change of the retract mode");
+  if (is_other_path(saved.modes, state.modes))
+    return run.fail(ErrorCode::CompNotAllowed, 0, "a change of the path mode");
+  return true;
+}
+
+/// S comes back as a whole number, G96 without its D; it needs an S that differs.
+bool restore_spindle(Run& run, const SpindleModes& saved) {
+  SpindleModes& spindle = run.state.spindle;
+  const bool changes_speed = saved.speed != spindle.speed;
+  const bool changes_mode = saved.is_surface != spindle.is_surface;
+  if (changes_mode && saved.is_surface && !changes_speed)
+    return run.fail(ErrorCode::SpindleMode, 0, "M70 to M73: G96 needs S");
+  if (changes_speed) spindle.speed = reread(saved.speed, 0);
+  if (changes_mode) {
+    spindle.is_surface = saved.is_surface;
+    spindle.most = 0;
+  }
+  // An oriented spindle is a stopped one.
+  const SpindleState wanted = saved.is_turning() ? saved.state : SpindleState::Off;
+  if (spindle.is_turning() && wanted == spindle.state) {
+    if (changes_speed || changes_mode) show_spindle(run);
+  } else if (spindle.is_turning() || wanted != SpindleState::Off) {
+    turn_spindle(run, wanted);
+  }
+  return true;
+}
+
+/// M9 where neither was on, else M7 and M8: what came on since stays on.
+void restore_coolant(Run& run, const SavedModes& saved) {
+  State& state = run.state;
+  const bool is_off = !saved.flood && !saved.mist;
+  const bool flood = !is_off && (saved.flood || state.flood);
+  const bool mist = !is_off && (saved.mist || state.mist);
+  if (flood == state.flood && mist == state.mist) return;
+  state.flood = flood;
+  state.mist = mist;
+  run.events().on_coolant({run.origin, flood, mist});
+}
+
 }  // namespace
 
 void save_modes(const Run& run, SavedModes& saved) {
@@ -70,8 +128,7 @@ void save_modes(const Run& run, SavedModes& saved) {
 
 bool restore_modes(Run& run, const SavedModes& saved) {
   State& state = run.state;
-  if (saved.modes.plane != state.modes.plane && state.compensation.side != Side::Off)
-    return run.fail(ErrorCode::CompPlane, 0, "M70 to M73");
+  if (!check_compensation(run, saved)) return false;
   if (saved.units != state.units) change_units(run, saved.units);
   const std::int16_t motion = state.modes.motion;
   state.feed = restored_feed(saved, state);
@@ -79,16 +136,8 @@ bool restore_modes(Run& run, const SavedModes& saved) {
   state.modes.motion = motion;
   state.overrides = saved.overrides;
   if (state.has_header) run.events().on_override_inhibit(override_inhibit(run));
-  if (!restore_offsets(run, saved)) return false;
-  const SpindleState now = state.spindle.state;
-  state.spindle = saved.spindle;
-  state.spindle.state = now;
-  turn_spindle(run, saved.spindle.state);
-  if (saved.flood != state.flood || saved.mist != state.mist) {
-    state.flood = saved.flood;
-    state.mist = saved.mist;
-    run.events().on_coolant({run.origin, state.flood, state.mist});
-  }
+  if (!restore_offsets(run, saved) || !restore_spindle(run, saved.spindle)) return false;
+  restore_coolant(run, saved);
   return true;
 }
 
