@@ -173,6 +173,9 @@ bool set_length_offset(Run& run, int g_code) {
   if (!words.has('H') && (!run.is_linuxcnc() || g_code == 432)) {
     return run.fail(ErrorCode::OffsetIndexMissing, 0);
   }
+  if (g_code == 432 && words.has_any(kAxisWords)) {
+    return run.fail(ErrorCode::AxisTwice, 0, "G43.2 takes H alone");
+  }
   const Tool* tool = nullptr;
   if (words.has('H')) {
     if (!tool_of_h(run, words['H'], tool)) return false;
