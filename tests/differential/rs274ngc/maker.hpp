@@ -49,6 +49,10 @@ class Maker {
   void splines();
   void nurbs();
   void compensation();
+  /// Of an H or D word; 0 once there is a tool, for the peer begins with one of its own making.
+  std::uint64_t tool_or_spindle();
+  /// Words of rotary axes, now and then.
+  std::string rotary();
   void cycles();
   void polar_cycles();
 
@@ -68,6 +72,8 @@ class Maker {
 
   void small_things();
   void saved_modes();
+  /// What shows the state, as places to go to.
+  void shown_state();
   /// One thing that is wrong, or looks so.
   void mistake();
 

@@ -123,7 +123,8 @@ void Maker::offsets() {
     line(fmt::format("G10 L20 P{} X{} Y{}", below(4), text_of(between(-9'000, 9'000)),
                      text_of(between(-9'000, 9'000))));
   } else if (choice == 7) {
-    line(one_of(std::array{"G28.1", "G30.1", "G28", "G30 X1", "G28 Z2 Y1", "G30"}));
+    line(one_of(std::array{"G28.1", "G30.1", "G28", "G30 X1", "G28 Z2 Y1", "G30", "G28.1 X2 A4",
+                           "G30.1 G1 Y3", "G28.1 G3 X3 I1"}));
   } else {
     line(
         fmt::format("G53 G0 X{} Z{}", text_of(between(-9'000, 9'000)), text_of(between(0, 9'000))));
@@ -136,7 +137,7 @@ void Maker::offsets() {
 void Maker::lengths() {
   switch (below(5)) {
     case 0:
-      line(fmt::format("G43 H{}", 1 + below(4)));
+      line(fmt::format("G43 H{}", tool_or_spindle()));
       break;
     case 1:
       line("G49");
@@ -150,7 +151,7 @@ void Maker::lengths() {
       line("G43");
       break;
     default:
-      line(fmt::format("G43.2 H{}", 1 + below(4)));
+      line(fmt::format("G43.2 H{}", tool_or_spindle()));
       break;
   }
   if (below(2) == 0) line("G0 X1");
@@ -230,13 +231,26 @@ void Maker::nurbs() {
   line("G5.3");
 }
 
+std::uint64_t Maker::tool_or_spindle() {
+  if (below(5) != 0) return 1 + below(5);
+  line(fmt::format("T{} M6", 1 + below(4)));
+  line("M3");
+  return 0;
+}
+
+std::string Maker::rotary() {
+  if (below(5) != 0) return "";
+  const std::string angle = text_of(between(-900'000, 900'000));
+  return below(3) == 0 ? " B" + angle + " C3.5" : " A" + angle;
+}
+
 /// A closed path, mostly with room for the tool.
 void Maker::compensation() {
   known_position();
   const bool is_left = below(2) == 0;
   const Ticks diameter = below(4) == 0 ? 0 : between(200, 2'500) * (below(4) == 0 ? -1 : 1);
   line(below(3) == 0 ? fmt::format("{} D{}", is_left ? "G41.1" : "G42.1", text_of(diameter))
-                     : fmt::format("{} D{}", is_left ? "G41" : "G42", 1 + below(5)));
+                     : fmt::format("{} D{}", is_left ? "G41" : "G42", tool_or_spindle()));
   const std::uint64_t count = 3 + below(5);
   double heading = static_cast<double>(below(628)) / 100;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -248,15 +262,17 @@ void Maker::compensation() {
     y_ += dy;
     if (i > 0 && below(3) == 0) {
       const Ticks radius = static_cast<Ticks>(length * 0.55) + between(100, 20'000);
-      line(fmt::format("{} X{} Y{} R{}", below(2) == 0 ? "G2" : "G3", text_of(x_), text_of(y_),
-                       text_of(radius)));
+      line(fmt::format("{} X{} Y{} R{}{}", below(2) == 0 ? "G2" : "G3", text_of(x_), text_of(y_),
+                       text_of(radius), rotary()));
     } else {
-      line(fmt::format("{} X{} Y{}", below(8) == 0 ? "G0" : "G1", text_of(x_), text_of(y_)));
+      line(fmt::format("{} X{} Y{}{}", below(8) == 0 ? "G0" : "G1", text_of(x_), text_of(y_),
+                       rotary()));
     }
     if (below(8) == 0) line(fmt::format("G1 Z{}", text_of(z_ = between(-5'000, 9'000))));
     if (below(10) == 0) line(one_of(std::array{"M8", "G4 P.1", "M9", "#1=3"}));
     if (below(60) == 0) {
-      line(one_of(std::array{"G53 G0 X1", "@2 ^45", "G81 X1 Z-1 R1", "G28", "G17", "G98", "G18"}));
+      line(one_of(std::array{"G53 G0 X1", "@2 ^45", "G81 X1 Z-1 R1", "G28", "G17", "G98", "G18",
+                             "G28.1", "M48", "M50 P0", "M64 P1", "M68 E1 Q2", "M66 P0 L0"}));
     }
   }
   line("G40");

@@ -88,6 +88,25 @@ constexpr std::array kMistakes{"G1 X1 X2",
                                "G5.2 X1 Y1 P1 I1",
                                "G17.1 G2 X1 I1",
                                "G4 P2 G2 X1 I1",
+                               "G10 L2 X1",
+                               "G10 L20 Y2",
+                               "G10 L2 P1.4 X1",
+                               "G10 L2 P1.6 X1\nG54\nX2",
+                               "G10 L2 P9.6 X1",
+                               "G10 L1 P1.4 Z1",
+                               "G10 L1 P0 Z1",
+                               "M61 Q9",
+                               "M61",
+                               "M61 Q-0.2",
+                               "M3 M70",
+                               "M72 M5",
+                               "G43.2 H1 X1",
+                               "G28.1 G80 X1",
+                               "G28.1 G92 X1",
+                               "S0\nG95 F1\nG1 X1",
+                               "S0\nG95 F1\nG2 X1 I3",
+                               "G41 D1\nM70\nG40\nG98\nM72",
+                               "G96 S90\nM70\nG97\nM72",
                                "G41 D1\nG2 I1 J1",
                                "G41.1 D0.1\nG1 X20 Y20\nG40\nG42 D2\nG3 X1 Y1 R50"};
 
@@ -200,21 +219,89 @@ void Maker::part() {
 
 /// What is saved and comes back, and what does not: the motion mode.
 void Maker::saved_modes() {
-  constexpr std::array kChanges{"G0 X2",  "G1 Y3 F20", "G91",    "G18",       "G98",   "G59",
-                                "G92 X5", "G92.1",     "G92.2",  "G52 Y2",    "G49",   "G43 H2",
-                                "G7",     "G90.1",     "M3 S80", "G64 P0.02", "M8 M48"};
+  constexpr std::array kChanges{
+      "G0 X2",   "G1 Y3 F20",    "G91",   "G18",    "G98",      "G59",   "G92 X5", "G92.1",
+      "G92.2",   "G52 Y2",       "G49",   "G43 H2", "G7",       "G90.1", "M3 S80", "G64 P0.02",
+      "M8 M48",  "S80.6",        "F7.25", "F0.04",  "G95 F.25", "G95",   "G93",    "G93 G1 Y4 F3",
+      "G96 S90", "G96 S60 D500", "G97",   "G61",    "M5",       "G20",   "G21"};
   const auto change = [&] { line(one_of(kChanges)); };
   for (std::uint64_t i = below(3); i > 0; --i) change();
   line("M70");
   for (std::uint64_t i = 1 + below(4); i > 0; --i) change();
   line("M72");
+  if (below(2) == 0) line("X[#<_feed>/8] Z[#<_rpm>/80]");
   line("X4 Z2");
   line("Y5");
-  line("G8 G17 G90 G91.1 G99 G49 M3");
+  line("G8 G17 G90 G91.1 G99 G49 M3 G94 F25 S500 G97");
+}
+
+void Maker::shown_state() {
+  constexpr std::array kShown{"#5161/4",
+                              "#5162/4",
+                              "#5163/4",
+                              "#5164/40",
+                              "#5181/4",
+                              "#5182/4",
+                              "#5183/4",
+                              "#5210",
+                              "#5211/4",
+                              "#5212/4",
+                              "#5213/4",
+                              "#5220",
+                              "#5221/4",
+                              "#5222/4",
+                              "#5223/4",
+                              "#5230/90",
+                              "#5241/4",
+                              "#5262/4",
+                              "#5383/4",
+                              "#5420/2",
+                              "#5421/2",
+                              "#5422/2",
+                              "#5423/90",
+                              "#<_x>/2",
+                              "#<_y>/3",
+                              "#<_z>/2",
+                              "#<_a>/90",
+                              "#<_abs_x>/4",
+                              "#<_abs_y>/4",
+                              "#<_abs_z>/4",
+                              "#<_abs_a>/90",
+                              "#<_feed>/9",
+                              "#<_rpm>/100",
+                              "#<_coord_system>/100",
+                              "#<_plane>/100",
+                              "#<_motion_mode>/90",
+                              "#<_ccomp>/300",
+                              "#<_metric>",
+                              "#<_imperial>",
+                              "#<_absolute>",
+                              "#<_incremental>",
+                              "#<_inverse_time>",
+                              "#<_units_per_minute>",
+                              "#<_units_per_rev>",
+                              "#<_tool_offset>",
+                              "#<_retract_r_plane>",
+                              "#<_retract_old_z>",
+                              "#<_spindle_rpm_mode>",
+                              "#<_spindle_css_mode>",
+                              "#<_ijk_absolute_mode>",
+                              "#<_lathe_diameter_mode>",
+                              "#<_lathe_radius_mode>",
+                              "#<_spindle_on>",
+                              "#<_spindle_cw>",
+                              "#<_mist>",
+                              "#<_flood>",
+                              "#<_current_tool>",
+                              "#<_selected_tool>",
+                              "#<_call_level>",
+                              "#<_value>",
+                              "#<_value_returned>"};
+  line(fmt::format("G0 X[{}] Y[{}] Z[{}]", one_of(kShown), one_of(kShown), one_of(kShown)));
 }
 
 void Maker::small_things() {
-  switch (below(14)) {
+  switch (below(18)) {
     case 0:
       line("G49");
       line(below(2) == 0 ? "G20" : "G21");
@@ -279,6 +366,12 @@ void Maker::small_things() {
       line("G95 F0.05");
       line("G1 X2");
       line("G94 F30");
+      break;
+    case 13:
+    case 14:
+    case 15:
+    case 16:
+      shown_state();
       break;
     default:
       line("g 1 x 1 . 5 y- 0 . 2 5");
