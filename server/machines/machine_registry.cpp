@@ -23,12 +23,16 @@ storage::RunProgress progress_of(const dds::Status& status) {
       .sequence = status.sequence};
 }
 
-/// A status may come before the announcement; until then the machine is not shown.
-bool is_known(const MachineView& view) {
-  return !view.machine.name.empty();
+}  // namespace
+
+/// A status may come before the announcement.
+bool MachineRegistry::is_announced(const Entry& entry) {
+  return !entry.view.machine.name.empty();
 }
 
-}  // namespace
+bool MachineRegistry::is_shown(const Entry& entry) {
+  return is_announced(entry) && entry.is_stored;
+}
 
 Result<void> MachineRegistry::load() {
   auto machines = parts_.machines.list();
@@ -36,7 +40,9 @@ Result<void> MachineRegistry::load() {
   const std::lock_guard lock(mutex_);
   for (auto& machine : *machines) {
     const std::string name = machine.name;
-    MachineView& view = entries_[name].view;
+    Entry& entry = entries_[name];
+    MachineView& view = entry.view;
+    entry.is_stored = true;
     if (view.is_connected) {  // it announced itself meanwhile: that is newer
       view.machine.first_seen = machine.first_seen;
     } else {
@@ -83,7 +89,7 @@ void MachineRegistry::on_status(dds::Status status) {
   entry.counters_are_dirty = entry.counters_are_dirty || !status.run.empty();
   const bool is_urgent = !entry.view.status || is_news(*entry.view.status, status);
   entry.view.status = std::move(status);
-  if (!is_known(entry.view)) return;
+  if (!is_announced(entry)) return;
   if (is_urgent) {
     schedule(entry);
   } else {
@@ -170,19 +176,36 @@ void MachineRegistry::on_lost(const std::string& machine) {
 }
 
 std::vector<MachineView> MachineRegistry::views() const {
+  return views_of(is_shown);
+}
+
+std::vector<MachineView> MachineRegistry::announced() const {
+  return views_of(is_announced);
+}
+
+std::vector<MachineView> MachineRegistry::views_of(bool (*is_wanted)(const Entry&)) const {
   const std::lock_guard lock(mutex_);
   std::vector<MachineView> views;
   views.reserve(entries_.size());
   for (const auto& [name, entry] : entries_) {
-    if (is_known(entry.view)) views.push_back(shown(entry));
+    if (is_wanted(entry)) views.push_back(shown(entry));
   }
   return views;
 }
 
 Result<MachineView> MachineRegistry::view(const std::string& name) const {
+  return view_of(name, is_shown);
+}
+
+Result<MachineView> MachineRegistry::announced(const std::string& name) const {
+  return view_of(name, is_announced);
+}
+
+Result<MachineView> MachineRegistry::view_of(const std::string& name,
+                                             bool (*is_wanted)(const Entry&)) const {
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(name);
-  if (found == entries_.end() || !is_known(found->second.view)) {
+  if (found == entries_.end() || !is_wanted(found->second)) {
     return fail(Errc::NotFound, "machine '{}' is not known", name);
   }
   return shown(found->second);
@@ -231,24 +254,32 @@ void MachineRegistry::publish(Entry& entry) {
     view = shown(entry);
   }
   if (is_dirty) save_machine(entry);
-  parts_.on_change(view);
+  bool is_told = false;
+  {
+    const std::lock_guard lock(mutex_);
+    is_told = entry.is_stored;
+  }
+  if (is_told) parts_.on_change(view);
   const std::lock_guard lock(mutex_);
   entry.is_telling = false;
   if (entry.is_scheduled) parts_.pool.post([this, &entry] { publish(entry); });
 }
 
-void MachineRegistry::save_machine(Entry& entry) {
+bool MachineRegistry::save_machine(Entry& entry) {
   storage::Machine machine;
   {
     const std::lock_guard lock(mutex_);
     entry.machine_is_dirty = false;
     machine = entry.view.machine;
   }
-  if (auto saved = parts_.machines.save(machine); !saved) {
+  auto saved = parts_.machines.save(machine);
+  const std::lock_guard lock(mutex_);
+  if (!saved) {
     process::log_warning("machine not saved machine={}: {}", machine.name, saved.error().what);
-    const std::lock_guard lock(mutex_);
     entry.machine_is_dirty = true;
+    return false;
   }
+  return !std::exchange(entry.is_stored, true);
 }
 
 void MachineRegistry::save() {
@@ -262,7 +293,11 @@ void MachineRegistry::save() {
         progressed.push_back(progress_of(*entry.view.status));
     }
   }
-  for (Entry* entry : dirty) save_machine(*entry);
+  for (Entry* entry : dirty) {
+    if (!save_machine(*entry)) continue;
+    const std::lock_guard lock(mutex_);
+    schedule(*entry);  // nothing of it was published
+  }
   if (progressed.empty()) return;
   const auto saved = parts_.runs.update_all_counters(progressed);
   for (std::size_t i = 0; i < saved.size(); ++i) {

@@ -44,7 +44,9 @@ class GatewayClocks {
 };
 
 /// What is known of every machine now. Status lives in memory only; its counters go to the run at
-/// most every kSaveInterval. A machine is added when it announces itself for the first time.
+/// most every kSaveInterval. A machine is added when it announces itself for the first time; it is
+/// shown, and its listener called, from when it is stored: whatever refers to it can be stored
+/// then.
 class MachineRegistry {
  public:
   static constexpr std::chrono::seconds kSaveInterval{2};
@@ -77,8 +79,14 @@ class MachineRegistry {
   /// Another gateway of the same name waits for the present one to leave, or waits no longer.
   void on_rival(const std::string& machine, bool is_there);
 
+  /// Those that are stored.
   std::vector<MachineView> views() const;
+  /// Errors: NotFound (also of a machine that is not stored yet).
   Result<MachineView> view(const std::string& name) const;
+  /// The same without the store: every machine that has announced itself. For its records, and for
+  /// commands, which stop a machine whatever the database does.
+  std::vector<MachineView> announced() const;
+  Result<MachineView> announced(const std::string& name) const;
   /// The present gateway of the machine, and its steady clock.
   CommandDispatcher::Options::Gateway gateway(const std::string& name) const;
   /// How far the gateway's time of day is ahead of the server's; zero while that is within the
@@ -99,8 +107,13 @@ class MachineRegistry {
     bool is_in_round = false;   ///< it waits for the next round
     bool is_telling = false;
     bool machine_is_dirty = false;  ///< the stored part changed
+    bool is_stored = false;         ///< for the first time, and so for good
     bool counters_are_dirty = false;
   };
+  static bool is_announced(const Entry& entry);
+  static bool is_shown(const Entry& entry);
+  std::vector<MachineView> views_of(bool (*is_wanted)(const Entry&)) const;
+  Result<MachineView> view_of(const std::string& name, bool (*is_wanted)(const Entry&)) const;
   void hear(Entry& entry, std::uint64_t session);
   void contest(Entry& entry);
   void compare_clocks(Entry& entry, const dds::Status& status);
@@ -110,7 +123,8 @@ class MachineRegistry {
   void schedule_in_round(Entry& entry);
   void publish_round();
   std::chrono::milliseconds round() const;
-  void save_machine(Entry& entry);
+  /// True: for the first time.
+  bool save_machine(Entry& entry);
 
   Parts parts_;
   mutable std::mutex mutex_;

@@ -112,7 +112,7 @@ Result<void> MachineService::begin(std::unique_ptr<dds::ServerEndpoint> endpoint
   if (auto loaded = owned_parts_->reconciler.load(); !loaded) return loaded;
   parts_ = owned_parts_.get();
   // Machines that announced themselves between open() and now were not greeted.
-  for (const auto& view : registry_.views()) {
+  for (const auto& view : registry_.announced()) {
     if (view.is_connected) owned_parts_->records.greet(view.machine.name, view.machine.epoch);
   }
   pool_.post([this] { tick(); });
@@ -120,7 +120,7 @@ Result<void> MachineService::begin(std::unique_ptr<dds::ServerEndpoint> endpoint
 }
 
 void MachineService::lose_gateways() {
-  for (const auto& view : registry_.views()) registry_.on_lost(view.machine.name);
+  for (const auto& view : registry_.announced()) registry_.on_lost(view.machine.name);
 }
 
 void MachineService::stop_waiting() {
@@ -178,7 +178,7 @@ dds::Rejected MachineService::rejected() const {
 }
 
 Result<MachineView> MachineService::connected_machine(const std::string& name) const {
-  auto view = registry_.view(name);
+  auto view = registry_.announced(name);
   if (!view || view->is_connected) return view;
   return fail(Errc::Timeout, "machine '{}' is not connected; last seen {}", name,
               to_iso8601(view->machine.last_seen));
@@ -187,6 +187,7 @@ Result<MachineView> MachineService::connected_machine(const std::string& name) c
 Result<MachineView> MachineService::machine_for_work(const std::string& name) const {
   auto view = connected_machine(name);
   if (!view) return view;
+  if (auto stored = registry_.view(name); !stored) return stored;
   if (view->is_contested)
     return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them", name);
   if (auto same = check_protocol(*view); !same) return fail(same.error());
@@ -218,17 +219,28 @@ Result<void> MachineService::check_command(const CommandRequest& request, const 
   return check_protocol(view);
 }
 
-std::optional<std::string> MachineControl::machine_of_run(const std::string& run) const {
+namespace {
+
+std::optional<std::string> machine_with(const std::vector<MachineView>& views,
+                                        const std::string& run) {
   if (run.empty()) return std::nullopt;
-  for (const MachineView& view : machines())
+  for (const MachineView& view : views)
     if (view.status && view.status->run == run) return view.machine.name;
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> MachineControl::machine_of_run(const std::string& run) const {
+  return machine_with(machines(), run);
 }
 
 /// A run that a machine reports is active; else the store knows what became of it.
 Result<CommandTarget> MachineService::target_of(const CommandRequest& request) const {
   if (dds::is_stop(request.action, request.argument, request.value)) {
-    if (auto machine = machine_of_run(request.run)) return CommandTarget{*std::move(machine), {}};
+    // Also of a machine that is not stored yet.
+    if (auto machine = machine_with(registry_.announced(), request.run))
+      return CommandTarget{*std::move(machine), {}};
   }
   const auto run = store_.runs.find(request.run);
   if (!run) return fail(run.error());

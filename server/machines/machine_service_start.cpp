@@ -105,8 +105,6 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   if (!setup) return fail(setup.error());
   if (*setup) run->setup = (*setup)->number;
   if (auto same = check_restart(request, *run); !same) return fail(same.error());
-  // It may have announced itself just now, and a run needs its machine in the store.
-  if (auto saved = store_.machines.save(view->machine); !saved) return fail(saved.error());
   if (auto created = store_.runs.create(*run); !created) return fail(created.error());
   parts->reconciler.watch(run->machine, run->id);
   announce_run(run->id);

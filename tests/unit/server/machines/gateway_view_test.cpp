@@ -85,6 +85,45 @@ TEST_F(MachineRuns, AreToldInRoundsWhileOnlyPositionsAndCountersMoveOn) {
   EXPECT_LT(machines_.size(), kStatuses / 4);
 }
 
+/// A store in which no machine can be entered.
+class ClosedMachines final : public test_support::MachineStoreDecorator {
+ public:
+  using MachineStoreDecorator::MachineStoreDecorator;
+  Result<void> save(const storage::Machine& machine) override {
+    ++tried_;
+    if (is_closed_) return fail(Errc::Io, "the database is away");
+    return MachineStoreDecorator::save(machine);
+  }
+  std::atomic<bool> is_closed_{true};
+  std::atomic<int> tried_{0};
+};
+
+/// What a client does with a machine that it sees (rules, jobs, runs) refers to the stored one.
+TEST_F(MachineServiceTest, AMachineIsShownOnceItIsStored) {
+  ClosedMachines closed(*store_);
+  const storage::Store store = test_support::with(*store_, closed);
+  start_service(store);
+  answer_commands(true);
+  announce_at_once("lathe-1");
+  ASSERT_TRUE(test_support::eventually([&] { return closed.tried_ > 0; }));
+  EXPECT_TRUE(service_->machines().empty());
+  EXPECT_EQ(service_->machine("lathe-1").error().code, Errc::NotFound);
+  EXPECT_EQ(start("O0100").error().code, Errc::NotFound);
+  machines::CommandRequest stop;
+  stop.machine = "lathe-1";
+  stop.action = dds::CommandAction::Switch;
+  stop.argument = "emergency_stop";
+  stop.value = 1;
+  EXPECT_TRUE(service_->command(stop)) << "stopping always works";
+  EXPECT_TRUE(machines_.empty()) << "no event names it either";
+  closed.is_closed_ = false;
+  EXPECT_TRUE(wait_notified(machines_, [](const auto& view) { return view.is_connected; }))
+      << "without another word of its gateway";
+  EXPECT_EQ(service_->machines().size(), 1u);
+  EXPECT_TRUE(store_->machines.find("lathe-1"));
+  service_.reset();  // before the store
+}
+
 TEST(IsNews, AreAlarmsPromptsAndStopsAndWhatAnOperatorSets) {
   const std::vector<void (*)(dds::Status&)> news{
       [](auto& s) { s.execution = dds::Execution::Stopped; },

@@ -19,6 +19,7 @@ class MachineJog : public MachineServiceTest {
     announce.session = session;
     announce.commands = commands;
     network_.on_announce(announce);
+    ASSERT_TRUE(test_support::eventually([&] { return service_->machine("lathe-1").has_value(); }));
     dds::Status status;
     status.machine = "lathe-1";
     status.session = session;

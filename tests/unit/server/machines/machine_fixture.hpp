@@ -9,6 +9,7 @@
 
 #include "protocol/dds/record_text.hpp"
 #include "server/machines/machine_service.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/support/fake_server_endpoint.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
@@ -39,7 +40,12 @@ class MachineServiceTest : public ServerTest {
   }
   void start_service() { start_service(*store_); }
 
+  /// Returns when the machine is stored, and so is shown.
   void announce(const std::string& machine = "lathe-1") {
+    announce_at_once(machine);
+    EXPECT_TRUE(test_support::eventually([&] { return service_->machine(machine).has_value(); }));
+  }
+  void announce_at_once(const std::string& machine) {
     dds::Announce announce;
     announce.machine = machine;
     announce.control = "centurion";
