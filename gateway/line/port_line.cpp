@@ -30,6 +30,7 @@ TransferState state_of(SendOutcome outcome) {
 PortLine::PortLine(Parts parts)
     : parts_(std::move(parts)),
       recorder_(parts_.recording, parts_.clock, parts_.on_traffic),
+      losses_(parts_.names.address),
       session_(parts_.settings, *this) {}
 
 std::shared_ptr<PortLine> PortLine::make(Parts parts) {
@@ -57,7 +58,8 @@ serial::LineListener PortLine::line_listener() {
                 with_line([this](wire::Discipline& line, wire::LineTime now) {
                   session_.on_room(line, now);
                 });
-              }};
+              },
+          .on_steady = [this] { on_steady(); }};
 }
 
 void PortLine::open() {
@@ -115,9 +117,23 @@ void PortLine::on_channel(const Error* lost) {
       refresh();
     });
   }
-  process::log_info("port={} machine={} {}", parts_.names.name, parts_.names.machine,
-                    lost != nullptr ? "has no line: " + lost->what : "is open");
+  log_line(lost != nullptr ? losses_.on_lost(lost->what, parts_.clock.steady_now())
+                           : losses_.on_open());
   parts_.post([on_change = parts_.listener.on_change] { on_change(); });
+}
+
+void PortLine::on_steady() {
+  log_line(losses_.on_steady());
+}
+
+void PortLine::log_line(const std::optional<LossLog::Message>& message) const {
+  if (!message) return;
+  const auto& [is_warning, text] = *message;
+  if (is_warning) {
+    process::log_warning("port={} machine={} {}", parts_.names.name, parts_.names.machine, text);
+  } else {
+    process::log_info("port={} machine={} {}", parts_.names.name, parts_.names.machine, text);
+  }
 }
 
 void PortLine::set_fault(const std::string& words) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gateway/line/line_session.hpp"
+#include "gateway/line/loss_log.hpp"
 #include "gateway/line/port_view.hpp"
 #include "gateway/line/recording/flight_recorder.hpp"
 #include "protocol/serial/line_driver.hpp"
@@ -106,6 +107,8 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   bool with_line(Work work);
   void ask(std::function<Result<void>(wire::Discipline&, wire::LineTime)> work, Answer answer);
   void on_channel(const Error* lost);
+  void on_steady();
+  void log_line(const std::optional<LossLog::Message>& message) const;
   void refresh();
   void set_fault(const std::string& words);
   void watch_wait();
@@ -132,6 +135,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
 
   const Parts parts_;
   FlightRecorder recorder_;
+  LossLog losses_;       ///< on the line's thread
   LineSession session_;  ///< on the line's thread; when the line is closed, on the closing thread
   mutable std::mutex mutex_;
   std::unique_ptr<serial::LineDriver> driver_;

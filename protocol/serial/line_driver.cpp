@@ -55,6 +55,7 @@ class Line final : public LineDriver {
   void run();
   void turn();
   void open();
+  void note_steady();
   void lose(const Error& error);
   void fail_transfer(const Error& error);
   void do_posted();
@@ -89,6 +90,7 @@ class Line final : public LineDriver {
   bool is_forbidden_ = false;  ///< to transmit
   bool has_input_ = false, may_have_more_ = true, has_lines_ = true;
   LineTime open_at_{}, look_at_{}, ticked_{-1};
+  std::optional<LineTime> steady_at_;  ///< of an opening that may not last
   std::optional<wire::InputLines> input_lines_;
   std::optional<wire::OutputLines> output_lines_;
   std::string fault_;  ///< reported last
@@ -132,7 +134,14 @@ void Line::turn() {
     if (done) done = set_lines();
     if (!done) lose(done.error());
   }
+  note_steady();
   publish();
+}
+
+void Line::note_steady() {
+  if (!steady_at_ || now() < *steady_at_) return;
+  steady_at_.reset();
+  if (parts_.listener.on_steady) parts_.listener.on_steady();
 }
 
 void Line::do_posted() {
@@ -158,6 +167,7 @@ void Line::open() {
   input_lines_.reset();
   output_lines_.reset();
   look_at_ = now();
+  steady_at_ = now() + parts_.steady_after;
   is_open_ = true;
   tell(LineTraffic::What::Note, {}, "open");
   if (parts_.listener.on_channel) parts_.listener.on_channel(nullptr);
@@ -165,6 +175,7 @@ void Line::open() {
 
 void Line::lose(const Error& error) {
   channel_.reset();
+  steady_at_.reset();
   is_open_ = false;
   held_count_ = 0;
   open_at_ = now() + parts_.reopen_after;
@@ -310,6 +321,7 @@ LineTime Line::next_turn() const {
     next = std::min(next, *deadline == ticked_ ? at + 1ms : *deadline);
   }
   if (is_forbidden_) next = std::min(next, at + kForbiddenInterval);
+  if (steady_at_) next = std::min(next, *steady_at_);
   if (!channel_) return is_forbidden_ ? next : std::min(next, open_at_);
   if (has_lines_) next = std::min(next, look_at_);
   if (is_forbidden_) return next;

@@ -26,6 +26,8 @@ struct LineListener {
   std::function<void(const Error* lost)> on_channel;
   /// There is room for more text.
   std::function<void()> on_room;
+  /// The channel has been open for Parts::steady_after; once for each opening that lasts.
+  std::function<void()> on_steady = {};
 };
 
 /// Runs one discipline over one channel on a thread of its own: paces the output so that at most
@@ -44,6 +46,8 @@ class LineDriver {
     wire::Role role = wire::Role::Host;
     LineListener listener = {};
     std::chrono::milliseconds reopen_after{1000};
+    /// A device server that has another client ends a connection within its first seconds.
+    std::chrono::milliseconds steady_after{10000};
     /// Limit of one attempt to connect; posted work waits meanwhile.
     std::chrono::milliseconds open_limit{2000};
     /// False: another one may use the line, so it is not opened, and nothing is sent. Asked often,

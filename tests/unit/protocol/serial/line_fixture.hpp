@@ -22,7 +22,7 @@ struct LineLog {
   std::vector<Passed> traffic;
   std::vector<std::string> channel;  ///< "open", or why not
   std::vector<Error> failures, faults;
-  int ended = 0, room_calls = 0;
+  int ended = 0, room_calls = 0, steady_calls = 0;
   std::string to_send;  ///< offered whenever there is room
 
   template <class Condition>
@@ -72,7 +72,8 @@ struct LineLog {
                 [this, change](const Error* lost) {
                   change([&] { channel.push_back(lost != nullptr ? lost->what : "open"); });
                 },
-            .on_room = [this, change] { change([&] { ++room_calls; }); }};
+            .on_room = [this, change] { change([&] { ++room_calls; }); },
+            .on_steady = [this, change] { change([&] { ++steady_calls; }); }};
   }
 };
 
@@ -86,6 +87,7 @@ inline std::unique_ptr<LineDriver> start_toy(LineLog& log, const std::string& ad
                          .role = wire::Role::Host,
                          .listener = log.listener(),
                          .reopen_after = std::chrono::milliseconds(20),
+                         .steady_after = std::chrono::milliseconds(300),
                          .make_discipline = [] { return std::make_unique<ToyDiscipline>(); }});
   return std::move(*line);
 }

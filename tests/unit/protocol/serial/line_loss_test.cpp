@@ -40,6 +40,22 @@ TEST(LostLine, ReportsEachReasonOnce) {
   EXPECT_FALSE(log.wait([&] { return log.channel.size() > 1; }, 200ms));
 }
 
+/// Which accepts and ends each connection at once.
+TEST(LostLine, IsSteadyOnlyWhenADeviceServerKeepsTheConnection) {
+  TcpPeer peer;
+  LineLog log;
+  const auto line = start_toy(log, peer.address());
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(peer.accept());
+    peer.hang_up();
+    ASSERT_TRUE(log.wait([&] { return log.channel.size() >= 2u * static_cast<unsigned>(i + 1); }));
+  }
+  EXPECT_FALSE(log.wait([&] { return log.steady_calls > 0; }, 50ms));
+  ASSERT_TRUE(peer.accept());
+  EXPECT_TRUE(log.wait([&] { return log.steady_calls == 1; }));
+  EXPECT_FALSE(log.wait([&] { return log.steady_calls > 1; }, 500ms)) << "once for each opening";
+}
+
 TEST(LostLine, FailsAnUncheckedTransferAndSendsNothingOfItLater) {
   Pty pty;
   LineLog log;
