@@ -8,13 +8,13 @@
 namespace dripline::cli {
 
 std::optional<client::Client> Context::connect() {
-  auto address = client::locate_server(location, process_environment, ::geteuid() == 0);
-  if (!address) {
-    complain(address.error());
-    status = address.error().code == Errc::NotFound ? kExitUnreachable : kExitUsage;
+  auto servers = client::locate_servers(location, process_environment, ::geteuid() == 0);
+  if (!servers) {
+    complain(servers.error());
+    status = servers.error().code == Errc::NotFound ? kExitUnreachable : kExitUsage;
     return std::nullopt;
   }
-  return std::optional<client::Client>(std::in_place, std::move(*address));
+  return std::optional<client::Client>(std::in_place, *std::move(servers));
 }
 
 bool Context::has_color() const {

@@ -22,8 +22,8 @@ class Context {
   bool wants_json = false;
   int status = kExitOk;
 
-  /// A client of the server the options, the environment or the state folder name; when none can be
-  /// found it complains, sets `status` and gives nothing.
+  /// A client of the server (or the servers of one library) that the options, the environment or
+  /// the state folder name; when none can be found it complains, sets `status` and gives nothing.
   std::optional<client::Client> connect();
 
   bool has_color() const;

@@ -13,7 +13,8 @@ constexpr const char* kAbout =
     "dnc: the command line of Dripline, for NC programs, machines, serial ports, runs and reports.";
 
 constexpr const char* kFooter = R"(Which server:
-  --server, else DRIPLINE_SERVER, else the local server's file STATE/dncd.json. STATE is --state,
+  --server, else DRIPLINE_SERVER, else the local server's file STATE/dncd.json. Of servers that
+  share a library all are named, with commas: the one that has it answers. STATE is --state,
   else DRIPLINE_STATE, else /var/lib/dripline (root), $XDG_STATE_HOME/dripline or
   ~/.local/state/dripline. The token is --token-file's, else DRIPLINE_TOKEN, else the one
   that dnc login saved for this server (not with --state), else the local server's. These options
@@ -26,6 +27,7 @@ Examples:
   dnc report export latest --format csv -o profile.csv
   dnc user add anna --role operator --group lathes --password
   dnc --server https://dnc.shop:8443 --ca shop-ca.pem --token-file ~/.dnc-token machine list
+  dnc --server https://srv-1:8443,https://srv-2:8443 --ca shop-ca.pem machine list
   dnc check shaft.nc
   dnc trace --control centurion --setup lathe.toml shaft.nc
   dnc diff --motion shaft.nc shaft-new.nc
@@ -45,8 +47,10 @@ See `dnc VERB --help` and `dnc GROUP VERB --help`. NO_COLOR is respected.)";
 
 void add_connection_options(CLI::App& app, Context& context) {
   auto& location = context.location;
-  app.add_option("--server", location.server, "Address of the server, http(s)://HOST:PORT")
-      ->type_name("URL");
+  app.add_option("--server", location.server,
+                 "Address of the server, http(s)://HOST:PORT; with commas: of several that share a "
+                 "library")
+      ->type_name("URL[,URL...]");
   app.add_option("--token-file", location.token_file, "File that holds the access token")
       ->type_name("FILE");
   app.add_option("--ca", location.ca_file, "PEM file of the authority to trust for https")

@@ -5,6 +5,7 @@
 
 #include "clients/lib/api_json.hpp"
 #include "clients/lib/impl/request.hpp"
+#include "clients/lib/shared_http.hpp"
 
 namespace dripline::client {
 
@@ -82,16 +83,24 @@ std::string command_body(const CommandRequest& command) {
 }  // namespace
 
 Client::Client(ServerAddress address, const HttpOptions& options)
-    : address_(std::move(address)), http_(open_http(address_, options)) {}
+    : Client(std::vector<ServerAddress>{std::move(address)}, options) {}
+
+Client::Client(std::vector<ServerAddress> servers, const HttpOptions& options)
+    : servers_(std::move(servers)), http_(open_http(servers_, options)) {}
 
 Client::Client(ServerAddress address, std::unique_ptr<Http> http)
-    : address_(std::move(address)), http_(std::move(http)) {}
+    : servers_{std::move(address)}, http_(std::move(http)) {}
+
+const ServerAddress& Client::address() const {
+  const ServerAddress* const answering = http_->answering();
+  return answering != nullptr ? *answering : servers_.front();
+}
 
 Reply<HttpResponse> Client::exchange(const HttpRequest& request) {
   auto response = http_->send(request);
   if (!response) return response;
   if (response->status < 200 || response->status >= 300) {
-    return failed(refusal(*response, address_.url));
+    return failed(refusal(*response, address().url));
   }
   return response;
 }
@@ -119,7 +128,7 @@ Reply<T> Client::fetch(HttpRequest request, std::string_view body) {
   auto value = json ? from_json<T>(*json) : Result<T>(tl::make_unexpected(json.error()));
   if (!value) {
     return failed(Failure::Kind::BadReply, Errc::Syntax,
-                  "the answer of {} to {} {} is not as expected: {}", address_.url, request.method,
+                  "the answer of {} to {} {} is not as expected: {}", address().url, request.method,
                   request.path, value.error().what);
   }
   return std::move(*value);
@@ -132,7 +141,7 @@ Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* me
   auto json = parse_json(response->body);
   const auto bad = [&](std::string_view why) {
     return failed(Failure::Kind::BadReply, Errc::Syntax,
-                  "the answer of {} to {} is not as expected: {}", address_.url, path, why);
+                  "the answer of {} to {} is not as expected: {}", address().url, path, why);
   };
   if (!json || !json->is_object() || !json->contains(member) || !(*json)[member].is_array()) {
     return bad(fmt::format("no list \"{}\"", member));
@@ -259,12 +268,12 @@ Reply<Content> Client::content(const ContentRange& range) {
   if (!response) return failed(response.error());
   if (response->body.size() > range.length) {
     return failed(Failure::Kind::BadReply, Errc::LimitExceeded,
-                  "the answer of {} to {} is longer than {} bytes", address_.url, request.path,
+                  "the answer of {} to {} is longer than {} bytes", address().url, request.path,
                   range.length);
   }
   if (response->status != 206 && range.offset != 0) {
     return failed(Failure::Kind::BadReply, Errc::Unsupported,
-                  "{} does not serve parts of a program (status {}, expected 206)", address_.url,
+                  "{} does not serve parts of a program (status {}, expected 206)", address().url,
                   response->status);
   }
   Content content;

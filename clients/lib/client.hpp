@@ -21,10 +21,14 @@ namespace dripline::client {
 class Client {
  public:
   explicit Client(ServerAddress address, const HttpOptions& options = {});
+  /// Of servers that share a library, the one that has it (shared_http.hpp); at least one.
+  explicit Client(std::vector<ServerAddress> servers, const HttpOptions& options = {});
   /// Takes any transport; for tests.
   Client(ServerAddress address, std::unique_ptr<Http> http);
 
-  const ServerAddress& address() const { return address_; }
+  /// Of several servers the one that answered last, else the first.
+  const ServerAddress& address() const;
+  const std::vector<ServerAddress>& servers() const { return servers_; }
 
   Reply<void> health();
   Reply<ServerInfo> server();
@@ -279,7 +283,7 @@ class Client {
   template <class T>
   Reply<std::vector<T>> fetch_list(const std::string& path, const char* member);
 
-  ServerAddress address_;
+  std::vector<ServerAddress> servers_;
   std::unique_ptr<Http> http_;
 };
 

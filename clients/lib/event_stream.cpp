@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "clients/lib/api_json.hpp"
-#include "clients/lib/http.hpp"
 #include "clients/lib/impl/request.hpp"
+#include "clients/lib/shared_http.hpp"
 
 namespace dripline::client {
 
@@ -64,8 +64,10 @@ Failure refused(const HttpResponse& response, const std::string& url) {
 
 class EventStream::Impl {
  public:
-  Impl(const ServerAddress& address, std::string path)
-      : address_(address), path_(std::move(path)), http_(open_http(address, {5000ms, 60000ms})) {
+  Impl(const std::vector<ServerAddress>& servers, std::string path)
+      : first_(servers.front()),
+        path_(std::move(path)),
+        http_(open_http(servers, {5000ms, 60000ms})) {
     thread_ = std::thread([this] { run(); });
   }
 
@@ -116,9 +118,9 @@ class EventStream::Impl {
     request.on_body = [&](std::string_view bytes) { return take(parser, bytes); };
     auto response = http_->send(request);
     if (!response) return response.error();
-    if (response->status < 200 || response->status >= 300) return refused(*response, address_.url);
+    if (response->status < 200 || response->status >= 300) return refused(*response, url());
     return {Failure::Kind::Unreachable, Errc::Io,
-            fmt::format("server {} ended the stream of events", address_.url)};
+            fmt::format("server {} ended the stream of events", url())};
   }
 
   bool take(EventParser& parser, std::string_view bytes) {
@@ -154,7 +156,12 @@ class EventStream::Impl {
     return is_stopped_;
   }
 
-  ServerAddress address_;
+  const std::string& url() const {
+    const ServerAddress* const answering = http_->answering();
+    return answering != nullptr ? answering->url : first_.url;
+  }
+
+  ServerAddress first_;
   std::string path_;
   std::unique_ptr<Http> http_;
   std::mutex mutex_;
@@ -166,12 +173,15 @@ class EventStream::Impl {
 };
 
 EventStream::EventStream(const ServerAddress& address, const std::string& machine)
-    : impl_(std::make_unique<Impl>(address, events_path(machine))) {}
+    : EventStream(std::vector<ServerAddress>{address}, machine) {}
+EventStream::EventStream(const std::vector<ServerAddress>& servers, const std::string& machine)
+    : impl_(std::make_unique<Impl>(servers, events_path(machine))) {}
 EventStream::EventStream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 EventStream::~EventStream() = default;
 
-EventStream EventStream::of_port(const ServerAddress& address, const std::string& port) {
-  return EventStream(std::make_unique<Impl>(address, impl::path_of("ports", port) + "/traffic"));
+EventStream EventStream::of_port(const std::vector<ServerAddress>& servers,
+                                 const std::string& port) {
+  return EventStream(std::make_unique<Impl>(servers, impl::path_of("ports", port) + "/traffic"));
 }
 
 std::optional<StreamItem> EventStream::next(std::chrono::milliseconds timeout) {

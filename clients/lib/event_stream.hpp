@@ -31,13 +31,14 @@ using StreamItem =
 /// The server's events (GET /api/v1/events, or a port's traffic), read by a thread of its own that
 /// reconnects with back-off. `next` is for one thread. At most 1024 items wait; while the queue is
 /// full, the connection is not read, and the state that follows the next StreamOpened makes up for
-/// what the server then drops.
+/// what the server then drops. Of several servers that share a library, the one that has it.
 class EventStream {
  public:
   /// `machine` empty: of all machines.
   EventStream(const ServerAddress& address, const std::string& machine);
+  EventStream(const std::vector<ServerAddress>& servers, const std::string& machine);
   /// The events of a port's line: Port once, then Traffic and TrafficLost.
-  static EventStream of_port(const ServerAddress& address, const std::string& port);
+  static EventStream of_port(const std::vector<ServerAddress>& servers, const std::string& port);
   ~EventStream();
   EventStream(const EventStream&) = delete;
   EventStream& operator=(const EventStream&) = delete;

@@ -38,6 +38,13 @@ std::string_view reason(httplib::Error error) {
   }
 }
 
+/// Before there was a connection, nothing was sent over it.
+bool is_before_sending(httplib::Error error) {
+  using enum httplib::Error;
+  return error == Connection || error == ConnectionTimeout || error == SSLConnection ||
+         error == SSLLoadingCerts || error == SSLServerVerification;
+}
+
 /// Receives a body: into memory within a bound, or to the caller's function.
 class BodyReceiver {
  public:
@@ -92,8 +99,10 @@ class HttplibHttp final : public Http {
                     "the answer of {} to {} is longer than {} bytes", address_.url, request.path,
                     request.max_body);
     }
-    return failed(Failure::Kind::Unreachable, Errc::Timeout, "server {} is not reachable: {}",
-                  address_.url, reason(result.error()));
+    return failed(
+        {Failure::Kind::Unreachable, Errc::Timeout,
+         fmt::format("server {} is not reachable: {}", address_.url, reason(result.error())),
+         is_before_sending(result.error())});
   }
 
   void stop() override { client_.stop(); }

@@ -51,6 +51,8 @@ class Http {
   virtual Reply<HttpResponse> send(const HttpRequest& request) = 0;
   /// Ends a running `send`, which then fails; any thread.
   virtual void stop() = 0;
+  /// Of several servers the one that answered last; null: none has, or there is one only.
+  virtual const ServerAddress* answering() const { return nullptr; }
 };
 
 std::unique_ptr<Http> open_http(const ServerAddress& address, const HttpOptions& options = {});

@@ -25,6 +25,7 @@ struct Failure {
   Kind kind = Kind::Refused;
   Errc code = Errc::Io;
   std::string what;
+  bool is_not_taken = false;  ///< Unreachable: nothing of the request has reached a server
 };
 
 /// A value or a Failure. Ignoring one is an error in our builds.

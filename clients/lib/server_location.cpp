@@ -2,6 +2,7 @@
 
 #include "clients/lib/saved_logins.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -95,16 +96,25 @@ Result<std::optional<LocalServer>> read_local_server(const std::string& state) {
   return std::optional<LocalServer>(std::move(local));
 }
 
-/// The address the user named, if any.
-Result<std::optional<std::string>> named_url(const LocationOptions& options,
-                                             const Environment& environment) {
+/// The addresses the user named; empty: none.
+Result<std::vector<std::string>> named_urls(const LocationOptions& options,
+                                            const Environment& environment) {
+  std::vector<std::string> urls;
   std::optional<std::string> text = options.server;
-  const bool from_option = text.has_value();
+  const char* const origin = text ? "--server" : "DRIPLINE_SERVER";
   if (!text) text = environment("DRIPLINE_SERVER");
-  if (!text) return std::optional<std::string>();
-  auto url = checked_url(*text, from_option ? "--server" : "DRIPLINE_SERVER");
-  if (!url) return fail(url.error());
-  return std::optional<std::string>(std::move(*url));
+  if (!text) return urls;
+  for (std::size_t begin = 0; begin <= text->size();) {
+    const std::size_t end = std::min(text->find(',', begin), text->size());
+    auto url = checked_url(text->substr(begin, end - begin), origin);
+    if (!url) return fail(url.error());
+    urls.push_back(*std::move(url));
+    begin = end + 1;
+  }
+  if (urls.size() > kMaxServers)
+    return fail(Errc::LimitExceeded, "{} names {} servers, expected at most {}", origin,
+                urls.size(), kMaxServers);
+  return urls;
 }
 
 Result<std::string> find_token(const LocationOptions& options, const Environment& environment,
@@ -137,40 +147,58 @@ Result<void> take_certificate(const LocationOptions& options, ServerAddress& add
   return {};
 }
 
-}  // namespace
-
-Result<ServerAddress> locate_server(const LocationOptions& options, const Environment& environment,
-                                    bool is_root) {
-  auto url = named_url(options, environment);
-  if (!url) return fail(url.error());
-  auto state = options.state_dir ? Result<std::string>(*options.state_dir)
-                                 : default_state_folder(environment, is_root);
-  if (!state && !*url) return fail(state.error());
+/// What is given for all servers, and the server on this computer.
+struct Known {
+  const LocationOptions& options;
+  const Environment& environment;
   std::optional<LocalServer> local;
-  if (state) {
-    auto read = read_local_server(*state);
-    // A server named explicitly must be usable even where the local one's file is not.
-    if (!read && !*url) return fail(read.error());
-    if (read) local = *read;
-  }
-  if (!*url && !local) {
-    return fail(Errc::NotFound,
-                "no server is named, and none runs here ({}/dncd.json does not "
-                "exist); expected --server URL or DRIPLINE_SERVER",
-                *state);
-  }
-  const bool state_is_named = options.state_dir || environment("DRIPLINE_STATE");
-  const bool is_local = local && (!*url || **url == local->url || state_is_named);
-  ServerAddress address{.url = *url ? **url : local->url, .token = {}, .ca_file = options.ca_file};
+  bool state_is_named = false;
+};
+
+Result<ServerAddress> address_of(const std::string& url, const Known& known) {
+  const auto& [options, environment, local, state_is_named] = known;
+  const bool is_local = local && (url == local->url || state_is_named);
+  ServerAddress address{.url = url, .token = {}, .ca_file = options.ca_file};
   if (auto shown = take_certificate(options, address); !shown) return fail(shown.error());
   if (address.certificate.empty() || options.token_file) {
-    auto token =
-        find_token(options, environment, address.url, is_local ? local->token_file : std::nullopt);
+    auto token = find_token(options, environment, url, is_local ? local->token_file : std::nullopt);
     if (!token) return fail(token.error());
     address.token = *std::move(token);
   }
   if (!address.ca_file && is_local) address.ca_file = local->ca_file;
   return address;
+}
+
+}  // namespace
+
+Result<std::vector<ServerAddress>> locate_servers(const LocationOptions& options,
+                                                  const Environment& environment, bool is_root) {
+  auto urls = named_urls(options, environment);
+  if (!urls) return fail(urls.error());
+  auto state = options.state_dir ? Result<std::string>(*options.state_dir)
+                                 : default_state_folder(environment, is_root);
+  if (!state && urls->empty()) return fail(state.error());
+  Known known{options, environment, {}, options.state_dir || environment("DRIPLINE_STATE")};
+  if (state) {
+    auto read = read_local_server(*state);
+    // A server named explicitly must be usable even where the local one's file is not.
+    if (!read && urls->empty()) return fail(read.error());
+    if (read) known.local = *std::move(read);
+  }
+  if (urls->empty() && !known.local) {
+    return fail(Errc::NotFound,
+                "no server is named, and none runs here ({}/dncd.json does not "
+                "exist); expected --server URL or DRIPLINE_SERVER",
+                *state);
+  }
+  if (urls->empty()) urls->push_back(known.local->url);
+  std::vector<ServerAddress> servers;
+  for (const auto& url : *urls) {
+    auto address = address_of(url, known);
+    if (!address) return fail(address.error());
+    servers.push_back(*std::move(address));
+  }
+  return servers;
 }
 
 }  // namespace dripline::client

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "protocol/base/private_folder.hpp"
 #include "protocol/base/result.hpp"
@@ -19,7 +20,7 @@ struct ServerAddress {
 
 /// What the user gave to find the server; everything is optional.
 struct LocationOptions {
-  std::optional<std::string> server;            ///< --server URL
+  std::optional<std::string> server;            ///< --server URL[,URL...]
   std::optional<std::string> token_file;        ///< --token-file FILE
   std::optional<std::string> ca_file;           ///< --ca FILE
   std::optional<std::string> state_dir;         ///< --state DIR
@@ -27,15 +28,18 @@ struct LocationOptions {
   std::optional<std::string> key = {};          ///< --key FILE
 };
 
-/// Finds the server. Address: --server, DRIPLINE_SERVER, then `url` of STATE/dncd.json, which a
-/// local server writes. Token: --token-file, DRIPLINE_TOKEN (the token itself), then `token_file`
-/// of dncd.json; that last one is used only for the server which dncd.json names, or when the state
-/// folder was named explicitly, so that the local token is never sent elsewhere. A login that was
-/// saved for the address (saved_logins.hpp) comes before the local token, unless --state is given.
-/// Without --token-file a certificate (--cert, --key) is shown instead of a token. Errors: Syntax
-/// (an address or dncd.json that is not as described; --cert without --key, or not for https),
-/// NotFound (no server is named anywhere), Io (a file that cannot be read).
-Result<ServerAddress> locate_server(const LocationOptions& options, const Environment& environment,
-                                    bool is_root);
+/// Finds the server, or the servers of one library, in the order of their names: at least one, at
+/// most kMaxServers. Addresses: --server, DRIPLINE_SERVER (both with commas between several), then
+/// `url` of STATE/dncd.json, which a local server writes. Each has its own token: --token-file,
+/// DRIPLINE_TOKEN (the token itself), then `token_file` of dncd.json; that last one is used only
+/// for the server which dncd.json names, or when the state folder was named explicitly, so that the
+/// local token is never sent elsewhere. A login that was saved for the address (saved_logins.hpp)
+/// comes before the local token, unless --state is given. Without --token-file a certificate
+/// (--cert, --key) is shown instead of a token. Errors: Syntax (an address or dncd.json that is not
+/// as described; --cert without --key, or not for https), LimitExceeded (more servers), NotFound
+/// (no server is named anywhere), Io (a file that cannot be read).
+Result<std::vector<ServerAddress>> locate_servers(const LocationOptions& options,
+                                                  const Environment& environment, bool is_root);
+inline constexpr std::size_t kMaxServers = 8;
 
 }  // namespace dripline::client

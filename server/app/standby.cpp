@@ -154,8 +154,13 @@ Result<bool> Standby::look() {
 }
 
 Result<void> Standby::listen() {
-  auto http = api::HttpServer::start(
-      parts_->http, {.handle = [this](const api::Request& request) { return answer(request); }});
+  auto http = api::HttpServer::start(parts_->http, {.handle = [this](const api::Request& request) {
+                                       api::Response response = answer(request);
+                                       // By which a client that knows several servers asks the next
+                                       // one.
+                                       response.headers.emplace_back("Dripline-Role", "standby");
+                                       return response;
+                                     }});
   if (!http) return fail(http.error());
   http_ = *std::move(http);
   api::HttpAddress bound = parts_->http.address;

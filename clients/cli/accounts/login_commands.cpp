@@ -1,4 +1,5 @@
 #include <memory>
+#include <set>
 
 #include "clients/cli/accounts/account_text.hpp"
 #include "clients/cli/context.hpp"
@@ -24,6 +25,13 @@ std::optional<client::SavedLogins> saved_logins(int& status) {
   return std::nullopt;
 }
 
+/// As --server takes them.
+std::string urls_of(const client::Client& client) {
+  std::string text;
+  for (const auto& server : client.servers()) text += (text.empty() ? "" : ",") + server.url;
+  return text;
+}
+
 int login(Context& context, client::Client& client, const LoginCommand& command) {
   int status = kExitOk;
   const auto logins = saved_logins(status);
@@ -35,11 +43,14 @@ int login(Context& context, client::Client& client, const LoginCommand& command)
   const auto session =
       client.sign_in({.user = *user, .password = *password, .hours = command.hours});
   if (!session) return complain(session.error());
-  const std::string& url = client.address().url;
-  if (auto saved = logins->save(url, session->secret, session->expires); !saved)
-    return complain(saved.error());
-  context.print(fmt::format("Logged in at {} as {} ({}) until {}.\n", url, printable(session->user),
-                            printable(session->role), expiry_text(session->expires)));
+  // Servers of one library have the same sessions.
+  for (const auto& server : client.servers()) {
+    if (auto saved = logins->save(server.url, session->secret, session->expires); !saved)
+      return complain(saved.error());
+  }
+  context.print(fmt::format("Logged in at {} as {} ({}) until {}.\n", urls_of(client),
+                            printable(session->user), printable(session->role),
+                            expiry_text(session->expires)));
   return kExitOk;
 }
 
@@ -48,19 +59,25 @@ int logout(Context& context, client::Client& client) {
   int status = kExitOk;
   const auto logins = saved_logins(status);
   if (!logins) return status;
-  client::ServerAddress address = client.address();
-  const auto secret = logins->find(address.url);
-  if (!secret) return complain(secret.error());
-  if (*secret) {
-    address.token = **secret;
-    const auto ended = client::Client(address).sign_out();
+  auto servers = client.servers();
+  std::set<std::string> secrets;
+  for (const auto& server : servers) {
+    const auto secret = logins->find(server.url);
+    if (!secret) return complain(secret.error());
+    if (*secret) secrets.insert(**secret);
+  }
+  for (const auto& secret : secrets) {
+    for (auto& server : servers) server.token = secret;
+    const auto ended = client::Client(servers).sign_out();
     // One that the server does not know any more has ended as well.
     if (!ended && ended.error().kind != client::Failure::Kind::Denied)
       return complain(ended.error());
   }
-  if (auto removed = logins->remove(address.url); !removed) return complain(removed.error());
-  context.print(*secret ? fmt::format("Logged out at {}.\n", address.url)
-                        : fmt::format("There was no login at {}.\n", address.url));
+  for (const auto& server : servers) {
+    if (auto removed = logins->remove(server.url); !removed) return complain(removed.error());
+  }
+  context.print(secrets.empty() ? fmt::format("There was no login at {}.\n", urls_of(client))
+                                : fmt::format("Logged out at {}.\n", urls_of(client)));
   return kExitOk;
 }
 

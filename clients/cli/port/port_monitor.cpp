@@ -33,7 +33,7 @@ class PortMonitor {
     if (!port) return complain(port.error());
     greet(*port);
     take_state(*port);
-    auto stream = client::EventStream::of_port(client_.address(), name_);
+    auto stream = client::EventStream::of_port(client_.servers(), name_);
     while (!is_interrupted() && !is_denied_) {
       const auto item = stream.next(kIdle);
       if (item) std::visit([this](const auto& one) { take(one); }, *item);

@@ -28,7 +28,7 @@ class MachineWatch {
 
   int run() {
     if (auto read = refresh(); !read) return complain(read.error());
-    client::EventStream stream(client_.address(), name_);
+    client::EventStream stream(client_.servers(), name_);
     while (!is_interrupted()) {
       auto item = stream.next(200ms);
       if (!item) continue;

@@ -37,7 +37,7 @@ class RunFollower {
 
   int watch(std::optional<std::chrono::seconds> timeout) {
     const SteadyTime begun = clock_.steady_now();
-    client::EventStream stream(client_.address(), run_.machine);
+    client::EventStream stream(client_.servers(), run_.machine);
     last_heard_ = last_asked_ = clock_.steady_now();
     show();
     while (!has_ended(run_)) {

@@ -108,7 +108,7 @@ Reply<std::string> Client::attachment_bytes(const AttachmentRange& range) {
   if (!response) return failed(response.error());
   if (response->body.size() != range.length) {
     return failed(Failure::Kind::BadReply, Errc::Corrupt,
-                  "{} gave {} bytes of attachment '{}' at {}, expected {}", address_.url,
+                  "{} gave {} bytes of attachment '{}' at {}, expected {}", address().url,
                   response->body.size(), range.name, range.offset, range.length);
   }
   return std::move(response->body);

@@ -48,7 +48,7 @@ Reply<std::optional<Revision>> Client::reject_revision(const DecisionRequest& re
   auto revision = from_json<Revision>(json);
   if (!revision) {
     return failed(Failure::Kind::BadReply, Errc::Syntax,
-                  "the answer of {} to reject is not as expected: {}", address_.url,
+                  "the answer of {} to reject is not as expected: {}", address().url,
                   revision.error().what);
   }
   return std::optional(*std::move(revision));

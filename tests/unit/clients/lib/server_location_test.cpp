@@ -27,7 +27,13 @@ class ServerLocation : public testing::Test {
     write("local/dncd.json", json);
   }
   Result<ServerAddress> locate() {
-    return locate_server(
+    auto servers = locate_all();
+    if (!servers) return fail(servers.error());
+    EXPECT_EQ(servers->size(), 1u);
+    return servers->front();
+  }
+  Result<std::vector<ServerAddress>> locate_all() {
+    return locate_servers(
         options,
         [this](std::string_view name) {
           const auto found = variables.find(name);
@@ -75,6 +81,33 @@ TEST_F(ServerLocation, NeverSendsTheLocalTokenToAnotherServer) {
   EXPECT_EQ(locate()->token, "");
   options.server = "http://127.0.0.1:8700";
   EXPECT_EQ(locate()->token, "local-token");
+}
+
+TEST_F(ServerLocation, TakesTheServersOfOneLibrary) {
+  variables["DRIPLINE_SERVER"] = "http://srv-1:1/,https://srv-2:2";
+  variables["DRIPLINE_TOKEN"] = "t";
+  const auto servers = locate_all();
+  ASSERT_TRUE(servers) << servers.error().what;
+  ASSERT_EQ(servers->size(), 2u);
+  EXPECT_EQ(servers->at(0).url, "http://srv-1:1");
+  EXPECT_EQ(servers->at(1).url, "https://srv-2:2");
+  EXPECT_EQ(servers->at(1).token, "t");
+  for (const char* const wrong : {"http://a:1,", ",http://a:1", "http://a:1,,http://b:1", "", ","})
+    EXPECT_EQ((options.server = wrong, locate_all()).error().code, Errc::Syntax) << wrong;
+  options.server = "http://a:1";
+  for (std::size_t i = 0; i < kMaxServers; ++i) *options.server += ",http://a:1";
+  EXPECT_EQ(locate_all().error().code, Errc::LimitExceeded);
+}
+
+TEST_F(ServerLocation, SendsTheLocalTokenToTheLocalOneOfSeveralOnly) {
+  variables["XDG_STATE_HOME"] = folder.path().string();
+  std::filesystem::rename(folder.path() / "local", folder.path() / "dripline");
+  write("dripline/dncd.json", R"({"url":"http://127.0.0.1:8700","token_file":"token"})");
+  options.server = "http://elsewhere:1,http://127.0.0.1:8700";
+  const auto servers = locate_all();
+  ASSERT_TRUE(servers) << servers.error().what;
+  EXPECT_EQ(servers->at(0).token, "");
+  EXPECT_EQ(servers->at(1).token, "local-token");
 }
 
 TEST_F(ServerLocation, LooksForStateWhereTheUserAndTheSystemKeepIt) {

@@ -95,7 +95,8 @@ TEST_F(Http, StreamsWhatPassesOverALineToOurClient) {
   view.port.name = "line-1";
   ports_.views.push_back(view);
   auto stream = client::EventStream::of_port(
-      {fmt::format("http://127.0.0.1:{}", server_->port()), kSecret, {}}, "line-1");
+      {client::ServerAddress{fmt::format("http://127.0.0.1:{}", server_->port()), kSecret, {}}},
+      "line-1");
   const auto publish = api::publish_traffic_to(events_);
   bool has_port = false, has_traffic = false;
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
