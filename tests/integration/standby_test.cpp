@@ -1,32 +1,19 @@
 // Two servers of one library and a machine that runs: whatever happens to the active one, the other
 // takes over, the machine is fed, and nothing is lost, doubled or written by two.
 // DRIPLINE_TAKEOVERS changes how often (6 by default).
-#include <arpa/inet.h>
-#include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <array>
-#include <atomic>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <memory>
 #include <random>
+#include <sstream>
 #include <thread>
 
-#include "storage/postgresql/database.hpp"
-#include "tests/integration/system.hpp"
-#include "tests/integration/two_servers.hpp"
-#include "tests/support/postgresql/database_cable.hpp"
-#include "tests/support/postgresql/test_database.hpp"
+#include "tests/integration/standby_fixture.hpp"
 
 namespace dripline::integration {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using storage::postgresql::Database;
 using test_support::eventually;
 
 constexpr std::uint64_t kMovesPerLine = 50;
@@ -56,33 +43,15 @@ std::string long_program(std::uint64_t lines) {
   return text + "PCLOS\nM30\n";
 }
 
-class TwoServersTest : public testing::Test {
+enum class Event { Kill, Freeze, Cut, Drain };
+constexpr std::array kEvents{Event::Kill, Event::Freeze, Event::Cut, Event::Drain};
+const char* word(Event event) {
+  return std::array{"kill", "freeze", "cut", "drain"}[static_cast<std::size_t>(event)];
+}
+
+/// A run of a machine while its servers come and go.
+class Takeovers : public TwoServersTest {
  protected:
-  void SetUp() override {
-    database_ = test::TestDatabase::make_empty();
-    if (database_ == nullptr) GTEST_SKIP() << "PostgreSQL is not installed";
-  }
-  /// The sessions of each server have its name, for the witness in the database.
-  std::string store(char server) {
-    auto& cable = cables_[server == 'a' ? 0 : 1];
-    cable = std::make_unique<test::DatabaseCable>(database_->url());
-    return cable->url() + "&options=-c%20dripline.server%3D" + server;
-  }
-  void begin(const std::vector<std::string>& arguments = {}) {
-    shop_.emplace(TwoServers::Options{
-        .stores = {store('a'), store('b')}, .speed = "10x", .arguments = arguments});
-    shop_->start(0);
-    ASSERT_TRUE(shop_->wait_active(0)) << shop_->log(0);
-    shop_->share_keys();
-    shop_->start(1);
-    ASSERT_EQ(shop_->role(1), "standby") << shop_->log(1);
-    ASSERT_TRUE(shop_->wait_for_standby());
-  }
-  Database connect() const {
-    auto database = Database::connect({.url = database_->url()});
-    EXPECT_TRUE(database) << database.error().what;
-    return *std::move(database);
-  }
   /// Of every row that matters: who wrote it, in which term.
   void place_witness() const {
     auto database = connect();
@@ -109,21 +78,11 @@ class TwoServersTest : public testing::Test {
               0);
     EXPECT_GT(database.integer("SELECT count(DISTINCT term) FROM witness").value_or(0), 1);
   }
-  void expect_whole_trail(int server) const {
-    const auto verified =
-        shop_->rest(server).post("/api/v1/audit/verification", nlohmann::json::object());
-    ASSERT_EQ(verified.status, 200) << verified.body;
-    EXPECT_TRUE(verified.json()["verification"]["fault"].is_null()) << verified.body;
-  }
   std::string start_run(int server) {
     const auto reply =
         shop_->rest(server).post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0300"}});
     EXPECT_EQ(reply.status, 201) << reply.body;
     return reply.json().value("id", "none");
-  }
-  nlohmann::json run(int server, const std::string& id) const {
-    auto found = shop_->rest(server).get("/api/v1/runs/" + id).json();
-    return found.is_object() ? found : nlohmann::json::object();
   }
   void expect_every_line_once(int server, const std::string& id, std::uint64_t lines) const {
     std::istringstream text(shop_->rest(server).get("/api/v1/reports/" + id + "?format=text").body);
@@ -134,21 +93,6 @@ class TwoServersTest : public testing::Test {
     }
     EXPECT_EQ(count, lines);
   }
-
-  std::unique_ptr<test::TestDatabase> database_;
-  std::array<std::unique_ptr<test::DatabaseCable>, 2> cables_;  ///< of each server
-  std::optional<TwoServers> shop_;
-};
-
-enum class Event { Kill, Freeze, Cut, Drain };
-constexpr std::array kEvents{Event::Kill, Event::Freeze, Event::Cut, Event::Drain};
-const char* word(Event event) {
-  return std::array{"kill", "freeze", "cut", "drain"}[static_cast<std::size_t>(event)];
-}
-
-/// A run of a machine while its servers come and go.
-class Takeovers : public TwoServersTest {
- protected:
   struct Figures {
     int count = 0;
     milliseconds most{0}, sum{0};
@@ -272,267 +216,6 @@ TEST_F(Takeovers, AtRandomTheMachineIsFedAndNothingIsLostOrDoubled) {
                word(event), figures.count, figures.sum.count() / figures.count,
                figures.most.count(), figures.least_bytes, 100 * figures.least_level);
   }
-}
-
-TEST_F(TwoServersTest, TheStandbySaysWhatItIsAndWhoIsActive) {
-  begin();
-  const auto health = shop_->rest(1).get("/api/v1/health");
-  EXPECT_EQ(health.status, 200);
-  EXPECT_EQ(health.json().value("role", ""), "standby") << health.body;
-  const auto ready = shop_->rest(1).get("/api/v1/ready");
-  EXPECT_EQ(ready.status, 503);
-  EXPECT_EQ(ready.json().value("ready", true), false) << ready.body;
-  EXPECT_EQ(shop_->rest(0).get("/api/v1/ready").json().value("role", ""), "active");
-  const auto refused = shop_->rest(1).get("/api/v1/machines");
-  EXPECT_EQ(refused.status, 503);
-  EXPECT_NE(refused.body.find(shop_->rest(0).url()), std::string::npos) << refused.body;
-  EXPECT_NE(shop_->rest(1).get("/api/v1/metrics").body.find("\ndripline_server_active 0\n"),
-            std::string::npos);
-  const auto metrics = shop_->rest(0).get("/api/v1/metrics").body;
-  EXPECT_NE(metrics.find("\ndripline_server_active 1\n"), std::string::npos);
-  EXPECT_NE(metrics.find("\ndripline_server_standbys 1\n"), std::string::npos);
-}
-
-/// Sessions, tokens, webhooks and the rest come from the database.
-TEST_F(TwoServersTest, AnOrderlyEndHandsOverAtOnceWithEverythingInTheDatabase) {
-  begin();
-  const auto token = shop_->rest(0).post("/api/v1/users/admin/tokens", {{"name", "robot"}});
-  ASSERT_EQ(token.status, 201) << token.body;
-  const std::string secret = token.json().value("secret", token.json().value("token", ""));
-  const auto begun = std::chrono::steady_clock::now();
-  shop_->server(0).signal(SIGTERM);
-  ASSERT_TRUE(shop_->wait_active(1));
-  EXPECT_LT(std::chrono::steady_clock::now() - begun, seconds(4))
-      << "without waiting for the end of a lease";
-  EXPECT_EQ(shop_->server(0).wait(seconds(10)), 0);
-  const test_support::RestClient robot(shop_->rest(1).url(), secret);
-  EXPECT_EQ(robot.get("/api/v1/server").status, 200);
-  expect_whole_trail(1);
-}
-
-TEST_F(TwoServersTest, ADrainAtTheCommandLineHandsOverAndTheDrainedOneStandsBy) {
-  begin();
-  const auto dnc = [&](int server, const std::string& verb) {
-    return test_support::run_to_end(
-        {program_path("dnc"), "--state", shop_->state(server), "server", verb},
-        shop_->folder() / "dnc.out");
-  };
-  const auto shown = dnc(0, "status");
-  EXPECT_EQ(shown.status, 0) << shown.output;
-  EXPECT_NE(shown.output.find(", standby: dncd "), std::string::npos) << shown.output;
-  const auto refused = dnc(1, "drain");
-  EXPECT_NE(refused.status, 0);
-  EXPECT_NE(refused.output.find("this server stands by"), std::string::npos) << refused.output;
-  const auto drained = dnc(0, "drain");
-  EXPECT_EQ(drained.status, 0) << drained.output;
-  EXPECT_NE(drained.output.find("handed over to dncd "), std::string::npos) << drained.output;
-  ASSERT_TRUE(shop_->wait_active(1));
-  EXPECT_TRUE(shop_->wait_for_standby());
-  EXPECT_EQ(shop_->role(0), "standby");
-  EXPECT_TRUE(shop_->server(0).is_running()) << "the same process";
-  expect_whole_trail(1);
-}
-
-TEST_F(TwoServersTest, WithoutAStandbyNothingIsHandedOver) {
-  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
-  shop_->start(0);
-  const auto refused = shop_->rest(0).post("/api/v1/server/drain", nlohmann::json::object());
-  EXPECT_EQ(refused.status, 409) << refused.body;
-  EXPECT_NE(refused.body.find("no server waits"), std::string::npos) << refused.body;
-  EXPECT_EQ(shop_->role(0), "active");
-}
-
-TEST_F(TwoServersTest, NothingIsHandedOverToAStandbyThatDoesNotAnswer) {
-  begin();
-  shop_->server(1).signal(SIGSTOP);
-  const auto refused = shop_->rest(0).post("/api/v1/server/drain", nlohmann::json::object());
-  EXPECT_EQ(refused.status, 409) << refused.body;
-  EXPECT_NE(refused.body.find("has not looked at it"), std::string::npos) << refused.body;
-  EXPECT_EQ(shop_->role(0), "active");
-  shop_->server(1).signal(SIGCONT);
-  const auto drained = shop_->rest(0).post("/api/v1/server/drain", nlohmann::json::object());
-  EXPECT_EQ(drained.status, 202) << drained.body;
-  ASSERT_TRUE(shop_->wait_active(1));
-}
-
-TEST_F(TwoServersTest, AFolderWithoutTheKeysIsRefused) {
-  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
-  shop_->start(0);
-  const auto refused = test_support::run_to_end(
-      {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
-       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain())},
-      shop_->folder() / "refused.out");
-  EXPECT_EQ(refused.status, 1);
-  EXPECT_NE(refused.output.find("signing.key, token and database.id"), std::string::npos)
-      << refused.output;
-}
-
-TEST_F(TwoServersTest, AFolderWithAnotherTokenIsRefused) {
-  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
-  shop_->start(0);
-  shop_->share_keys();
-  std::ofstream(shop_->state(1) / "token") << std::string(64, 'a') << "\n";
-  const auto refused = test_support::run_to_end(
-      {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
-       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain())},
-      shop_->folder() / "refused.out");
-  EXPECT_EQ(refused.status, 1);
-  EXPECT_NE(refused.output.find("is not the token that the active server has"), std::string::npos)
-      << refused.output;
-}
-
-TEST_F(TwoServersTest, ASqliteFileHasNoStandby) {
-  const test_support::TemporaryFolder folder;
-  const auto refused = test_support::run_to_end(
-      {program_path("dncd"), "--state", folder.path() / "s", "--standby", "yes"},
-      folder.path() / "out");
-  EXPECT_EQ(refused.status, 1);
-  EXPECT_NE(refused.output.find("standby: servers share a PostgreSQL database"), std::string::npos)
-      << refused.output;
-}
-
-/// A device server that lets several computers use its port at once, as many do.
-class OpenDeviceServer {
- public:
-  OpenDeviceServer() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in place{};
-    place.sin_family = AF_INET;
-    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof place;
-    auto* address = reinterpret_cast<sockaddr*>(&place);
-    EXPECT_EQ(::bind(listener_.get(), address, size), 0);
-    EXPECT_EQ(::listen(listener_.get(), 4), 0);
-    ::getsockname(listener_.get(), address, &size);
-    address_ = "tcp://127.0.0.1:" + std::to_string(ntohs(place.sin_port));
-    thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
-  }
-  const std::string& address() const { return address_; }
-  std::size_t received() const { return received_; }
-  bool stays_silent(milliseconds time) const {
-    const std::size_t before = received_;
-    std::this_thread::sleep_for(time);
-    return received_ == before;
-  }
-
- private:
-  void serve(const std::stop_token& stop) {
-    std::vector<Descriptor> clients;
-    while (!stop.stop_requested()) {
-      std::vector<pollfd> ends{{listener_.get(), POLLIN, 0}};
-      for (const auto& client : clients) ends.push_back({client.get(), POLLIN, 0});
-      if (::poll(ends.data(), ends.size(), 20) <= 0) continue;
-      for (std::size_t i = clients.size(); i > 0; --i) {
-        std::array<char, 256> piece;
-        if (ends[i].revents == 0) continue;
-        const auto got = ::recv(clients[i - 1].get(), piece.data(), piece.size(), 0);
-        if (got > 0) received_ += static_cast<std::size_t>(got);
-        if (got <= 0) clients.erase(clients.begin() + static_cast<std::ptrdiff_t>(i - 1));
-      }
-      if (ends[0].revents != 0) clients.emplace_back(::accept(listener_.get(), nullptr, nullptr));
-    }
-  }
-  Descriptor listener_;
-  std::string address_;
-  std::atomic<std::size_t> received_ = 0;
-  std::jthread thread_;
-};
-
-/// A control at the end of a device server, which both servers reach.
-class SharedLine : public TwoServersTest {
- protected:
-  /// A run that takes its line for some minutes.
-  void begin_run() {
-    begin();
-    const nlohmann::json settings{
-        {"machine", "mill-1"}, {"address", device_.address()}, {"template", "plain"}};
-    const auto added = shop_->rest(0).put_bytes("/api/v1/ports/line-1", settings.dump());
-    ASSERT_LT(added.status, 300) << added.body;
-    std::string text = "O1\n";
-    for (int i = 1; i < 6000; ++i) text += fmt::format("N{} G1 X{}\n", i, i % 9);
-    shop_->push(0, "O1", text);
-    ASSERT_TRUE(eventually([&] { return port(0).value("open", false); })) << port(0).dump();
-    const auto begun =
-        shop_->rest(0).post("/api/v1/runs", {{"machine", "mill-1"}, {"program", "O1"}});
-    ASSERT_EQ(begun.status, 201) << begun.body;
-    id_ = begun.json().value("id", "none");
-    ASSERT_TRUE(eventually([&] { return device_.received() > 500; }));
-  }
-  nlohmann::json port(int server) const {
-    return shop_->rest(server).get("/api/v1/ports/line-1").json();
-  }
-
-  OpenDeviceServer device_;
-  std::string id_;
-};
-
-/// The control would have half a program in its memory.
-TEST_F(SharedLine, IsNotHandedOverInTheMiddleOfATransfer) {
-  begin_run();
-  ASSERT_LT(shop_->rest(0).post("/api/v1/runs/" + id_ + "/commands", {{"action", "abort"}}).status,
-            300);
-  ASSERT_TRUE(eventually([&] { return run(0, id_).value("state", "") == "aborted"; }));
-  const auto sent = shop_->rest(0).post("/api/v1/ports/line-1/transfers",
-                                        {{"programs", nlohmann::json::array({"O1"})}});
-  ASSERT_LT(sent.status, 300) << sent.body;
-  const auto refused = shop_->rest(0).post("/api/v1/server/drain", nlohmann::json::object());
-  EXPECT_EQ(refused.status, 409) << refused.body;
-  EXPECT_NE(refused.body.find("port 'line-1' of machine 'mill-1' is sending"), std::string::npos)
-      << refused.body;
-  EXPECT_EQ(shop_->role(0), "active");
-}
-
-/// Two programs at once on one line would be another program at the control.
-TEST_F(SharedLine, IsFedByNobodyWhoMayHaveLostTheLibrary) {
-  begin_run();
-  cables_[0]->pull();
-  ASSERT_TRUE(shop_->wait_active(1));
-  EXPECT_TRUE(device_.stays_silent(seconds(2)));
-  EXPECT_EQ(run(1, id_).value("state", ""), "interrupted");
-  EXPECT_NE(port(0).dump().find("nothing is sent"), std::string::npos) << port(0).dump();
-  cables_[0]->plug();
-  EXPECT_EQ(shop_->server(0).wait(seconds(30)), 1) << shop_->log(0);
-  EXPECT_TRUE(device_.stays_silent(seconds(1)));
-}
-
-TEST_F(SharedLine, IsSentNothingByAServerThatWakesUp) {
-  begin_run();
-  shop_->freeze(0);
-  ASSERT_TRUE(shop_->wait_active(1));
-  ASSERT_TRUE(eventually([&] { return run(1, id_).value("state", "") == "interrupted"; }));
-  ASSERT_TRUE(device_.stays_silent(seconds(1)));
-  const std::size_t before = device_.received();
-  shop_->thaw(0);
-  EXPECT_EQ(shop_->server(0).wait(seconds(30)), 1) << shop_->log(0);
-  EXPECT_EQ(device_.received(), before);
-}
-
-/// The database was away, and no other server has the library: the run continues where it was.
-TEST_F(SharedLine, IsFedAgainWhenThePlaceIsRenewed) {
-  begin_run();
-  shop_->server(1).kill();
-  cables_[0]->pull();
-  ASSERT_TRUE(eventually([&] { return device_.stays_silent(seconds(1)); }));
-  const std::size_t before = device_.received();
-  cables_[0]->plug();
-  EXPECT_TRUE(eventually([&] { return device_.received() > before + 500; })) << shop_->log(0);
-  EXPECT_EQ(run(0, id_).value("state", ""), "active");
-  EXPECT_TRUE(port(0)["fault"].is_null()) << port(0).dump();
-}
-
-/// The standby's own /dev/ttyUSB0 is another machine's.
-TEST_F(TwoServersTest, ADeviceOfTheOtherComputerIsNotOpened) {
-  begin();
-  auto database = connect();
-  const nlohmann::json settings{{"machine", "mill-1"}, {"address", "/dev/null"}};
-  const auto added = shop_->rest(0).put_bytes("/api/v1/ports/line-1", settings.dump());
-  ASSERT_LT(added.status, 300) << added.body;
-  EXPECT_NE(database.text("SELECT host FROM port").value_or(""), "");
-  ASSERT_TRUE(database.execute("UPDATE port SET host = 'srv-1'"));
-  shop_->server(0).kill();
-  ASSERT_TRUE(shop_->wait_active(1));
-  const auto port = shop_->rest(1).get("/api/v1/ports/line-1");
-  EXPECT_NE(port.body.find("is a device of computer srv-1"), std::string::npos) << port.body;
-  EXPECT_NE(port.body.find("rfc2217"), std::string::npos) << port.body;
 }
 
 }  // namespace

@@ -1,0 +1,67 @@
+// A server that waits for another one's library: what it says, and which folders may not wait.
+#include <fstream>
+
+#include "tests/integration/standby_fixture.hpp"
+
+namespace dripline::integration {
+namespace {
+
+class WaitingServer : public TwoServersTest {};
+
+TEST_F(WaitingServer, TheStandbySaysWhatItIsAndWhoIsActive) {
+  begin();
+  const auto health = shop_->rest(1).get("/api/v1/health");
+  EXPECT_EQ(health.status, 200);
+  EXPECT_EQ(health.json().value("role", ""), "standby") << health.body;
+  const auto ready = shop_->rest(1).get("/api/v1/ready");
+  EXPECT_EQ(ready.status, 503);
+  EXPECT_EQ(ready.json().value("ready", true), false) << ready.body;
+  EXPECT_EQ(shop_->rest(0).get("/api/v1/ready").json().value("role", ""), "active");
+  const auto refused = shop_->rest(1).get("/api/v1/machines");
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_NE(refused.body.find(shop_->rest(0).url()), std::string::npos) << refused.body;
+  EXPECT_NE(shop_->rest(1).get("/api/v1/metrics").body.find("\ndripline_server_active 0\n"),
+            std::string::npos);
+  const auto metrics = shop_->rest(0).get("/api/v1/metrics").body;
+  EXPECT_NE(metrics.find("\ndripline_server_active 1\n"), std::string::npos);
+  EXPECT_NE(metrics.find("\ndripline_server_standbys 1\n"), std::string::npos);
+}
+
+TEST_F(WaitingServer, AFolderWithoutTheKeysIsRefused) {
+  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
+  shop_->start(0);
+  const auto refused = test_support::run_to_end(
+      {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
+       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain())},
+      shop_->folder() / "refused.out");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.output.find("signing.key, token and database.id"), std::string::npos)
+      << refused.output;
+}
+
+TEST_F(WaitingServer, AFolderWithAnotherTokenIsRefused) {
+  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
+  shop_->start(0);
+  shop_->share_keys();
+  std::ofstream(shop_->state(1) / "token") << std::string(64, 'a') << "\n";
+  const auto refused = test_support::run_to_end(
+      {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
+       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain())},
+      shop_->folder() / "refused.out");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.output.find("is not the token that the active server has"), std::string::npos)
+      << refused.output;
+}
+
+TEST_F(WaitingServer, ASqliteFileHasNoStandby) {
+  const test_support::TemporaryFolder folder;
+  const auto refused = test_support::run_to_end(
+      {program_path("dncd"), "--state", folder.path() / "s", "--standby", "yes"},
+      folder.path() / "out");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.output.find("standby: servers share a PostgreSQL database"), std::string::npos)
+      << refused.output;
+}
+
+}  // namespace
+}  // namespace dripline::integration
