@@ -27,6 +27,31 @@ TEST_F(WaitingServer, TheStandbySaysWhatItIsAndWhoIsActive) {
   EXPECT_NE(metrics.find("\ndripline_server_standbys 1\n"), std::string::npos);
 }
 
+/// As scripts and people use it, before and after a takeover.
+TEST_F(WaitingServer, IsAskedByNobodyWhoNamesBothServers) {
+  begin();
+  const auto dnc = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {program_path("dnc"), "--server",
+                                         shop_->rest(1).url() + "," + shop_->rest(0).url(),
+                                         "--token-file", shop_->state(0) / "token"});
+    return test_support::run_to_end(arguments, shop_->folder() / "dnc.out");
+  };
+  const auto program = shop_->folder() / "O1.nc";
+  std::ofstream(program) << "O1\nM30\n";
+  const auto pushed = dnc({"program", "push", program, "--name", "O1"});
+  EXPECT_EQ(pushed.status, 0) << pushed.output;
+  shop_->server(0).kill();
+  ASSERT_TRUE(shop_->wait_active(1));
+  const auto listed = dnc({"program", "list"});
+  EXPECT_EQ(listed.status, 0) << listed.output;
+  EXPECT_NE(listed.output.find("O1"), std::string::npos) << listed.output;
+  shop_->server(1).kill();
+  const auto refused = dnc({"program", "list"});
+  EXPECT_EQ(refused.status, 3) << refused.output;
+  for (int server : {0, 1})
+    EXPECT_NE(refused.output.find(shop_->rest(server).url()), std::string::npos) << refused.output;
+}
+
 TEST_F(WaitingServer, AFolderWithoutTheKeysIsRefused) {
   shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
   shop_->start(0);
