@@ -9,6 +9,7 @@
 #include "server/api/metrics_text.hpp"
 #include "server/app/networks.hpp"
 #include "server/app/open_store.hpp"
+#include "server/app/standby_page.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/library/release_policy.hpp"
 
@@ -218,3 +219,9 @@ api::Response Standby::answer(const api::Request& request) const {
 }
 
 }  // namespace dripline::app
+  if (wants_page(request)) {
+    api::Response page = standby_page(
+        {.active = view_.described, .url = view_.url, .is_database_lost = !is_well}, request);
+    page.ends_connection = true;
+    return page;
+  }

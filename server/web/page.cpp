@@ -53,14 +53,14 @@ api::Response text_response(int status, std::string_view content_type, std::stri
   return response;
 }
 
+}  // namespace
+
 void add_protection(api::Response& response) {
   response.headers.emplace_back("Content-Security-Policy", kContentSecurityPolicy);
   response.headers.emplace_back("Referrer-Policy", "no-referrer");
   response.headers.emplace_back("Cross-Origin-Opener-Policy", "same-origin");
   response.headers.emplace_back("Cross-Origin-Resource-Policy", "same-origin");
 }
-
-}  // namespace
 
 api::Response Page::send(const Asset& asset, const api::Request& head) const {
   if (!takes_gzip(head)) {

@@ -9,6 +9,10 @@
 
 namespace dripline::web {
 
+/// Adds what every page of the server tells a browser: only files of this server run or are shown,
+/// and nothing is framed or sent elsewhere.
+void add_protection(api::Response& response);
+
 /// Answers the requests for the web page: `/` and `/assets/...`, GET and HEAD, without a token,
 /// since they hold nothing of the shop. Whatever else is asked for is the API's. Any thread; never
 /// waits.

@@ -27,6 +27,19 @@ TEST_F(WaitingServer, TheStandbySaysWhatItIsAndWhoIsActive) {
   EXPECT_NE(metrics.find("\ndripline_server_standbys 1\n"), std::string::npos);
 }
 
+TEST_F(WaitingServer, ShowsABrowserThePageThatNamesTheActiveOne) {
+  begin();
+  const auto page = shop_->rest(1).get("/", {{"Accept", "text/html,application/xhtml+xml,*/*"},
+                                             {"Accept-Language", "de-AT,de;q=0.9,en;q=0.5"}});
+  EXPECT_EQ(page.status, 503);
+  EXPECT_NE(page.body.find("Bereitschaft"), std::string::npos) << page.body;
+  EXPECT_NE(page.body.find("<a href=\"" + shop_->rest(0).url() + "/\">"), std::string::npos)
+      << page.body;
+  EXPECT_NE(page.headers.find("Content-Security-Policy"), page.headers.end());
+  const auto program = shop_->rest(1).get("/api/v1/programs", {{"Accept", "text/html"}});
+  EXPECT_EQ(program.json()["error"].value("code", ""), "busy") << program.body;
+}
+
 /// As scripts and people use it, before and after a takeover.
 TEST_F(WaitingServer, IsAskedByNobodyWhoNamesBothServers) {
   begin();

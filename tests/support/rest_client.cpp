@@ -13,7 +13,8 @@ httplib::Client connect(const std::string& url, const std::string& token) {
 }
 
 RestClient::Reply reply(const httplib::Result& result) {
-  return result ? RestClient::Reply{result->status, result->body} : RestClient::Reply{};
+  if (!result) return {};
+  return {result->status, result->body, {result->headers.begin(), result->headers.end()}};
 }
 
 }  // namespace
@@ -21,8 +22,9 @@ RestClient::Reply reply(const httplib::Result& result) {
 RestClient::RestClient(std::string url, std::string token)
     : url_(std::move(url)), token_(std::move(token)) {}
 
-RestClient::Reply RestClient::get(const std::string& path) const {
-  return reply(connect(url_, token_).Get(path));
+RestClient::Reply RestClient::get(const std::string& path,
+                                  const std::multimap<std::string, std::string>& headers) const {
+  return reply(connect(url_, token_).Get(path, httplib::Headers(headers.begin(), headers.end())));
 }
 
 RestClient::Reply RestClient::post(const std::string& path, const nlohmann::json& body) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -13,12 +14,14 @@ class RestClient {
   struct Reply {
     int status = 0;  ///< 0: no answer
     std::string body;
+    std::map<std::string, std::string> headers = {};  ///< names as the server writes them
     nlohmann::json json() const { return nlohmann::json::parse(body, nullptr, false); }
   };
 
   RestClient(std::string url, std::string token);
   const std::string& url() const { return url_; }
-  Reply get(const std::string& path) const;
+  Reply get(const std::string& path,
+            const std::multimap<std::string, std::string>& headers = {}) const;
   Reply post(const std::string& path, const nlohmann::json& body) const;
   Reply post_text(const std::string& path, const std::string& body) const;
   Reply put_bytes(const std::string& path, const std::string& bytes) const;

@@ -1,0 +1,132 @@
+#include "server/app/standby_page.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "server/web/page.hpp"
+
+namespace dripline::app {
+namespace {
+
+constexpr int kUnavailable = 503;
+constexpr unsigned kReloadSeconds = 5;
+
+struct Words {
+  std::string_view language, waits, has_library, unknown, database_lost, reloads;
+};
+constexpr Words kEnglish{
+    "en",
+    "This server stands by. It takes over when the server that has the library ends.",
+    "The library is at",
+    "Which server has the library is not known now.",
+    "The database cannot be reached now, so this may have changed.",
+    "This page loads itself again, and becomes the usual one when this server has the library."};
+constexpr Words kGerman{
+    "de",
+    "Dieser Server wartet in Bereitschaft. Er übernimmt, wenn der Server mit der Bibliothek endet.",
+    "Die Bibliothek ist bei",
+    "Welcher Server die Bibliothek hat, ist gerade nicht bekannt.",
+    "Die Datenbank ist gerade nicht erreichbar, deshalb kann sich das geändert haben.",
+    "Diese Seite lädt sich selbst neu und wird zur gewohnten, sobald dieser Server die Bibliothek "
+    "hat."};
+
+std::string escape_html(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// The weight of one entry of Accept-Language: "de-AT;q=0.7".
+double weight(std::string_view entry) {
+  const auto at = entry.find(";q=");
+  if (at == std::string_view::npos) return 1;
+  double value = 0;
+  const std::string_view number = trimmed(entry.substr(at + 3));
+  std::from_chars(number.data(), number.data() + number.size(), value);
+  return value;
+}
+
+/// English, unless German is wanted more.
+const Words& words_for(std::string_view accept_language) {
+  double german = 0, english = 0;
+  while (!accept_language.empty()) {
+    const auto comma = accept_language.find(',');
+    const std::string_view entry = trimmed(accept_language.substr(0, comma));
+    if (entry.starts_with("de")) german = std::max(german, weight(entry));
+    if (entry.starts_with("en")) english = std::max(english, weight(entry));
+    accept_language = comma == std::string_view::npos ? "" : accept_language.substr(comma + 1);
+  }
+  return german > english ? kGerman : kEnglish;
+}
+
+/// It comes from the database: only an address becomes a link.
+std::string link_to(const std::string& url) {
+  const std::string text = escape_html(url);
+  if (!url.starts_with("http://") && !url.starts_with("https://")) return text;
+  return fmt::format("<a href=\"{0}/\">{0}</a>", text);
+}
+
+std::string place_of(const StandbyPageFacts& facts, const Words& words) {
+  const std::string name = escape_html(facts.active);
+  if (facts.url.empty() && name.empty()) return std::string(words.unknown);
+  if (facts.url.empty()) return fmt::format("{} {}.", words.has_library, name);
+  if (name.empty()) return fmt::format("{} {}", words.has_library, link_to(facts.url));
+  return fmt::format("{} {} ({})", words.has_library, link_to(facts.url), name);
+}
+
+}  // namespace
+
+bool wants_page(const api::Request& request) {
+  if (request.method != "GET" && request.method != "HEAD") return false;
+  const auto& segments = request.target.segments;
+  if (!segments.empty() && segments.front() == "api") return false;
+  return request.header("accept").find("text/html") != std::string::npos;
+}
+
+api::Response standby_page(const StandbyPageFacts& facts, const api::Request& request) {
+  const Words& words = words_for(request.header("accept-language"));
+  api::Response response;
+  response.status = kUnavailable;
+  response.content_type = "text/html; charset=utf-8";
+  response.body = fmt::format(
+      "<!doctype html><html lang=\"{}\"><meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<meta http-equiv=\"refresh\" content=\"{}\"><title>Dripline</title>\n"
+      "<h1>Dripline</h1>\n<p>{}</p>\n<p>{}</p>\n",
+      words.language, kReloadSeconds, words.waits, place_of(facts, words));
+  if (facts.is_database_lost) response.body += fmt::format("<p>{}</p>\n", words.database_lost);
+  response.body += fmt::format("<p>{}</p>\n</html>\n", words.reloads);
+  response.headers.emplace_back("Cache-Control", "no-store");
+  response.headers.emplace_back("Vary", "Accept, Accept-Language");
+  web::add_protection(response);
+  return response;
+}
+
+}  // namespace dripline::app
