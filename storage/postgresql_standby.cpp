@@ -74,8 +74,8 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
   const std::string facts = connection_->has_place ? "url, signing_key, term" : "'', '', 0";
   const auto row = sql::first_row(
       database,
-      fmt::format("SELECT holder IN ('', ?1), until <= clock_timestamp(), described, {} FROM "
-                  "store_holder WHERE id = 1",
+      fmt::format("SELECT holder IN ('', ?1), until <= clock_timestamp(), described, {}, "
+                  "holder = ?1 FROM store_holder WHERE id = 1",
                   facts),
       [&](const sql::Statement& found) {
         view.is_lapsed = found.integer(0) == 0 && found.integer(1) != 0;
@@ -84,6 +84,7 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
         view.url = found.text(3);
         view.signing_key = found.text(4);
         view.term = static_cast<std::uint64_t>(found.integer(5));
+        view.is_own = found.integer(6) != 0;
         return true;
       },
       options_.holder);

@@ -27,7 +27,8 @@ class PostgresqlStandby {
   struct View {
     bool is_free = false;     ///< given back, this server's own of before, or its lease is over
     bool has_tables = true;   ///< false: no server has used the database yet
-    bool is_lapsed = false;   ///< of `is_free`: its holder has not given it back
+    bool is_lapsed = false;   ///< its holder has not given it back, and its lease is over
+    bool is_own = false;      ///< of this server itself, which was killed
     std::string described;    ///< of the holder
     std::string url;          ///< of the holder; empty: not known
     std::string signing_key;  ///< of the last holder; empty: not known

@@ -134,6 +134,7 @@ Result<bool> stand_by(Turn& turn, const sigset_t& signals, const Clock& clock) {
   if (!opened) return fail(opened.error());
   Standby& standby = **opened;
   auto is_due = standby.look();
+  if (is_due && *is_due) process::log_info("{}", standby.takeover());
   if (!is_due || *is_due) return is_due;
   if (auto listens = standby.listen(); !listens) return fail(listens.error());
   turn.settings.http = standby.address();  // port 0 would be another one after the wait
@@ -150,7 +151,7 @@ Result<bool> stand_by(Turn& turn, const sigset_t& signals, const Clock& clock) {
     is_due = standby.look();
     if (!is_due) return is_due;
     if (!*is_due) continue;
-    process::log_info("taking over: {}", standby.status());
+    process::log_info("{}", standby.takeover());
     return true;
   }
 }

@@ -195,6 +195,22 @@ api::Response Standby::answer(const api::Request& request) const {
   nlohmann::json health{
       {"status", is_well ? "ok" : "degraded"}, {"role", "standby"}, {"reasons", reasons}};
   const std::string path = fmt::format("/{}", fmt::join(request.target.segments, "/"));
+std::string Standby::takeover() const {
+  const std::lock_guard lock(mutex_);
+  if (!view_.has_tables || view_.described.empty())
+    return "taking over the library, which no server has had";
+  if (view_.is_own)
+    return fmt::format("taking over the library again, which this server had before ({})",
+                       view_.described);
+  if (!view_.is_lapsed)
+    return fmt::format("taking over from {}: it has given the library back (an end or a drain)",
+                       name_of(view_));
+  return fmt::format(
+      "taking over from {}: its lease ran out (it was killed, hangs, or does not reach the "
+      "database)",
+      name_of(view_));
+}
+
   if (path == "/api/v1/health") return api::json_response(200, health);
   if (path == "/api/v1/ready") {
     health["ready"] = false;

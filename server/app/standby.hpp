@@ -50,6 +50,8 @@ class Standby {
 
   static constexpr std::chrono::milliseconds kLookEvery{150};
 
+  /// Likewise, after `look` was true: from whom it is taken over, and why.
+  std::string takeover() const;
  private:
   struct Parts;
   explicit Standby(std::unique_ptr<Parts> parts);

@@ -22,6 +22,9 @@ TEST_F(HandOver, AnOrderlyEndHandsOverAtOnceWithEverythingInTheDatabase) {
   ASSERT_TRUE(shop_->wait_active(1));
   EXPECT_LT(std::chrono::steady_clock::now() - begun, seconds(4))
       << "without waiting for the end of a lease";
+  EXPECT_NE(shop_->log(0).find("which no server has had"), std::string::npos) << shop_->log(0);
+  EXPECT_NE(shop_->log(1).find(": it has given the library back"), std::string::npos)
+      << shop_->log(1);
   EXPECT_EQ(shop_->server(0).wait(seconds(10)), 0);
   const test_support::RestClient robot(shop_->rest(1).url(), secret);
   EXPECT_EQ(robot.get("/api/v1/server").status, 200);

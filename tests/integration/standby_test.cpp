@@ -129,6 +129,11 @@ class Takeovers : public TwoServersTest {
         std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - begun);
     std::this_thread::sleep_for(milliseconds(500));  // until text flows again
     const auto after = levels_->now();
+    EXPECT_NE(shop_->log(other).find(event == Event::Drain ? "has given the library back"
+                                                           : "its lease ran out"),
+              std::string::npos)
+        << word(event) << "\n"
+        << shop_->log(other);
     EXPECT_FALSE(after.has_ended) << "the run ended during the test: it is too short";
     EXPECT_GE(after.least * 2, level.most)
         << word(event) << ": the text at the gateway fell below half";

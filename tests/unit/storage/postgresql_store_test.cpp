@@ -222,8 +222,14 @@ TEST_F(PostgresqlStoreTest, AStandbySeesWhoHasThePlaceAndIsSeen) {
     EXPECT_EQ(waiting->front().described, "dncd 8 on srv-2");
     change("UPDATE store_holder SET until = now() - interval '1 second'");
     EXPECT_FALSE(standby.look()->is_free) << "after an outage of the database its holder is first";
+    EXPECT_TRUE(standby.look()->is_lapsed);
+    EXPECT_FALSE(standby.look()->is_own);
     change("UPDATE store_holder SET holder = ''");
     EXPECT_TRUE(standby.look()->is_free) << "given back";
+    EXPECT_FALSE(standby.look()->is_lapsed);
+    change("UPDATE store_holder SET holder = 'srv-2', until = now() + interval '1 hour'");
+    EXPECT_TRUE(standby.look()->is_free) << "of this server, which was killed";
+    EXPECT_TRUE(standby.look()->is_own);
   }
   EXPECT_EQ(query("SELECT count(*) FROM store_standby"), 0);
 }
