@@ -21,6 +21,10 @@ constexpr std::uint16_t server_port(std::uint32_t domain, std::uint32_t cell = 0
   return static_cast<std::uint16_t>(7410 + 250 * domain + 2 * cell);
 }
 
+/// Whether a server that is opened now finds its UDP ports free. Errors: Busy (it names one that is
+/// not; another server on this computer?).
+Result<void> check_ports(const NetworkOptions& options);
+
 /// The Cyclone DDS configuration of one end of the star, complete: no default may
 /// reach another network. No multicast. Pure.
 /// Errors: Syntax, LimitExceeded (an impossible option).

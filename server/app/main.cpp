@@ -136,6 +136,7 @@ Result<bool> stand_by(Turn& turn, const sigset_t& signals, const Clock& clock) {
   auto is_due = standby.look();
   if (is_due && *is_due) process::log_info("{}", standby.takeover());
   if (!is_due || *is_due) return is_due;
+  standby.warn_of_ports();
   if (auto listens = standby.listen(); !listens) return fail(listens.error());
   turn.settings.http = standby.address();  // port 0 would be another one after the wait
   process::log_info("dncd {} standing by at {}: {}", DRIPLINE_VERSION, standby.url(),

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "protocol/dds/configuration.hpp"
 #include "protocol/process/log.hpp"
 #include "server/api/metrics_text.hpp"
 #include "server/app/networks.hpp"
@@ -22,20 +23,22 @@ constexpr int kUnavailable = 503;
 /// After a hand-over another server is waited for; when none has come, this one may have it again.
 constexpr std::chrono::seconds kForOthers{10};
 
-/// What a start would refuse is refused now, and not at the moment of need.
-Result<void> check_settings(const Settings& settings, const Clock& clock) {
+/// What a start would refuse is refused now, and not at the moment of need. Returns the DDS
+/// network.
+Result<dds::NetworkOptions> check_settings(const Settings& settings, const Clock& clock) {
   if (settings.store.empty()) {
     return fail(Errc::Unsupported,
                 "standby: servers share a PostgreSQL database (store = \"postgresql://...\"); the "
                 "SQLite file of a state folder is one server's");
   }
-  if (auto known = check_url(settings.store); !known) return known;
+  if (auto known = check_url(settings.store); !known) return fail(known.error());
   if (auto agent = mtconnect_options(settings); !agent) return fail(agent.error());
-  if (auto network = dds_network(settings, clock.now()); !network) return fail(network.error());
-  if (auto safe = mqtt::check_exposure(settings.mqtt); !safe) return safe;
+  auto network = dds_network(settings, clock.now());
+  if (!network) return fail(network.error());
+  if (auto safe = mqtt::check_exposure(settings.mqtt); !safe) return fail(safe.error());
   if (auto policy = library::ReleasePolicy::read(settings.policy); !policy)
     return fail(policy.error());
-  return {};
+  return std::move(network->options);
 }
 
 std::string name_of(const View& view) {
@@ -53,6 +56,7 @@ struct Standby::Parts {
   FileLock lock;
   std::string signing_key;  ///< public
   api::HttpOptions http;
+  dds::NetworkOptions network;
   storage::PostgresqlStandby database;
   SteadyTime began;
 };
@@ -66,7 +70,8 @@ Standby::~Standby() {
 
 Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const Clock& clock,
                                                const Options& options) {
-  if (auto good = check_settings(settings, clock); !good) return fail(good.error());
+  auto network = check_settings(settings, clock);
+  if (!network) return fail(network.error());
   const auto http = http_options(settings);
   if (!http) return fail(http.error());
   auto folder = StateFolder::open(settings.state);
@@ -81,6 +86,7 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   if (!holder) return fail(holder.error());
   std::unique_ptr<Standby> standby(new Standby(std::unique_ptr<Parts>(
       new Parts{settings, clock, options, *folder, *std::move(lock), key->public_key().hex(), *http,
+                *std::move(network),
                 storage::PostgresqlStandby(
                     {.url = settings.store, .holder = *holder, .described = description(*folder)}),
                 clock.steady_now()})));
@@ -154,6 +160,15 @@ Result<bool> Standby::look() {
   return is_due;
 }
 
+void Standby::warn_of_ports() const {
+  const auto free = dds::check_ports(parts_->network);
+  if (free) return;
+  process::log_warning(
+      "{}: this server cannot take over before it is free. Two servers on one computer need a "
+      "--dds-port each, {} ports apart or more",
+      free.error().what, 2 * parts_->network.cells);
+}
+
 Result<void> Standby::listen() {
   auto http = api::HttpServer::start(parts_->http, {.handle = [this](const api::Request& request) {
                                        api::Response response = answer(request);
@@ -181,20 +196,6 @@ std::string Standby::status() const {
                      fault_.empty() ? "" : ", the database cannot be reached");
 }
 
-/// What anybody may know, and for everything else which server to ask.
-api::Response Standby::answer(const api::Request& request) const {
-  const std::lock_guard lock(mutex_);
-  const bool is_well = fault_.empty();
-  auto reasons = nlohmann::json::array();
-  if (!is_well) {
-    reasons.push_back(
-        {{"subject", "store"},
-         {"status", "degraded"},
-         {"message", "the database that this server stands by for cannot be reached"}});
-  }
-  nlohmann::json health{
-      {"status", is_well ? "ok" : "degraded"}, {"role", "standby"}, {"reasons", reasons}};
-  const std::string path = fmt::format("/{}", fmt::join(request.target.segments, "/"));
 std::string Standby::takeover() const {
   const std::lock_guard lock(mutex_);
   if (!view_.has_tables || view_.described.empty())
@@ -211,6 +212,20 @@ std::string Standby::takeover() const {
       name_of(view_));
 }
 
+/// What anybody may know, and for everything else which server to ask.
+api::Response Standby::answer(const api::Request& request) const {
+  const std::lock_guard lock(mutex_);
+  const bool is_well = fault_.empty();
+  auto reasons = nlohmann::json::array();
+  if (!is_well) {
+    reasons.push_back(
+        {{"subject", "store"},
+         {"status", "degraded"},
+         {"message", "the database that this server stands by for cannot be reached"}});
+  }
+  nlohmann::json health{
+      {"status", is_well ? "ok" : "degraded"}, {"role", "standby"}, {"reasons", reasons}};
+  const std::string path = fmt::format("/{}", fmt::join(request.target.segments, "/"));
   if (path == "/api/v1/health") return api::json_response(200, health);
   if (path == "/api/v1/ready") {
     health["ready"] = false;
@@ -226,6 +241,12 @@ std::string Standby::takeover() const {
     response.body = out.take();
     return response;
   }
+  if (wants_page(request)) {
+    api::Response page = standby_page(
+        {.active = view_.described, .url = view_.url, .is_database_lost = !is_well}, request);
+    page.ends_connection = true;
+    return page;
+  }
   api::Response refused = api::error_response(
       kUnavailable,
       {Errc::Busy,
@@ -235,9 +256,3 @@ std::string Standby::takeover() const {
 }
 
 }  // namespace dripline::app
-  if (wants_page(request)) {
-    api::Response page = standby_page(
-        {.active = view_.described, .url = view_.url, .is_database_lost = !is_well}, request);
-    page.ends_connection = true;
-    return page;
-  }

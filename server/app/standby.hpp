@@ -40,6 +40,9 @@ class Standby {
   /// True: the place is free, try to take it. A database that cannot be reached is logged once, and
   /// waited for. Errors: Unsupported (a newer version's tables), Corrupt (another database).
   Result<bool> look();
+  /// Once, before it waits: a port that is in use now may be free when it takes over, or belongs
+  /// to a server that stays, so it is no reason to refuse.
+  void warn_of_ports() const;
   /// Listens at the address of the settings. Errors: Io, Denied.
   Result<void> listen();
   /// HOST:PORT where it listens, which the server takes over.
@@ -47,11 +50,11 @@ class Standby {
   const std::string& url() const { return url_; }
   /// One line, for people: who has the database.
   std::string status() const;
+  /// Likewise, after `look` was true: from whom it is taken over, and why.
+  std::string takeover() const;
 
   static constexpr std::chrono::milliseconds kLookEvery{150};
 
-  /// Likewise, after `look` was true: from whom it is taken over, and why.
-  std::string takeover() const;
  private:
   struct Parts;
   explicit Standby(std::unique_ptr<Parts> parts);

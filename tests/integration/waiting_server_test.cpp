@@ -65,6 +65,24 @@ TEST_F(WaitingServer, IsAskedByNobodyWhoNamesBothServers) {
     EXPECT_NE(refused.output.find(shop_->rest(server).url()), std::string::npos) << refused.output;
 }
 
+/// The port may be free when it takes over: on this computer the other server ends first.
+TEST_F(WaitingServer, WarnsOfAPortThatTheActiveOneOnThisComputerHas) {
+  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
+  shop_->start(0);
+  ASSERT_TRUE(shop_->wait_active(0));
+  shop_->share_keys();
+  test_support::ChildProcess server(
+      {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
+       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain()), "--dds-port",
+       std::to_string(shop_->dds_port(0))},
+      shop_->folder() / "same.out");
+  ASSERT_TRUE(test_support::eventually([&] { return shop_->role(1) == "standby"; }))
+      << server.output();
+  EXPECT_NE(server.output().find(fmt::format("UDP port {} is in use", shop_->dds_port(0))),
+            std::string::npos)
+      << server.output();
+}
+
 TEST_F(WaitingServer, AFolderWithoutTheKeysIsRefused) {
   shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
   shop_->start(0);

@@ -75,7 +75,25 @@ bool is_taken(std::uint16_t port) {
   return failed;
 }
 
+Result<void> check_ports_of(const NetworkOptions& options, std::uint32_t cell) {
+  const int first = options.port != 0 ? static_cast<int>(options.port + 2 * cell)
+                                      : server_port(options.domain, cell);
+  for (const int port : {first + 0, first + 1}) {
+    if (!is_taken(static_cast<std::uint16_t>(port))) continue;
+    return fail(Errc::Busy, "DDS domain {}: UDP port {} is in use (another server?)",
+                options.domain, port);
+  }
+  return {};
+}
+
 }  // namespace
+
+Result<void> check_ports(const NetworkOptions& options) {
+  for (std::uint32_t cell = 0; cell < options.cells; ++cell) {
+    if (auto free = check_ports_of(options, cell); !free) return free;
+  }
+  return {};
+}
 
 Result<Domain> open_domain(const NetworkOptions& options, Role role, std::uint32_t cell) {
   auto configuration = domain_configuration(options, role, cell);
@@ -85,13 +103,7 @@ Result<Domain> open_domain(const NetworkOptions& options, Role role, std::uint32
     if (auto added = add_security(*options.security, qos.get()); !added) return fail(added.error());
   }
   if (role == Role::Server) {
-    const int first = options.port != 0 ? static_cast<int>(options.port + 2 * cell)
-                                        : server_port(options.domain, cell);
-    for (const int port : {first + 0, first + 1}) {
-      if (!is_taken(static_cast<std::uint16_t>(port))) continue;
-      return fail(Errc::Busy, "DDS domain {}: UDP port {} is in use (another server?)",
-                  options.domain, port);
-    }
+    if (auto free = check_ports_of(options, cell); !free) return fail(free.error());
   }
   auto domain = create_domain(*configuration);
   if (!domain) return fail(domain.error());

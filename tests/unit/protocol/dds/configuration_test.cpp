@@ -1,9 +1,13 @@
 #include "protocol/dds/configuration.hpp"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <ostream>
 #include <set>
+
+#include "protocol/base/descriptor.hpp"
 
 namespace dripline::dds {
 namespace {
@@ -154,6 +158,25 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"many_cells", [](NetworkOptions& o) { o.cells = 128; }, Errc::LimitExceeded},
         BadOption{"lease", [](NetworkOptions& o) { o.lease_ms = 300; }, Errc::LimitExceeded}),
     [](const auto& i) { return i.param.name; });
+
+TEST(ServerPorts, AreFoundInUseBeforeAServerIsOpened) {
+  NetworkOptions options;
+  options.port = 20000;
+  while (!check_ports(options) && options.port < 30000)
+    options.port = static_cast<std::uint16_t>(options.port + 2 * kFewestCells);
+  ASSERT_TRUE(check_ports(options));
+  const Descriptor other(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  const auto last = static_cast<std::uint16_t>(options.port + 2 * kFewestCells - 1);
+  place.sin_port = htons(last);
+  ASSERT_EQ(::bind(other.get(), reinterpret_cast<sockaddr*>(&place), sizeof place), 0);
+  const auto taken = check_ports(options);
+  ASSERT_FALSE(taken);
+  EXPECT_EQ(taken.error().code, Errc::Busy);
+  EXPECT_TRUE(contains(taken.error().what, "UDP port " + std::to_string(last) + " is in use"))
+      << taken.error().what;
+}
 
 }  // namespace
 }  // namespace dripline::dds
