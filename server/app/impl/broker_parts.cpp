@@ -1,5 +1,6 @@
 #include "server/api/views.hpp"
 #include "server/app/impl/server_parts.hpp"
+#include "server/mqtt/guarded_link.hpp"
 
 namespace dripline::app {
 namespace {
@@ -12,10 +13,17 @@ std::string client_of(const Settings& settings, const std::string& identity) {
 
 }  // namespace
 
+std::unique_ptr<mqtt::BrokerLink> ServerParts::make_link(const Settings& settings,
+                                                         const std::string& client) const {
+  auto link = mqtt::make_mosquitto_link(settings.mqtt, client);
+  if (!settings.standby) return link;
+  return mqtt::make_guarded_link(std::move(link), [this] { return store->has_place(); });
+}
+
 std::unique_ptr<mqtt::Publisher> ServerParts::make_publisher(const Settings& settings,
                                                              const Loaded& loaded) {
   if (!settings.mqtt.is_on()) return nullptr;
-  broker = mqtt::make_mosquitto_link(settings.mqtt, client_of(settings, loaded.identity));
+  broker = make_link(settings, client_of(settings, loaded.identity));
   return std::make_unique<mqtt::Publisher>(
       mqtt::Publisher::Parts{
           .store = *store,
@@ -33,8 +41,7 @@ std::unique_ptr<mqtt::Publisher> ServerParts::make_publisher(const Settings& set
 std::unique_ptr<mqtt::SparkplugNode> ServerParts::make_sparkplug(const Settings& settings,
                                                                  const Loaded& loaded) {
   if (!settings.mqtt.has_sparkplug()) return nullptr;
-  sparkplug_broker =
-      mqtt::make_mosquitto_link(settings.mqtt, client_of(settings, loaded.identity) + "-sparkplug");
+  sparkplug_broker = make_link(settings, client_of(settings, loaded.identity) + "-sparkplug");
   return std::make_unique<mqtt::SparkplugNode>(
       mqtt::SparkplugNode::Parts{
           .link = *sparkplug_broker,

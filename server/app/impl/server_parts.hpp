@@ -74,6 +74,8 @@ struct ServerParts {
   FaultWatch records_watch();
   /// Makes a finding of `subject` of each fault; `of`: what has the name.
   FaultWatch watch_faults(const char* subject, const char* of, const char* what);
+  std::unique_ptr<mqtt::BrokerLink> make_link(const Settings& settings,
+                                              const std::string& client) const;
   /// Null: there is no broker.
   std::unique_ptr<mqtt::Publisher> make_publisher(const Settings& settings, const Loaded& loaded);
   /// Null: Sparkplug is not spoken.
