@@ -32,6 +32,9 @@ class TwoServersTest : public testing::Test {
   void begin(const std::vector<std::string>& arguments = {}) {
     shop_.emplace(TwoServers::Options{
         .stores = {store('a'), store('b')}, .speed = "10x", .arguments = arguments});
+    start_both();
+  }
+  void start_both() {
     shop_->start(0);
     ASSERT_TRUE(shop_->wait_active(0)) << shop_->log(0);
     shop_->share_keys();
