@@ -49,7 +49,9 @@ std::optional<LossLog::Message> LossLog::on_open() {
 }
 
 std::optional<LossLog::Message> LossLog::on_steady() {
-  const Period before = std::exchange(period_, Period{.opened = 1, .is_open = true});
+  const Period before = std::exchange(period_, {});
+  period_.opened = 1;
+  period_.is_open = true;
   if (!before.is_unsteady) return std::nullopt;
   return Message{false, fmt::format("is open and stays so; it was lost {} times", before.lost)};
 }
