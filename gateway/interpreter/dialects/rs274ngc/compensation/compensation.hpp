@@ -61,7 +61,7 @@ inline void programmed_at(Run& run, PlaneVector at) {
 /// `target` with another point of the plane; both axes are named.
 Target moved_to(const Run& run, const Target& target, PlaneVector to);
 /// The end of the corner arc before the move to `next`. Axes outside X, Y and Z, that of a rotary
-/// table for example, make their whole way on the arc; the plane's third axis stays for the move.
+/// table for example, make their whole travel on it; the plane's third axis stays for the move.
 Target corner_end(const Run& run, const Target& next, PlaneVector to);
 /// The tool runs inside the arc.
 bool is_inside(const Run& run, Turn turn);

@@ -55,7 +55,7 @@ bool is_other_path(const Modes& saved, const Modes& now) {
                                                       saved.cam_tolerance != now.cam_tolerance));
 }
 
-/// The codes stand on one line, where G41 comes before those that compensation forbids.
+/// The codes are on one line, where G41 comes before those that compensation forbids.
 bool check_compensation(Run& run, const SavedModes& saved) {
   const State& state = run.state;
   const bool is_on = state.compensation.side != Side::Off;
