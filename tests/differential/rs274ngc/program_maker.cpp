@@ -224,12 +224,17 @@ void Maker::saved_modes() {
       "G92.2",   "G52 Y2",       "G49",   "G43 H2", "G7",       "G90.1", "M3 S80", "G64 P0.02",
       "M8 M48",  "S80.6",        "F7.25", "F0.04",  "G95 F.25", "G95",   "G93",    "G93 G1 Y4 F3",
       "G96 S90", "G96 S60 D500", "G97",   "G61",    "M5",       "G20",   "G21"};
-  const auto change = [&] { line(one_of(kChanges)); };
+  bool is_feed_compared = true;
+  const auto change = [&] {
+    const std::string code = one_of(kChanges);
+    if (code == "G20" || code == "G21") is_feed_compared = false;
+    line(code);
+  };
   for (std::uint64_t i = below(3); i > 0; --i) change();
   line("M70");
   for (std::uint64_t i = 1 + below(4); i > 0; --i) change();
   line("M72");
-  if (below(2) == 0) line("X[#<_feed>/8] Z[#<_rpm>/80]");
+  if (below(2) == 0) line(is_feed_compared ? "X[#<_feed>/8] Z[#<_rpm>/80]" : "Z[#<_rpm>/80]");
   line("X4 Z2");
   line("Y5");
   line("G8 G17 G90 G91.1 G99 G49 M3 G94 F25 S500 G97");
@@ -305,6 +310,7 @@ void Maker::small_things() {
     case 0:
       line("G49");
       line(below(2) == 0 ? "G20" : "G21");
+      line("F30");
       break;
     case 1:
       line("G93");

@@ -239,5 +239,6 @@ struct ErrorCode {
 inline constexpr std::string_view kCommentLost = "NGC0901";
 inline constexpr std::string_view kDeadCode = "NGC0902";
 inline constexpr std::string_view kDuplicateSetting = "NGC0903";
+inline constexpr std::string_view kFeedBeforeUnits = "NGC0905";
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -47,7 +47,7 @@ struct Run : BlockRun {
   double mm(double units) const { return units * state.mm_per_unit(); }
   /// F in force, per minute or per revolution.
   Feed modal_feed() const {
-    const auto rate = Length::mm(mm(state.feed));
+    const auto rate = Length::mm(state.feed * interpreter::mm_per_unit(state.feed_units));
     const bool is_per_minute = state.modes.feed == FeedMode::PerMinute;
     return is_per_minute ? Feed::per_minute(rate) : Feed::per_revolution(rate);
   }

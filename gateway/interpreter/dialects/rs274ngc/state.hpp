@@ -10,8 +10,8 @@
 #include "gateway/interpreter/core/language/line_reader.hpp"
 
 /// Everything that stays from one line to the next. Coordinates are program coordinates in
-/// millimeters and degrees whatever the units in force; bare numbers (feed, cycle words) stay in
-/// the units they were written in, as this control keeps them. `visit` (snapshot.cpp) lists the
+/// millimeters and degrees whatever the units in force; bare numbers (feed, cycle words) stay as
+/// they were written, as this control keeps them. `visit` (snapshot.cpp) lists the
 /// members of State: add new ones there.
 namespace dripline::interpreter::rs274ngc {
 
@@ -124,7 +124,7 @@ struct SavedModes {
   Modes modes;
   Units units = Units::Millimeter;
   std::uint8_t system = 1;
-  double feed = 0;
+  double feed = 0;  ///< as shown
   SpindleModes spindle;
   bool flood = false, mist = false;
   Overrides overrides;
@@ -191,7 +191,8 @@ struct State {
   double rotation = 0;  ///< degrees, of the active system
   std::uint8_t system = 1;
 
-  double feed = 0;
+  double feed = 0;                       ///< F as written
+  Units feed_units = Units::Millimeter;  ///< that it counts in
   Modes modes;
   SpindleModes spindle;
   ToolModes tool;
@@ -212,6 +213,11 @@ struct State {
   SavedModes saved;
 
   double mm_per_unit() const { return interpreter::mm_per_unit(units); }
+  /// F in the units in force; per revolution it stays as written.
+  double shown_feed() const {
+    const bool is_as_written = feed_units == units || modes.feed == FeedMode::PerRevolution;
+    return is_as_written ? feed : feed * interpreter::mm_per_unit(feed_units) / mm_per_unit();
+  }
   double& operator[](Axis axis) { return position[index_of(axis)]; }
   double operator[](Axis axis) const { return position[index_of(axis)]; }
 };

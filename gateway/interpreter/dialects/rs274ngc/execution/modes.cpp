@@ -23,10 +23,20 @@ bool select_plane(Run& run, int code) {
   return true;
 }
 
+/// F comes into force before the units of its line.
+[[gnu::cold]] void warn_of_feed(Run& run) {
+  if (run.state.modes.feed == FeedMode::InverseTime) return;
+  const bool is_inch = run.state.feed_units == Units::Inch;
+  run.warn(kFeedBeforeUnits, is_inch ? "F counts in inches: this line's G21 comes after it"
+                                     : "F counts in millimeters: this line's G20 comes after it");
+}
+
 bool select_units(Run& run, int code) {
   const Units units = code == 200 ? Units::Inch : Units::Millimeter;
   if (is_compensating(run) && !run.is_linuxcnc()) return run.fail(ErrorCode::CompUnits, 0);
+  const bool changes = units != run.state.units;
   change_units(run, units);
+  if (changes && run.is_linuxcnc() && run.block.words.has('F')) warn_of_feed(run);
   return true;
 }
 
@@ -66,6 +76,8 @@ void change_units(Run& run, Units units) {
   State& state = run.state;
   if (units == state.units) return;
   state.units = units;
+  // NIST's F is a number that the units in force give its meaning; LinuxCNC's is a speed.
+  if (!run.is_linuxcnc()) state.feed_units = units;
   if (state.has_header) run.events().on_units({run.origin, units});
 }
 
@@ -83,6 +95,7 @@ bool apply_feed(Run& run) {
   }
   if (block.words.has('F') && state.modes.feed != FeedMode::InverseTime) {
     state.feed = block.words['F'];
+    state.feed_units = state.units;
   }
   return true;
 }

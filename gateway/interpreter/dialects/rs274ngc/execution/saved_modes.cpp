@@ -26,12 +26,16 @@ double reread(double value, int decimals) {
   return value;
 }
 
-/// The F word comes back where the value differs; G94 and G95 alone leave none in force. In G93 F
-/// belongs to its line.
-double restored_feed(const SavedModes& saved, const State& state) {
-  if (saved.modes.feed == FeedMode::InverseTime) return state.feed;
-  if (saved.feed != state.feed) return reread(saved.feed, 1);
-  return saved.modes.feed == state.modes.feed ? state.feed : 0;
+/// The F word comes back where the value differs, in the units that have come back; G94 and G95
+/// alone leave none in force. In G93 F belongs to its line.
+void restore_feed(const SavedModes& saved, State& state) {
+  if (saved.modes.feed == FeedMode::InverseTime) return;
+  if (saved.feed != state.shown_feed()) {
+    state.feed = reread(saved.feed, 1);
+    state.feed_units = state.units;
+  } else if (saved.modes.feed != state.modes.feed) {
+    state.feed = 0;
+  }
 }
 
 /// As LinuxCNC writes it: with the codes that differ, G41 to G43 for the tool in the spindle.
@@ -116,7 +120,7 @@ void save_modes(const Run& run, SavedModes& saved) {
            state.modes,
            state.units,
            state.system,
-           state.feed,
+           state.shown_feed(),
            state.spindle,
            state.flood,
            state.mist,
@@ -131,7 +135,7 @@ bool restore_modes(Run& run, const SavedModes& saved) {
   if (!check_compensation(run, saved)) return false;
   if (saved.units != state.units) change_units(run, saved.units);
   const std::int16_t motion = state.modes.motion;
-  state.feed = restored_feed(saved, state);
+  restore_feed(saved, state);
   state.modes = saved.modes;
   state.modes.motion = motion;
   state.overrides = saved.overrides;

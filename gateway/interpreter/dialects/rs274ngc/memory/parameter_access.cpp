@@ -117,7 +117,7 @@ constexpr std::array kSystemNames{
     SystemName{"_feed_override", [](R run) { return flag(run.state.overrides.feed); }},
     SystemName{"_adaptive_feed", [](R run) { return flag(run.state.overrides.adaptive); }},
     SystemName{"_feed_hold", [](R run) { return flag(run.state.overrides.hold); }},
-    SystemName{"_feed", [](R run) { return run.state.feed; }},
+    SystemName{"_feed", [](R run) { return run.state.shown_feed(); }},
     SystemName{"_rpm", [](R run) { return run.state.spindle.speed; }},
     SystemName{"_x", relative<Axis::X>},
     SystemName{"_y", relative<Axis::Y>},
