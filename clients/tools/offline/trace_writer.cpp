@@ -1,5 +1,6 @@
 #include "clients/tools/offline/trace_writer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "clients/tools/offline/number_text.hpp"
@@ -94,10 +95,10 @@ void TraceWriter::position(std::string_view name, const Position& position) {
   buffer_ += separator == '{' ? "{}" : "}";
 }
 
-void TraceWriter::feed(const Feed& feed) {
+void TraceWriter::feed(const Feed& feed, bool is_of_degrees) {
+  const double length = is_of_degrees ? feed.length().mm() : in_units(feed.length());
   buffer_ += ",\"feed\":{\"value\":";
-  append_number(buffer_,
-                feed.per() == Feed::Per::Move ? feed.moves_per_minute() : in_units(feed.length()));
+  append_number(buffer_, feed.per() == Feed::Per::Move ? feed.moves_per_minute() : length);
   buffer_ += ",\"per\":\"";
   buffer_ += word_of(feed.per());
   buffer_ += "\"}";
@@ -106,6 +107,12 @@ void TraceWriter::feed(const Feed& feed) {
 void TraceWriter::diagnostic(const Diagnostic& diagnostic) {
   member("code", diagnostic.id);
   member("text", std::string_view(diagnostic.text));
+}
+
+bool TraceWriter::is_turn(const Position& to) const {
+  return std::ranges::all_of(kAllAxes, [&](Axis axis) {
+    return is_rotary(axis) || std::fabs(to.raw(axis) - last_.raw(axis)) <= kNoMove;
+  });
 }
 
 bool TraceWriter::moves_to(const Position& to) {
@@ -151,10 +158,11 @@ void TraceWriter::on_rapid(const Rapid& rapid) {
 }
 
 void TraceWriter::on_line(const Line& line) {
+  const bool turns = is_turn(line.to);
   if (!moves_to(line.to)) return;
   begin("feed", line.origin);
   position("to", line.to);
-  feed(line.feed);
+  feed(line.feed, turns);
   end();
 }
 

@@ -63,11 +63,14 @@ class TraceWriter final : public EventSink {
   void position(std::string_view name, const Position& position);
   void corner(std::string_view name, const Position& corner);
   void coordinate(Axis axis, double raw);
-  void feed(const Feed& feed);
+  /// In the units in force, or in degrees.
+  void feed(const Feed& feed, bool is_of_degrees = false);
   void arc_path(const Arc& arc);
   void diagnostic(const Diagnostic& diagnostic);
   /// Length in the units in force.
   double in_units(Length length) const;
+  /// Whether rotary axes move alone.
+  bool is_turn(const Position& to) const;
   /// Remembers where a move went; true when it went anywhere.
   bool moves_to(const Position& to);
 

@@ -192,7 +192,7 @@ struct State {
   std::uint8_t system = 1;
 
   double feed = 0;                       ///< F as written
-  Units feed_units = Units::Millimeter;  ///< that it counts in
+  Units feed_units = Units::Millimeter;  ///< that it counts in, along linear axes
   Modes modes;
   SpindleModes spindle;
   ToolModes tool;

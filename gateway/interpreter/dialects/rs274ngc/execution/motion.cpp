@@ -98,6 +98,18 @@ bool is_no_move(const Run& run, const Axes& to) {
   return to == run.state.position && !run.state.is_displaced;
 }
 
+/// Per minute, rotary axes that move alone take F as degrees, whatever the units.
+Feed feed_of_line(const Run& run, const Target& target, const Feed& feed) {
+  constexpr AxisBits kRotary = bit_of(Axis::A) | bit_of(Axis::B) | bit_of(Axis::C);
+  if ((target.named & kRotary) == 0 || feed.per() != Feed::Per::Minute) [[likely]]
+    return feed;
+  for (const Axis axis : kAllAxes) {
+    const auto i = index_of(axis);
+    if (!is_rotary(axis) && target.to[i] != run.state.position[i]) return feed;
+  }
+  return Feed::per_minute(Length::mm(run.state.feed));
+}
+
 }  // namespace
 
 bool check_polar_words(Run& run) {
@@ -221,8 +233,9 @@ void move_to(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
 
 void line_to(Run& run, const Target& target, const Feed& feed, bool rests) {
   if (is_no_move(run, target.to)) return;
+  const Feed along = feed_of_line(run, target, feed);
   const Position& to = arrive(run, target);
-  run.events().on_line({run.origin, to, feed, rests});
+  run.events().on_line({run.origin, to, along, rests});
 }
 
 bool arc_to(Run& run, const Target& target, const ArcShape& shape, const Feed& feed) {
