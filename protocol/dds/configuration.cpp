@@ -8,6 +8,7 @@
 #include <dds/ddsrt/log.h>
 
 #include "protocol/base/digest.hpp"
+#include "protocol/base/markup.hpp"
 
 namespace dripline::dds {
 
@@ -16,29 +17,6 @@ namespace {
 constexpr std::uint32_t kMaxDomain = 230;  // above this, the ports exceed 16 bits
 constexpr std::uint16_t kLowestPort = 1024;
 constexpr std::size_t kMaxServers = 8;
-
-std::string escape_xml(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 bool is_plain(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
@@ -88,7 +66,7 @@ std::string interface_element(const std::string& interface) {
   const bool is_address = interface.find_first_not_of("0123456789.") == std::string::npos ||
                           interface.find(':') != std::string::npos;
   return fmt::format(R"(<NetworkInterface {}="{}" multicast="false"/>)",
-                     is_address ? "address" : "name", escape_xml(interface));
+                     is_address ? "address" : "name", escape_markup(interface));
 }
 
 /// A block of 32 KiB travels in one datagram on loopback, where no wire limits it; elsewhere
@@ -134,7 +112,7 @@ Result<std::string> peer_elements(const NetworkOptions& options, std::uint32_t c
     }
     const auto place = server_place(options, server, cell);
     if (!place) return fail(place.error());
-    peers += fmt::format("<Peer Address=\"{}\"/>", escape_xml(*place));
+    peers += fmt::format("<Peer Address=\"{}\"/>", escape_markup(*place));
     if (comma == std::string_view::npos) return peers;
     rest.remove_prefix(comma + 1);
   }
@@ -203,7 +181,7 @@ Result<std::string> domain_configuration(const NetworkOptions& options, Role rol
       "<WhcHighInit>16MB</WhcHighInit></Watermarks>"
       "<WriterLingerDuration>100ms</WriterLingerDuration></Internal></Domain></CycloneDDS>",
       interface_element(options.interface), size_elements(options.interface), options.domain,
-      escape_xml(options.tag), *place, options.discovery_interval_ms, options.lease_ms);
+      escape_markup(options.tag), *place, options.discovery_interval_ms, options.lease_ms);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "protocol/base/markup.hpp"
 #include "server/web/page.hpp"
 
 namespace dripline::app {
@@ -32,29 +33,6 @@ constexpr Words kGerman{
     "Die Datenbank ist gerade nicht erreichbar, deshalb kann sich das geändert haben.",
     "Diese Seite lädt sich selbst neu und wird zur gewohnten, sobald dieser Server die Bibliothek "
     "hat."};
-
-std::string escape_html(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -87,13 +65,13 @@ const Words& words_for(std::string_view accept_language) {
 
 /// It comes from the database: only an address becomes a link.
 std::string link_to(const std::string& url) {
-  const std::string text = escape_html(url);
+  const std::string text = escape_markup(url);
   if (!url.starts_with("http://") && !url.starts_with("https://")) return text;
   return fmt::format("<a href=\"{0}/\">{0}</a>", text);
 }
 
 std::string place_of(const StandbyPageFacts& facts, const Words& words) {
-  const std::string name = escape_html(facts.active);
+  const std::string name = escape_markup(facts.active);
   if (facts.url.empty() && name.empty()) return std::string(words.unknown);
   if (facts.url.empty()) return fmt::format("{} {}.", words.has_library, name);
   if (name.empty()) return fmt::format("{} {}", words.has_library, link_to(facts.url));

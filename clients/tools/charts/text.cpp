@@ -1,8 +1,10 @@
 #include "clients/tools/charts/text.hpp"
 
+#include "protocol/base/markup.hpp"
 #include "protocol/base/utf8.hpp"
 
 namespace dripline::charts {
+
 std::string clean_text(std::string_view text) {
   std::string result;
   result.reserve(text.size());
@@ -22,26 +24,7 @@ std::string clean_text(std::string_view text) {
 }
 
 std::string xml_text(std::string_view text) {
-  std::string result;
-  for (const char c : clean_text(text)) {
-    switch (c) {
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '&':
-        result += "&amp;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
+  return escape_markup(clean_text(text));
 }
 
 }  // namespace dripline::charts
