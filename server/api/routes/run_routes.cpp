@@ -5,7 +5,6 @@
 #include "server/api/api.hpp"
 #include "server/api/bodies/run_bodies.hpp"
 #include "server/api/views.hpp"
-#include "server/library/history/report_reader.hpp"
 
 namespace dripline::api {
 
