@@ -101,6 +101,7 @@ Figures run(const Options& options, const std::string& programs, std::size_t mac
   Figures figures;
   figures.machines = machines;
   shop.start_server();
+  shop.push_program();
   const auto begin = std::chrono::steady_clock::now();
   shop.start_gateways();
   shop.wait_connected();

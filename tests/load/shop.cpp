@@ -206,16 +206,19 @@ void Shop::push_program() {
 }
 
 void Shop::start_runs() {
-  push_program();
   std::atomic<std::size_t> next = 0;
   std::vector<std::thread> starters;
   constexpr int kStarters = 8;
   for (int i = 0; i < kStarters; ++i) {
     starters.emplace_back([&] {
       for (std::size_t n = ++next; n <= options_.machines; n = ++next) {
-        const auto reply = rest().post(
-            "/api/v1/runs", {{"machine", "mill-" + std::to_string(n)}, {"program", kProgram}});
-        if (reply.status != 201) give_up("a run does not start: " + reply.body);
+        test_support::RestClient::Reply reply;
+        const auto is_started = [&] {
+          reply = rest().post("/api/v1/runs",
+                              {{"machine", "mill-" + std::to_string(n)}, {"program", kProgram}});
+          return reply.status == 201;
+        };
+        if (!eventually(is_started, 60s)) give_up("a run does not start: " + reply.body);
       }
     });
   }

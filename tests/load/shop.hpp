@@ -44,7 +44,9 @@ class Shop {
   void start_gateways();
   /// Until the server says that all are connected; returns the seconds this took.
   double wait_connected();
-  /// On every machine.
+  /// What the machines run.
+  void push_program();
+  /// On every machine; one that is refused, as by a busy server, is tried again for a minute.
   void start_runs();
   /// No more records; until all are acknowledged, then compares them with the server's database.
   Kept drain();
@@ -57,7 +59,6 @@ class Shop {
  private:
   std::size_t connected() const;
   test_support::RestClient rest() const { return {url_, token_}; }
-  void push_program();
 
   ShopOptions options_;
   test_support::TemporaryFolder folder_;
