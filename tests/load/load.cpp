@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -172,9 +173,7 @@ bool is_whole(const Figures& f) {
   return f.kept.sent > 0 && f.kept.lost == 0 && f.kept.damaged == 0 && f.kept.damaged_texts == 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int load_and_measure(int argc, char** argv) {
   Options options;
   bool is_unwatched = false;
   CLI::App app{"load: a dncd with many machines, measured. Status 1: a record or a text was lost."};
@@ -208,4 +207,15 @@ int main(int argc, char** argv) {
     is_good = is_good && is_whole(figures);
   }
   return is_good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return load_and_measure(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "load: %s\n", error.what());
+    return 1;
+  }
 }

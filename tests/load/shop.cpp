@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -155,7 +156,7 @@ void Shop::start_gateways() {
   for (std::size_t first = 0; first < options_.machines; first += kPerProcess) {
     const std::size_t count = std::min(kPerProcess, options_.machines - first);
     const auto feeding =
-        static_cast<std::size_t>(static_cast<double>(count) * options_.feeding + 0.5);
+        static_cast<std::size_t>(std::lround(static_cast<double>(count) * options_.feeding));
     const std::vector<std::string> command{options_.programs + "/load_gateways",
                                            std::to_string(domain_),
                                            tag_,
@@ -208,8 +209,9 @@ void Shop::push_program() {
 void Shop::start_runs() {
   std::atomic<std::size_t> next = 0;
   std::vector<std::thread> starters;
-  constexpr int kStarters = 8;
-  for (int i = 0; i < kStarters; ++i) {
+  constexpr std::size_t kStarters = 8;
+  starters.reserve(kStarters);
+  for (std::size_t i = 0; i < kStarters; ++i) {
     starters.emplace_back([&] {
       for (std::size_t n = ++next; n <= options_.machines; n = ++next) {
         test_support::RestClient::Reply reply;
