@@ -1,0 +1,257 @@
+// Who has the database: one server at a time, by a lease with a term; whoever lost it stores
+// nothing.
+#include <atomic>
+#include <thread>
+
+#include "storage/postgresql/database.hpp"
+#include "storage/postgresql_standby.hpp"
+#include "storage/sql/query.hpp"
+#include "tests/support/child_process.hpp"
+#include "tests/unit/storage/postgresql_store_fixture.hpp"
+
+namespace dripline::storage {
+namespace {
+
+class PostgresqlPlaceTest : public PostgresqlStoreTest {};
+
+TEST_F(PostgresqlPlaceTest, OneServerUsesADatabase) {
+  const auto second = open_another();
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::Busy);
+  store_.reset();
+  const auto third = open_another();
+  ASSERT_TRUE(third) << third.error().what;
+  const auto fourth = open_another();
+  ASSERT_FALSE(fourth);
+  EXPECT_NE(fourth.error().what.find("(dncd 7 on srv-2), and still was after 0 s"),
+            std::string::npos)
+      << fourth.error().what;
+}
+
+TEST_F(PostgresqlPlaceTest, APlaceThatIsNotRenewedEnds) {
+  change("UPDATE store_holder SET until = now() - interval '1 second'");
+  const auto second = open_another();
+  EXPECT_TRUE(second) << second.error().what;
+}
+
+TEST_F(PostgresqlPlaceTest, TheSameServerHasItsPlaceAgainBeforeItsLeaseEnds) {
+  store_.reset();
+  auto first = open_as_if_killed("srv-2");
+  ASSERT_TRUE(first) << first.error().what;
+  const auto again = open_waiting("srv-2", std::chrono::seconds(8));
+  EXPECT_TRUE(again) << again.error().what;
+}
+
+/// Of a folder that was copied to a computer of the same name.
+TEST_F(PostgresqlPlaceTest, ANamesakeOfAServerThatWorksIsRefused) {
+  store_.reset();
+  const auto first = open_another("srv-2");
+  ASSERT_TRUE(first) << first.error().what;
+  const auto second = open_waiting("srv-2", std::chrono::seconds(8));
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::Conflict);
+  EXPECT_NE(second.error().what.find("Delete server.id in the copy"), std::string::npos)
+      << second.error().what;
+  EXPECT_TRUE((*first)->probe()) << "and keeps its place";
+}
+
+/// A server that was frozen and wakes up after another has taken its place.
+TEST_F(PostgresqlPlaceTest, WhoLostThePlaceStoresNothing) {
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
+  change("UPDATE store_holder SET until = now() - interval '1 second'");
+  const auto second = open_another();
+  ASSERT_TRUE(second) << second.error().what;
+  const auto refused = store_->records.store(make_batch(1, 3));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Io);
+  EXPECT_NE(refused.error().what.find("taken over"), std::string::npos) << refused.error().what;
+  EXPECT_FALSE(store_->probe()) << "and the server's health says so";
+  EXPECT_FALSE(store_->runs.find("r1")) << "what it would do with it is another server's now";
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 0);
+  EXPECT_EQ((*second)->records.store(make_batch(1, 3)), 3u);
+}
+
+/// The term alone tells them apart: both have one name, as of a folder that was copied.
+TEST_F(PostgresqlPlaceTest, ATermOfBeforeStoresNothing) {
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
+  store_.reset();
+  auto first = open_as_if_killed("srv-2");
+  ASSERT_TRUE(first) << first.error().what;
+  EXPECT_EQ((*first)->records.store(make_batch(1, 3)), 3u);
+  const auto second = open_waiting("srv-2", std::chrono::seconds(8));
+  ASSERT_TRUE(second) << second.error().what;
+  EXPECT_GT((*second)->term(), (*first)->term());
+  const auto before = query("SELECT count(*) FROM record");
+  const auto refused = (*first)->records.store(make_batch(4, 6));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("taken over"), std::string::npos) << refused.error().what;
+  EXPECT_FALSE((*first)->probe());
+  EXPECT_EQ(query("SELECT count(*) FROM record"), before);
+  first->reset();
+  EXPECT_EQ(query("SELECT count(*) FROM store_holder WHERE holder = 'srv-2'"), 1)
+      << "nor does it give the place of its successor back";
+  EXPECT_TRUE((*second)->probe());
+}
+
+TEST_F(PostgresqlPlaceTest, TermsOnlyGrow) {
+  std::uint64_t last = 0;
+  for (const std::string holder : {"a", "b", "a", "a"}) {
+    store_.reset();
+    const auto store = open_another(holder);
+    ASSERT_TRUE(store) << store.error().what;
+    EXPECT_GT((*store)->term(), last);
+    last = (*store)->term();
+  }
+  // A backup of an hour ago is restored: what gateways have seen since is not given again.
+  change("UPDATE store_holder SET term = term - 3600");
+  auto restored = open_another("b");
+  ASSERT_TRUE(restored) << restored.error().what;
+  EXPECT_GT((*restored)->term(), last - 60);
+  restored->reset();
+  change("UPDATE store_holder SET term = 9000000000");  // the clock was wrong once
+  const auto after = open_another("b");
+  ASSERT_TRUE(after) << after.error().what;
+  EXPECT_EQ((*after)->term(), 9000000001u);
+}
+
+/// A server that is frozen in the middle of a transaction has the row locked.
+TEST_F(PostgresqlPlaceTest, AWriterThatIsFrozenInATransactionKeepsNobodyOut) {
+  store_.reset();
+  auto frozen = postgresql::Database::connect({.url = database_->url()});
+  ASSERT_TRUE(
+      frozen->execute("BEGIN; SELECT 1 FROM store_holder WHERE id = 1 FOR UPDATE; UPDATE "
+                      "identity SET id = repeat('0', 32)"));
+  const auto second = PostgresqlStore::open({.url = database_->url(),
+                                             .lease = std::chrono::milliseconds(700),
+                                             .wait_for_holder = std::chrono::seconds(8)},
+                                            clock_);
+  ASSERT_TRUE(second) << second.error().what;
+  EXPECT_FALSE(frozen->execute("COMMIT")) << "it wakes up";
+  EXPECT_EQ(query("SELECT count(*) FROM identity WHERE id = repeat('0', 32)"), 0);
+}
+
+/// The row is locked as long as it takes, and renewed at its end.
+TEST_F(PostgresqlPlaceTest, ATransactionThatTakesLongerThanTheLeaseKeepsThePlace) {
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
+  store_.reset();
+  auto first = PostgresqlStore::open(
+      {.url = database_->url(), .holder = "a", .lease = std::chrono::milliseconds(600)}, clock_);
+  ASSERT_TRUE(first) << first.error().what;
+  change(
+      "CREATE FUNCTION be_slow() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM "
+      "pg_sleep(2); RETURN NEW; END $$; CREATE TRIGGER slow BEFORE INSERT ON record FOR EACH "
+      "STATEMENT EXECUTE FUNCTION be_slow()");
+  std::jthread storing([&] { EXPECT_EQ((*first)->records.store(make_batch(1, 3)), 3u); });
+  const auto second = PostgresqlStore::open({.url = database_->url(),
+                                             .holder = "b",
+                                             .lease = std::chrono::milliseconds(600),
+                                             .wait_for_holder = std::chrono::milliseconds(2500)},
+                                            clock_);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::Busy) << second.error().what;
+  storing.join();
+  EXPECT_TRUE((*first)->probe());
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 3);
+}
+
+/// What a server does beside its database, as sending over a line that others reach too.
+TEST_F(PostgresqlPlaceTest, APlaceThatCannotBeRenewedMayBeAnothersByItsOwnClock) {
+  store_.reset();
+  const auto store = PostgresqlStore::open(
+      {.url = database_->url(), .holder = "a", .lease = std::chrono::milliseconds(600)}, clock_);
+  ASSERT_TRUE(store) << store.error().what;
+  EXPECT_TRUE(test_support::eventually([&] { return (*store)->has_place(); }));
+  auto other = postgresql::Database::connect({.url = database_->url()});
+  ASSERT_TRUE(other->execute("BEGIN; SELECT 1 FROM store_holder WHERE id = 1 FOR UPDATE"));
+  EXPECT_TRUE(test_support::eventually([&] { return !(*store)->has_place(); }));
+  ASSERT_TRUE(other->execute("ROLLBACK"));
+  EXPECT_TRUE(test_support::eventually([&] { return (*store)->has_place(); }));
+  std::unique_ptr<PostgresqlStore> second;
+  ASSERT_TRUE(test_support::eventually([&] {
+    change("UPDATE store_holder SET until = now() - interval '1 second'");
+    if (auto taken = open_another()) second = *std::move(taken);
+    return second != nullptr;
+  }));
+  EXPECT_FALSE((*store)->probe());
+  EXPECT_FALSE((*store)->has_place()) << "at once";
+}
+
+TEST_F(PostgresqlPlaceTest, AStandbySeesWhoHasThePlaceAndIsSeen) {
+  ASSERT_TRUE(store_->publish({.url = "https://srv-1:8430", .signing_key = "abcd"}));
+  {
+    PostgresqlStandby standby(
+        {.url = database_->url(), .holder = "srv-2", .described = "dncd 8 on srv-2"});
+    const auto view = standby.look();
+    ASSERT_TRUE(view) << view.error().what;
+    EXPECT_FALSE(view->is_free);
+    EXPECT_EQ(view->url, "https://srv-1:8430");
+    EXPECT_EQ(view->signing_key, "abcd");
+    EXPECT_EQ(view->term, store_->term());
+    EXPECT_EQ(view->identity, *store_->identity());
+    const auto waiting = store_->waiting();
+    ASSERT_TRUE(waiting) << waiting.error().what;
+    ASSERT_EQ(waiting->size(), 1u);
+    EXPECT_EQ(waiting->front().described, "dncd 8 on srv-2");
+    change("UPDATE store_holder SET until = now() - interval '1 second'");
+    EXPECT_FALSE(standby.look()->is_free) << "after an outage of the database its holder is first";
+    EXPECT_TRUE(standby.look()->is_lapsed);
+    EXPECT_FALSE(standby.look()->is_own);
+    change("UPDATE store_holder SET holder = ''");
+    EXPECT_TRUE(standby.look()->is_free) << "given back";
+    EXPECT_FALSE(standby.look()->is_lapsed);
+    change("UPDATE store_holder SET holder = 'srv-2', until = now() + interval '1 hour'");
+    EXPECT_TRUE(standby.look()->is_free) << "of this server, which was killed";
+    EXPECT_TRUE(standby.look()->is_own);
+  }
+  EXPECT_EQ(query("SELECT count(*) FROM store_standby"), 0);
+}
+
+TEST_F(PostgresqlPlaceTest, WhoLostThePlaceIsTold) {
+  store_.reset();
+  std::atomic<int> calls = 0;
+  std::string why;
+  auto first = PostgresqlStore::open({.url = database_->url(),
+                                      .on_lost =
+                                          [&](const Error& error) {
+                                            why = error.what;
+                                            ++calls;
+                                          }},
+                                     clock_);
+  ASSERT_TRUE(first) << first.error().what;
+  ASSERT_TRUE((*first)->probe());
+  EXPECT_EQ(calls, 0);
+  change("UPDATE store_holder SET holder = 'srv-2', until = now() + interval '1 hour'");
+  EXPECT_FALSE((*first)->probe());
+  EXPECT_FALSE((*first)->probe());
+  EXPECT_EQ(calls, 1);
+  EXPECT_NE(why.find("taken over by another server"), std::string::npos) << why;
+  first->reset();
+  EXPECT_EQ(query("SELECT count(*) FROM store_holder WHERE holder = 'srv-2'"), 1)
+      << "and gives nothing back that is another one's";
+}
+
+/// What the other one stored meanwhile is not what this one has in memory.
+TEST_F(PostgresqlPlaceTest, APlaceThatWasTakenAndGivenBackIsLostToo) {
+  ASSERT_TRUE(store_->probe());
+  change("UPDATE store_holder SET holder = '', until = now()");
+  EXPECT_FALSE(store_->probe());
+}
+
+TEST_F(PostgresqlPlaceTest, WhoDoesNotStartKeepsNobodyOut) {
+  store_.reset();
+  change("UPDATE schema_version SET version = 99");
+  const auto newer = open_another("srv-2");
+  ASSERT_FALSE(newer);
+  EXPECT_EQ(newer.error().code, Errc::Unsupported);
+  EXPECT_EQ(query("SELECT count(*) FROM store_holder WHERE holder = ''"), 1);
+}
+
+TEST_F(PostgresqlPlaceTest, TablesAreNotMigratedUnderAServerThatWorks) {
+  change("UPDATE schema_version SET version = 99");
+  const auto newer = open_another();
+  ASSERT_FALSE(newer);
+  EXPECT_EQ(newer.error().code, Errc::Busy) << "the place comes first: " << newer.error().what;
+}
+
+}  // namespace
+}  // namespace dripline::storage
