@@ -108,7 +108,7 @@ Result<void> check_linuxcnc_address(std::string_view address) {
   return fail(found.error().code, "motion linuxcnc: {}", found.error().what);
 }
 
-constexpr std::string_view kSimulated = "simulated", kLine = "line";
+constexpr std::string_view kSimulatedMotion = "simulated", kLineMotion = "line";
 
 struct MotionRow {
   std::string_view name, form;
@@ -116,10 +116,10 @@ struct MotionRow {
   Result<machine::MotionFactory> (*make)(const MotionTask&);
 };
 constexpr std::array kRows{
-    MotionRow{kSimulated, "simulated", needs_no_address, simulated},
+    MotionRow{kSimulatedMotion, "simulated", needs_no_address, simulated},
     MotionRow{"linuxcnc", "linuxcnc:INI", check_linuxcnc_address, linuxcnc},
     MotionRow{"grbl", "grbl:ADDRESS", check_board_address, grbl},
-    MotionRow{kLine, "line:ADDRESS", check_line_address, control_on_line},
+    MotionRow{kLineMotion, "line:ADDRESS", check_line_address, control_on_line},
 };
 
 Result<const MotionRow*> find_row(std::string_view text) {
@@ -142,12 +142,12 @@ std::string motion_names() {
 }
 
 bool is_real_motion(std::string_view name) {
-  return words_of(name).name != kSimulated;
+  return words_of(name).name != kSimulatedMotion;
 }
 
 std::string line_address_of(std::string_view name) {
   const MotionWords words = words_of(name);
-  return words.name == kLine ? std::string(words.address) : std::string();
+  return words.name == kLineMotion ? std::string(words.address) : std::string();
 }
 
 Result<void> check_motion(std::string_view name) {
