@@ -34,7 +34,7 @@ void visit(Archive& archive, HeldEvents& held) {
 namespace {
 
 constexpr std::string_view kDialect = "rs274ngc";
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 /// Only the rows that the program has written.
 template <class Archive>

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -56,9 +57,12 @@ struct Modes {
 struct SpindleModes {
   SpindleState state = SpindleState::Off;
   double speed = 0;
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   bool is_surface = false;
-  double most = 0;  ///< revolutions per minute under G96; 0 = none
+  double most = kNoLimit;  ///< revolutions per minute under G96
 
+  /// LinuxCNC's D0 takes S as revolutions per minute.
+  bool turns_by_surface() const { return is_surface && most != 0; }
   bool is_turning() const { return interpreter::is_turning(state); }
 };
 

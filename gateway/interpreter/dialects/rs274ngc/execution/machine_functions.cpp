@@ -16,11 +16,11 @@ void show_spindle(Run& run) {
   Spindle event;
   event.origin = run.origin;
   event.state = spindle.state;
-  if (spindle.is_surface) {
+  if (spindle.turns_by_surface()) {
     const bool is_inch = run.state.units == Units::Inch;  // feet or meters a minute
     event.surface_speed =
         is_inch ? Length::inch(12 * spindle.speed) : Length::mm(1000 * spindle.speed);
-    if (spindle.most > 0) event.max_revolutions = spindle.most;
+    if (std::isfinite(spindle.most)) event.max_revolutions = spindle.most;
   } else {
     event.revolutions_per_minute = spindle.speed;
   }
@@ -186,7 +186,8 @@ bool apply_spindle_code(Run& run, int code) {
   const auto state = code == 3   ? SpindleState::Clockwise
                      : code == 4 ? SpindleState::Counterclockwise
                                  : SpindleState::Off;
-  if (run.state.spindle.state == state && run.block.words.has('S') && code != 5) show_spindle(run);
+  const bool commands_again = run.is_linuxcnc() || run.block.words.has('S');
+  if (run.state.spindle.state == state && commands_again && code != 5) show_spindle(run);
   turn_spindle(run, state);
   return true;
 }
@@ -212,7 +213,7 @@ bool apply_spindle_mode(Run& run) {
     return run.fail(ErrorCode::SpindleMode, 0, "G96 needs S");
   }
   spindle.is_surface = true;
-  spindle.most = words.value_or('D', 0);
+  spindle.most = words.value_or('D', SpindleModes::kNoLimit);
   return true;
 }
 
@@ -220,7 +221,8 @@ bool apply_speed_and_tool(Run& run) {
   const Words& words = run.block.words;
   if (words.has('S')) {
     SpindleModes& spindle = run.state.spindle;
-    const bool changes = spindle.speed != words['S'];
+    // LinuxCNC's G96, G97 and units reach a turning spindle with its next S, M3 or M4.
+    const bool changes = run.is_linuxcnc() || spindle.speed != words['S'];
     spindle.speed = words['S'];
     // A spindle that this line starts shows its speed then.
     const int code = run.block.m(MGroup::Spindle);

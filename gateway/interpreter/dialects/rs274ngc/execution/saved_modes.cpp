@@ -87,7 +87,7 @@ bool restore_spindle(Run& run, const SpindleModes& saved) {
   if (changes_speed) spindle.speed = reread(saved.speed, 0);
   if (changes_mode) {
     spindle.is_surface = saved.is_surface;
-    spindle.most = 0;
+    spindle.most = SpindleModes::kNoLimit;
   }
   // An oriented spindle is a stopped one.
   const SpindleState wanted = saved.is_turning() ? saved.state : SpindleState::Off;
