@@ -240,5 +240,7 @@ inline constexpr std::string_view kCommentLost = "NGC0901";
 inline constexpr std::string_view kDeadCode = "NGC0902";
 inline constexpr std::string_view kDuplicateSetting = "NGC0903";
 inline constexpr std::string_view kFeedBeforeUnits = "NGC0905";
+inline constexpr std::string_view kLeadChanges = "NGC0906";
+inline constexpr std::string_view kLeadLost = "NGC0907";
 
 }  // namespace dripline::interpreter::rs274ngc

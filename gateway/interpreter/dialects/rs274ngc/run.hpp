@@ -47,6 +47,9 @@ struct Run : BlockRun {
   double mm(double units) const { return units * state.mm_per_unit(); }
   /// F in force, per minute or per revolution.
   Feed modal_feed() const {
+    // LinuxCNC takes the number as millimeters per second, in G20 too.
+    if (state.has_lost_lead) [[unlikely]]
+      return Feed::per_minute(Length::mm(60 * state.feed));
     const auto rate = Length::mm(state.feed * interpreter::mm_per_unit(state.feed_units));
     const bool is_per_minute = state.modes.feed == FeedMode::PerMinute;
     return is_per_minute ? Feed::per_minute(rate) : Feed::per_revolution(rate);

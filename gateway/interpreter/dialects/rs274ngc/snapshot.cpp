@@ -12,10 +12,10 @@ void visit(Archive& archive, State& state) {
   archive(state.phase, state.has_header, state.demarcation, state.blocks, state.at, state.sequence,
           state.units, state.position, state.is_displaced, state.machine, state.system_offset,
           state.g92, state.tool_length, state.rotation, state.system, state.feed, state.feed_units,
-          state.modes, state.spindle, state.tool, state.overrides, state.flood, state.mist,
-          state.cycle, state.compensation, state.spline_i, state.spline_j, state.follows_spline,
-          state.nurbs, state.frames, state.calls, state.labels, state.label_names, state.skip,
-          state.passes, state.saved);
+          state.has_lost_lead, state.modes, state.spindle, state.tool, state.overrides, state.flood,
+          state.mist, state.cycle, state.compensation, state.spline_i, state.spline_j,
+          state.follows_spline, state.nurbs, state.frames, state.calls, state.labels,
+          state.label_names, state.skip, state.passes, state.saved);
 }
 
 template <class Archive>

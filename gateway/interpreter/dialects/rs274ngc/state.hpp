@@ -197,6 +197,7 @@ struct State {
 
   double feed = 0;                       ///< F as written
   Units feed_units = Units::Millimeter;  ///< that it counts in, along linear axes
+  bool has_lost_lead = false;  ///< LinuxCNC in G95, from a synchronized move to a rapid or F
   Modes modes;
   SpindleModes spindle;
   ToolModes tool;

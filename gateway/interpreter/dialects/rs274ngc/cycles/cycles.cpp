@@ -48,7 +48,6 @@ class CycleRun {
   const CycleRow& row_;
   PlaneAxes axes_;
   SpindleState spindle_ = SpindleState::Off;
-  Feed feed_;
   double first_ = 0, second_ = 0;
   double first_step_ = 0, second_step_ = 0;
   double r_ = 0, bottom_ = 0, clear_ = 0;
@@ -70,7 +69,7 @@ void CycleRun::move(double first, double second, double height, bool is_rapid) {
   put(axes_.first, first);
   put(axes_.second, second);
   put(axes_.normal, height);
-  move_to(run_, target, is_rapid, feed_);
+  move_to(run_, target, is_rapid, run_.modal_feed());
 }
 
 bool CycleRun::check_line() {
@@ -89,7 +88,6 @@ bool CycleRun::check_line() {
                             fmt::format("more than {} holes", kMaxStrokes));
     }
   }
-  feed_ = run_.modal_feed();
   return true;
 }
 

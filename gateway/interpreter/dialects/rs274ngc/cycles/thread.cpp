@@ -148,6 +148,8 @@ bool synchronized_move(Run& run, int g_code) {
   Target target;
   if (!read_target(run, target)) return false;
   const double lead = run.mm(run.block.words['K']);
+  // The lead of G95 ends with the synchronized one.
+  run.state.has_lost_lead = run.is_linuxcnc() && run.state.modes.feed == FeedMode::PerRevolution;
   if (g_code == 330) {
     thread_to(run, target, lead);
     return true;

@@ -276,6 +276,7 @@ bool reset_at_end(Run& run) {
   state.overrides = Overrides{};
   if (run.is_linuxcnc()) {
     state.feed = 0;
+    state.has_lost_lead = false;
     state.spindle.is_surface = false;
     state.modes.is_arc_absolute = false;
   }

@@ -91,11 +91,13 @@ bool apply_feed(Run& run) {
     // a rate means nothing in another mode; LinuxCNC still remembers it for M72 in G93
     const bool is_kept = run.is_linuxcnc() && mode == FeedMode::InverseTime;
     if (mode != state.modes.feed && !is_kept) state.feed = 0;
+    if (mode != state.modes.feed) state.has_lost_lead = false;
     state.modes.feed = mode;
   }
   if (block.words.has('F') && state.modes.feed != FeedMode::InverseTime) {
     state.feed = block.words['F'];
     state.feed_units = state.units;
+    state.has_lost_lead = false;
   }
   return true;
 }

@@ -101,13 +101,28 @@ bool is_no_move(const Run& run, const Axes& to) {
 /// Per minute, rotary axes that move alone take F as degrees, whatever the units.
 Feed feed_of_line(const Run& run, const Target& target, const Feed& feed) {
   constexpr AxisBits kRotary = bit_of(Axis::A) | bit_of(Axis::B) | bit_of(Axis::C);
-  if ((target.named & kRotary) == 0 || feed.per() != Feed::Per::Minute) [[likely]]
+  const bool is_per_minute = run.state.modes.feed == FeedMode::PerMinute;
+  if ((target.named & kRotary) == 0 || !is_per_minute) [[likely]]
     return feed;
   for (const Axis axis : kAllAxes) {
     const auto i = index_of(axis);
     if (!is_rotary(axis) && target.to[i] != run.state.position[i]) return feed;
   }
   return Feed::per_minute(Length::mm(run.state.feed));
+}
+
+/// In G95 LinuxCNC takes up the lead anew after each rapid: F counts in the units of that time.
+void renew_lead(Run& run) {
+  State& state = run.state;
+  if (state.modes.feed != FeedMode::PerRevolution || !run.is_linuxcnc()) [[likely]]
+    return;
+  if (state.feed != 0 && state.feed_units != state.units) {
+    run.warn(kLeadChanges, state.units == Units::Inch
+                               ? "F counts in inches from this rapid on"
+                               : "F counts in millimeters from this rapid on");
+  }
+  state.feed_units = state.units;
+  state.has_lost_lead = false;
 }
 
 }  // namespace
@@ -158,6 +173,9 @@ bool read_feed(Run& run, bool is_arc, Feed& feed) {
   }
   if (state.modes.feed == FeedMode::PerRevolution && state.spindle.speed == 0)
     return run.fail(ErrorCode::FeedPerRevolution, 0);
+  if (state.has_lost_lead) [[unlikely]]
+    run.warn(kLeadLost,
+             "F counts millimeters per second: a synchronized move has ended G95's lead");
   feed = run.modal_feed();
   return true;
 }
@@ -169,6 +187,7 @@ bool straight_move(Run& run, int motion) {
   if (motion == 10 && !read_feed(run, false, feed)) return false;
   if (shifts_moves(run)) [[unlikely]] {
     run.state.passes = 0;
+    if (motion == 0) renew_lead(run);
     return compensated_line(run, target, motion == 0, feed);
   }
   move_to(run, target, motion == 0, feed);
@@ -218,6 +237,7 @@ const Position& arrive(Run& run, const Target& target) {
 }
 
 void rapid_to(Run& run, const Target& target) {
+  renew_lead(run);
   if (is_no_move(run, target.to)) return;
   const Position& to = arrive(run, target);
   run.events().on_rapid({run.origin, to, run.rests_at_end()});

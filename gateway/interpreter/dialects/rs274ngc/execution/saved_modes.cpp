@@ -29,10 +29,12 @@ double reread(double value, int decimals) {
 /// The F word comes back where the value differs, in the units that have come back; G94 and G95
 /// alone leave none in force. In G93 F belongs to its line.
 void restore_feed(const SavedModes& saved, State& state) {
+  if (saved.modes.feed != state.modes.feed) state.has_lost_lead = false;
   if (saved.modes.feed == FeedMode::InverseTime) return;
   if (saved.feed != state.shown_feed()) {
     state.feed = reread(saved.feed, 1);
     state.feed_units = state.units;
+    state.has_lost_lead = false;
   } else if (saved.modes.feed != state.modes.feed) {
     state.feed = 0;
   }
