@@ -88,9 +88,11 @@ bool apply_feed(Run& run) {
     const FeedMode mode = code == 930   ? FeedMode::InverseTime
                           : code == 940 ? FeedMode::PerMinute
                                         : FeedMode::PerRevolution;
-    // a rate means nothing in another mode; LinuxCNC still remembers it for M72 in G93
-    const bool is_kept = run.is_linuxcnc() && mode == FeedMode::InverseTime;
-    if (mode != state.modes.feed && !is_kept) state.feed = 0;
+    // A rate means nothing in another mode. LinuxCNC forgets it with each G94 and G95, and
+    // remembers it in G93 for M72.
+    const bool forgets =
+        run.is_linuxcnc() ? mode != FeedMode::InverseTime : mode != state.modes.feed;
+    if (forgets) state.feed = 0;
     if (mode != state.modes.feed) state.has_lost_lead = false;
     state.modes.feed = mode;
   }
