@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "protocol/base/lines.hpp"
 #include "protocol/base/markup.hpp"
 #include "server/web/page.hpp"
 
@@ -33,12 +34,6 @@ constexpr Words kGerman{
     "Die Datenbank ist gerade nicht erreichbar, deshalb kann sich das geändert haben.",
     "Diese Seite lädt sich selbst neu und wird zur gewohnten, sobald dieser Server die Bibliothek "
     "hat."};
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 /// The weight of one entry of Accept-Language: "de-AT;q=0.7".
 double weight(std::string_view entry) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "protocol/base/lines.hpp"
+
 namespace dripline::identity {
 namespace {
 
@@ -17,12 +19,6 @@ std::string checked(std::string_view text) {
   if (text.size() < kMinSecret || text.size() > kMaxSecret) return {};
   if (!std::ranges::all_of(text, is_secret_character)) return {};
   return std::string(text);
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
 }
 
 /// The value of the only cookie with that name. Fields of one name were joined by a comma, which a
