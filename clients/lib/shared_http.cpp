@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace dripline::client {
@@ -21,11 +22,9 @@ bool stands_by(const HttpResponse& response) {
   return role != response.headers.end() && role->second == "standby";
 }
 
-Failure nobody(const std::vector<std::string>& reasons) {
-  std::string text;
-  for (const auto& reason : reasons) text += (text.empty() ? "" : "; ") + reason;
+Failure without_library(const std::vector<std::string>& reasons) {
   return {Failure::Kind::Unreachable, Errc::Timeout,
-          "none of the servers has the library now: " + text};
+          fmt::format("none of the servers has the library now: {}", fmt::join(reasons, "; "))};
 }
 
 /// A request that notes whether its caller has seen a part of the answer.
@@ -85,7 +84,7 @@ Reply<HttpResponse> SharedHttp::send(const HttpRequest& request) {
     return failed(std::move(failure));
   }
   active_.reset();
-  return failed(nobody(reasons));
+  return failed(without_library(reasons));
 }
 
 /// The one that answered last, or else the first that says that it has the library.
@@ -142,7 +141,7 @@ std::unique_ptr<Http> open_http(const std::vector<ServerAddress>& servers,
   members.reserve(servers.size());
   for (const auto& address : servers) {
     ServerAddress nameless = address;
-    nameless.token.clear();  // who asks is nobody's business there
+    nameless.token.clear();  // a probe needs none
     members.push_back({address, open_http(address, options), open_http(nameless, kProbeOptions)});
   }
   return std::make_unique<SharedHttp>(std::move(members));
