@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "tests/integration/mqtt_broker.hpp"
-#include "tests/integration/standby_fixture.hpp"
+#include "tests/integration/standby/standby_fixture.hpp"
 
 namespace dripline::integration {
 namespace {

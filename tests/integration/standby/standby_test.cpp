@@ -7,7 +7,7 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/integration/standby_fixture.hpp"
+#include "tests/integration/standby/standby_fixture.hpp"
 
 namespace dripline::integration {
 namespace {

@@ -8,7 +8,7 @@
 #include <atomic>
 #include <thread>
 
-#include "tests/integration/standby_fixture.hpp"
+#include "tests/integration/standby/standby_fixture.hpp"
 
 namespace dripline::integration {
 namespace {

@@ -1,7 +1,7 @@
 // A server that waits for another one's library: what it says, and which folders may not wait.
 #include <fstream>
 
-#include "tests/integration/standby_fixture.hpp"
+#include "tests/integration/standby/standby_fixture.hpp"
 
 namespace dripline::integration {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "storage/postgresql/database.hpp"
+#include "tests/integration/standby/two_servers.hpp"
 #include "tests/integration/system.hpp"
-#include "tests/integration/two_servers.hpp"
 #include "tests/support/postgresql/database_cable.hpp"
 #include "tests/support/postgresql/test_database.hpp"
 

@@ -1,4 +1,4 @@
-#include "tests/integration/two_servers.hpp"
+#include "tests/integration/standby/two_servers.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

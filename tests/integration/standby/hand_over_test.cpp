@@ -2,7 +2,7 @@
 // that takes it.
 #include <csignal>
 
-#include "tests/integration/standby_fixture.hpp"
+#include "tests/integration/standby/standby_fixture.hpp"
 
 namespace dripline::integration {
 namespace {
