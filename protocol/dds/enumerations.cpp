@@ -1,4 +1,6 @@
-#include "protocol/dds/message.hpp"
+#include "protocol/dds/enumerations.hpp"
+
+#include <array>
 
 namespace dripline::dds {
 
