@@ -1,6 +1,7 @@
 #include "clients/lib/server_location.hpp"
 
 #include "clients/lib/saved_logins.hpp"
+#include "protocol/base/lines.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -37,11 +38,10 @@ Result<std::string> read_small_file(const std::string& path, std::string_view pu
 Result<std::string> read_token(const std::string& path) {
   auto text = read_small_file(path, "token file");
   if (!text) return text;
-  const auto first = text->find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return fail(Errc::Syntax, "token file {} is empty", path);
-  const auto last = text->find_last_not_of(" \t\r\n");
-  std::string token = text->substr(first, last - first + 1);
-  if (token.find_first_of(" \t\r\n") != std::string::npos) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  std::string token(trimmed(*text, kBlanks));
+  if (token.empty()) return fail(Errc::Syntax, "token file {} is empty", path);
+  if (token.find_first_of(kBlanks) != std::string::npos) {
     return fail(Errc::Syntax, "token file {} holds more than one word, expected the token alone",
                 path);
   }

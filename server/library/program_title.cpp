@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "protocol/base/lines.hpp"
 #include "protocol/base/utf8.hpp"
 
 namespace dripline::library {
@@ -15,12 +16,6 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 /// Text without the first `O123` or `:123`.
 std::string_view after_number(std::string_view block) {
   constexpr std::string_view kLetters = "Oo:";
@@ -28,7 +23,7 @@ std::string_view after_number(std::string_view block) {
     return block;
   }
   const auto end = std::find_if_not(block.begin() + 1, block.end(), is_digit);
-  return trim(block.substr(static_cast<std::size_t>(end - block.begin())));
+  return trimmed(block.substr(static_cast<std::size_t>(end - block.begin())), kBlanks);
 }
 
 /// `( ... )`, or `; ...` to the end of the line.
@@ -36,7 +31,8 @@ std::optional<std::string_view> comment_in(std::string_view block) {
   const auto begin = block.find_first_of("(;");
   if (begin == std::string_view::npos) return std::nullopt;
   const auto end = block[begin] == '(' ? block.find(')', begin) : std::string_view::npos;
-  const auto text = trim(block.substr(begin + 1, end == block.npos ? end : end - begin - 1));
+  const auto text =
+      trimmed(block.substr(begin + 1, end == block.npos ? end : end - begin - 1), kBlanks);
   if (text.empty()) return std::nullopt;
   return text;
 }
@@ -61,7 +57,7 @@ std::string program_title(std::string_view head) {
   std::optional<std::string_view> first;  ///< block, without its number
   while (!head.empty()) {
     const auto end = std::min(head.find('\n'), head.size());
-    const auto line = trim(head.substr(0, end));
+    const auto line = trimmed(head.substr(0, end), kBlanks);
     head.remove_prefix(std::min(end + 1, head.size()));
     if (line.empty() || line == "%") continue;
     if (const auto pgm = line.find(kBeginOfTnc); pgm != std::string_view::npos) {

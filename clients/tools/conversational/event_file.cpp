@@ -13,10 +13,8 @@ namespace {
 
 constexpr std::string_view kHeader = "[[event]]";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
+std::string_view bare(std::string_view text) {
+  return trimmed(text, " \t\r\n");
 }
 
 /// A file cut at its events: `starts` are lines, the last entry is the number of all lines.
@@ -34,7 +32,7 @@ struct CutFile {
 
 /// The first of the comment lines directly above the header of event `line`.
 std::size_t section_start(const CutFile& cut, std::size_t line) {
-  while (line > 0 && trimmed(cut.lines[line - 1]).starts_with('#')) --line;
+  while (line > 0 && bare(cut.lines[line - 1]).starts_with('#')) --line;
   return line;
 }
 
@@ -42,7 +40,7 @@ Result<CutFile> cut_file(std::string_view file) {
   if (file.size() > kMaxFile) {
     return fail(Errc::LimitExceeded, "the file has {} bytes, more than {}", file.size(), kMaxFile);
   }
-  if (trimmed(file).starts_with('{')) {
+  if (bare(file).starts_with('{')) {
     return fail(Errc::Unsupported, "events of a JSON file are not edited: expected TOML");
   }
   auto events = read_toml(file);
@@ -103,8 +101,8 @@ std::string fields_of(const CutFile& cut, std::size_t number) {
   std::string fields;
   for (auto i = static_cast<std::size_t>(cut.events[number].line); i < cut.starts[number + 1];
        ++i) {
-    const auto field = trimmed(without_comment(cut.lines[i]));
-    if (field.empty() || trimmed(field.substr(0, field.find('='))) == "type") continue;
+    const auto field = bare(without_comment(cut.lines[i]));
+    if (field.empty() || bare(field.substr(0, field.find('='))) == "type") continue;
     fields += (fields.empty() ? "" : ", ") + std::string(field);
   }
   return fields;

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/base/lines.hpp"
+
 namespace dripline::conversational {
 namespace {
 
@@ -23,12 +25,6 @@ std::optional<double> unsigned_number(std::string_view text) {
   return value;
 }
 
-std::string_view without_blanks(std::string_view text) {
-  const auto first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
 bool is_whole(std::string_view text) {
   constexpr std::size_t kMaxDigits = 9;
   return text.size() <= kMaxDigits && text.find('.') == std::string_view::npos;
@@ -40,7 +36,7 @@ Result<TypedNumber> parse_entry(std::string_view typed) {
   const auto wrong = [&] {
     return fail(Errc::Syntax, "\"{}\" is not a number such as 1.25 or 5/16", typed.substr(0, 40));
   };
-  std::string_view text = without_blanks(typed);
+  std::string_view text = trimmed(typed, " ");
   const double sign = text.starts_with('-') ? -1 : 1;
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
   const auto stroke = text.find('/');

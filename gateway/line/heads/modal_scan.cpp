@@ -144,7 +144,8 @@ void ModalScan::set(ModalGroup group, std::string words, bool can_be_sent) {
 /// What no word carries: calls, jumps, variables. The first ones are enough to show.
 void ModalScan::name_unknown(std::string_view text) {
   if (unknown_.size() >= kMaxUnknown) return;
-  unknown_.push_back({.words = std::string(trim(text)), .line = line_, .can_be_sent = false});
+  unknown_.push_back(
+      {.words = std::string(without_blanks(text)), .line = line_, .can_be_sent = false});
 }
 
 void ModalScan::skip(std::string_view text) {
@@ -160,7 +161,7 @@ void ModalScan::skip(std::string_view text) {
     is_computed = is_computed || is_call || !word.is_number || word.value.empty();
   }
   // `#100=5`, IF, WHILE, GOTO, CALL and O words have words that are no numbers, or a `#` or `=`.
-  const std::string_view bare = trim(text.substr(0, text.find_first_of("(;")));
+  const std::string_view bare = without_blanks(text.substr(0, text.find_first_of("(;")));
   if (bare.find('%') != std::string_view::npos || is_printing(bare)) return;
   const bool is_statement = bare.find_first_of("#=[") != std::string_view::npos ||
                             without_number(bare).starts_with('/');  // the panel decides on it

@@ -12,7 +12,7 @@ void ModalScan::skip_event(std::string_view text, const Block& block) {
   const bool is_event = std::ranges::any_of(
       block, [](const Word& word) { return word.letter == 'G' && tenths(word.value) >= 1000; });
   has_events_ = has_events_ || is_event;
-  const std::string_view bare = trim(text);
+  const std::string_view bare = without_blanks(text);
   if (!has_events_) {
     if (block.empty() || bare.starts_with('%')) return;
     const auto before = in_force_.find(ModalGroup::Header);
@@ -36,7 +36,7 @@ void ModalScan::skip_event(std::string_view text, const Block& block) {
 
 /// A TNC's program is one from its first block to its END line: nothing of it is sent again.
 void ModalScan::skip_plain_language(std::string_view text) {
-  std::string_view bare = trim(text.substr(0, text.find(';')));
+  std::string_view bare = without_blanks(text.substr(0, text.find(';')));
   const auto first = bare.find_first_not_of("0123456789 ");
   if (first == std::string_view::npos) return;
   const std::string_view words = bare.substr(first);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "protocol/base/lines.hpp"
+
 /// Parts of a block's text, for what looks through programs.
 namespace dripline::line {
 
@@ -17,17 +19,15 @@ inline bool is_of_number(char c) {
   return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
 }
 
-inline std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+inline std::string_view without_blanks(std::string_view text) {
+  return trimmed(text, " \t\r");
 }
 
 /// A block without the N number at its beginning.
 inline std::string_view without_number(std::string_view block) {
   if (block.empty() || upper(block.front()) != 'N') return block;
   const auto end = block.find_first_not_of("0123456789", 1);
-  return end == std::string_view::npos ? std::string_view() : trim(block.substr(end));
+  return end == std::string_view::npos ? std::string_view() : without_blanks(block.substr(end));
 }
 
 /// G54.1 is 541; -1: no code.

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <string>
 
+#include "protocol/base/lines.hpp"
+
 namespace dripline::line {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
 constexpr std::string_view kBeginOfTnc = "BEGIN PGM ";
 
 bool is_digit(char c) {
@@ -22,13 +23,6 @@ std::string upper(std::string_view text) {
   std::string out(text);
   std::ranges::transform(out, out.begin(), [](char c) { return upper(c); });
   return out;
-}
-
-std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  const auto last = text.find_last_not_of(kBlanks);
-  return text.substr(first, last - first + 1);
 }
 
 std::string_view leading_digits(std::string_view text) {
@@ -46,15 +40,15 @@ bool is_letter_and_digit(std::string_view line, std::string_view letters) {
 std::string prototrak_name(std::string_view line) {
   if (line.size() < 3 || upper(line[0]) != 'P' || upper(line[1]) != 'N') return {};
   const auto digits = leading_digits(line.substr(2));
-  const auto rest = trim(line.substr(2 + digits.size()));
+  const auto rest = trimmed(line.substr(2 + digits.size()));
   const bool is_header = rest.empty() || rest.front() == ';' || upper(rest.front()) == 'G';
   return digits.empty() || !is_header ? std::string() : "PN" + std::string(digits);
 }
 
 /// The name in one line of a head; empty: none.
 std::string name_in(std::string_view line) {
-  line = trim(line);
-  if (line.starts_with('%')) line = trim(line.substr(1));
+  line = trimmed(line);
+  if (line.starts_with('%')) line = trimmed(line.substr(1));
   if (auto name = prototrak_name(line); !name.empty()) return name;
   if (is_letter_and_digit(line, "O:")) return "O" + std::string(leading_digits(line.substr(1)));
   const std::string big = upper(line);
@@ -77,7 +71,7 @@ void each_comment(std::string_view text, const Look& look) {
 
 /// A number without its letter and leading zeros; other names as they are, in capitals.
 std::string bare(std::string_view name) {
-  std::string big = upper(trim(name));
+  std::string big = upper(trimmed(name));
   if (big.size() >= 2 && (big[0] == 'O' || big[0] == ':') && is_digit(big[1])) big.erase(0, 1);
   if (leading_digits(big).size() != big.size()) return big;
   const auto digit = big.find_first_not_of('0');
@@ -87,7 +81,7 @@ std::string bare(std::string_view name) {
 }  // namespace
 
 bool begins_program(std::string_view line, bool is_after_percent) {
-  line = trim(line);
+  line = trimmed(line);
   if (line.size() > 1 && line.front() == '%') return true;
   if (!name_in(line).empty()) return true;
   if (!is_after_percent || line.empty()) return false;
@@ -98,7 +92,7 @@ std::string program_name(std::string_view head) {
   head = head.substr(0, kProgramHead);
   while (!head.empty()) {
     const auto end = std::min(head.find('\n'), head.size());
-    const auto line = trim(head.substr(0, end));
+    const auto line = trimmed(head.substr(0, end));
     if (auto name = name_in(line); !name.empty()) return name;
     // After comments and `%` comes the name, or none does.
     if (!line.empty() && line.front() != '%' && line.front() != '(' && line.front() != ';') break;
@@ -120,12 +114,12 @@ std::string program_number(std::string_view stored_name) {
 
 std::optional<std::string> find_trigger(std::string_view head, std::string_view key) {
   std::optional<std::string> value;
-  const std::string wanted = upper(trim(key));
+  const std::string wanted = upper(trimmed(key));
   each_comment(head.substr(0, kProgramHead), [&](std::string_view comment) {
     const auto equals = comment.find('=');
-    if (upper(trim(comment.substr(0, equals))) != wanted) return false;
+    if (upper(trimmed(comment.substr(0, equals))) != wanted) return false;
     value = equals == std::string_view::npos ? std::string()
-                                             : std::string(trim(comment.substr(equals + 1)));
+                                             : std::string(trimmed(comment.substr(equals + 1)));
     return true;
   });
   return value;

@@ -13,5 +13,10 @@ TEST(Trimmed, LeavesOutBlanksAtBothEndsOnly) {
   EXPECT_EQ(trimmed(""), "");
 }
 
+TEST(Trimmed, LeavesOutTheBlanksThatItIsGiven) {
+  EXPECT_EQ(trimmed("\tX1 \r", " \r"), "\tX1");
+  EXPECT_EQ(trimmed(" \r", " \r"), "");
+}
+
 }  // namespace
 }  // namespace dripline

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "gateway/interpreter/dialects/rs274ngc/memory/retained_memory.hpp"
+#include "protocol/base/lines.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
@@ -21,10 +22,8 @@ Result<void> for_each_line(std::string_view text, Use use) {
     const std::size_t end = text.find('\n');
     std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    line = line.substr(0, line.find(';'));
-    const std::size_t first = line.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) continue;
-    line = line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
+    line = trimmed(line.substr(0, line.find(';')), kBlanks);
+    if (line.empty()) continue;
     if (auto used = use(line, number); !used) return used;
   }
   return {};
