@@ -149,11 +149,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     co_return refused ? refused : client_gone();
   }
 
-  static std::optional<Response> client_gone() {
-    Response response;
-    response.status = 0;
-    return response;
-  }
+  static std::optional<Response> client_gone() { return Response{.status = 0}; }
 
   awaitable<bool> take_memory(std::uint64_t size, BodyMemory::Share& share) {
     const auto end = Clock::now() + limits_.body;
