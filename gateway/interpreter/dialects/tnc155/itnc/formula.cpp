@@ -196,6 +196,37 @@ void warn_of_rounding(Run& run, int function, double a, double b) {
                            : "are not equal to the control: a loop may make one pass more"));
 }
 
+/// IDX of an FN 18: a number, or the value of a Q parameter.
+bool index_of_system(Run& run, int& index) {
+  index = run.parts.itnc.ids[2];
+  if (index != kIndexOfFormula) return true;
+  constexpr double kLargestIndex = 99'999;
+  double value = 0;
+  if (!evaluate(run, run.parts.itnc.formula, value)) return false;
+  if (!(value >= 0) || value > kLargestIndex || value != std::trunc(value)) {
+    return run.fail(ErrorCode::EntryOutOfRange, fmt::format("FN 18: IDX is {}", value));
+  }
+  index = static_cast<int>(value);
+  return true;
+}
+
+/// ID 240: where the program has brought an axis, in machine coordinates.
+bool read_machine_position(Run& run, const Block& block, Axis axis) {
+  const State& state = run.state;
+  if (state.compensation > Compensation::Off) {
+    return run.fail(ErrorCode::NotSupported, "FN 18: SYSREAD ID240 with RL or RR in force");
+  }
+  const double length = state.tool.data.length;
+  if (axis == state.tool.axis && length != 0) {
+    return run.fail(
+        ErrorCode::NotSupported,
+        fmt::format("FN 18: SYSREAD ID240: whether {} has the tool's length of {} mm in "
+                    "it is not known; TOOL CALL 0 before it",
+                    letter(axis), length));
+  }
+  return set(run, block.target, state.machine.raw(axis) / state.mm_per_unit());
+}
+
 }  // namespace
 
 bool assign(Run& run, const Block& block) {
@@ -228,10 +259,13 @@ bool raise_error(Run& run, const Block& block) {
 bool read_system(Run& run, const Block& block) {
   const State& state = run.state;
   const auto& ids = run.parts.itnc.ids;
-  const int id = ids[0], number = ids[1], place = ids[2];
+  const int id = ids[0], number = ids[1];
+  int place = 0;
+  if (!index_of_system(run, place)) return false;
   const double unit = state.mm_per_unit();
   const bool is_moved = place >= 1 && place <= 3 && state.machine.has(static_cast<Axis>(place - 1));
-  const bool is_rebuilt = id == 220 || (id == 270 ? is_moved : state.tool.is_called);
+  const bool is_position = id == 270 || id == 240;
+  const bool is_rebuilt = id == 220 || (is_position ? is_moved : state.tool.is_called);
   if (!note_system_in_search(run, block, is_rebuilt)) return false;
   if (place == 0 && (id == 20 || id == 60)) {
     if (number == 1) return set(run, block.target, state.tool.number);
@@ -247,6 +281,9 @@ bool read_system(Run& run, const Block& block) {
   }
   if (id == 270 && number == 1 && place >= 1 && place <= 3) {
     return set(run, block.target, state.nominal[static_cast<std::size_t>(place - 1)] / unit);
+  }
+  if (id == 240 && number == 1 && place >= 1 && place <= 3) {
+    return read_machine_position(run, block, static_cast<Axis>(place - 1));
   }
   return run.fail(ErrorCode::NotSupported,
                   fmt::format("FN 18: SYSREAD ID{} NR{} IDX{}", id, number, place));

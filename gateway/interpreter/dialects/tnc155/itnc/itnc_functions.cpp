@@ -227,7 +227,7 @@ bool read_error(Reading& in) {
   return in.cursor.read_integer(in.block.target, 0, 9999, "ERROR") && in.cursor.ends();
 }
 
-/// SYSREAD Q1 = ID20 NR1 IDX1; the index may be a Q parameter in programs, which is not taken.
+/// SYSREAD Q1 = ID20 NR1 IDX1, or IDXQ7: the formula is then the index.
 bool read_system(Reading& in) {
   in.block.kind = BlockKind::SystemRead;
   if (!in.cursor.take("SYSREAD")) return in.cursor.missing("SYSREAD");
@@ -236,6 +236,10 @@ bool read_system(Reading& in) {
   constexpr std::array<std::string_view, 3> kWords{"ID", "NR", "IDX"};
   for (std::size_t i = 0; i < kWords.size() && !in.cursor.is_at_end(); ++i) {
     if (!in.cursor.take(kWords[i])) return in.cursor.missing(kWords[i]);
+    if (kWords[i] == "IDX" && in.cursor.peek() == 'Q') {
+      in.words.ids[i] = kIndexOfFormula;
+      return read_operand(in, in.words.formula) && in.cursor.ends();
+    }
     if (!in.cursor.read_integer(in.words.ids[i], 0, 99'999, kWords[i])) return false;
   }
   return in.cursor.ends();

@@ -72,6 +72,9 @@ struct CycleWord {
   bool is_rapid = false;  ///< FMAX
 };
 
+/// In place of IDX: it is the value of the formula.
+inline constexpr std::int32_t kIndexOfFormula = -1;
+
 struct ItncWords {
   static constexpr std::size_t kMaxM = 4;
 
@@ -106,7 +109,7 @@ struct ItncWords {
   std::string target;                ///< Print: where it goes
   Formula formula, second;           ///< Assignment; Comparison: both sides
   std::vector<CycleWord> words;      ///< CycleTable
-  std::vector<std::int32_t> ids;     ///< SYSREAD: ID, NR, IDX
+  std::vector<std::int32_t> ids;     ///< SYSREAD: ID, NR, IDX or kIndexOfFormula
 };
 
 }  // namespace dripline::interpreter::tnc155
