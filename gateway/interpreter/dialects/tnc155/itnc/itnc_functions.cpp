@@ -245,6 +245,25 @@ bool read_system(Reading& in) {
   return in.cursor.ends();
 }
 
+/// FN 15: PRINT Q7/Q8/Q9. A number in place of a parameter is a text of the control, which is not
+/// known.
+bool read_print_of_values(Reading& in) {
+  constexpr std::size_t kMostValues = 6;
+  in.block.kind = BlockKind::Print;
+  if (!in.cursor.take("PRINT")) return in.cursor.missing("PRINT");
+  do {
+    in.cursor.peek();
+    const char* start = in.cursor.at();
+    if (!in.cursor.take('Q') || !in.cursor.is_digit_next()) return refuse(in, start);
+    std::int32_t parameter = 0;
+    if (!in.cursor.read_integer(parameter, 0, kItncParameters - 1, "Q")) return false;
+    if (is_of_control(parameter)) return refuse(in, start);
+    if (in.words.ids.size() == kMostValues) return in.cursor.wrong("more than six values");
+    in.words.ids.push_back(parameter);
+  } while (in.cursor.take('/'));
+  return in.cursor.ends();
+}
+
 /// F-PRINT TNC:\\MASKS\\M1.A / TNC:\\LOG.TXT; both may have blanks.
 bool read_print(Reading& in) {
   in.block.kind = BlockKind::Print;
@@ -285,6 +304,7 @@ bool read_function(Reading& in) {
   if (number <= 8 || number == 13) return read_calculation(in, number);
   if (number <= 12) return read_jump(in, number);
   if (number == 14) return read_error(in);
+  if (number == 15) return read_print_of_values(in);
   if (number == 16) return read_print(in);
   if (number == 18) return read_system(in);
   return refuse(in, start);

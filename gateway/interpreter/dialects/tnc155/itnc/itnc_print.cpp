@@ -5,8 +5,8 @@
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/print_mask.hpp"
 
-/// FN 16: F-PRINT mask / target. The mask is a text of the program store, read whole before
-/// anything is put out; the block waits for it.
+/// FN 15: PRINT, values as they are. FN 16: F-PRINT mask / target. The mask is a text of the
+/// program store, read whole before anything is put out; the block waits for it.
 namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
@@ -62,10 +62,37 @@ PrintTarget target_of(const std::string& text) {
   return {OutputDevice::File, text.substr(text.find_last_of("\\/:") + 1)};
 }
 
+/// As a control has written it: a sign, at most four decimals without zeros at the end, and a
+/// comma.
+std::string printed_value(double value) {
+  std::string text = fmt::format("{:+.4f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  std::ranges::replace(text, '.', ',');
+  return text == "-0" ? "+0" : text;
+}
+
+/// FN 15, to the file that a control with its printing set to FILE has for it.
+void print_values(Run& run) {
+  std::string line;
+  for (const std::int32_t parameter : run.parts.itnc.ids) {
+    if (!line.empty()) line += "  ";
+    line += printed_value(run.state.q[static_cast<std::size_t>(parameter)]);
+  }
+  EventSink& events = run.events();
+  events.on_open({run.origin, OutputDevice::File, "%FN15RUN.A"});
+  events.on_output({run.origin, OutputDevice::File, line});
+  events.on_close({run.origin, OutputDevice::File});
+}
+
 }  // namespace
 
 bool print(Run& run, const Block&) {
   if (run.state.start.is_searching) return true;  // the run that was interrupted has put it out
+  if (!run.parts.itnc.ids.empty()) {
+    print_values(run);
+    return true;
+  }
   const std::string& name = run.parts.itnc.name;
   if (!read_mask(run, name)) return false;
   std::optional<LocalTime> now;

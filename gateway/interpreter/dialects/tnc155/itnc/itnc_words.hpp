@@ -109,7 +109,7 @@ struct ItncWords {
   std::string target;                ///< Print: where it goes
   Formula formula, second;           ///< Assignment; Comparison: both sides
   std::vector<CycleWord> words;      ///< CycleTable
-  std::vector<std::int32_t> ids;     ///< SYSREAD: ID, NR, IDX or kIndexOfFormula
+  std::vector<std::int32_t> ids;     ///< SYSREAD: ID, NR, IDX or kIndexOfFormula; FN 15: Q
 };
 
 }  // namespace dripline::interpreter::tnc155

@@ -72,7 +72,7 @@ enum class BlockKind : std::uint8_t {
   SystemRead,   ///< FN 18
   CycleTable,   ///< CYCL DEF 200 and above
   CycleCallAt,  ///< CYCL CALL POS
-  Print,        ///< FN 16
+  Print,        ///< FN 15, FN 16
   Approach,     ///< APPR LT, LN, CT, LCT
   Departure,    ///< DEP LT, LN, CT, LCT
   Accepted,     ///< what says nothing about the path: a warning names it
