@@ -60,10 +60,11 @@ bool single_direction(Run& run, const Position& to) {
   return rapid_to(run, first) && rapid_to(run, to);
 }
 
-/// What #5061 and up show.
+/// What #5061 and up show: of the axes, with the tool's offset.
 void note_skip(Run& run) {
   for (const Axis axis : kAllAxes) {
-    run.state.skip[static_cast<std::size_t>(axis)] = run.work_position(axis);
+    run.state.skip[static_cast<std::size_t>(axis)] =
+        run.work_position(axis) + length_in_work_position(run, axis);
   }
 }
 

@@ -84,6 +84,25 @@ void note_set_axes(Run& run) {
   }
 }
 
+double length_along(const Run& run, Axis axis) {
+  const auto i = static_cast<std::size_t>(axis);
+  const bool is_bare = i < 3 && (run.state.length_in_axes.bare & bit_of(i)) != 0;
+  return i < 3 && !is_bare ? in_force(run)[i] : 0;
+}
+
+double length_in_work_position(const Run& run, Axis axis) {
+  if (run.tilted.is_on()) return 0;
+  if (run.options.is_lathe) {
+    const auto offset = static_cast<std::size_t>(run.state.h_number);
+    const ToolOffsets& tools = run.memory.tools;
+    const double geometry = axis == Axis::X   ? tools.x_geometry[offset]
+                            : axis == Axis::Z ? tools.length_geometry[offset]
+                                              : 0;
+    if (geometry != 0) return kNull;
+  }
+  return length_along(run, axis);
+}
+
 std::uint8_t bare_axes(const ModalState& state, const ActiveModes& modes) {
   return state.length_in_axes.bare & axes_with_length(modes);
 }

@@ -16,6 +16,12 @@ void note_machine_axes(Run& run);
 /// it is not certain what they mean.
 void note_set_axes(Run& run);
 
+/// How far the machine's axis is beyond the program's position, mm (X of a lathe as a radius).
+double length_along(const Run& run, Axis axis);
+/// The same in positions of the work system that hold the tool's offset. NaN: a lathe's geometry
+/// offset, which moves the tool on some machines and the work system on others.
+double length_in_work_position(const Run& run, Axis axis);
+
 /// What modes() has: see ActiveModes. Only axes with a length.
 std::uint8_t bare_axes(const ModalState& state, const ActiveModes& modes);
 bool is_length_doubtful(const ModalState& state, const ActiveModes& modes);

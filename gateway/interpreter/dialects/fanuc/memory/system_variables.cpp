@@ -3,7 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/length_in_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
@@ -200,31 +202,56 @@ double* work_variable(Run& run, int number, Axis& axis) {
   return &all.work[system][static_cast<std::size_t>(axis)];
 }
 
+/// In G41 and G42 the position of the axes holds the radius, which the next moves decide about.
+bool check_position(Run& run, int number, Axis axis, std::uint32_t column) {
+  const PlaneAxes plane = axes_of(run.state.plane());
+  const bool is_of_axes = (number > 5020 && number <= 5028) || (number > 5040 && number <= 5048);
+  const bool is_compensated =
+      run.state.is_compensating() && (axis == plane.first || axis == plane.second);
+  if (!is_of_axes || !is_compensated) return true;
+  return run.fail(ErrorCode::IllegalVariable, column,
+                  fmt::format("#{} holds the radius of G41 and G42: G40 comes before it", number));
+}
+
+/// #5021 is where the axes are, #5041 and #5061 are the same in the work system, with the tool's
+/// offset; #5001 is the end of the last block without it (custom macro, position information).
 bool read_position(Run& run, int number, std::uint32_t column, double& value) {
   const ModalState& state = run.state;
   const int base = number / 20 * 20;
   const Axis* axis = axis_at(run, number, base);
   if (axis == nullptr) return refuse_variable(run, number, column);
-  const double length = *axis == state.length_axis ? state.length_offset : 0;
+  if (!check_position(run, number, *axis, column)) return false;
   double raw = 0;
   switch (base) {
     case 5000:
-    case 5040:
       raw = run.work_position(*axis);
       break;
     case 5020:
-      raw = (run.tilted.is_on() ? run.tilted.machine() : state.position).raw(*axis) + length;
+      raw = (run.tilted.is_on() ? run.tilted.machine() : state.position).raw(*axis) +
+            length_along(run, *axis);
+      break;
+    case 5040:
+      raw = run.work_position(*axis) + length_in_work_position(run, *axis);
       break;
     case 5060:
       raw = state.skip[static_cast<std::size_t>(*axis)];
       break;
     case 5080:
-      raw = length;
+      if (run.options.is_lathe)
+        raw = length_in_work_position(run, *axis);
+      else if (*axis == state.length_axis)
+        raw = state.length_offset;
       break;
     case 5100:
       break;
     default:
       return refuse_variable(run, number, column);
+  }
+  if (std::isnan(raw)) {
+    return run.fail(ErrorCode::IllegalVariable, column,
+                    fmt::format("#{} with a geometry offset: whether it holds it is a parameter of "
+                                "the lathe",
+                                number));
   }
   value = run.in_units(*axis, raw);
   return true;
