@@ -14,11 +14,12 @@ void visit(Archive& archive, ModalState& state) {
           state.length_in_axes.taken, state.length_in_axes.bare, state.length_in_axes.doubtful,
           state.length_in_axes.is_even, state.turning, state.box, state.contour, state.modes_before,
           state.rotary, state.parameters, state.enters_parameters, state.mirror, state.scaling,
-          state.rotation, state.open_axes, state.cycle, state.zone, state.intermediate,
-          state.has_intermediate, state.imaginary, state.held, state.skip, state.last,
-          state.polar_angle, state.polar_radius, state.offset_list, state.is_rigid_tapping,
-          state.locals, state.commons, state.kept, state.extra, state.counters, state.calls,
-          state.loops, state.modals, state.modal_active, state.jump, state.limits);
+          state.rotation, state.open_axes, state.opened_by, state.cycle, state.zone,
+          state.intermediate, state.has_intermediate, state.imaginary, state.held, state.skip,
+          state.last, state.polar_angle, state.polar_radius, state.offset_list,
+          state.is_rigid_tapping, state.locals, state.commons, state.kept, state.extra,
+          state.counters, state.calls, state.loops, state.modals, state.modal_active, state.jump,
+          state.limits);
 }
 
 namespace {
@@ -26,7 +27,7 @@ namespace {
 std::string_view dialect_of(const Run& run) {
   return run.options.is_lathe ? "fanuc-t" : "fanuc";
 }
-constexpr std::uint32_t kVersion = 13;
+constexpr std::uint32_t kVersion = 14;
 
 template <class Archive>
 void visit_memory(Archive& archive, Memory& memory) {
@@ -85,7 +86,8 @@ bool has_plausible_stacks(const ModalState& state) {
 
 /// Values that index tables must be in range, whatever the bytes say.
 bool is_plausible(const ModalState& state, const Memory& memory) {
-  if (state.rotary.kind > RotaryPlane::Kind::Cylinder) return false;
+  if (state.rotary.kind > RotaryPlane::Kind::Cylinder || state.opened_by > FrameCode::MirrorEnd)
+    return false;
   if (state.contour.code != 0 && (state.contour.code < 170 || state.contour.code > 173)) {
     return false;
   }

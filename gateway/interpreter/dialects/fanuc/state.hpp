@@ -92,6 +92,19 @@ struct Rotation {
   double cosine = 1;
 };
 
+/// What has given an axis another coordinate; see check_open_axes.
+enum class FrameCode : std::uint8_t {
+  Rotation,
+  RotationEnd,
+  Scaling,
+  ScalingEnd,
+  Mirror,
+  MirrorEnd
+};
+constexpr bool ends_frame(FrameCode code) {
+  return static_cast<unsigned>(code) % 2 == 1;
+}
+
 /// What a hole cycle keeps from block to block: levels in program coordinates of the hole's axis.
 struct CycleData {
   double initial = 0;
@@ -256,6 +269,7 @@ struct ModalState {
   Scaling scaling;
   Rotation rotation;
   std::uint8_t open_axes = 0;  ///< of X, Y, Z, bit 0 = X; see check_open_axes
+  FrameCode opened_by = FrameCode::Rotation;
   CycleData cycle;
   StrokeZone zone;  ///< G22
   AxisValues intermediate{};

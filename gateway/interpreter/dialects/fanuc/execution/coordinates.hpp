@@ -38,7 +38,8 @@ bool is_plane_mirrored(const ModalState& state, Plane plane);
 bool apply_transformations(Run& run);
 /// The words of G22, G51, G51.1, G68 and G68.2; any others have no use.
 void take_data_words(Run& run);
-/// Whether the axis words of the block say where they lead after G68 or G69. False: an alarm.
+/// Whether the axis words of the block say where they lead after a change of scaling, mirror image
+/// or rotation. False: an alarm.
 bool check_open_axes(Run& run);
 
 }  // namespace dripline::interpreter::fanuc

@@ -200,8 +200,21 @@ bool ends_rotation(const Block& block) {
   return block.names(kRotationGroup) && block.g[kRotationGroup] == 69;
 }
 
+/// The manual leaves open what an axis whose coordinate has become another one does when the next
+/// block does not name it: some controls move it, others leave it where it is.
+void note_open_axes(Run& run, const Point3& before, FrameCode code) {
+  constexpr double kSame = 1e-6;
+  const Point3 now = program_position(run);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::fabs(now[i] - before[i]) <= kSame) continue;
+    run.state.open_axes = static_cast<std::uint8_t>(run.state.open_axes | 1u << i);
+    run.state.opened_by = code;
+  }
+}
+
 bool apply_mirror(Run& run) {
   ModalState& state = run.state;
+  const Point3 before = program_position(run);
   const Words& words = run.block.words;
   const std::uint32_t column = run.block.parts.g_column;
   const bool begins = run.block.g[kMirrorGroup] == kMirrorOn;
@@ -228,6 +241,7 @@ bool apply_mirror(Run& run) {
   }
   state.g[kMirrorGroup] = state.mirror.any() ? kMirrorOn : kMirrorOff;
   update_transformed(run);
+  note_open_axes(run, before, begins ? FrameCode::Mirror : FrameCode::MirrorEnd);
   return true;
 }
 
@@ -239,21 +253,12 @@ bool apply_scaling(Run& run) {
     return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column,
                     "scaling begins before G68 and ends after G69");
   }
+  const Point3 before = program_position(run);
   if (code == 51 && !begin_scaling(run)) return false;
   state.g[kScalingGroup] = code;
   update_transformed(run);
+  note_open_axes(run, before, code == 51 ? FrameCode::Scaling : FrameCode::ScalingEnd);
   return true;
-}
-
-/// The manual leaves open what an axis that G68 or G69 has given another coordinate does when the
-/// next block does not name it: some controls move it, others leave it where it is.
-void note_open_axes(Run& run, const Point3& before) {
-  constexpr double kSame = 1e-6;
-  const Point3 now = program_position(run);
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (std::fabs(now[i] - before[i]) <= kSame) continue;
-    run.state.open_axes = static_cast<std::uint8_t>(run.state.open_axes | 1u << i);
-  }
 }
 
 bool apply_rotation(Run& run) {
@@ -266,7 +271,8 @@ bool apply_rotation(Run& run) {
   if (code == 69 && run.tilted.kind() == Tilt::Kind::Plane && !end_tilted_plane(run)) return false;
   state.g[kRotationGroup] = code;
   update_transformed(run);
-  if (rotates) note_open_axes(run, before);
+  if (rotates)
+    note_open_axes(run, before, code == 68 ? FrameCode::Rotation : FrameCode::RotationEnd);
   return true;
 }
 
@@ -309,6 +315,15 @@ void take_data_words(Run& run) {
   run.ledger.take(taken);
 }
 
+namespace {
+
+std::string_view frame_code_name(FrameCode code) {
+  constexpr std::array<std::string_view, 6> kNames{"G68", "G69", "G51", "G50", "G51.1", "G50.1"};
+  return kNames[static_cast<std::size_t>(code)];
+}
+
+}  // namespace
+
 bool check_open_axes(Run& run) {
   ModalState& state = run.state;
   const Words& words = run.block.words;
@@ -317,18 +332,18 @@ bool check_open_axes(Run& run) {
   for (std::size_t i = 0; i < 3; ++i) named |= unsigned{words.has(kNames[i])} << i;
   const std::uint8_t one_shot = run.block.parts.one_shot;
   if ((named & state.open_axes) == 0 || one_shot == 28 || one_shot == 30) return true;
-  const bool rotates = state.g[kRotationGroup] == 68;
   if (state.is_incremental()) {
-    if (rotates) return true;
-    return run.fail(ErrorCode::ImproperCommand, words.first_column(kAxisWords),
-                    "the first move after G69 is one of G90");
+    if (!ends_frame(state.opened_by)) return true;
+    return run.fail(
+        ErrorCode::ImproperCommand, words.first_column(kAxisWords),
+        fmt::format("the first move after {} is one of G90", frame_code_name(state.opened_by)));
   }
   if (state.is_polar()) named = state.open_axes;
   if (const unsigned missing = state.open_axes & ~named; missing != 0) {
     const char name = letter(kNames[static_cast<std::size_t>(std::countr_zero(missing))]);
-    return run.fail(
-        ErrorCode::ImproperCommand, words.first_column(kAxisWords),
-        fmt::format("the first move after {} names {} too", rotates ? "G68" : "G69", name));
+    return run.fail(ErrorCode::ImproperCommand, words.first_column(kAxisWords),
+                    fmt::format("the first move after {} names {} too",
+                                frame_code_name(state.opened_by), name));
   }
   state.open_axes = static_cast<std::uint8_t>(state.open_axes & ~named);
   return true;
