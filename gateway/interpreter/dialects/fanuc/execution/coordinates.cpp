@@ -122,9 +122,19 @@ bool select_work_system(Run& run) {
 bool set_local_zero(Run& run) {
   run.ledger.take(kAxisWords);
   if (run.state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
+  // Some controls of this language add to the local zero in G91, others set it there too.
+  AxisValues& local = run.memory.coordinates.local;
+  std::uint32_t doubtful = 0;
+  each_axis_word(run, [&](std::size_t i, double) {
+    if (run.state.is_incremental() && local[i] != 0 && doubtful == 0)
+      doubtful = run.block.words.column(kWordOfAxis[i]);
+  });
+  if (doubtful != 0) {
+    return run.fail(ErrorCode::ImproperCommand, doubtful,
+                    "G52 in G91 where there is a local zero: G90 comes before it");
+  }
   interrupt_compensation(run);
-  each_axis_word(run,
-                 [&](std::size_t i, double value) { run.memory.coordinates.local[i] = value; });
+  each_axis_word(run, [&](std::size_t i, double value) { local[i] = value; });
   run.update_origin();
   resume_compensation(run);
   return true;
