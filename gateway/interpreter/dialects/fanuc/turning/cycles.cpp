@@ -218,16 +218,18 @@ class ThreadPasses {
   }
 
  private:
-  /// Infeed along one flank.
+  /// Infeed along one flank. The taper is that from the start to the end, wherever a pass begins:
+  /// all of them are parallel.
   bool pass(double depth) {
     const double half = data_.thread_angle / 2 * (Angle::kPi / 180);
-    const double forward = end_.raw(Axis::Z) < start_.raw(Axis::Z) ? -1 : 1;
-    const double shift = forward * depth * std::tan(half);
+    const double along = end_.raw(Axis::Z) - start_.raw(Axis::Z);
+    const double shift = std::copysign(depth * std::tan(half), along);
+    const double rise = taper_ * (1 - shift / along);
     const double root = end_.raw(Axis::X);  // where the thread is deepest
     Position begin = start_;
     begin.set_raw(Axis::Z, start_.raw(Axis::Z) + shift);
     Position cut = begin;
-    cut.set_raw(Axis::X, root + taper_ + out_ * (height_ - depth));
+    cut.set_raw(Axis::X, root + rise + out_ * (height_ - depth));
     Position end = end_;
     end.set_raw(Axis::X, root + out_ * (height_ - depth));
     if (!rapid_to(run_, begin) || !rapid_to(run_, cut)) return false;
@@ -288,6 +290,11 @@ bool cut_threads(Run& run) {
   if (end.raw(Axis::Z) == state.position.raw(Axis::Z) ||
       end.raw(Axis::X) == state.position.raw(Axis::X)) {
     return refuse_cycle(run, column, "the cycle has no length or no height");
+  }
+  const double half = state.turning.thread_angle / 2 * (Angle::kPi / 180);
+  const double travel = std::fabs(end.raw(Axis::Z) - state.position.raw(Axis::Z));
+  if (travel <= height * std::tan(half)) {
+    return refuse_cycle(run, column, "the thread is shorter than its infeed along the flank");
   }
   ThreadPasses passes(run, end, taper, height, first);
   if (!passes.begins_outside()) {
