@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
@@ -86,6 +87,27 @@ bool changes(const Run& run, Group group) {
 
 }  // namespace
 
+namespace {
+
+/// Alarm 065 of the manual: the block of P has G00 or G01, and of G71 and G72 the axis of the depth
+/// alone. With the other axis as well it asks for type II, which cuts pockets along the contour.
+bool check_first_block(Run& run) {
+  const Block& block = run.block;
+  ContourCycle& cycle = run.state.contour;
+  if (cycle.code == kTurningCycles || std::exchange(cycle.has_begun, true)) return true;
+  if (!block.names(kMotionGroup) || block.g[kMotionGroup] > 1)
+    return refuse_contour(run, "the block of P has no G00 or G01");
+  const bool is_turning = cycle.code == kTurningCycles + 1;
+  const AddressSet other = is_turning ? set_of(Z, W) : set_of(X, U);
+  const AddressSet words = block.words.present() & other;
+  if (cycle.code == kTurningCycles + 3 || words == 0) return true;
+  return run.fail(ErrorCode::IllegalContour, block.words.first_column(words),
+                  fmt::format("the block of P names {} as well: type II is not supported",
+                              is_turning ? "Z" : "X"));
+}
+
+}  // namespace
+
 /// The manual excludes one-shot codes but G04, motion codes but G00 to G03, and G20 and G21. What
 /// moves the zero, the plane or the coordinates is excluded here: roughing knows one of each.
 bool check_contour_block(Run& run) {
@@ -100,7 +122,7 @@ bool check_contour_block(Run& run) {
       (one_shot == Block::kNoCode || one_shot == 4) && (motion <= 3 || !moves) &&
       std::none_of(kNever.begin(), kNever.end(), [&](Group group) { return block.names(group); }) &&
       std::none_of(kFixed.begin(), kFixed.end(), [&](Group group) { return changes(run, group); });
-  if (is_allowed) return true;
+  if (is_allowed) return check_first_block(run);
   return run.fail(ErrorCode::IllegalContour, block.parts.g_column,
                   "the blocks from P to Q take G00 to G03, G04 and no other motion, zero, plane or "
                   "units");

@@ -25,6 +25,7 @@ struct ContourMove {
 struct ContourCycle {
   std::uint8_t code = 0;   ///< G70 to G73 as 170 to 173; 0: none
   bool has_place = false;  ///< `back` is known
+  bool has_begun = false;  ///< the block of P has been executed
   std::uint32_t last = 0;  ///< N of the last block
   TextPosition back;       ///< after the block of the cycle
   double allowance_x = 0;  ///< a radius
