@@ -162,9 +162,9 @@ bool take_place(Run& run, const Block& block) {
 }
 
 /// A contour ends as by M98 before what it is made of changes (manual: coordinate transformations).
-/// Whether it does on a later control is not known.
+/// Whether the next block begins another one with the same side, or none, is not stated.
 bool transform(Run& run, const Transformation& changed) {
-  if (run.options.is_itnc) run.state.needs_side |= run.state.is_compensating();
+  run.state.needs_side |= run.state.is_compensating();
   end_contour(run, true);
   change_transformation(run, changed);
   return true;

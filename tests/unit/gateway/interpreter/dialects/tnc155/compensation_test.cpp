@@ -154,14 +154,19 @@ TEST(TncCompensation, AToolCallEndsTheContour) {
               ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X40 Y5 F100", "L X40 Y30 F100"));
 }
 
-// HD-126: a datum shift ends it as M98 does: the next block keeps the offset of (0, 5), and after
-// it the tool is where the program says.
+// HD-126: a datum shift ends it as M98 does. Whether the block after it keeps the offset of (0, 5),
+// is on its own points or begins another contour is not stated: it names the side, or R0.
 TEST(TncCompensation, ATransformationEndsTheContour) {
-  EXPECT_THAT(
-      path("+5", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "CYCL DEF 7.0 DATUM SHIFT",
-                  "CYCL DEF 7.1 X+10", "L X+40 Y+30", "L X+60 Y+30"}),
-      ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X40 Y5 F100", "L X50 Y35 F100",
-                  "L X70 Y30 F100"));
+  const auto after_shift = [](const char* block) {
+    return path("+5", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0",
+                       "CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+10", block, "L X+60 Y+30"});
+  };
+  EXPECT_THAT(after_shift("L X+40 Y+30 R0"),
+              ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X40 Y5 F100", "L X50 Y30 F100",
+                          "L X70 Y30 F100"));
+  EXPECT_THAT(after_shift("L X+40 Y+30"),
+              ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X40 Y5 F100",
+                          "! PATH OFFSET WRONGLY STARTED"));
 }
 
 // HD-127: Z moves, calculations and labels between two elements; the next one may be in a
