@@ -86,6 +86,14 @@ const MdiCase kCases[] = {
                {"TOOL CALL 1 Z S1000", "X", 13.5},
                {"Z+5 R0 F100 M", "Z", 5}},
      .setup = "[[tool]]\nnumber = 1\nlength = 20.0\nradius = 5.0\n"},
+    // The shift of a text is in force in the next one.
+    {.control = "itnc",
+     .steps = {{"L X+12.5 Y+1 R0 FMAX M3", "X", 12.5},
+               {"CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nL X+5 R0 F1000", "X", 15},
+               {"L IX+1", "X", 16},
+               {"TOOL CALL 1 Z S1000\nL Z+5 R0 FMAX", "Z", 5},
+               {"L X+1 FMAX", "X", 11}},
+     .setup = "[[tool]]\nnumber = 1\nlength = 20.0\nradius = 5.0\n"},
 };
 INSTANTIATE_TEST_SUITE_P(, MdiOfControl, testing::ValuesIn(kCases), [](const auto& i) {
   std::string name = i.param.control;

@@ -117,7 +117,9 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
 
 Result<std::unique_ptr<Interpreter>> make_later(const Setup& setup, ProgramSource& source,
                                                 EventSink& sink) {
-  return make_with(read_itnc_options(setup), setup, source, sink);
+  auto options = read_itnc_options(setup);
+  if (options) options->is_mdi = setup.is_mdi;
+  return make_with(std::move(options), setup, source, sink);
 }
 
 /// Capitals and marks without blanks, line ends kept.
@@ -198,6 +200,8 @@ int itnc_likelihood(std::string_view head, std::string_view) {
   return has_frame && is_itnc(text) ? 100 : 0;
 }
 
+constexpr std::size_t kItncMdiBlocks = 10;  ///< $MDI is a program of any length; as others here
+
 }  // namespace
 
 const Dialect kTnc155Dialect{.name = "tnc155",
@@ -222,6 +226,7 @@ const Dialect kItncDialect{.name = "itnc",
                            .title = "HEIDENHAIN TNC 426/430, iTNC 530 (plain language)",
                            .likelihood = &itnc_likelihood,
                            .make = &make_later,
+                           .mdi_blocks = kItncMdiBlocks,
                            .waits_at_tool_change = true,
                            .options = &list_itnc_options,
                            .text = {.kind = TextForm::Kind::PlainLanguage},

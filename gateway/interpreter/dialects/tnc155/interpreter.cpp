@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <utility>
 
+#include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/coordinate_frame.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/execution.hpp"
@@ -256,6 +257,10 @@ bool TncInterpreter::check_number() {
 /// The text ends without END PGM: the program ends as with it, after a check of the last moves.
 BlockOutcome TncInterpreter::meet_end() {
   place_origin(run_.reader.place());
+  if (run_.options.is_mdi && is_defining(run_)) {
+    run_.fail(ErrorCode::CycleIncomplete, fmt::format("CYCL DEF {}", run_.state.cycle.defining));
+    return BlockOutcome::Paused;
+  }
   end_program(run_, false);
   return check_moves() ? BlockOutcome::Finished : BlockOutcome::Paused;
 }
@@ -347,6 +352,7 @@ Result<void> TncInterpreter::begin_next_text() {
   state.reading = {};
   state.units = Units::Millimeter;
   state.program_number = -1;
+  state.program_name.clear();
   state.uses_stages = state.joins = state.is_parallel = state.needs_side = false;
   state.has_compensated = state.awaits_contour = state.is_restart = false;
   state.has_positioned = true;

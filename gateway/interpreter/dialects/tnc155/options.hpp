@@ -22,7 +22,7 @@ enum class ProgramStart : std::uint8_t {
 /// What the machine builder, the software version or a choice of ours decides. Lengths are
 /// millimeters, feeds millimeters per minute.
 struct ControlOptions {
-  bool is_mdi = false;     ///< Setup::is_mdi: one single-axis block or TOOL CALL (manual: MDI)
+  bool is_mdi = false;     ///< Setup::is_mdi
   ControlVersion version;  ///< which control it is: what it has not is refused
   /// A row of the preset table: the setup's offset "preset1".
   struct Preset {

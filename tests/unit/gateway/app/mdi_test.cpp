@@ -208,6 +208,23 @@ TEST(Mdi, RefusesWhatIsNotKeyedIn) {
   EXPECT_EQ(prototrak.mdi("X1;"), "refused: control prototrak-plus has no MDI");
 }
 
+// Positioning with manual data input of an iTNC 530: any block but labels, calls and contours; what
+// a text has shifted is shifted in the next one, and a program begins without. Rows: IT-046.
+TEST(Mdi, KeysInBlocksOfALaterTnc) {
+  MdiFixture fixture(interpreter::kItncDialect);
+  EXPECT_EQ(fixture.mdi("L X+12.5 Y+1 R0 FMAX M3\n"), "completed");
+  EXPECT_EQ(fixture.mdi("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nQ1 = 2 + 3\n"), "completed");
+  EXPECT_EQ(fixture.mdi("L X+Q1 F1000\nL IX+1\n"), "completed");
+  EXPECT_EQ(fixture.at(0), 16);
+  EXPECT_THAT(fixture.mdi("LBL 1\n"), HasSubstr("a label in positioning with MDI"));
+  EXPECT_THAT(fixture.mdi("CALL LBL 1\n"), HasSubstr("a label in positioning with MDI"));
+  EXPECT_THAT(fixture.mdi("CALL PGM A\n"), HasSubstr("CALL PGM in positioning with MDI"));
+  EXPECT_THAT(fixture.mdi("L X+1 RL F100\n"), HasSubstr("RL or RR in positioning with MDI"));
+  EXPECT_THAT(fixture.mdi("CYCL DEF 7.0 DATUM SHIFT\n"), HasSubstr("CYCL DEF 7"));
+  EXPECT_EQ(fixture.run("BEGIN PGM A MM\nL X+1 Y+1 R0 FMAX\nEND PGM A MM\n"), "completed");
+  EXPECT_EQ(fixture.at(0), 1);
+}
+
 // What it changes in the memory is kept, and a restart is not offered.
 TEST(Mdi, ChangesTheControlsMemory) {
   MdiFixture fixture(interpreter::kFanucDialect);

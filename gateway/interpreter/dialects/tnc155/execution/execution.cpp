@@ -206,14 +206,40 @@ constexpr std::array<bool (*)(Run&, const Block&),
                   fmt::format("nothing in the block takes {}", words));
 }
 
-}  // namespace
-
-bool execute(Run& run, const Block& block) {
-  if (run.options.is_mdi && block.kind != BlockKind::SingleAxis &&
-      block.kind != BlockKind::ToolCall) [[unlikely]] {
+/// Positioning with MDI: a TNC 155 takes two kinds of blocks. A later control has no labels, calls
+/// and contours there (User's Manual iTNC 530: positioning with manual data input).
+bool check_keyed_in(Run& run, const Block& block) {
+  if (!run.options.is_itnc) {
+    if (block.kind == BlockKind::SingleAxis || block.kind == BlockKind::ToolCall) return true;
     return run.fail(ErrorCode::BlockFormatIncorrect,
                     "positioning with MDI takes a single-axis block or TOOL CALL");
   }
+  const auto refuse = [&run](std::string_view what) {
+    return run.fail(ErrorCode::NotSupported, fmt::format("{} in positioning with MDI", what));
+  };
+  switch (block.kind) {
+    case BlockKind::Label:
+    case BlockKind::LabelCall:
+    case BlockKind::Comparison:
+      return refuse("a label");
+    case BlockKind::ProgramCall:
+      return refuse("CALL PGM");
+    case BlockKind::Approach:
+    case BlockKind::Departure:
+      return refuse("APPR or DEP");
+    default:
+      break;
+  }
+  const bool is_contour =
+      block.compensation == Compensation::Left || block.compensation == Compensation::Right;
+  return !is_contour || refuse("RL or RR");
+}
+
+}  // namespace
+
+bool execute(Run& run, const Block& block) {
+  if (run.options.is_mdi && !check_keyed_in(run, block)) [[unlikely]]
+    return false;
   if (is_defining(run) && block.kind != BlockKind::CycleDefinition) [[unlikely]] {
     return run.fail(
         ErrorCode::CycleIncomplete,

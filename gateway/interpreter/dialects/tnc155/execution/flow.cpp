@@ -311,7 +311,8 @@ void end_program(Run& run, bool rewinds) {
     return;
   }
   if (rewinds) switch_off(run);
-  end_cycles(run);
+  const bool is_keyed_in = run.options.is_mdi && !rewinds;  // the next text goes on from here
+  if (!is_keyed_in) end_cycles(run);
   report_pockets(run);
   state.phase = RunPhase::Ended;
   run.events().on_end({run.origin, state.blocks + (run.is_in_block ? 1 : 0), rewinds});
