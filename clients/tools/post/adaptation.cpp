@@ -90,17 +90,35 @@ bool Adaptation::check_target(const Origin& origin, const Position& to) {
   return true;
 }
 
-/// The program that is written calls each tool with its own length, from its first move of Z on.
+/// Axes that turn another part of the machine lead the tool elsewhere on the workpiece.
+bool Adaptation::check_rotary(const Origin& origin, const Position& to) {
+  if (options_.rotary_refusal.empty()) return true;
+  for (const Axis axis : interpreter::kAllAxes) {
+    if (!is_rotary(axis) || !to.has(axis) || to.raw(axis) == at_.raw(axis)) continue;
+    refuse(origin,
+           fmt::format("a move of the rotary axis {}: {}", letter(axis), options_.rotary_refusal));
+    return false;
+  }
+  return true;
+}
+
+/// The program that is written calls each tool with its own length, from its first move of Z on. Of
+/// a tilted tool every linear axis holds a part of it.
 bool Adaptation::check_length(const Origin& origin, const Position& to) {
   if (source_ == nullptr || target().is_lathe) return true;
-  const auto lengths = source_->modes().lengths();
+  const auto modes = source_->modes();
+  const auto lengths = modes.lengths();
+  const bool moves_any = std::ranges::any_of(std::array{Axis::X, Axis::Y, Axis::Z}, [&](Axis axis) {
+    return to.has(axis) && to.raw(axis) != at_.raw(axis);
+  });
   std::array<double, 3> written{};
   const auto tool = std::ranges::find(*tools_, tool_, &interpreter::ToolRecord::number);
   if (tool_ != 0 && tool != tools_->end())
     written[2] = tool->length.raw(Axis::Z) + tool->wear.raw(Axis::Z);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const auto axis = static_cast<Axis>(i);
-    const bool moves = to.has(axis) && to.raw(axis) != at_.raw(axis);
+    const bool moves =
+        modes.is_length_certain ? to.has(axis) && to.raw(axis) != at_.raw(axis) : moves_any;
     if (!moves || std::fabs(lengths[i] - written[i]) <= options_.tolerance) continue;
     refuse(origin, fmt::format("a move of {} with a length of {:.4f} mm in force: the program for "
                                "{} has that of tool {}, {:.4f} mm",
@@ -171,7 +189,7 @@ std::optional<Feed> Adaptation::feed_of(const Origin& origin, Feed feed, double 
 
 void Adaptation::on_rapid(const interpreter::Rapid& event) {
   if (!is_open() || !check_target(event.origin, event.to)) return;
-  if (!check_length(event.origin, event.to)) return;
+  if (!check_rotary(event.origin, event.to) || !check_length(event.origin, event.to)) return;
   if (is_short(event.to)) {
     if (!event.to.same_point(at_)) ++counts_.short_moves;
     return;
@@ -207,7 +225,7 @@ void Adaptation::on_line(const Line& event) {
 /// Pieces of the sweep that the target has in one arc.
 void Adaptation::on_arc(const Arc& event) {
   if (!is_open() || !check_target(event.origin, event.to)) return;
-  if (!check_length(event.origin, event.to)) return;
+  if (!check_rotary(event.origin, event.to) || !check_length(event.origin, event.to)) return;
   if (!check_feed_axes(event.origin, event.to)) return;
   if (event.rests) ++counts_.exact_stops;
   constexpr double kNoise = 1e-9;

@@ -21,8 +21,9 @@ struct AdaptationOptions {
   double tolerance = 0.001;  ///< mm between an arc and the one that is written
   /// mm: arcs that the target does not have become lines within it; absent: they are refused.
   std::optional<double> chord = {};
-  double value_tolerance = 0.005;  ///< of feeds, speeds and dwells, as a part of them
-  bool passes_messages = false;    ///< to the writer, which makes comments of them
+  double value_tolerance = 0.005;   ///< of feeds, speeds and dwells, as a part of them
+  bool passes_messages = false;     ///< to the writer, which makes comments of them
+  std::string rotary_refusal = {};  ///< why a move of a rotary axis is refused; empty: it is not
 };
 
 /// What the adaptation changed, each a number of places.
@@ -86,6 +87,7 @@ class Adaptation final : public interpreter::EventGate {
   bool is_short(const interpreter::Position& to) const;
   bool check_target(const interpreter::Origin& origin, const interpreter::Position& to);
   bool check_length(const interpreter::Origin& origin, const interpreter::Position& to);
+  bool check_rotary(const interpreter::Origin& origin, const interpreter::Position& to);
   bool check_feed_axes(const interpreter::Origin& origin, const interpreter::Position& to);
   std::optional<double> rounded(const interpreter::Origin& origin, std::string_view name,
                                 double value, const NumberRange& range, std::string_view unit,

@@ -1,7 +1,9 @@
 #include "clients/tools/post/conversion.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "clients/tools/offline/offline_run.hpp"
 
@@ -125,6 +127,50 @@ Result<Setup> setup_of(const Target& target, Setup setup) {
   return setup;
 }
 
+/// How the rotary axes of a setup turn its tables and heads.
+struct RotaryMachine {
+  std::string kind, axes;
+  std::vector<interpreter::Position> centers;
+};
+
+/// Errors: Syntax.
+Result<RotaryMachine> rotary_machine_of(const Setup& setup) {
+  RotaryMachine machine;
+  for (const std::string_view key : {"kinematics", "rotary_master", "rotary_slave"}) {
+    const auto word = setup.control.text(key, "");
+    if (!word) return fail(word.error());
+    (key == "kinematics" ? machine.kind : machine.axes) += *word;
+  }
+  for (const std::string_view key : {"table_centers", "head_centers"}) {
+    const auto points = setup.control.positions(key);
+    if (!points) return fail(points.error());
+    machine.centers.insert(machine.centers.end(), points->begin(), points->end());
+  }
+  return machine;
+}
+
+/// Why moves of rotary axes do not lead the tool where they led it: both machines are known, and
+/// differ. Empty: nothing is known against them. Errors: Syntax.
+Result<std::string> difference_of_machines(const Setup& source, const Setup& target) {
+  const auto first = rotary_machine_of(source);
+  const auto second = rotary_machine_of(target);
+  if (!first) return fail(first.error());
+  if (!second) return fail(second.error());
+  const auto is_known = [](const RotaryMachine& machine) {
+    return !machine.kind.empty() && machine.kind != "none";
+  };
+  if (!is_known(*first) || !is_known(*second)) return std::string();
+  if (first->kind != second->kind || first->axes != second->axes) {
+    return fmt::format("the machine of the source is {} {}, that of the target {} {}", first->kind,
+                       first->axes, second->kind, second->axes);
+  }
+  const auto is_same = [](const interpreter::Position& a, const interpreter::Position& b) {
+    return a.same_point(b);
+  };
+  if (std::ranges::equal(first->centers, second->centers, is_same)) return std::string();
+  return std::string("the centers of tables or heads of the two machines differ");
+}
+
 tl::expected<void, NotConverted> run_source(const SourceProgram& source, const Setup& setup,
                                             const Target& target, Adaptation& adaptation,
                                             PostProcessor& post, const ConversionOptions& options) {
@@ -183,6 +229,9 @@ tl::expected<WrittenProgram, NotConverted> write_program(const SourceProgram& so
   result.tolerance = options.tolerance.value_or(result.grid.center_step());
   result.adaptation.tolerance = result.tolerance;
   result.adaptation.chord = options.chord;
+  auto difference = difference_of_machines(source_setup, *target_setup);
+  if (!difference) return refused(difference.error());
+  result.adaptation.rotary_refusal = *std::move(difference);
   // What depends on the start then differs from what was written.
   const Setup run_setup =
       options.is_as_set_up
