@@ -193,7 +193,7 @@ void BoardSession::on(const StatusReport& report, SteadyTime now) {
                  fmt::format("the board reports line {}, which it was not sent", *report.line),
                  now);
   watch_motion(report, now);
-  if (report.overrides) overrides_.reported(*report.overrides);
+  overrides_.reported(report.overrides);
 }
 
 void BoardSession::take_position(const StatusReport& report) {

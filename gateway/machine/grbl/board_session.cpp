@@ -104,7 +104,16 @@ void BoardSession::tick(SteadyTime now) {
   if (phase_ != Phase::Ready) return;
   watch_silence(now);
   watch_answers(now);
-  if (stop_ == Stop::None) output_.real_time += overrides_.take_bytes();
+  step_overrides(now);
+}
+
+/// The answer to the status request that follows shows that the board has taken the step.
+void BoardSession::step_overrides(SteadyTime now) {
+  if (stop_ != Stop::None || unanswered_poll_) return;
+  const std::string step = overrides_.take_step();
+  if (step.empty()) return;
+  output_.real_time += step;
+  ask(now);
 }
 
 /// Silence is a hold first, then an alarm; without a program the line is opened again.

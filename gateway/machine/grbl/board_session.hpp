@@ -152,6 +152,7 @@ class BoardSession final : public streamed::Device {
   void ask(SteadyTime now);
   void watch_silence(SteadyTime now);
   void watch_answers(SteadyTime now);
+  void step_overrides(SteadyTime now);
   void give_up(std::string reason);
 
   SessionLimits limits_;

@@ -13,13 +13,24 @@ struct OverrideBytes {
 constexpr OverrideBytes kFeed{'\x90', '\x91', '\x92', '\x93', '\x94'};
 constexpr OverrideBytes kSpindle{'\x99', '\x9A', '\x9B', '\x9C', '\x9D'};
 
-void append(const OverrideBytes& bytes, int percent, std::string& to) {
-  to += bytes.full;
-  const int change = percent - 100;
-  const auto tens = static_cast<std::size_t>(std::abs(change) / 10);
-  const auto ones = static_cast<std::size_t>(std::abs(change) % 10);
-  to.append(tens, change > 0 ? bytes.more_10 : bytes.less_10);
-  to.append(ones, change > 0 ? bytes.more_1 : bytes.less_1);
+/// One byte of each kind at most. The board adds them up.
+void append_step(const OverrideBytes& bytes, int& is_at, int wanted, std::string& to) {
+  const int change = wanted - is_at;
+  if (change == 0) return;
+  if (wanted == 100) {
+    to += bytes.full;
+    is_at = wanted;
+    return;
+  }
+  const int sign = change > 0 ? 1 : -1;
+  if (std::abs(change) >= 10) {
+    to += sign > 0 ? bytes.more_10 : bytes.less_10;
+    is_at += 10 * sign;
+  }
+  if (change % 10 != 0) {
+    to += sign > 0 ? bytes.more_1 : bytes.less_1;
+    is_at += sign;
+  }
 }
 
 /// The board has 100, 50 and 25 %.
@@ -53,23 +64,20 @@ void OverrideSender::want(const OperatorPanel& panel) {
              .spindle = percent_of(panel.spindle_override)};
 }
 
-std::string OverrideSender::take_bytes() {
+std::string OverrideSender::take_step() {
   std::string bytes;
-  if (sent_ == wanted_) return bytes;
-  if (sent_.feed != wanted_.feed) append(kFeed, wanted_.feed, bytes);
-  if (sent_.rapid != wanted_.rapid) bytes += rapid_byte(wanted_.rapid);
-  if (sent_.spindle != wanted_.spindle) append(kSpindle, wanted_.spindle, bytes);
-  sent_ = wanted_;
-  waits_ = 0;
+  append_step(kFeed, is_at_.feed, wanted_.feed, bytes);
+  if (is_at_.rapid != wanted_.rapid) bytes += rapid_byte(wanted_.rapid);
+  is_at_.rapid = wanted_.rapid;
+  append_step(kSpindle, is_at_.spindle, wanted_.spindle, bytes);
+  if (!bytes.empty()) reports_ = 0;
   return bytes;
 }
 
-void OverrideSender::reported(const OverridePercent& now) {
-  constexpr int kPatience = 3;
-  // A report that was made before our bytes arrived is no difference.
-  if (now != sent_ && ++waits_ < kPatience) return;
-  waits_ = 0;
-  sent_ = now;
+/// The board reports before it acts on what came with the request: its first report after a step is
+/// old.
+void OverrideSender::reported(const std::optional<OverridePercent>& now) {
+  if (++reports_ > 1 && now) is_at_ = *now;
 }
 
 }  // namespace dripline::machine::grbl

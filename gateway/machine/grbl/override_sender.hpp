@@ -11,7 +11,9 @@ namespace dripline::machine::grbl {
 using OverridePercent = StatusReport::Overrides;
 
 /// Brings the board's overrides to those that are wanted, and again if its reports show that bytes
-/// were lost. The board knows steps of 10 and 1 around 100 %. Pure.
+/// were lost. The board has steps of 10 and 1, and a byte is a flag for it: of the same byte twice
+/// before it looks, it sees one. So each step is sent alone, after the board has taken the one
+/// before it, and a change never passes beyond what is wanted. Pure.
 class OverrideSender {
  public:
   /// The nearest that the board has, never faster than asked. A feed under 10 % and a rapid under
@@ -19,16 +21,17 @@ class OverrideSender {
   static OperatorPanel known(OperatorPanel panel);
   /// Of `known` factors; 0 is the lowest that the board has.
   void want(const OperatorPanel& panel);
-  /// The bytes that are still to be sent; empty: none.
-  std::string take_bytes();
-  void reported(const OverridePercent& now);
+  /// The next step; empty: there is none. To be called when the board has answered a status request
+  /// that was sent after the step before.
+  std::string take_step();
+  /// A report was made; `now`: what it states, if it has them.
+  void reported(const std::optional<OverridePercent>& now);
   /// The board was reset: its overrides are 100 %.
-  void reset() { sent_ = {}, waits_ = 0; }
-  const OverridePercent& sent() const { return sent_; }
+  void reset() { is_at_ = {}, reports_ = 0; }
 
  private:
-  OverridePercent wanted_, sent_;
-  int waits_ = 0;  ///< reports in a row that differ from what was sent
+  OverridePercent wanted_, is_at_;
+  int reports_ = 0;  ///< since the last step
 };
 
 }  // namespace dripline::machine::grbl

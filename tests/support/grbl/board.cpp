@@ -70,6 +70,7 @@ void GrblBoard::soft_reset() {
   feed_ = spindle_ = 0;
   parsed_number_ = 0;
   feed_override_ = rapid_override_ = spindle_override_ = 100;
+  override_bytes_.clear();
 }
 
 void GrblBoard::raise_alarm(int code) {
@@ -112,7 +113,6 @@ void GrblBoard::on_real_time(char byte) {
   if (homing_ > 0 && byte != '\x18') return;
   if (byte == '?') return report();
   real_time += byte;
-  const auto change = [](int& value, int by) { value = std::clamp(value + by, 10, 200); };
   switch (static_cast<unsigned char>(byte)) {
     case '!':
       if (state_ == State::Jog) return cancel_jog();
@@ -143,40 +143,29 @@ void GrblBoard::on_real_time(char byte) {
       if (options_.is_grbl_hal) rx_.clear();
       if (!ignores_jog_cancel) cancel_jog();
       return;
-    case 0x90:
-      feed_override_ = 100;
-      return;
-    case 0x91:
-      return change(feed_override_, 10);
-    case 0x92:
-      return change(feed_override_, -10);
-    case 0x93:
-      return change(feed_override_, 1);
-    case 0x94:
-      return change(feed_override_, -1);
-    case 0x95:
-      rapid_override_ = 100;
-      return;
-    case 0x96:
-      rapid_override_ = 50;
-      return;
-    case 0x97:
-      rapid_override_ = 25;
-      return;
-    case 0x99:
-      spindle_override_ = 100;
-      return;
-    case 0x9A:
-      return change(spindle_override_, 10);
-    case 0x9B:
-      return change(spindle_override_, -10);
-    case 0x9C:
-      return change(spindle_override_, 1);
-    case 0x9D:
-      return change(spindle_override_, -1);
     default:
+      override_bytes_.insert(static_cast<unsigned char>(byte));
       return;
   }
+}
+
+/// A byte is a flag: the firmware sees the same one twice as once, until it has looked.
+void GrblBoard::take_override_bytes() {
+  const auto step = [this](int byte) { return override_bytes_.contains(byte); };
+  const auto change = [&](int& value, int first) {
+    if (step(first)) value = 100;
+    value += step(first + 1) ? 10 : 0;
+    value -= step(first + 2) ? 10 : 0;
+    value += step(first + 3) ? 1 : 0;
+    value -= step(first + 4) ? 1 : 0;
+    value = std::clamp(value, 10, 200);
+  };
+  change(feed_override_, 0x90);
+  if (step(0x95)) rapid_override_ = 100;
+  if (step(0x96)) rapid_override_ = 50;
+  if (step(0x97)) rapid_override_ = 25;
+  change(spindle_override_, 0x99);
+  override_bytes_.clear();
 }
 
 // -- time ----------------------------------------------------------------------------------------
@@ -194,6 +183,7 @@ void GrblBoard::step(double seconds) {
     state_ = State::Idle;
   }
   if (!is_mute) take_lines();
+  take_override_bytes();
   if (is_braking_) {
     move_axes(seconds);
     brake_left_ -= seconds;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -99,6 +100,7 @@ class GrblBoard {
   struct Words;
 
   void on_real_time(char byte);
+  void take_override_bytes();
   void soft_reset();
   int jog(const std::string& line);
   void cancel_jog();
@@ -136,6 +138,7 @@ class GrblBoard {
   double feed_ = 0, spindle_ = 0;
   bool is_braking_ = false, is_door_open_ = false, is_probing_ = false;
   double brake_left_ = 0;
+  std::set<int> override_bytes_;  ///< that came since it has looked
   int feed_override_ = 100, rapid_override_ = 100, spindle_override_ = 100;
   std::uint32_t parsed_number_ = 0;
   std::size_t longest_line_ = 0, received_ = 0;

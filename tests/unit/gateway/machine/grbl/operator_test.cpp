@@ -117,6 +117,20 @@ TEST_F(GrblOperator, OverridesReachTheBoard) {
   EXPECT_NEAR(moved_in(1), 20 * 0.37, 0.5);
 }
 
+TEST_F(GrblOperator, AnOverrideIsNeverPassedOnItsWay) {
+  run();
+  set({.feed_override = 0.5});
+  shop.pass(1);
+  ASSERT_EQ(shop.board.feed_override(), 50);
+  set({.feed_override = 0.69});
+  for (int i = 0; i < 1000; ++i) {
+    shop.pass(0.001);
+    ASSERT_LE(shop.board.feed_override(), 69);
+    ASSERT_GE(shop.board.feed_override(), 50);
+  }
+  EXPECT_EQ(shop.board.feed_override(), 69);
+}
+
 TEST_F(GrblOperator, RepeatsAnOverrideThatWasLost) {
   run();
   shop.is_cut = true;
