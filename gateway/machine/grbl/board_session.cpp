@@ -268,8 +268,12 @@ void BoardSession::hold(SteadyTime now) {
   next_poll_ = std::min(next_poll_, now + milliseconds(20));
 }
 
+/// Or was, when the axes began to brake. At 0 it is closed, at 3 and 4 the spindle comes up.
 bool BoardSession::door_is_open() const {
-  return report_ && report_->state == BoardState::Door && report_->substate.value_or(0) != 0;
+  constexpr int kOpen = 1, kBraking = 2;
+  if (!report_ || report_->state != BoardState::Door) return false;
+  const int substate = report_->substate.value_or(0);
+  return substate == kOpen || substate == kBraking;
 }
 
 std::string BoardSession::hold_reason() const {

@@ -60,7 +60,7 @@ void GrblBoard::soft_reset() {
   moves_.clear();
   waiting_.clear();
   pending_answer_.reset();
-  dwell_ = homing_ = 0;
+  dwell_ = homing_ = restore_left_ = 0;
   waits_for_rest_ = is_braking_ = is_probing_ = false;
   end_ = at_;
   motion_ = 0;
@@ -89,6 +89,7 @@ void GrblBoard::cancel_jog() {
 
 void GrblBoard::open_door() {
   is_door_open_ = true;
+  restore_left_ = 0;
   if (state_ == State::Alarm) return;
   is_braking_ = state_ == State::Run;
   brake_left_ = options_.brake_seconds;
@@ -122,8 +123,10 @@ void GrblBoard::on_real_time(char byte) {
       state_ = State::Hold;
       return;
     case '~':
-      if ((state_ == State::Hold && !is_braking_) ||
-          (state_ == State::Door && !is_door_open_ && !is_braking_))
+      if (is_braking_ || (state_ == State::Door && is_door_open_)) return;
+      if (state_ == State::Door && spindle_ > 0)
+        restore_left_ = options_.restore_seconds;
+      else if (state_ == State::Hold || state_ == State::Door)
         state_ = moves_.empty() ? State::Idle : State::Run;
       return;
     case 0x18: {
@@ -184,6 +187,10 @@ void GrblBoard::step(double seconds) {
   }
   if (!is_mute) take_lines();
   take_override_bytes();
+  if (restore_left_ > 0) {
+    restore_left_ -= seconds;
+    if (restore_left_ <= 0) state_ = moves_.empty() ? State::Idle : State::Run;
+  }
   if (is_braking_) {
     move_axes(seconds);
     brake_left_ -= seconds;
@@ -275,7 +282,8 @@ void GrblBoard::report() {
   static constexpr std::array kNames{"Idle", "Run", "Hold", "Alarm", "Door", "Check", "Jog"};
   std::string text = "<" + std::string(kNames[static_cast<std::size_t>(state_)]);
   if (state_ == State::Hold) text += is_braking_ ? ":1" : ":0";
-  if (state_ == State::Door) text += is_braking_ ? ":2" : is_door_open_ ? ":1" : ":0";
+  if (state_ == State::Door)
+    text += restore_left_ > 0 ? ":3" : is_braking_ ? ":2" : is_door_open_ ? ":1" : ":0";
   text += (options_.reports_work_position ? "|WPos:" : "|MPos:") + words_of(at_);
   // An override changes how far ahead blocks are prepared; what was prepared stays so.
   const int used = std::min(static_cast<int>(planned()), options_.planner_blocks - leaked_blocks) +

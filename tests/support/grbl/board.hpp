@@ -36,6 +36,7 @@ class GrblBoard {
     std::optional<double> surface_z = {};  ///< where the probe meets the part
     double brake_seconds = 0.03;
     double homing_seconds = 8;                 ///< without a report
+    double restore_seconds = 4;                ///< after the door: the spindle comes up again
     std::map<int, std::string> settings = {};  ///< replace or add: {32, "1"}; {13, "none"}
   };
   GrblBoard() : GrblBoard(Options{}) {}
@@ -128,7 +129,7 @@ class GrblBoard {
   std::deque<Move> moves_;    ///< what the axes do, then the planner
   std::deque<Move> waiting_;  ///< moves of the present line that the planner has no room for
   std::optional<std::string> pending_answer_;  ///< of the present line, when it is taken
-  double dwell_ = 0, homing_ = 0;
+  double dwell_ = 0, homing_ = 0, restore_left_ = 0;
   bool waits_for_rest_ = false;  ///< the present line needs an empty planner
   Point at_{}, end_{}, from_{};
   double traveled_ = 0;
