@@ -63,6 +63,14 @@ std::string BoardInfo::work_system() const {
   return {};
 }
 
+std::string BoardInfo::offset_beside(const std::string& work_system) const {
+  for (const std::string& name : {work_system, std::string("G92"), std::string("TLO")}) {
+    const auto found = offsets_.find(name);
+    if (found != offsets_.end() && !is_zero(found->second)) return name;
+  }
+  return {};
+}
+
 std::optional<TextRules::Range> BoardInfo::travel(std::size_t axis) const {
   const double length = setting(130, axis);
   if (setting_or(20, 0) == 0 || !(length > 0)) return std::nullopt;

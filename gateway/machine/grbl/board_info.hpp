@@ -49,6 +49,8 @@ class BoardInfo {
   double report_scale() const { return setting_or(13, 0) != 0 ? 25.4 : 1; }
   /// The work coordinate system whose zero is the machine's: "G54". Empty: there is none.
   std::string work_system() const;
+  /// Of `work_system`, or one that is in force beside it: the first offset that is not zero.
+  std::string offset_beside(const std::string& work_system) const;
   /// A report's position in millimetres and degrees.
   Coordinates in_mm(const AxisValues& values) const;
 

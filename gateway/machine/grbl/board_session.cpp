@@ -194,13 +194,15 @@ bool BoardSession::prepare(SteadyTime now) {
   if (!is_empty() || !may_send(kPreambleBytes)) return false;
   switch (preamble_) {
     case Preamble::None:
-      send("G21G90G94G17G91.1G49" + info_.work_system(), false, {});
+      work_system_ = info_.work_system();
+      send("G21G90G94G17G91.1G49" + work_system_, false, {});
       send("G92.1M5M9", false, {});
       preamble_ = Preamble::Sent;
       return false;
     case Preamble::Sent:
       modes_.reset();
       send_system("$G");
+      send_system("$#");
       preamble_ = Preamble::Asked;
       return false;
     case Preamble::Asked:
@@ -213,13 +215,17 @@ bool BoardSession::prepare(SteadyTime now) {
 }
 
 bool BoardSession::check_modes(SteadyTime now) {
-  const std::array<std::string, 4> wanted{"G21", "G90", "G94", info_.work_system()};
+  const std::array<std::string, 4> wanted{"G21", "G90", "G94", work_system_};
   for (const std::string& word : wanted) {
     if (modes_ && std::ranges::find(modes_->words, word) != modes_->words.end()) continue;
     raise("GRB0007", fmt::format("the board does not take the mode {}", word), now);
     return false;
   }
-  return true;
+  const std::string offset = info_.offset_beside(work_system_);
+  if (offset.empty()) return true;
+  raise("GRB0008",
+        fmt::format("the board's {} is not zero any more: something else has set it", offset), now);
+  return false;
 }
 
 std::uint64_t BoardSession::send(const std::string& text, bool moves, milliseconds longest) {

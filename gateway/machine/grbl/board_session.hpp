@@ -173,6 +173,7 @@ class BoardSession final : public streamed::Device {
   bool keeps_position_ = false;  ///< the board has not restarted since the line was opened
   std::optional<AxisValues> work_offset_;
   std::optional<ModesReply> modes_;
+  std::string work_system_;  ///< that the program's lines are in
   std::optional<ProbeReply> probe_;
   std::optional<streamed::DeviceFault> fault_;
   struct JogInHand {

@@ -88,6 +88,7 @@ class GrblBoard {
   bool forgets_axes = false;     ///< reports and contacts have X alone
   double contact_is_off = 0;     ///< mm in X, of what is reported
   bool is_probe_closed = false;  ///< before the probe move
+  Point g54{};                   ///< set by another than the gateway
 
  private:
   enum class State { Idle, Run, Hold, Alarm, Door, Check, Jog };

@@ -112,7 +112,7 @@ GrblBoard::Point GrblBoard::target_of(const Words& words) const {
   for (std::size_t i = 0; i < options_.axes && i < to.size(); ++i) {
     if (!words.has(kAxisLetters[i])) continue;
     const double value = words.value(kAxisLetters[i]) * (is_metric_ || i == 3 ? 1 : 25.4);
-    to[i] = is_absolute_ ? value : end_[i] + value;
+    to[i] = is_absolute_ ? value + (work_ == "G54" ? g54[i] : 0) : end_[i] + value;
   }
   return to;
 }
@@ -271,7 +271,7 @@ int GrblBoard::system_command(const std::string& line) {
     for (const auto& [number, value] : settings_) say(fmt::format("${}={}", number, value));
   } else if (line == "$#") {
     for (const char* name : {"G54", "G55", "G56", "G57", "G58", "G59", "G28", "G30", "G92"})
-      say(fmt::format("[{}:{}]", name, words_of({})));
+      say(fmt::format("[{}:{}]", name, words_of(std::string_view(name) == "G54" ? g54 : Point{})));
     say("[TLO:0.000]");
     say(fmt::format("[PRB:{}:0]", words_of({})));
   } else if (line == "$G") {

@@ -57,6 +57,22 @@ TEST_F(GrblMisbehavior, AnAlarmOfTheBoardIsNamed) {
       "home the axes ($H), or unlock it ($X)");
 }
 
+// It was zero when the gateway connected: every position would be beside its place.
+TEST_F(GrblMisbehavior, AWorkOffsetThatSomethingElseHasSet) {
+  shop.board.g54 = {5, 0, 0, 0};
+  shop.begin();
+  shop.program.line(10, 0, 1200);
+  expect_alarm("GRB0008 the board's G54 is not zero any more: something else has set it");
+  EXPECT_EQ(shop.board.traveled(), 0);
+  reset_by_operator();
+  shop.begin();
+  shop.program.line(10, 0, 1200);
+  shop.program.end();
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed) << "in one that is zero";
+  EXPECT_EQ(shop.board.position()[0], 10);
+}
+
 TEST_F(GrblMisbehavior, ARestartInTheMidst) {
   run();
   shop.board.restart();
