@@ -111,7 +111,7 @@ TextRules BoardInfo::rules() const {
   }
   rules.decimals = finest > 500 ? 4 : 3;  // a digit is at most half a step
   rules.line_limit = is_grbl_hal_ ? kGrblHalLine : kGrblLine;
-  rules.feeds_all_axes = true;
+  rules.feeds_all_axes = rules.times_rotary_axes = true;
   rules.seconds_ahead = seconds_ahead();
   if (setting_or(30, 0) > 0) rules.max_rpm = setting_or(30, 0);
   if (setting_or(31, 0) > 0) rules.min_rpm = setting_or(31, 0);  // the board raises a lower speed

@@ -22,11 +22,25 @@ std::vector<Coordinates> pieces(const ArcPath& path, double count) {
 
 }  // namespace
 
-double ArcPath::length() const {
-  double square = std::fabs(sweep) * (start_radius + end_radius) / 2;
+double ArcPath::plane_length() const {
+  return std::fabs(sweep) * (start_radius + end_radius) / 2;
+}
+
+double ArcPath::linear_length() const {
+  double square = plane_length();
   square *= square;
   for (std::size_t i = 0; i < kMaxAxes; ++i)
-    if (i != first && i != second) square += (to[i] - from[i]) * (to[i] - from[i]);
+    if (i != first && i != second && !interpreter::is_rotary(static_cast<interpreter::Axis>(i)))
+      square += (to[i] - from[i]) * (to[i] - from[i]);
+  return std::sqrt(square);
+}
+
+double ArcPath::length() const {
+  double square = linear_length();
+  square *= square;
+  for (std::size_t i = 0; i < kMaxAxes; ++i)
+    if (interpreter::is_rotary(static_cast<interpreter::Axis>(i)))
+      square += (to[i] - from[i]) * (to[i] - from[i]);
   return std::sqrt(square);
 }
 

@@ -15,7 +15,9 @@ struct ArcPath {
   double sweep = 0;  ///< radians, counterclockwise positive
   Coordinates from{}, to{};
 
-  double length() const;
+  double plane_length() const;
+  double length() const;         ///< of all axes
+  double linear_length() const;  ///< of the linear axes, which a feed is for
   /// `part` from 0 to 1 of the path; the axes outside the plane move evenly with the angle.
   Coordinates at(double part) const;
 };

@@ -88,6 +88,7 @@ Coordinates coordinates_of(const interpreter::Position& position) {
 void MotionWriter::begin(const Coordinates& at) {
   at_ = at;
   feed_.clear();
+  is_timed_ = false;
   rests_.reset();
 }
 
@@ -134,21 +135,38 @@ std::optional<Refusal> MotionWriter::target_of(const interpreter::Position& to,
   return check_travel(rules_, at_, target, display_);
 }
 
-/// `length`: of the program's path.
-std::optional<Refusal> MotionWriter::feed_of(Feed feed, const Coordinates& to, double length,
+MotionWriter::PathLength MotionWriter::straight_length(const Coordinates& to) const {
+  const double program = program_distance(at_, to);
+  return {program, rules_.feeds_all_axes ? distance(at_, to) : program};
+}
+
+std::optional<Refusal> MotionWriter::feed_of(Feed feed, PathLength length,
                                              double& per_minute) const {
   if (feed.per() == Feed::Per::Revolution)
     return Refusal{"MCH0008", "this machine cannot feed per revolution"};
-  const double device_length = rules_.feeds_all_axes ? std::max(length, distance(at_, to)) : length;
   per_minute = feed.length().mm();
   if (feed.per() == Feed::Per::Move)
-    per_minute = feed.moves_per_minute() * device_length;
-  else if (length > 0)
-    per_minute *= device_length / length;
+    per_minute = feed.moves_per_minute() * length.device;
+  else if (length.program > 0)
+    per_minute *= length.device / length.program;
   if (!(per_minute >= 0.001)) return Refusal{"MCH0003", "the feed is zero"};
   if (!std::isfinite(per_minute)) return Refusal{"MCH0006", "the feed is not finite"};
   per_minute = std::min(per_minute, 99'999.0);  // beyond what any axis does
   return std::nullopt;
+}
+
+/// The mode of the feed and its word, where they change.
+std::string MotionWriter::feed_words(const Motion& motion, const Coordinates& to) {
+  if (!motion.feed) return {};
+  const bool is_mixed = program_distance(at_, to) < distance(at_, to);
+  const bool was_timed = std::exchange(is_timed_, rules_.times_rotary_axes && is_mixed);
+  if (is_timed_) {  // the word is needed in every line
+    feed_.clear();
+    return (was_timed ? "F" : "G93F") + trimmed(*motion.feed / distance(at_, to), 4);
+  }
+  std::string text = trimmed(*motion.feed, 3);
+  if (std::exchange(feed_, text) == text) return {};
+  return (was_timed ? "G94F" : "F") + text;
 }
 
 double MotionWriter::seconds_of(const Coordinates& to, std::optional<double> feed) const {
@@ -207,11 +225,7 @@ std::optional<Refusal> MotionWriter::straight_line(const Motion& motion, const C
   const std::string words = axis_words(to);
   if (words.empty()) return std::nullopt;
   std::string line = stop_mode(motion.rests) + std::string(motion.code) + words;
-  if (motion.feed) {
-    std::string feed_text = trimmed(*motion.feed, 3);
-    if (feed_text != feed_) line += "F" + feed_text;
-    feed_ = std::move(feed_text);
-  }
+  line += feed_words(motion, to);
   if (auto refusal = append(std::move(line), text)) return refusal;
   text.seconds += seconds_of(to, motion.feed);
   text.length += distance(at_, to);
@@ -231,7 +245,7 @@ std::optional<Refusal> MotionWriter::line(const interpreter::Line& event, Motion
   text.end = to;
   if (is_same_step(at_, to)) return std::nullopt;
   double feed = 0;
-  if (auto refusal = feed_of(event.feed, to, program_distance(at_, to), feed)) return refusal;
+  if (auto refusal = feed_of(event.feed, straight_length(to), feed)) return refusal;
   if (auto refusal = straight({"G1", feed, event.rests}, to, text)) return refusal;
   append_rest(event.rests, text);
   return std::nullopt;
@@ -254,10 +268,8 @@ std::optional<Refusal> MotionWriter::arc_line(const interpreter::Arc& event, con
     const double center = axis == path.first ? path.center_first : path.center_second;
     line += kOffsets[axis] + number(center - at_[axis]);
   }
-  std::string feed_text = trimmed(feed, 3);
-  if (feed_text != feed_) line += "F" + feed_text;
+  line += feed_words({"", feed}, at_);
   if (auto refusal = append(std::move(line), text)) return refusal;
-  feed_ = std::move(feed_text);
   at_ = end;
   return std::nullopt;
 }
@@ -274,15 +286,18 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
       return Refusal{"MCH0002", fmt::format("the machine has no {} axis", letter_of(axis))};
   for (const Coordinates& extreme : extremes(path))
     if (auto refusal = check_travel(rules_, at_, extreme, display_)) return refusal;
+  const double linear = path.linear_length();
+  const PathLength measured{linear, rules_.feeds_all_axes ? length : linear};
   double feed = 0;
-  if (auto refusal = feed_of(event.feed, at_, length, feed)) return refusal;
+  if (auto refusal = feed_of(event.feed, measured, feed)) return refusal;
   bool has_rotary = false;
   for (std::size_t i = 3; i < kMaxAxes; ++i) has_rotary |= to[i] != at_[i];
   const bool is_spiral = std::fabs(path.end_radius - path.start_radius) > kMaxRadiusChange;
   const bool is_arc = !is_spiral && !has_rotary && length >= kShortestArc;
   interpreter::Arc turned = event;  // in the direction of the path
   turned.turn = path.sweep > 0 ? interpreter::Turn::Counterclockwise : interpreter::Turn::Clockwise;
-  const double arc_count = std::min(pieces_of(length / feed * 60), length / kShortestArc);
+  const double seconds = measured.device / feed * 60;
+  const double arc_count = std::min(pieces_of(seconds), length / kShortestArc);
   const auto ends = is_arc ? arcs(path, arc_count) : chords(path, kChordDeviation);
   if (ends.size() > kMaxPieces)
     return Refusal{"MCH0005", fmt::format("an arc of {} pieces, the machine gets at most {}",
@@ -294,7 +309,7 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
     if (refusal) return refusal;
   }
   text.end = to;
-  text.seconds = length / feed * 60;
+  text.seconds = seconds;
   text.length = length;
   append_rest(event.rests, text);
   return std::nullopt;
@@ -306,12 +321,13 @@ std::optional<Refusal> MotionWriter::probe(const interpreter::Probe& event, Moti
   text.end = to;
   if (is_same_step(at_, to)) return std::nullopt;
   double feed = 0;
-  if (auto refusal = feed_of(event.feed, to, program_distance(at_, to), feed)) return refusal;
+  if (auto refusal = feed_of(event.feed, straight_length(to), feed)) return refusal;
   const bool is_contact = event.until == interpreter::ProbeUntil::Contact;
   const std::string code = is_contact ? "G38.3" : "G38.5";
   text.seconds = seconds_of(to, feed);
   feed_ = trimmed(feed, 3);
-  return append(code + axis_words(to) + "F" + feed_, text);
+  const char* mode = std::exchange(is_timed_, false) ? "G94F" : "F";
+  return append(code + axis_words(to) + mode + feed_, text);
 }
 
 std::string MotionWriter::dwell(double seconds) {

@@ -49,6 +49,10 @@ class MotionWriter {
   static std::string dwell(double seconds);
 
  private:
+  struct PathLength {
+    double program = 0;  ///< that a program's feed is for
+    double device = 0;   ///< that the device's is for
+  };
   struct Motion {
     std::string_view code;
     std::optional<double> feed;
@@ -59,8 +63,9 @@ class MotionWriter {
   std::optional<Refusal> straight_line(const Motion& motion, const Coordinates& to,
                                        MotionText& text);
   double pieces_of(double seconds) const;
-  std::optional<Refusal> feed_of(Feed feed, const Coordinates& to, double length,
-                                 double& per_minute) const;
+  PathLength straight_length(const Coordinates& to) const;
+  std::optional<Refusal> feed_of(Feed feed, PathLength length, double& per_minute) const;
+  std::string feed_words(const Motion& motion, const Coordinates& to);
   std::optional<Refusal> append(std::string line, MotionText& text) const;
   std::string axis_words(const Coordinates& to) const;
   std::string number(double value) const;
@@ -76,6 +81,7 @@ class MotionWriter {
   interpreter::LengthDisplay display_;
   Coordinates at_{};
   std::string feed_;           ///< as written last
+  bool is_timed_ = false;      ///< G93 is in force
   std::optional<bool> rests_;  ///< the stop mode that was written last
 };
 

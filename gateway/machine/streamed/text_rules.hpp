@@ -40,6 +40,9 @@ struct TextRules {
   /// A feed is the speed of all axes together, degrees as millimeters; false: that of the linear
   /// axes where one moves.
   bool feeds_all_axes = false;
+  /// Linear and rotary axes together move by their time (G93): what the device makes of a feed then
+  /// depends on its version and settings.
+  bool times_rotary_axes = false;
   /// G61.1 and G61 before the move; false: a dwell of no time after it.
   bool has_stop_mode = false;
   /// A device that does what it has when its link is cut gets no more motion than this ahead of its

@@ -66,6 +66,7 @@ void GrblBoard::soft_reset() {
   motion_ = 0;
   plane_ = 17;
   is_metric_ = is_absolute_ = true;
+  is_timed_ = false;
   work_ = "G54";
   feed_ = spindle_ = 0;
   parsed_number_ = 0;

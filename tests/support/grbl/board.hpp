@@ -135,7 +135,7 @@ class GrblBoard {
   Point at_{}, end_{}, from_{};
   double traveled_ = 0;
   int motion_ = 0, plane_ = 17, reports_ = 0;
-  bool is_metric_ = true, is_absolute_ = true;
+  bool is_metric_ = true, is_absolute_ = true, is_timed_ = false;
   std::string work_ = "G54";
   double feed_ = 0, spindle_ = 0;
   bool is_braking_ = false, is_door_open_ = false, is_probing_ = false;

@@ -178,11 +178,13 @@ int GrblBoard::execute(const Words& words) {
       plane_ = code / 10;
     else if (code == 200 || code == 210)
       is_metric_ = code == 210;
+    else if (code == 930 || code == 940)
+      is_timed_ = code == 930;
     else if (code == 900 || code == 910)
       is_absolute_ = code == 900;
     else if (code >= 540 && code <= 590)
       work_ = fmt::format("G{}", code / 10);
-    else if (code != 911 && code != 940 && code != 490 && code != 921)
+    else if (code != 911 && code != 490 && code != 921)
       return 20;
   }
   for (const int code : words.m) {
@@ -218,7 +220,8 @@ int GrblBoard::execute(const Words& words) {
     return 0;
   }
   if (motion_ >= 2) return add_arc(words, to, motion_ == 2);
-  add_line(to, motion_ == 0 ? options_.max_rate : feed_, motion_ == 0, words.number);
+  const double rate = is_timed_ ? feed_ * distance(end_, to) : feed_;
+  add_line(to, motion_ == 0 ? options_.max_rate : rate, motion_ == 0, words.number);
   return 0;
 }
 
@@ -275,8 +278,9 @@ int GrblBoard::system_command(const std::string& line) {
     say("[TLO:0.000]");
     say(fmt::format("[PRB:{}:0]", words_of({})));
   } else if (line == "$G") {
-    say(fmt::format("[GC:G{} {} G{} G{} G{} G94 M5 M9 T0 F{:.0f} S{:.0f}]", motion_, work_, plane_,
-                    is_metric_ ? 21 : 20, is_absolute_ ? 90 : 91, feed_, spindle_));
+    say(fmt::format("[GC:G{} {} G{} G{} G{} G{} M5 M9 T0 F{:.0f} S{:.0f}]", motion_, work_, plane_,
+                    is_metric_ ? 21 : 20, is_absolute_ ? 90 : 91, is_timed_ ? 93 : 94, feed_,
+                    spindle_));
   } else if (line == "$X") {
     state_ = State::Idle;
   } else if (line == "$H") {

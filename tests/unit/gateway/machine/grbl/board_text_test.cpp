@@ -114,12 +114,38 @@ TEST_F(BoardText, TurnsInverseTimeIntoFeedPerMinute) {
   EXPECT_EQ(line(30, 40, 0, Feed::inverse_time(4)), Lines{"G1X30Y40F200"});
 }
 
-TEST_F(BoardText, ScalesTheFeedWhereTheBoardAddsDegreesToMillimeters) {
+// What a board makes of a feed then depends on its version and a setting: 3 mm or 5 units.
+TEST_F(BoardText, TimesMovesOfLinearAndRotaryAxesTogether) {
   make(board_of(1000, 4));
   Position to = point(3, 0, 0);
   to.set(Axis::A, Angle::degrees(4));
   refusal = writer.line({{}, to, Feed::per_minute(Length::mm(300))}, text);
-  EXPECT_EQ(text.lines, Lines{"G1X3A4F500"}) << "3 mm of 5 units";
+  EXPECT_EQ(text.lines, Lines{"G1X3A4G93F100"}) << "0.01 minutes";
+  EXPECT_NEAR(text.seconds, 0.6, 1e-9);
+  EXPECT_EQ(rapid(4, 0, 0), Lines{"G0X4"});
+  EXPECT_EQ(line(5, 0, 0, 300), Lines{"G1X5G94F300"});
+  to.set(Axis::X, Length::mm(5));
+  to.set(Axis::A, Angle::degrees(8));
+  text = {};
+  refusal = writer.line({{}, to, Feed::per_minute(Length::mm(300))}, text);
+  EXPECT_EQ(text.lines, Lines{"G1A8"}) << "of the rotary axis alone: degrees per minute";
+}
+
+TEST_F(BoardText, TheFeedOfAnArcIsThatOfItsLinearAxes) {
+  make(board_of(1000, 4));
+  Position to = point(10, 10, 0);
+  to.set(Axis::A, Angle::degrees(90));
+  interpreter::Arc arc{.origin = {},
+                       .to = to,
+                       .center_first = Length::mm(0),
+                       .center_second = Length::mm(10),
+                       .turn = Turn::Counterclockwise,
+                       .sweep = Angle::degrees(90),
+                       .feed = Feed::per_minute(Length::mm(600))};
+  text = {};
+  refusal = writer.arc(arc, text);
+  EXPECT_NEAR(text.seconds, 5 * Angle::kPi / 600 * 60, 1e-6);
+  EXPECT_TRUE(text.lines.front().find("G93F") != std::string::npos) << text.lines.front();
 }
 
 TEST_F(BoardText, WritesArcsByTheirCenterInEveryPlane) {

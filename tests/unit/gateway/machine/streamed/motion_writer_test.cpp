@@ -96,6 +96,10 @@ TEST(MotionWriter, AFeedOfRotaryAxesIsTheDevicesOwnKind) {
   Writer all(rules);
   EXPECT_THAT(all.line(point({{Axis::X, 3}, {Axis::A, 4}}), feed(600)).lines,
               ElementsAre("G61G1X3A4F1000"));
+  rules.times_rotary_axes = true;
+  Writer timed(rules);
+  EXPECT_THAT(timed.line(point({{Axis::X, 3}, {Axis::A, 4}}), feed(600)).lines,
+              ElementsAre("G61G1X3A4G93F200"));
 }
 
 TEST(MotionWriter, LongMovesAreWrittenInPiecesWhereTheDeviceHasLittleAhead) {
