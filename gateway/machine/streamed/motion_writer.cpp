@@ -12,8 +12,11 @@ using interpreter::Axis;
 
 namespace {
 
-/// Devices refuse an arc whose radii differ by more than this (and by more than a thousandth).
-constexpr double kMaxRadiusChange = 0.004;
+/// Devices refuse an arc whose radii differ by 0.005 (and by more than a thousandth). Start, center
+/// and end are rounded on the way, by up to three of the last digits together.
+double max_radius_change(int decimals) {
+  return std::min(0.004, 0.005 - 3 * std::pow(10, -decimals));
+}
 /// Shorter arcs are written as lines: their ends are too close for the angle between them.
 constexpr double kShortestArc = 0.005;
 constexpr double kChordDeviation = 0.002;
@@ -292,8 +295,10 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
   if (auto refusal = feed_of(event.feed, measured, feed)) return refusal;
   bool has_rotary = false;
   for (std::size_t i = 3; i < kMaxAxes; ++i) has_rotary |= to[i] != at_[i];
-  const bool is_spiral = std::fabs(path.end_radius - path.start_radius) > kMaxRadiusChange;
-  const bool is_arc = !is_spiral && !has_rotary && length >= kShortestArc;
+  const bool is_spiral =
+      std::fabs(path.end_radius - path.start_radius) > max_radius_change(rules_.decimals);
+  const bool is_arc = !is_spiral && !has_rotary && length >= kShortestArc &&
+                      path.start_radius <= rules_.max_arc_radius;
   interpreter::Arc turned = event;  // in the direction of the path
   turned.turn = path.sweep > 0 ? interpreter::Turn::Counterclockwise : interpreter::Turn::Clockwise;
   const double seconds = measured.device / feed * 60;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bitset>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,6 +44,8 @@ struct TextRules {
   /// Linear and rotary axes together move by their time (G93): what the device makes of a feed then
   /// depends on its version and settings.
   bool times_rotary_axes = false;
+  /// Larger arcs are written as chords: the device's numbers are too coarse for their center.
+  double max_arc_radius = std::numeric_limits<double>::infinity();
   /// G61.1 and G61 before the move; false: a dwell of no time after it.
   bool has_stop_mode = false;
   /// A device that does what it has when its link is cut gets no more motion than this ahead of its

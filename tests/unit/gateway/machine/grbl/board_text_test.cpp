@@ -148,6 +148,52 @@ TEST_F(BoardText, TheFeedOfAnArcIsThatOfItsLinearAxes) {
   EXPECT_TRUE(text.lines.front().find("G93F") != std::string::npos) << text.lines.front();
 }
 
+// Single precision puts the center of a large one beside its place, at worst so far that the board
+// makes a whole circle of a short arc.
+TEST_F(BoardText, WritesArcsOfALargeRadiusAsChords) {
+  const double radius = 100'000, angle = 1e-5;
+  const Lines lines =
+      arc(radius * std::sin(angle), radius * (1 - std::cos(angle)), 0, 0, radius, 0.00057296);
+  EXPECT_EQ(lines, (Lines{"G1X1F600"}));
+  (void)rapid(0, 0, 0);
+  EXPECT_EQ(arc(2000, 2000, 0, 0, 2000, 90).size(), 556U) << "within 0.002 mm";
+  BoardInfo coarse = board_of();
+  coarse.take(SettingReply{12, 0.5});
+  make(coarse);
+  EXPECT_EQ(arc(10, 10, 0, 0, 10, 90).size(), 40U) << "the board's would leave the arc by 0.5 mm";
+}
+
+/// As the firmware checks it: 5 µm, and a thousandth of the radius.
+bool would_be_refused(const std::string& line, double x, double y) {
+  const auto word = [&](char letter) { return std::stod(line.substr(line.find(letter) + 1)); };
+  const double radius = std::hypot(word('I'), word('J'));
+  const double end = std::hypot(word('X') - x - word('I'), word('Y') - y - word('J'));
+  return std::fabs(end - radius) > 0.005 && std::fabs(end - radius) > 0.001 * radius;
+}
+
+TEST_F(BoardText, RoundingDoesNotMakeAnArcThatTheBoardRefuses) {
+  make(board_of(80));  // three decimals
+  int arcs = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    // 3.9 µm between the radii, and every place between the digits.
+    const double x = 5 + 0.00037 * (i % 101), y = 3 + 0.00011 * (i % 97),
+                 angle = 0.1 + 0.0003 * (i % 4000);
+    make(board_of(80));
+    (void)rapid(x, y, 0);
+    const Coordinates from{std::round(x * 1000) / 1000, std::round(y * 1000) / 1000};
+    const double sign = i % 2 == 0 ? 1 : -1, radius = 1.2 + sign * 0.0039;
+    const double cx = x + 1.2 * std::cos(0.7 * i), cy = y + 1.2 * std::sin(0.7 * i);
+    const double at = std::atan2(y - cy, x - cx) + angle;
+    for (const std::string& line : arc(cx + radius * std::cos(at), cy + radius * std::sin(at), 0,
+                                       cx, cy, angle * 180 / Angle::kPi)) {
+      if (line.find('I') == std::string::npos) continue;
+      ++arcs;
+      ASSERT_FALSE(would_be_refused(line, from[0], from[1])) << i << " " << line;
+    }
+  }
+  EXPECT_EQ(arcs, 0) << "they are chords";
+}
+
 TEST_F(BoardText, WritesArcsByTheirCenterInEveryPlane) {
   EXPECT_EQ(arc(10, 10, 0, 0, 10, 90), Lines{"G17G3X10Y10I0J10F600"});
   make(board_of());
