@@ -189,6 +189,17 @@ std::optional<Refusal> MotionWriter::append(std::string line, MotionText& text) 
   return std::nullopt;
 }
 
+/// At the rates of the axes: somewhere on an arc the slower one of its plane moves alone.
+double MotionWriter::least_seconds(const ArcPath& path) const {
+  const double rate =
+      std::min(rules_.axes[path.first]->max_rate, rules_.axes[path.second]->max_rate);
+  double minutes = path.plane_length() / rate;
+  for (std::size_t i = 0; i < kMaxAxes; ++i)
+    if (rules_.has(i) && i != path.first && i != path.second)
+      minutes = std::max(minutes, std::fabs(path.to[i] - path.from[i]) / rules_.axes[i]->max_rate);
+  return minutes * 60;
+}
+
 /// The word of the mode, where it changes.
 std::string MotionWriter::stop_mode(bool rests) {
   if (!rules_.has_stop_mode || rests_ == rests) return {};
@@ -301,7 +312,7 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
                       path.start_radius <= rules_.max_arc_radius;
   interpreter::Arc turned = event;  // in the direction of the path
   turned.turn = path.sweep > 0 ? interpreter::Turn::Counterclockwise : interpreter::Turn::Clockwise;
-  const double seconds = measured.device / feed * 60;
+  const double seconds = std::max(measured.device / feed * 60, least_seconds(path));
   const double arc_count = std::min(pieces_of(seconds), length / kShortestArc);
   const auto ends = is_arc ? arcs(path, arc_count) : chords(path, kChordDeviation);
   if (ends.size() > kMaxPieces)

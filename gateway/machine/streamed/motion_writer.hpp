@@ -7,6 +7,8 @@
 
 namespace dripline::machine::streamed {
 
+struct ArcPath;
+
 /// An axis that would leave its travel between two points of the machine; nothing: none does, or no
 /// travel is known.
 std::optional<Refusal> check_travel(const TextRules& rules, const Coordinates& from,
@@ -74,6 +76,7 @@ class MotionWriter {
   std::optional<Refusal> arc_line(const interpreter::Arc& event, const Coordinates& end,
                                   double feed, MotionText& text);
   double seconds_of(const Coordinates& to, std::optional<double> feed) const;
+  double least_seconds(const ArcPath& path) const;
   std::string stop_mode(bool rests);
   void append_rest(bool rests, MotionText& text) const;
 

@@ -127,6 +127,26 @@ TEST(MotionWriter, LongMovesAreWrittenInPiecesWhereTheDeviceHasLittleAhead) {
   EXPECT_EQ(arc.lines.back(), "G17G2X2.004Y-1I3.535534J3.535534");
 }
 
+// Else a feed that the axes cannot do puts long pieces ahead of them, and more time than is
+// allowed.
+TEST(MotionWriter, PiecesOfAnArcAreShortAtTheRatesOfTheAxesToo) {
+  TextRules rules = three_axes();
+  rules.seconds_ahead = 1;
+  for (auto& axis : rules.axes)
+    if (axis) axis->max_rate = 600;
+  Writer it(rules);
+  MotionText text;
+  EXPECT_FALSE(it.writer.arc({.origin = {},
+                              .to = point({{Axis::X, 20}, {Axis::Y, 0}}),
+                              .center_first = Length::mm(10),
+                              .center_second = Length::mm(0),
+                              .sweep = Angle::degrees(180),
+                              .feed = feed(90'000)},
+                             text));
+  EXPECT_NEAR(text.seconds, Angle::kPi, 1e-9);
+  EXPECT_EQ(text.lines.size(), 13U);
+}
+
 TEST(MotionWriter, RefusesWhatTheDeviceCannotDo) {
   Writer it;
   (void)it.line(point({{Axis::X, 101}}), feed(600));
