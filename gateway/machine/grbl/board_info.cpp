@@ -13,6 +13,7 @@ constexpr std::size_t kLeastWindow = 80;  ///< a line of the longest form must f
 constexpr std::size_t kMaxWindow = 4096;
 
 // Of the firmware, which states none of them.
+constexpr double kMinFeed = 1;             ///< per minute; a lower one is raised to it
 constexpr double kMaxArcRadius = 1'000;    ///< mm: of larger ones single precision moves the center
 constexpr double kMaxArcTolerance = 0.01;  ///< mm ($12): coarser arcs are ours, as chords
 
@@ -116,6 +117,7 @@ TextRules BoardInfo::rules() const {
   rules.decimals = finest > 500 ? 4 : 3;  // a digit is at most half a step
   rules.line_limit = is_grbl_hal_ ? kGrblHalLine : kGrblLine;
   rules.feeds_all_axes = rules.times_rotary_axes = true;
+  rules.min_feed = kMinFeed;
   rules.max_arc_radius = setting_or(12, 0) > kMaxArcTolerance ? 0 : kMaxArcRadius;
   rules.seconds_ahead = seconds_ahead();
   if (setting_or(30, 0) > 0) rules.max_rpm = setting_or(30, 0);

@@ -154,6 +154,9 @@ std::optional<Refusal> MotionWriter::feed_of(Feed feed, PathLength length,
     per_minute *= length.device / length.program;
   if (!(per_minute >= 0.001)) return Refusal{"MCH0003", "the feed is zero"};
   if (!std::isfinite(per_minute)) return Refusal{"MCH0006", "the feed is not finite"};
+  if (per_minute < rules_.min_feed * (1 - 1e-9))
+    return Refusal{"MCH0003", fmt::format("a feed of {:.4g} mm/min, the machine's lowest is {:.4g}",
+                                          per_minute, rules_.min_feed)};
   per_minute = std::min(per_minute, 99'999.0);  // beyond what any axis does
   return std::nullopt;
 }

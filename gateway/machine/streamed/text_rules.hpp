@@ -44,6 +44,7 @@ struct TextRules {
   /// Linear and rotary axes together move by their time (G93): what the device makes of a feed then
   /// depends on its version and settings.
   bool times_rotary_axes = false;
+  double min_feed = 0;  ///< per minute; the device raises a lower one
   /// Larger arcs are written as chords: the device's numbers are too coarse for their center.
   double max_arc_radius = std::numeric_limits<double>::infinity();
   /// G61.1 and G61 before the move; false: a dwell of no time after it.

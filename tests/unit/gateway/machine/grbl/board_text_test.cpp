@@ -148,6 +148,14 @@ TEST_F(BoardText, TheFeedOfAnArcIsThatOfItsLinearAxes) {
   EXPECT_TRUE(text.lines.front().find("G93F") != std::string::npos) << text.lines.front();
 }
 
+TEST_F(BoardText, RefusesAFeedThatTheBoardWouldRaise) {
+  EXPECT_EQ(line(1, 0, 0, 1), Lines{"G1X1F1"});
+  EXPECT_EQ(line(2, 0, 0, 0.5), Lines{});
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->id, "MCH0003");
+  EXPECT_EQ(refusal->text, "a feed of 0.5 mm/min, the machine's lowest is 1");
+}
+
 // Single precision puts the center of a large one beside its place, at worst so far that the board
 // makes a whole circle of a short arc.
 TEST_F(BoardText, WritesArcsOfALargeRadiusAsChords) {
