@@ -16,6 +16,7 @@ constexpr std::size_t kMaxWindow = 4096;
 constexpr double kMinFeed = 1;             ///< per minute; a lower one is raised to it
 constexpr double kMaxArcRadius = 1'000;    ///< mm: of larger ones single precision moves the center
 constexpr double kMaxArcTolerance = 0.01;  ///< mm ($12): coarser arcs are ours, as chords
+constexpr double kMaxDwell = 3'000;        ///< seconds: Grbl counts 50 ms in 16 bits
 
 bool is_zero(const AxisValues& offset) {
   return std::all_of(offset.value.begin(), offset.value.begin() + offset.count,
@@ -119,6 +120,7 @@ TextRules BoardInfo::rules() const {
   rules.feeds_all_axes = rules.times_rotary_axes = true;
   rules.min_feed = kMinFeed;
   rules.max_arc_radius = setting_or(12, 0) > kMaxArcTolerance ? 0 : kMaxArcRadius;
+  rules.max_dwell = kMaxDwell;
   rules.seconds_ahead = seconds_ahead();
   if (setting_or(30, 0) > 0) rules.max_rpm = setting_or(30, 0);
   if (setting_or(31, 0) > 0) rules.min_rpm = setting_or(31, 0);  // the board raises a lower speed

@@ -125,13 +125,14 @@ void QueueBuilder::on_thread(const interpreter::Thread& event) {
 void QueueBuilder::on_dwell(const interpreter::Dwell& event) {
   if (event.revolutions)
     return refuse(event.origin, {"MCH0008", "this machine cannot dwell per revolution"});
-  if (!std::isfinite(event.seconds))
-    return refuse(event.origin, {"MCH0006", "the dwell has no finite length"});
-  if (!(event.seconds > 0)) return;
+  CommandWriter::Lines lines;
+  if (auto refusal = motion_.dwell(event.seconds, lines))
+    return refuse(event.origin, *std::move(refusal));
+  if (lines.empty()) return;
   Action* action = add(event.origin);
   if (!action) return;
   action->seconds = event.seconds;
-  action->body = Command{{MotionWriter::dwell(event.seconds)}, event};
+  action->body = Command{std::move(lines), event};
 }
 
 void QueueBuilder::on_spindle(const interpreter::Spindle& event) {

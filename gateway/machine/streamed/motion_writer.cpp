@@ -353,4 +353,15 @@ std::string MotionWriter::dwell(double seconds) {
   return "G4P" + trimmed(seconds, 3);
 }
 
+std::optional<Refusal> MotionWriter::dwell(double seconds, std::vector<std::string>& lines) const {
+  if (!std::isfinite(seconds)) return Refusal{"MCH0006", "the dwell has no finite length"};
+  const double count = std::ceil(seconds / rules_.max_dwell);
+  if (count > double{kMaxPieces})
+    return Refusal{"MCH0005", fmt::format("a dwell of {:.6g} s", seconds)};
+  for (; seconds > rules_.max_dwell; seconds -= rules_.max_dwell)
+    lines.push_back(dwell(rules_.max_dwell));
+  if (seconds > 0) lines.push_back(dwell(seconds));
+  return std::nullopt;
+}
+
 }  // namespace dripline::machine::streamed

@@ -48,9 +48,11 @@ class MotionWriter {
   /// The line of a probe move, which is an error neither without nor with a contact.
   std::optional<Refusal> probe(const interpreter::Probe& event, MotionText& text);
 
-  static std::string dwell(double seconds);
+  /// The lines of a dwell; none if it has no length.
+  std::optional<Refusal> dwell(double seconds, std::vector<std::string>& lines) const;
 
  private:
+  static std::string dwell(double seconds);
   struct PathLength {
     double program = 0;  ///< that a program's feed is for
     double device = 0;   ///< that the device's is for

@@ -47,6 +47,7 @@ struct TextRules {
   double min_feed = 0;  ///< per minute; the device raises a lower one
   /// Larger arcs are written as chords: the device's numbers are too coarse for their center.
   double max_arc_radius = std::numeric_limits<double>::infinity();
+  double max_dwell = 1e6;  ///< seconds of one line
   /// G61.1 and G61 before the move; false: a dwell of no time after it.
   bool has_stop_mode = false;
   /// A device that does what it has when its link is cut gets no more motion than this ahead of its

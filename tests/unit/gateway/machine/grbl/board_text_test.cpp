@@ -202,6 +202,19 @@ TEST_F(BoardText, RoundingDoesNotMakeAnArcThatTheBoardRefuses) {
   EXPECT_EQ(arcs, 0) << "they are chords";
 }
 
+TEST_F(BoardText, WritesALongDwellInSeveral) {
+  Lines lines;
+  EXPECT_FALSE(writer.dwell(0.25, lines));
+  EXPECT_EQ(lines, Lines{"G4P0.25"});
+  lines.clear();
+  EXPECT_FALSE(writer.dwell(7'000.5, lines));
+  EXPECT_EQ(lines, (Lines{"G4P3000", "G4P3000", "G4P1000.5"})) << "more overflows its counter";
+  lines.clear();
+  EXPECT_FALSE(writer.dwell(0, lines));
+  EXPECT_TRUE(lines.empty());
+  EXPECT_TRUE(writer.dwell(1e300, lines));
+}
+
 TEST_F(BoardText, WritesArcsByTheirCenterInEveryPlane) {
   EXPECT_EQ(arc(10, 10, 0, 0, 10, 90), Lines{"G17G3X10Y10I0J10F600"});
   make(board_of());
