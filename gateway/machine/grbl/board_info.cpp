@@ -125,6 +125,7 @@ TextRules BoardInfo::rules() const {
   if (setting_or(30, 0) > 0) rules.max_rpm = setting_or(30, 0);
   if (setting_or(31, 0) > 0) rules.min_rpm = setting_or(31, 0);  // the board raises a lower speed
   rules.has_mist = has_letter('M');
+  rules.has_reverse = !has_letter('D');
   rules.homes = homes();
   rules.max_rpm_setting = " ($30)";
   rules.min_rpm_setting = " ($31)";

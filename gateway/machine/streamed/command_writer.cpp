@@ -37,6 +37,8 @@ std::optional<Refusal> CommandWriter::spindle(const interpreter::Spindle& event,
     lines.emplace_back("M5");
     return std::nullopt;
   }
+  if (event.state == SpindleState::Counterclockwise && !rules_.has_reverse)
+    return Refusal{"MCH0008", "this machine cannot turn the spindle counterclockwise"};
   if (event.surface_speed)
     return Refusal{"MCH0008", "this machine cannot keep a constant surface speed"};
   const double rpm = event.max_revolutions

@@ -55,7 +55,8 @@ struct TextRules {
   std::optional<double> seconds_ahead;
   std::optional<double> max_rpm, min_rpm;  ///< of a spindle that is on, where they are known
   bool has_mist = true;
-  bool homes = true;  ///< the axes are homed before every program
+  bool has_reverse = true;  ///< the spindle turns counterclockwise too
+  bool homes = true;        ///< the axes are homed before every program
   std::string max_rpm_setting = {}, min_rpm_setting = {}, homing_setting = {};
 
   bool has(std::size_t axis) const { return axis < kMaxAxes && axes[axis].has_value(); }

@@ -261,6 +261,12 @@ TEST_F(BoardText, RefusesWhatTheBoardCannotDo) {
   refusal =
       commands.spindle({{}, interpreter::SpindleState::Clockwise, 0, Length::mm(100), {}}, lines);
   EXPECT_EQ(refusal->text, "this machine cannot keep a constant surface speed");
+  BoardInfo one_way = board_of();
+  one_way.take(BuildReply{"VND", 15, 128});
+  make(one_way);
+  refusal = commands.spindle({{}, interpreter::SpindleState::Counterclockwise, 100, {}, {}}, lines);
+  ASSERT_TRUE(refusal) << "it would turn clockwise";
+  EXPECT_EQ(refusal->text, "this machine cannot turn the spindle counterclockwise");
   refusal = commands.spindle({{}, interpreter::SpindleState::Clockwise, 6000, {}, {}}, lines);
   EXPECT_EQ(refusal->text, "spindle speed 6000 is above the machine's 5000 rpm ($30)");
   refusal = commands.coolant({{}, false, true}, lines);
