@@ -116,6 +116,9 @@ TextRules BoardInfo::rules() const {
     finest = std::max(finest, steps(i));
   }
   rules.decimals = finest > 500 ? 4 : 3;  // a digit is at most half a step
+  // What is rounded to the limit is at it; the board is exact.
+  for (auto& axis : rules.axes)
+    if (axis) axis->travel_slack = 0.49 * std::pow(10, -rules.decimals);
   rules.line_limit = is_grbl_hal_ ? kGrblHalLine : kGrblLine;
   rules.feeds_all_axes = rules.times_rotary_axes = true;
   rules.min_feed = kMinFeed;

@@ -61,7 +61,7 @@ std::optional<Refusal> check_travel(const TextRules& rules, const Coordinates& f
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     if (!rules.has(i) || !rules.axes[i]->travel || to[i] == from[i]) continue;
     const TextRules::Range travel = *rules.axes[i]->travel;
-    const double slack = rules.axes[i]->tolerance;
+    const double slack = rules.axes[i]->travel_slack;
     if (to[i] >= travel.low - slack && to[i] <= travel.high + slack) continue;
     const auto axis = static_cast<Axis>(i);
     return Refusal{"MCH0001",

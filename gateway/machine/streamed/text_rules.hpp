@@ -31,6 +31,7 @@ struct TextRules {
     double steps = 1'000;         ///< per mm or degree: less than one of them is no motion
     double max_rate = 10'000;     ///< per minute, for the time that a move takes
     double tolerance = 0.001;     ///< where an axis that was sent to a value may be found
+    double travel_slack = 0.001;  ///< so far outside of `travel` the device still moves
     std::optional<Range> travel;  ///< in machine coordinates, where it is known
     /// Where travel and rate are set, for the operator: " ($20, $130)".
     std::string travel_setting = {}, rate_setting = {};

@@ -288,6 +288,10 @@ TEST_F(BoardText, KeepsToTheTravelWhereSoftLimitsAreInForce) {
   EXPECT_EQ(refusal->text, "Y 1 mm is outside the machine's travel of -200 to 0 ($20, $23, $131)");
   (void)arc(-200, -100, 0, -200, -50, 180, Turn::Counterclockwise);
   EXPECT_TRUE(refusal) << "the arc bulges beyond the travel";
+  make(board);
+  EXPECT_EQ(rapid(-200, 0.00004, 0), Lines{"G0X-200"}) << "rounded, it is at its limit";
+  (void)rapid(0, 0.0001, 0);
+  EXPECT_TRUE(refusal) << "the board is exact, and stops in the middle of the program";
 }
 
 TEST_F(BoardText, SwitchesSpindleAndCoolant) {
