@@ -152,6 +152,7 @@ class Machine:
             "velocity": [self.number("AXIS_" + letter, "MAX_VELOCITY") for letter in "XYZABCUVW"],
             "acceleration": [self.number("AXIS_" + letter, "MAX_ACCELERATION") for letter in "XYZABCUVW"],
             "rpm": self.number("SPINDLE_0", "MAX_FORWARD_VELOCITY"),
+            "wrapped": sum(1 << i for i, letter in enumerate("XYZABCUVW") if self.number("AXIS_" + letter, "WRAPPED_ROTARY") != 0),
             "read_ahead": int(self.number("TASK", "INTERP_MAX_LEN") or 1000),
         })
 
@@ -178,9 +179,11 @@ class Machine:
             "tool": s.tool_in_spindle,
             "spindle": s.spindle[0]["speed"] if s.spindle[0]["enabled"] else 0.0,
             "tripped": bool(s.probe_tripped),
+            "touching": bool(s.probe_val),
             "probing": bool(s.probing),
             "probed": list(s.probed_position),
             "inputs": sum(1 << i for i, value in enumerate(s.din[:32]) if value),
+            "inputs_above": sum(1 << i for i, value in enumerate(s.din[32:64]) if value),
             "echo": s.echo_serial_number,
         }
 

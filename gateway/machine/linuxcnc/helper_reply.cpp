@@ -98,6 +98,7 @@ bool read(Reader& from, HelloReply& to) {
   from.numbers("velocity", to.velocity);
   from.numbers("acceleration", to.acceleration);
   from.number("rpm", to.max_rpm);
+  from.whole("wrapped", to.wrapped, 0, (1 << kMaxAxes) - 1);
   from.whole("read_ahead", to.read_ahead, 0, 1'000'000);
   return from.is_good();
 }
@@ -118,9 +119,11 @@ bool read(Reader& from, StatusReply& to) {
   from.number("velocity", to.velocity);
   from.whole("tool", to.tool, -1'000'000'000, 1'000'000'000);
   from.number("spindle", to.spindle_rpm);
+  from.flag("touching", to.is_touching);
   from.flag("tripped", to.is_tripped);
   from.numbers("probed", to.probed);
   from.whole("inputs", to.inputs, 0, UINT32_MAX);
+  from.whole("inputs_above", to.inputs_above, 0, UINT32_MAX);
   return from.is_good();
 }
 

@@ -22,6 +22,7 @@ struct HelloReply {
   std::array<double, kMaxAxes> low{}, high{};
   std::array<double, kMaxAxes> velocity{}, acceleration{};  ///< per second; 0: unknown
   double max_rpm = 0;                                       ///< 0: unknown
+  std::uint32_t wrapped = 0;                                ///< axes that count to 360 degrees only
   int read_ahead = 0;                                       ///< [TASK]INTERP_MAX_LEN
 };
 
@@ -43,9 +44,10 @@ struct StatusReply {
   double velocity = 0;      ///< per second
   int tool = 0;
   double spindle_rpm = 0;
-  bool is_tripped = false;
+  bool is_touching = false;  ///< the probe, now
+  bool is_tripped = false;   ///< by the last probe move
   Coordinates probed{};
-  std::uint32_t inputs = 0;
+  std::uint32_t inputs = 0, inputs_above = 0;  ///< a bit for each: 0 to 31, 32 to 63
   friend bool operator==(const StatusReply&, const StatusReply&) = default;
 };
 /// A command was handed over. `problem` is empty, or why it was not.

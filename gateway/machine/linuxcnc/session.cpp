@@ -324,7 +324,9 @@ std::vector<std::pair<std::string, bool>> Session::inputs() const {
 }
 
 bool Session::input(int pin) const {
-  return status_ && pin >= 0 && pin < 32 && ((status_->inputs >> pin) & 1U) != 0;
+  if (!status_ || pin < 0 || pin >= 64) return false;
+  const std::uint32_t bits = pin < 32 ? status_->inputs : status_->inputs_above;
+  return ((bits >> (pin % 32)) & 1U) != 0;
 }
 
 }  // namespace dripline::machine::linuxcnc

@@ -70,6 +70,7 @@ class Session final : public streamed::Device {
   bool keeps_position() const override {
     return keeps_position_ && status_ && status_->interpreter == InterpreterState::Idle;
   }
+  std::optional<bool> is_touching() const override;
   void drop_probe() override {}
   std::optional<streamed::ProbeEnd> probe() const override;
   void raise(std::string_view id, std::string text, SteadyTime now) override;
@@ -136,6 +137,7 @@ class Session final : public streamed::Device {
   void end_feed();
   streamed::TextRules rules_of(const HelloReply& hello) const;
   Result<void> check_reference() const;
+  Result<void> check_wrapped() const;
   std::string with_message(std::string text) const;
   Coordinates in_mm(const Coordinates& values) const;
 

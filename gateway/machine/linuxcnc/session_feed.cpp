@@ -18,7 +18,7 @@ constexpr int kMaxReadAhead = 100;
 /// LinuxCNC looks for a % in the first line and cannot go back in a FIFO. With it, lines count
 /// from 1, this one included.
 constexpr std::string_view kFirstLine = "%";
-constexpr std::string_view kModes = "G21G90G94G17G40G49G80G91.1G59.3G92.2G8G97M5M9";
+constexpr std::string_view kModes = "G21G90G94G17G40G49G80G91.1G59.3G92.2G8G97M5M9M53P1";
 constexpr std::string_view kMoreModes = "G61M48";
 constexpr std::string_view kEnd = "M2\n%\n";
 
@@ -64,6 +64,18 @@ Result<void> Session::check_reference() const {
   return {};
 }
 
+/// There a target is reached by the sign of its number, not from where the axis is.
+Result<void> Session::check_wrapped() const {
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    if ((hello_->wrapped >> i & 1U) != 0)
+      return fail(Errc::Unsupported,
+                  "LinuxCNC's axis {0} begins anew at 360 degrees, and programs count on: set "
+                  "[AXIS_{0}]WRAPPED_ROTARY = 0",
+                  streamed::letter_of(i));
+  }
+  return {};
+}
+
 Result<void> Session::check_ready() const {
   if (fault_) return fail(Errc::Busy, "{}: press and release the emergency stop", fault_->text);
   if (phase_ != Phase::Ready || !trouble_.empty()) return fail(Errc::Busy, "{}", trouble_);
@@ -74,6 +86,7 @@ Result<void> Session::check_ready() const {
     return fail(Errc::Unsupported,
                 "LinuxCNC reads {} lines before it executes one: set [TASK]INTERP_MAX_LEN = 2",
                 hello_->read_ahead);
+  if (auto counts = check_wrapped(); !counts) return counts;
   if (!status_) return fail(Errc::Busy, "LinuxCNC has not reported its state yet");
   if (shown_number_ < must_obey_) return fail(Errc::Busy, "LinuxCNC obeys a command");
   if (auto referenced = check_reference(); !referenced) return referenced;
@@ -190,6 +203,10 @@ void Session::await_execution() {
   if (feed_ != Feed::Reading || in_flight_.empty()) return;
   if (!markers_.empty() && markers_.back() > in_flight_.back()) return;
   markers_.push_back(write(kMarker));
+}
+
+std::optional<bool> Session::is_touching() const {
+  return status_ ? std::optional(status_->is_touching) : std::nullopt;
 }
 
 std::optional<ProbeEnd> Session::probe() const {

@@ -13,20 +13,6 @@ namespace {
 
 constexpr std::chrono::seconds kCommandTime{30};  ///< a spindle may run up meanwhile
 
-/// Whether a straight move between the two passes `point`, within some steps.
-bool is_on_path(const Coordinates& point, const Coordinates& from, const Coordinates& to) {
-  constexpr double kSlack = 0.1;
-  double square = 0, along = 0;
-  for (std::size_t i = 0; i < kMaxAxes; ++i) {
-    square += (to[i] - from[i]) * (to[i] - from[i]);
-    along += (to[i] - from[i]) * (point[i] - from[i]);
-  }
-  const double part = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
-  for (std::size_t i = 0; i < kMaxAxes; ++i)
-    if (std::fabs(from[i] + (to[i] - from[i]) * part - point[i]) > kSlack) return false;
-  return true;
-}
-
 enum class Place : std::uint8_t { Elsewhere, OnPath, End };
 
 /// Every point of a path is at most its length from both of its ends together; for a straight move
@@ -191,6 +177,22 @@ bool StreamedMachine::deliver_motion(Lock& lock) {
   return finish_front(lock);
 }
 
+namespace {
+
+constexpr std::string_view kMovedByCommand =
+    ": a tool change or a function of the machine has moved the axes. Move them there before it, "
+    "or let it bring them back";
+
+/// A tool change may go to a place of its own, and the builder's functions may do anything.
+bool may_have_moved(const Command& command) {
+  if (command.lines.empty()) return false;
+  const auto* tool = std::get_if<interpreter::ToolChange>(&command.event);
+  return (tool != nullptr && !tool->is_preselection) ||
+         std::holds_alternative<interpreter::Miscellaneous>(command.event);
+}
+
+}  // namespace
+
 bool StreamedMachine::deliver_command(Lock& lock) {
   auto& command = std::get<Command>(queue_.front().body);
   if (command.sent < command.lines.size()) {
@@ -209,6 +211,8 @@ bool StreamedMachine::deliver_command(Lock& lock) {
     device_.await_execution();
     return false;
   }
+  if (may_have_moved(command) && !check_position(expected_, kMovedByCommand))
+    return device_.fault().has_value();
   const Command done = command;
   report(lock, done);
   return finish_front(lock);
@@ -232,63 +236,6 @@ void StreamedMachine::report(Lock& lock, const Command& command) {
   } else if (const auto* pin = std::get_if<interpreter::PinChange>(&command.event)) {
     tell(lock, [&](ExecutionSink& sink) { sink.on_pin(*pin); });
   }
-}
-
-/// The move ends at the contact, as programs take it: the device brakes past it, and is moved back.
-bool StreamedMachine::deliver_probe(Lock& lock) {
-  if (start_front(lock)) return true;
-  auto& move = std::get<ProbeMove>(queue_.front().body);
-  if (!has_begun_ && !check_position(expected_)) return device_.fault().has_value();
-  has_begun_ = true;
-  if (!device_.prepare(now())) return false;
-  if (!move.is_sent && !move.text.lines.empty()) {
-    const std::string& line = move.text.lines.front();
-    if (!device_.may_send(line.size())) return false;
-    device_.drop_probe();
-    device_.send(line, true, {});
-    device_.await_execution();
-    move.is_sent = true;
-    return false;
-  }
-  if (!device_.is_at_rest()) return false;
-  MotionWriter& writer = builder_.motion();
-  const auto probed = device_.probe();
-  if (move.is_sent && !probed) {
-    device_.raise("MCH0009", "the probe move has ended without a result", now());
-    return true;
-  }
-  const bool tripped = move.is_sent && probed->tripped;
-  const Coordinates end = tripped ? probed->at : move.text.end;
-  if (tripped && !move.is_returning) {
-    if (!is_on_path(end, expected_, move.text.end)) {
-      device_.raise("MCH0009", "the machine reports a contact that is not on the probe's path",
-                    now());
-      return true;
-    }
-    writer.move_to(device_.position());
-    MotionText text;
-    const auto refusal = writer.line(
-        {.origin = origin_, .to = position_of(end, writer.rules()), .feed = move.probe.feed}, text);
-    move.is_returning = true;
-    if (!refusal && !text.lines.empty()) {
-      for (const std::string& line : text.lines) device_.send(line, true, {});
-      device_.await_execution();
-      return false;
-    }
-  }
-  writer.move_to(end);
-  expected_ = end;
-  if (!check_position(end)) return device_.fault().has_value();
-  interpreter::Probe probe = move.probe;
-  interpreter::Position at = probe.to;
-  const ToolLengths lengths = queue_.front().lengths;
-  for (std::size_t i = 0; i < kMaxAxes; ++i)
-    if (const auto axis = static_cast<interpreter::Axis>(i); at.has(axis))
-      at.set_raw(axis, end[i] - (i < lengths.size() ? lengths[i] : 0));
-  probe.result = interpreter::ProbeResult{tripped, at};
-  (void)finish_front(lock);
-  tell(lock, [&](ExecutionSink& sink) { sink.on_probed(probe); });
-  return true;
 }
 
 bool StreamedMachine::deliver_text(Lock& lock) {

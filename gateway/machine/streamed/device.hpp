@@ -65,6 +65,8 @@ class Device {
   virtual const Coordinates& position() const = 0;
   /// `position` is that of before the link was opened: neither lost nor taken for right.
   virtual bool keeps_position() const = 0;
+  /// Whether the probe is in contact now; nothing: the device does not report it.
+  virtual std::optional<bool> is_touching() const { return std::nullopt; }
   virtual void drop_probe() = 0;
   virtual std::optional<ProbeEnd> probe() const = 0;
   virtual void raise(std::string_view id, std::string text, SteadyTime now) = 0;

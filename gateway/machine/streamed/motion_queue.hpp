@@ -36,6 +36,7 @@ struct ProbeMove {
   interpreter::Probe probe;
   MotionText text;
   bool is_sent = false, is_returning = false;
+  bool is_there = false;  ///< the probe was as awaited before the move: there is none
 };
 /// What is only reported, when everything before it is done.
 struct TextEvent {

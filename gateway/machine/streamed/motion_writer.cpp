@@ -25,14 +25,14 @@ constexpr std::size_t kMaxPieces = 4096;  ///< of one move
 /// progress.
 constexpr double kPieceSeconds = 0.25;
 
-/// The length that a program's feed is for: that of the linear axes, if any moves.
-double program_distance(const Coordinates& from, const Coordinates& to) {
-  double linear = 0, rotary = 0;
-  for (std::size_t i = 0; i < kMaxAxes; ++i) {
-    const double change = to[i] - from[i];
-    (interpreter::is_rotary(static_cast<Axis>(i)) ? rotary : linear) += change * change;
-  }
-  return std::sqrt(linear > 0 ? linear : rotary);
+/// The length that a feed is for: that of X, Y and Z, if any moves, else of U, V and W, else of the
+/// rotary axes.
+double feed_distance(const Coordinates& from, const Coordinates& to) {
+  std::array<double, 3> squares{};  // XYZ, ABC, UVW
+  for (std::size_t i = 0; i < kMaxAxes; ++i)
+    squares[i / 3] += (to[i] - from[i]) * (to[i] - from[i]);
+  const auto& [first, rotary, second] = squares;
+  return std::sqrt(first > 0 ? first : second > 0 ? second : rotary);
 }
 
 bool is_finite(const Coordinates& point) {
@@ -139,7 +139,7 @@ std::optional<Refusal> MotionWriter::target_of(const interpreter::Position& to,
 }
 
 MotionWriter::PathLength MotionWriter::straight_length(const Coordinates& to) const {
-  const double program = program_distance(at_, to);
+  const double program = feed_distance(at_, to);
   return {program, rules_.feeds_all_axes ? distance(at_, to) : program};
 }
 
@@ -164,7 +164,7 @@ std::optional<Refusal> MotionWriter::feed_of(Feed feed, PathLength length,
 /// The mode of the feed and its word, where they change.
 std::string MotionWriter::feed_words(const Motion& motion, const Coordinates& to) {
   if (!motion.feed) return {};
-  const bool is_mixed = program_distance(at_, to) < distance(at_, to);
+  const bool is_mixed = feed_distance(at_, to) < distance(at_, to);
   const bool was_timed = std::exchange(is_timed_, rules_.times_rotary_axes && is_mixed);
   if (is_timed_) {  // the word is needed in every line
     feed_.clear();
@@ -176,7 +176,7 @@ std::string MotionWriter::feed_words(const Motion& motion, const Coordinates& to
 }
 
 double MotionWriter::seconds_of(const Coordinates& to, std::optional<double> feed) const {
-  const double length = rules_.feeds_all_axes ? distance(at_, to) : program_distance(at_, to);
+  const double length = rules_.feeds_all_axes ? distance(at_, to) : feed_distance(at_, to);
   double minutes = feed ? length / *feed : 0;
   for (std::size_t i = 0; i < kMaxAxes; ++i)
     if (rules_.has(i))

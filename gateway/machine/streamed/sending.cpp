@@ -77,18 +77,19 @@ bool StreamedMachine::may_be_ahead(double seconds) {
 }
 
 /// With nothing in motion the axes must be where the program has sent them.
-bool StreamedMachine::check_position(const Coordinates& expected) {
+bool StreamedMachine::check_position(const Coordinates& expected, std::string_view reason) {
   if (!device_.is_at_rest()) return false;
   const TextRules& rules = device_.rules();
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     if (!rules.has(i)) continue;
     const double is_at = device_.position()[i];
     if (std::fabs(is_at - expected[i]) <= rules.axes[i]->tolerance) continue;
-    device_.raise("MCH0009",
-                  fmt::format("{} is at {:.3f}, the program has it at {:.3f}: the machine does not "
-                              "do what it was sent",
-                              letter_of(i), is_at, expected[i]),
-                  now());
+    device_.raise(
+        "MCH0009",
+        fmt::format("{} is at {:.3f}, the program has it at {:.3f}{}", letter_of(i), is_at,
+                    expected[i],
+                    reason.empty() ? ": the machine does not do what it was sent" : reason),
+        now());
     return false;
   }
   return true;

@@ -87,7 +87,7 @@ class StreamedMachine : public MotionBackend {
   bool may_be_ahead(double seconds);
   bool is_over() const;
   bool may_begin() const;
-  bool check_position(const Coordinates& expected);
+  bool check_position(const Coordinates& expected, std::string_view reason = {});
   void announce(Lock& lock);
   bool deliver(Lock& lock);
   bool deliver_executed(Lock& lock);

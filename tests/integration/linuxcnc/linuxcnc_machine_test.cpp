@@ -112,13 +112,23 @@ TEST_F(LinuxCncTest, ProbesAndContinuesFromTheContact) {
   ASSERT_TRUE(rests());
   EXPECT_NEAR(z(), result->at.raw(interpreter::Axis::Z), 0.001);
   program->end_block();
+  machine->begin_probe({.origin = program->begin_block(),
+                        .from = {},
+                        .to = machine::test::Program::at(5, -150),
+                        .feed = Feed::per_minute(Length::mm(6000)),
+                        .result = {}});
+  ASSERT_TRUE(wait([&] { return recorder.probes.size() > 1 || is_over(); })) << alarm();
+  const auto again = recorder.probes.back().result;
+  EXPECT_TRUE(again->tripped) << "it is in contact";
+  EXPECT_EQ(again->at.raw(interpreter::Axis::Z), result->at.raw(interpreter::Axis::Z));
+  program->end_block();
   program->line(5, -50, 6000);
   machine->begin_probe({.origin = program->begin_block(),
                         .from = {},
                         .to = machine::test::Program::at(5, -60),
                         .feed = Feed::per_minute(Length::mm(3000)),
                         .result = {}});
-  ASSERT_TRUE(wait([&] { return recorder.probes.size() > 1 || is_over(); }));
+  ASSERT_TRUE(wait([&] { return recorder.probes.size() > 2 || is_over(); }));
   EXPECT_FALSE(recorder.probes.back().result->tripped) << alarm();
   program->end_block();
   program->line(5, 0, 6000);

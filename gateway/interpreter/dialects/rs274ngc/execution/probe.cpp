@@ -61,6 +61,23 @@ void store_result(Run& run, bool tripped) {
   if (!run.is_linuxcnc()) run.parameters[5067] = tripped ? 1 : 0;
 }
 
+/// Less than any axis resolves.
+bool is_same_point(const Axes& a, const Axes& b) {
+  constexpr double kNear = 1e-4;
+  for (std::size_t i = 0; i < kAxisCount; ++i)
+    if (std::fabs(a[i] - b[i]) > kNear) return false;
+  return true;
+}
+
+/// G38.2 is an error in contact, and G38.4 free. A move until contact leaves the tool just there
+/// for one until release, and the other way round.
+bool must_begin_otherwise(const Run& run, int g_code) {
+  if (g_code == 383 || g_code == 385) return false;
+  const int before = run.state.modes.motion;
+  const bool is_other_kind = is_probe(before) && (before <= 383) != (g_code <= 383);
+  return !is_other_kind;
+}
+
 bool finish_probe(Run& run, const Target& target, int g_code) {
   const auto result = std::get<ProbeResult>(*run.answer);
   run.answer.reset();
@@ -70,6 +87,7 @@ bool finish_probe(Run& run, const Target& target, int g_code) {
     const bool is_known = result.at.has(axis) || probe.to.has(axis);
     machine[index_of(axis)] = is_known ? result.at.raw(axis) : run.state.machine.raw(axis);
   }
+  const bool has_moved = !is_same_point(machine, values_of(run.state.machine));
   Target stop;
   stop.to = to_program(run, machine);
   stop.named = target.named;
@@ -77,6 +95,8 @@ bool finish_probe(Run& run, const Target& target, int g_code) {
   probe.result = ProbeResult{result.tripped, marked(at, target)};
   run.events().on_probe(probe);
   store_result(run, result.tripped);
+  if (result.tripped && !has_moved && must_begin_otherwise(run, g_code))
+    return run.fail(ErrorCode::ProbeTripped, 0);
   if (result.tripped || g_code == 383 || g_code == 385) return true;
   return run.fail(ErrorCode::ProbeNotTripped, 0);
 }

@@ -12,9 +12,34 @@ TEST(LinuxCncSession, OpensAProgramWithTheModesThatAllLinesRelyOn) {
   EXPECT_FALSE(helper.session.prepare(helper.now));
   helper.session.feed_opened("/fifo", helper.now);
   helper.pass(1ms);
-  EXPECT_EQ(helper.text, "%\nG21G90G94G17G40G49G80G91.1G59.3G92.2G8G97M5M9\nG61M48\nM66P0L0\n");
+  EXPECT_EQ(helper.text,
+            "%\nG21G90G94G17G40G49G80G91.1G59.3G92.2G8G97M5M9M53P1\nG61M48\nM66P0L0\n");
   EXPECT_EQ(helper.commands, "{\"n\":1,\"do\":\"run\",\"file\":\"/fifo\"}\n");
   EXPECT_FALSE(helper.session.may_send(10)) << "LinuxCNC does not read it yet";
+}
+
+TEST(LinuxCncSession, AnAxisThatBeginsAnewAt360DegreesIsRefused) {
+  FakeHelper helper;
+  helper.session.lost("again");
+  helper.session.opened(helper.now);
+  std::string hello(kHello);
+  hello.replace(hello.find("\"axes\":7"), 8, "\"axes\":15");
+  hello.replace(hello.find("\"wrapped\":0"), 11, "\"wrapped\":8");
+  helper.say(hello);
+  helper.report();
+  const auto ready = helper.session.check_ready();
+  ASSERT_FALSE(ready);
+  EXPECT_NE(ready.error().what.find("[AXIS_A]WRAPPED_ROTARY"), std::string::npos)
+      << ready.error().what;
+}
+
+TEST(LinuxCncSession, ReportsTheProbeAsItIsNow) {
+  FakeHelper helper;
+  EXPECT_EQ(helper.session.is_touching(), false);
+  helper.touching = true;
+  helper.report();
+  EXPECT_EQ(helper.session.is_touching(), true);
+  EXPECT_FALSE(helper.session.probe()->tripped) << "that is of the last probe move";
 }
 
 TEST(LinuxCncSession, ALineIsExecutedWhenTheNextIsInMotion) {
@@ -357,6 +382,8 @@ TEST(LinuxCncSession, ReadsInputs) {
   ASSERT_EQ(inputs.size(), 32U);
   EXPECT_EQ(inputs[2], (std::pair<std::string, bool>("2", true)));
   EXPECT_EQ(inputs[3], (std::pair<std::string, bool>("3", false)));
+  EXPECT_TRUE(helper.session.input(33));
+  EXPECT_FALSE(helper.session.input(32));
 }
 
 TEST(LinuxCncSession, ReadsAHalPinWhenItIsAskedFor) {

@@ -102,6 +102,16 @@ TEST(MotionWriter, AFeedOfRotaryAxesIsTheDevicesOwnKind) {
               ElementsAre("G61G1X3A4G93F200"));
 }
 
+TEST(MotionWriter, AFeedIsThatOfXYZAndElseOfUVW) {
+  TextRules rules = three_axes();
+  rules.axes[6] = TextRules::AxisRules{};
+  Writer it(rules);
+  const Feed once_a_minute = Feed::inverse_time(1);
+  EXPECT_THAT(it.line(point({{Axis::X, 3}, {Axis::U, 4}}), once_a_minute).lines,
+              ElementsAre("G61G1X3U4F3"));
+  EXPECT_THAT(it.line(point({{Axis::U, 9}}), once_a_minute).lines, ElementsAre("G1U9F5"));
+}
+
 TEST(MotionWriter, LongMovesAreWrittenInPiecesWhereTheDeviceHasLittleAhead) {
   TextRules rules = three_axes();
   rules.has_stop_mode = false;
