@@ -214,6 +214,14 @@ Difference difference_of(ActionKind kind) {
   }
 }
 
+namespace {
+
+std::string word_text(char letter, double value) {
+  return value == Action::kNoNumber ? "" : fmt::format(" {}{:g}", letter, value);
+}
+
+}  // namespace
+
 std::string describe(const Action& action) {
   switch (action.kind) {
     case ActionKind::Rapid:
@@ -239,11 +247,12 @@ std::string describe(const Action& action) {
       return fmt::format("coolant: flood {}, mist {}", (action.code & 1) != 0 ? "on" : "off",
                          (action.code & 2) != 0 ? "on" : "off");
     case ActionKind::Tool:
-      return fmt::format("{} {}{}", action.numbers[0] != 0 ? "preselected tool" : "tool",
-                         action.code,
+      return fmt::format("{}tool {}{}{}", action.numbers[0] == 1 ? "preselected " : "", action.code,
+                         action.numbers[0] == 2 ? " in the spindle" : "",
                          action.offset ? fmt::format(", offset {}", *action.offset) : "");
     case ActionKind::Function:
-      return fmt::format("M{}", action.code);
+      return fmt::format("M{}{}{}", action.code, word_text('P', action.numbers[0]),
+                         word_text('Q', action.numbers[1]));
     case ActionKind::Pin:
       return fmt::format("output {} {}", action.code, action.numbers[0] != 0 ? "on" : "off");
     case ActionKind::Inhibit:

@@ -138,11 +138,13 @@ void ActionRecorder::on_tool(const interpreter::ToolChange& event) {
   Action& action = push(ActionKind::Tool, event.origin);
   action.code = event.number;
   action.offset = event.offset;
-  action.numbers[0] = event.is_preselection ? 1 : 0;
+  action.numbers[0] = event.is_preselection ? 1 : event.is_in_spindle ? 2 : 0;
 }
 
 void ActionRecorder::on_miscellaneous(const interpreter::Miscellaneous& event) {
-  push(ActionKind::Function, event.origin).code = event.code;
+  Action& action = push(ActionKind::Function, event.origin);
+  action.code = event.code;
+  action.numbers = {event.p.value_or(Action::kNoNumber), event.q.value_or(Action::kNoNumber), 0};
 }
 
 void ActionRecorder::on_pin(const interpreter::PinChange& event) {

@@ -126,6 +126,12 @@ void Adaptation::on_coolant(const interpreter::Coolant& event) {
 
 void Adaptation::on_tool(const interpreter::ToolChange& event) {
   if (event.is_preselection || !is_open()) return;
+  if (event.is_in_spindle) {
+    return refuse(
+        event.origin,
+        fmt::format("tool {} is said to be in the spindle already: {} has no word for that",
+                    event.number, target().name));
+  }
   tool_ = event.number;
   if (target().max_tool == 0 || event.number < 0 || event.number > target().max_tool) {
     return refuse(event.origin,
@@ -158,6 +164,9 @@ void Adaptation::on_miscellaneous(const interpreter::Miscellaneous& event) {
                   fmt::format("M{}: M functions of the machine are {} to {} at {}, but for 19, 98 "
                               "and 99",
                               event.code, target().min_m, target().max_m, target().name));
+  }
+  if (event.p || event.q) {
+    return refuse(event.origin, fmt::format("M{} with P or Q: these are not written", event.code));
   }
   EventGate::on_miscellaneous(event);
 }

@@ -289,7 +289,14 @@ bool RunSession::resolve(const interpreter::PromptQuestion&) {
 }
 
 bool RunSession::resolve(const interpreter::InputQuestion& question) {
-  return machine_rests() && give(parts_.machine.input(question.pin));
+  if (!machine_rests()) return false;
+  const bool state = parts_.machine.input(question.pin);
+  if (question.wait == interpreter::InputWait::Nothing) return give(state);
+  if (!input_wait_) input_wait_.emplace(question, parts_.clock.steady_now());
+  const auto fulfilled = input_wait_->look(state, parts_.clock.steady_now());
+  if (!fulfilled || !give(*fulfilled)) return false;
+  input_wait_.reset();
+  return true;
 }
 
 bool RunSession::resolve(const interpreter::TimeQuestion&) {

@@ -11,6 +11,7 @@
 #include "gateway/app/memory/control_memory.hpp"
 #include "gateway/app/restart/checkpoint_keeper.hpp"
 #include "gateway/app/restart/rebuild.hpp"
+#include "gateway/app/run/awaited_input.hpp"
 #include "gateway/app/run/program_check.hpp"
 #include "gateway/app/run/tool_in_position.hpp"
 #include "gateway/feed/line_feed.hpp"
@@ -205,6 +206,7 @@ class RunSession {
   std::unique_ptr<ProgramCheck> check_;
   std::unique_ptr<Rebuild> rebuild_;
   bool is_over_ = false, has_question_ = false, is_probing_ = false;
+  std::optional<AwaitedInput> input_wait_;  ///< while the program waits for one
 };
 
 /// The run that the parts of a gateway work on, and how the last one ended.

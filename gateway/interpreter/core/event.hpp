@@ -211,6 +211,7 @@ struct ToolChange {
   bool is_preselection = false;
   std::optional<int> offset;
   std::optional<ToolShape> shape = {};  ///< for graphics; not part of a trace
+  bool is_in_spindle = false;           ///< it is there already: nothing is changed (M61)
 };
 /// The block of material that a program declares, its sides along the axes.
 struct Blank {
@@ -218,10 +219,13 @@ struct Blank {
   Axis spindle_axis = Axis::Z;
   Position min, max;  ///< X, Y and Z of two corners
 };
+/// Any other M function.
 struct Miscellaneous {
   Origin origin;
   int code = 0;
-};  ///< any other M function handed to the machine
+  std::optional<double> p = {}, q = {};  ///< its words, where the control hands them on
+  bool is_done = false;  ///< other events do what it does: nothing is left to the machine
+};
 struct PinChange {
   Origin origin;
   Axis axis = Axis::X;

@@ -107,9 +107,13 @@ struct PromptQuestion {
   std::string text;
   std::string variable;
 };  ///< answered by PromptAnswer
+/// What a program waits for at an input pin: that it changes, or is so. LinuxCNC's numbers.
+enum class InputWait : std::uint8_t { Nothing, Rise, Fall, High, Low };
 struct InputQuestion {
   int pin = 0;
-};                       ///< state of an input pin; answered by bool
+  InputWait wait = InputWait::Nothing;
+  double seconds = 0;  ///< that it waits at most
+};  ///< answered by bool: the pin's state; of a wait, whether it was fulfilled in time
 struct TimeQuestion {};  ///< the control's clock; answered by LocalTime
 struct SignalQuestion {
   std::string name;

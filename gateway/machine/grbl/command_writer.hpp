@@ -13,6 +13,8 @@ class BoardCommands final : public streamed::CommandWriter {
                                         Lines& lines) override;
   std::optional<streamed::Refusal> miscellaneous(const interpreter::Miscellaneous& event,
                                                  Lines& lines) override;
+  std::optional<streamed::Refusal> done_function(const interpreter::Miscellaneous& event,
+                                                 Lines& lines) override;
   std::optional<streamed::Refusal> pin(const interpreter::PinChange& event, Lines& lines) override;
 };
 

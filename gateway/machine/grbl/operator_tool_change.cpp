@@ -61,7 +61,7 @@ void OperatorToolChange::on_tool(const interpreter::ToolChange& event) {
   out().on_tool(event);
   if (event.is_preselection || tool_ == event.number) return;
   tool_ = event.number;
-  if (event.number != 0) want_tool();
+  if (event.number != 0 && !event.is_in_spindle) want_tool();
 }
 
 void OperatorToolChange::on_miscellaneous(const interpreter::Miscellaneous& event) {

@@ -21,6 +21,10 @@ std::optional<Refusal> LinuxCncCommands::spindle(const interpreter::Spindle& eve
 std::optional<Refusal> LinuxCncCommands::tool(const interpreter::ToolChange& event, Lines& lines) {
   if (event.number < 0)
     return Refusal{"MCH0008", fmt::format("this machine has no tool {}", event.number)};
+  if (event.is_in_spindle) {
+    lines.push_back(fmt::format("M61Q{}", event.number));
+    return std::nullopt;
+  }
   lines.push_back(fmt::format("T{}", event.number));
   if (event.is_preselection) return std::nullopt;
   lines.emplace_back("M6");
@@ -33,7 +37,13 @@ std::optional<Refusal> LinuxCncCommands::miscellaneous(const interpreter::Miscel
   if (event.code == streamed::kToolChangeFunction) return std::nullopt;
   if (event.code < 100 || event.code > 199)
     return Refusal{"MCH0008", fmt::format("this machine cannot do M{}", event.code)};
-  lines.push_back(fmt::format("M{}", event.code));
+  constexpr int kDecimals = 6;  // as many as LinuxCNC hands on
+  if (!std::isfinite(event.p.value_or(0)) || !std::isfinite(event.q.value_or(0)))
+    return Refusal{"MCH0006", fmt::format("a word of M{} without a value", event.code)};
+  std::string line = fmt::format("M{}", event.code);
+  if (event.p) line += "P" + streamed::trimmed(*event.p, kDecimals);
+  if (event.q) line += "Q" + streamed::trimmed(*event.q, kDecimals);
+  lines.push_back(std::move(line));
   return std::nullopt;
 }
 

@@ -23,6 +23,10 @@ class CommandWriter {
   virtual std::optional<Refusal> tool(const interpreter::ToolChange& event, Lines& lines) = 0;
   virtual std::optional<Refusal> miscellaneous(const interpreter::Miscellaneous& event,
                                                Lines& lines) = 0;
+  /// A function that is done by other events, or before it: nothing is written for it.
+  virtual std::optional<Refusal> done_function(const interpreter::Miscellaneous&, Lines&) {
+    return std::nullopt;
+  }
   virtual std::optional<Refusal> pin(const interpreter::PinChange& event, Lines& lines) = 0;
 
  private:

@@ -148,7 +148,7 @@ void QueueBuilder::on_tool(const interpreter::ToolChange& event) {
 }
 
 void QueueBuilder::on_miscellaneous(const interpreter::Miscellaneous& event) {
-  add_command(event, &CommandWriter::miscellaneous);
+  add_command(event, event.is_done ? &CommandWriter::done_function : &CommandWriter::miscellaneous);
 }
 
 void QueueBuilder::on_pin(const interpreter::PinChange& event) {

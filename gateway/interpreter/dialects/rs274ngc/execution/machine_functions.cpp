@@ -54,7 +54,7 @@ bool apply_override(Run& run, int code) {
   if (code == 51) overrides.speed = enables;
   if (code == 52) overrides.adaptive = enables;
   if (code == 53) overrides.hold = enables;
-  run.events().on_miscellaneous({run.origin, code});
+  run.events().on_miscellaneous({.origin = run.origin, .code = code, .is_done = code != 52});
   run.events().on_override_inhibit(override_inhibit(run));
   return true;
 }
@@ -87,7 +87,10 @@ bool change_tool(Run& run, int code) {
     if (state.spindle.is_turning()) turn_spindle(run, SpindleState::Off);
     state.tool.loaded = state.tool.selected;
   }
-  run.events().on_tool({run.origin, state.tool.loaded, false, {}});
+  run.events().on_tool({.origin = run.origin,
+                        .number = state.tool.loaded,
+                        .offset = {},
+                        .is_in_spindle = code == 61});
   if (code != 61 && !run.options.has_tool_changer) {
     run.events().on_stop({run.origin, StopKind::ToolChange});
   }
@@ -103,45 +106,70 @@ bool orient(Run& run) {
   return true;
 }
 
+/// The numbers of LinuxCNC's digital inputs and outputs.
+constexpr double kMaxPin = 63;
+
+/// M62 to M65. What M62 and M63 switch with the next motion is switched before it.
+bool switch_output(Run& run, int code) {
+  const double pin = std::round(run.block.words.value_or('P', -1));
+  if (!(pin >= 0 && pin <= kMaxPin))
+    return run.fail_word(ErrorCode::IoWords, 'P', fmt::format("M{}", code));
+  run.events().on_pin({run.origin, Axis::X, static_cast<int>(pin), code == 62 || code == 64, {}});
+  return true;
+}
+
+/// M67, M68: an analog output.
 bool write_output(Run& run, int code) {
   const Words& words = run.block.words;
-  const bool is_analog = code == 67 || code == 68;
-  const char index = is_analog ? 'E' : 'P';
-  if (!words.has(index) || words[index] < 0 || (is_analog && !words.has('Q'))) {
-    return run.fail_word(ErrorCode::IoWords, index, fmt::format("M{}", code));
+  if (!words.has('E') || words['E'] < 0 || !words.has('Q')) {
+    return run.fail_word(ErrorCode::IoWords, 'E', fmt::format("M{}", code));
   }
   run.events().on_miscellaneous({run.origin, code});
   return true;
 }
 
-/// M66: a digital or analog input, at once or when it changes; the result is #5399.
+/// What a wait comes to where the input stays as it is.
+bool is_fulfilled(InputWait wait, bool state) {
+  return (wait == InputWait::High && state) || (wait == InputWait::Low && !state);
+}
+
+/// M66 of a digital input: at once, or when it changes. False: the answer is awaited.
+bool read_digital(Run& run, InputWait wait) {
+  const Words& words = run.block.words;
+  const double pin = std::round(words['P']);
+  if (pin > kMaxPin) return run.fail_word(ErrorCode::IoWords, 'P', "M66");
+  bool state = false;
+  if (run.options.answers_pins) {
+    for (const std::int64_t each : run.options.pins) state |= static_cast<double>(each) == pin;
+    if (wait != InputWait::Nothing) state = is_fulfilled(wait, state);
+  } else if (run.answer) {
+    state = std::get<bool>(*run.answer);
+    run.answer.reset();
+  } else {
+    return run.ask(InputQuestion{static_cast<int>(pin), wait, words.value_or('Q', 0)});
+  }
+  run.events().on_miscellaneous({.origin = run.origin, .code = 66, .is_done = true});
+  constexpr double kTimeout = -1;
+  const bool ends_low = wait == InputWait::Fall || wait == InputWait::Low;
+  const double waited = !state ? kTimeout : ends_low ? 0 : 1;
+  run.parameters[kInputResult] = wait == InputWait::Nothing ? (state ? 1 : 0) : waited;
+  return true;
+}
+
+/// M66: the result is #5399.
 bool read_input(Run& run) {
   const Words& words = run.block.words;
   if (words.has('P') == words.has('E') || words.value_or('P', 0) < 0) {
     return run.fail(ErrorCode::IoWords, 0, "M66 needs P or E");
   }
-  const double mode = words.value_or('L', 0);
+  const double mode = std::round(words.value_or('L', 0));
   const bool waits = mode > 0;
   if (mode < 0 || mode > 4 || (words.has('E') && waits) || (waits && words.value_or('Q', 0) <= 0)) {
     return run.fail_word(ErrorCode::IoWords, 'L', "M66");
   }
-  if (words.has('E')) {
-    run.events().on_miscellaneous({run.origin, 66});
-    run.parameters[kInputResult] = 0;
-    return true;
-  }
-  const auto pin = static_cast<std::int64_t>(words['P']);
-  bool state = false;
-  if (run.options.answers_pins) {
-    for (const std::int64_t each : run.options.pins) state |= each == pin;
-  } else if (run.answer) {
-    state = std::get<bool>(*run.answer);
-    run.answer.reset();
-  } else {
-    return run.ask(InputQuestion{static_cast<int>(pin)});
-  }
+  if (words.has('P')) return read_digital(run, static_cast<InputWait>(mode));
   run.events().on_miscellaneous({run.origin, 66});
-  run.parameters[kInputResult] = state ? 1 : 0;
+  run.parameters[kInputResult] = 0;
   return true;
 }
 
@@ -178,6 +206,15 @@ bool apply_state_code(Run& run, int code) {
       run.state.calls.empty() ? run.state.saved : run.state.calls.back().modes;
   if (!saved.is_valid) return run.fail(ErrorCode::StateStack, 0, "M72");
   return restore_modes(run, SavedModes{saved});
+}
+
+/// M100 to M199, programs of the shop, with their words.
+void hand_on(Run& run, int code) {
+  const Words& words = run.block.words;
+  Miscellaneous event{run.origin, code};
+  if (words.has('P')) event.p = words['P'];
+  if (words.has('Q')) event.q = words['Q'];
+  run.events().on_miscellaneous(event);
 }
 
 /// M3, M4, M5, M19.
@@ -235,7 +272,8 @@ bool apply_inputs(Run& run) {
   const int code = run.block.m(MGroup::InputOutput);
   if (code < 0) return true;
   if (!is_allowed_now(run, code)) return false;
-  return code == 66 ? read_input(run) : write_output(run, code);
+  if (code == 66) return read_input(run);
+  return code < 66 ? switch_output(run, code) : write_output(run, code);
 }
 
 bool apply_machine_functions(Run& run) {
@@ -248,9 +286,7 @@ bool apply_machine_functions(Run& run) {
   if (const int code = block.m(MGroup::Override); code >= 0 && !apply_override(run, code)) {
     return false;
   }
-  if (const int code = block.m(MGroup::User); code >= 0) {
-    run.events().on_miscellaneous({run.origin, code});
-  }
+  if (const int code = block.m(MGroup::User); code >= 0) hand_on(run, code);
   return true;
 }
 
@@ -278,12 +314,21 @@ bool reset_at_end(Run& run) {
     state.feed = 0;
     state.has_lost_lead = false;
     state.spindle.is_surface = false;
-    state.modes.is_arc_absolute = false;
   }
   if (state.spindle.state != SpindleState::Off) turn_spindle(run, SpindleState::Off);
   apply_coolant(run, 9);
   return true;
 }
+
+namespace {
+
+/// M30 and M60 exchange pallets; LinuxCNC knows none, and M30 is the end without them too.
+void exchange_pallets(Run& run, int code) {
+  run.events().on_miscellaneous(
+      {.origin = run.origin, .code = code, .is_done = code == 30 || run.is_linuxcnc()});
+}
+
+}  // namespace
 
 bool apply_stops(Run& run) {
   const int code = run.block.m(MGroup::Stop);
@@ -297,13 +342,13 @@ bool apply_stops(Run& run) {
       if (run.options.optional_stop) events.on_stop({run.origin, StopKind::Optional});
       return true;
     case 60:
-      events.on_miscellaneous({run.origin, code});
+      exchange_pallets(run, code);
       events.on_stop({run.origin, StopKind::Program});
       return true;
     case 2:
     case 30:
       if (!reset_at_end(run)) return false;
-      if (code == 30) run.events().on_miscellaneous({run.origin, code});
+      if (code == 30) exchange_pallets(run, code);
       run.state.phase = RunPhase::Ended;
       return true;
     default:

@@ -101,6 +101,24 @@ TEST(AsSetUp, WritesWhatDependsOnTheSetup) {
   EXPECT_NE(start.text.find("G0 X15\n"), std::string::npos) << start.text;
 }
 
+/// M61 says which tool is there. A change would take another one.
+TEST(ToolInTheSpindle, IsRefused) {
+  const auto setup = setup_from("[control]\nprofile = \"linuxcnc\"\n");
+  const auto converted = convert({"rs274ngc", "G21 G0 X1\nM61 Q3\nG0 X2\nM2\n", setup}, "fanuc");
+  EXPECT_FALSE(converted.is_proved) << converted.text;
+  EXPECT_TRUE(converted.reason().starts_with("line 2: tool 3 is said to be in the spindle"))
+      << converted.reason();
+}
+
+TEST(WordsOfAFunction, AreRefused) {
+  const auto setup = setup_from("[control]\nprofile = \"linuxcnc\"\n");
+  const auto plain = convert({"rs274ngc", "G21 G0 X1\nM101\nG0 X2\nM2\n", setup}, "linuxcnc");
+  EXPECT_TRUE(plain.is_proved) << plain.reason();
+  const auto words = convert({"rs274ngc", "G21 G0 X1\nM101 P5\nG0 X2\nM2\n", setup}, "linuxcnc");
+  EXPECT_FALSE(words.is_proved) << words.text;
+  EXPECT_TRUE(words.reason().starts_with("line 2: M101 with P or Q")) << words.reason();
+}
+
 /// A probing move stays refused.
 TEST(AsSetUp, DoesNotWriteWhatOnlyTheMachineKnows) {
   ConversionOptions options;

@@ -77,5 +77,37 @@ TEST(GrblToolStop, TheSpindleTurnsAgainAsBefore) {
   EXPECT_TRUE(shop.board.is_spindle_on());
 }
 
+TEST(GrblToolStop, AToolThatIsInTheSpindleIsNoReasonForOne) {
+  GrblShop shop;
+  shop.begin();
+  interpreter::MemorySource source("G21G90G94\nM61Q3\nG0X2\nM2\n");
+  const auto setup = interpreter::parse_setup("[control]\nprofile = \"linuxcnc\"\n");
+  auto made = (*interpreter::find_dialect("rs274ngc"))->make(*setup, source, shop.machine.events());
+  ASSERT_TRUE(made);
+  while ((*made)->step(1) == StepState::Ran) {
+  }
+  ASSERT_TRUE(shop.pass_until([&] { return shop.machine.state() == MachineState::Completed; }))
+      << shop.alarm();
+  EXPECT_NEAR(shop.x(), 2, 1e-3);
+}
+
+TEST(GrblFunctions, ThatAreDoneWithoutTheBoardAreTakenButM66) {
+  for (const bool reads : {false, true}) {
+    GrblShop shop;
+    shop.begin();
+    interpreter::MemorySource source(reads ? "G21G90G94\nM66P0\nG0X2\nM30\n"
+                                           : "G21G90G94\nM49\nM48\nG0X2\nM30\n");
+    const auto setup = interpreter::parse_setup("[control]\nprofile = \"linuxcnc\"\npins = [0]\n");
+    auto made =
+        (*interpreter::find_dialect("rs274ngc"))->make(*setup, source, shop.machine.events());
+    ASSERT_TRUE(made);
+    while ((*made)->step(1) == StepState::Ran) {
+    }
+    const auto end = reads ? MachineState::Alarmed : MachineState::Completed;
+    ASSERT_TRUE(shop.pass_until([&] { return shop.machine.state() == end; })) << shop.alarm();
+    EXPECT_NEAR(shop.x(), reads ? 0 : 2, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace dripline::machine::grbl::test

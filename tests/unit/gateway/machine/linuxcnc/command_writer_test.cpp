@@ -1,6 +1,7 @@
 #include "gateway/machine/linuxcnc/command_writer.hpp"
 
 #include <gmock/gmock.h>
+#include <cmath>
 
 namespace dripline::machine::linuxcnc {
 namespace {
@@ -27,6 +28,16 @@ TEST(LinuxCncCommands, ATurningSpindleIsTurnedOnAgainAfterAToolChange) {
   EXPECT_THAT(lines, ElementsAre("T5"));
 }
 
+TEST(LinuxCncCommands, AToolThatIsInTheSpindleIsNamedAndNotChanged) {
+  LinuxCncCommands writer;
+  streamed::CommandWriter::Lines lines;
+  EXPECT_FALSE(writer.spindle({{}, SpindleState::Clockwise, 1200, {}, {}}, lines));
+  lines.clear();
+  EXPECT_FALSE(
+      writer.tool({.origin = {}, .number = 3, .offset = {}, .is_in_spindle = true}, lines));
+  EXPECT_THAT(lines, ElementsAre("M61Q3")) << "no M6, and the spindle goes on";
+}
+
 TEST(LinuxCncCommands, CoolantIsSwitchedAsAWhole) {
   LinuxCncCommands writer;
   streamed::CommandWriter::Lines lines;
@@ -45,6 +56,10 @@ TEST(LinuxCncCommands, OutputsAndFunctionsOfTheBuilder) {
   lines.clear();
   EXPECT_FALSE(writer.miscellaneous({{}, 101}, lines));
   EXPECT_THAT(lines, ElementsAre("M101"));
+  lines.clear();
+  EXPECT_FALSE(writer.miscellaneous({.origin = {}, .code = 199, .p = 5, .q = -0.25}, lines));
+  EXPECT_THAT(lines, ElementsAre("M199P5Q-0.25"));
+  EXPECT_TRUE(writer.miscellaneous({.origin = {}, .code = 100, .p = INFINITY}, lines));
 }
 
 TEST(LinuxCncCommands, WhatLinuxCncLacksIsRefused) {

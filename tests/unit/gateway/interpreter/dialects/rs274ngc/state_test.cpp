@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,6 +24,20 @@ TEST(Rs274State, APinIsAskedForInTheMiddleOfALine) {
   EXPECT_EQ(run.step(), StepState::Ended);
   EXPECT_THAT(run.log().lines(), Contains(HasSubstr("rapid 2:")).Times(1));
   EXPECT_THAT(run.log().lines(), Contains(HasSubstr(" X7 Y1")).Times(1));
+}
+
+TEST(Rs274State, AWaitForAPinThatIsOverLeavesMinusOne) {
+  for (const auto& [fulfilled, result] : {std::pair{true, " X0"}, {false, " X-1"}}) {
+    ControlRun run("#5399 = 7\nM66 P2 L4 Q1.5\nG21 G0 X5\nX#5399\nM2\n", kLater);
+    ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+    const auto asked = std::get<InputQuestion>(run.interpreter().question());
+    EXPECT_EQ(asked.pin, 2);
+    EXPECT_EQ(asked.wait, InputWait::Low);
+    EXPECT_EQ(asked.seconds, 1.5);
+    ASSERT_TRUE(run.interpreter().answer(fulfilled));
+    EXPECT_EQ(run.step(), StepState::Ended);
+    EXPECT_THAT(run.log().lines(), Contains(HasSubstr(result)));
+  }
 }
 
 // A line is read again with each answer, and everything of it happens once.
@@ -64,6 +79,29 @@ TEST(Rs274State, AProbeAnswerMovesTheTool) {
   ASSERT_TRUE(run.interpreter().answer(result));
   EXPECT_EQ(run.step(), StepState::Ended);
   EXPECT_THAT(run.log().lines(), Contains(HasSubstr(" X-2 Z-2")));
+}
+
+TEST(Rs274State, AProbeThatWasInContactBeforeItsMoveIsAnAlarmOfG382) {
+  for (const char* code : {"G38.2", "G38.3"}) {
+    ControlRun run(fmt::format("G21 F50 G0 Z9\n{} Z-9\nG0 X#5070\nM2\n", code), kLater);
+    ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+    ProbeResult result{true, {}};
+    result.at.set(Axis::Z, Length::mm(9));
+    ASSERT_TRUE(run.interpreter().answer(result));
+    const bool must_move = std::string_view(code) == "G38.2";
+    EXPECT_EQ(run.step(), must_move ? StepState::Alarmed : StepState::Ended);
+    EXPECT_THAT(run.log().lines(), Contains(HasSubstr(must_move ? "NGC0245" : " X1")));
+  }
+}
+
+// LinuxCNC's M2 leaves them for MDI.
+TEST(Rs274State, AbsoluteCentersStayAfterTheEnd) {
+  ControlRun program("G21 G90.1 G0 X2\nM2\n", kLater);
+  ASSERT_EQ(program.step(), StepState::Ended);
+  ASSERT_TRUE(program.interpreter().begin_next_text());
+  ControlRun next("F100 G2 X0 I1 J0\nM2\n", kLater);
+  ASSERT_TRUE(next.interpreter().restore(program.interpreter().snapshot()));
+  EXPECT_EQ(next.step(), StepState::Ended) << testing::PrintToString(next.log().lines());
 }
 
 TEST(Rs274State, MovesThatWaitSurviveASnapshot) {
