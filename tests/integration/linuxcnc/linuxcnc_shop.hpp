@@ -24,10 +24,13 @@ class LinuxCncTest : public testing::Test {
       GTEST_SKIP() << "skipped: " << missing;
     linuxcnc.emplace();
     if (!table.empty()) linuxcnc->set_tools(table);
+    prepare();
     linuxcnc->start();
     connect();
     turn_on();
   }
+  /// LinuxCNC's files, before its start.
+  virtual void prepare() {}
   /// A back end, instead of the one before.
   void connect(const machine::linuxcnc::SessionLimits& limits = {}) {
     machine.emplace(LinuxCncMachine::Settings{.sink = recorder,

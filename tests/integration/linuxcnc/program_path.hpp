@@ -133,8 +133,8 @@ class LinuxCncPrograms : public LinuxCncTest {
   std::unique_ptr<interpreter::Interpreter> interpret(interpreter::MemorySource& source,
                                                       interpreter::EventSink& events) const {
     auto made = interpreter::kRs274NgcDialect.make(
-        interpreter::parse_setup("[control]\nprofile = \"linuxcnc\"\n" + tools).value(), source,
-        events);
+        interpreter::parse_setup(head + "[control]\nprofile = \"linuxcnc\"\n" + tools).value(),
+        source, events);
     EXPECT_TRUE(made) << made.error().what;
     return made ? *std::move(made) : nullptr;
   }
@@ -155,8 +155,12 @@ class LinuxCncPrograms : public LinuxCncTest {
     ASSERT_NE(interpreter, nullptr);
     bool is_read = false;
     ASSERT_TRUE(wait([&] {
-      while (!is_read && machine->has_room())
-        is_read = interpreter->step(1) != interpreter::StepState::Ran;
+      while (!is_read && machine->has_room()) {
+        const auto state = interpreter->step(1);
+        if (state == interpreter::StepState::NeedsAnswer && !answer(*interpreter)) break;
+        is_read =
+            state != interpreter::StepState::Ran && state != interpreter::StepState::NeedsAnswer;
+      }
       return is_over();
     }));
     EXPECT_EQ(machine->state(), MachineState::Completed) << alarm();
@@ -169,7 +173,14 @@ class LinuxCncPrograms : public LinuxCncTest {
     return linuxcnc->samples();
   }
 
-  std::string tools;  ///< of our interpreter, TOML
+  /// The state of an input, once everything before it is executed.
+  bool answer(interpreter::Interpreter& interpreter) const {
+    const auto asked = std::get<interpreter::InputQuestion>(interpreter.question());
+    const bool rests = machine->drained() && machine->state() == MachineState::Idle;
+    return rests && interpreter.answer(machine->input(asked.pin)).has_value();
+  }
+
+  std::string head, tools;  ///< of our interpreter's setup, TOML
 };
 
 }  // namespace dripline::integration

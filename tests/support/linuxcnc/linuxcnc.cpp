@@ -1,5 +1,6 @@
 #include "tests/support/linuxcnc/linuxcnc.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <algorithm>
@@ -54,6 +55,7 @@ LinuxCnc::LinuxCnc() {
              "net x => sampler.0.pin.1\n"
              "net y => sampler.0.pin.2\n"
              "net z => sampler.0.pin.3\n"
+             "net loop motion.digital-out-01 => motion.digital-in-02\n"
              "loadusr ./witness\n");
   write_file(folder_.path() / "witness", "#!/bin/sh\nexec stdbuf -oL halsampler >witness.txt\n");
   fs::permissions(folder_.path() / "witness", fs::perms::owner_all | fs::perms::others_exec);
@@ -67,6 +69,30 @@ LinuxCnc::~LinuxCnc() {
 
 void LinuxCnc::set_tools(const std::string& table) const {
   write_file(folder_.path() / "tool.tbl", table);
+}
+
+void LinuxCnc::add_to_ini(const std::string& section, const std::string& lines) const {
+  std::string ini = read_file(this->ini());
+  replace(ini, "[" + section + "]\n", "[" + section + "]\n" + lines + "\n");
+  write_file(this->ini(), ini);
+}
+
+void LinuxCnc::count_in_inches() const {
+  std::string ini = read_file(this->ini());
+  replace(ini, "LINEAR_UNITS = mm", "LINEAR_UNITS = inch");
+  write_file(this->ini(), ini);
+}
+
+void LinuxCnc::add_function(int code) const {
+  const fs::path path = folder_.path() / fmt::format("M{}", code);
+  write_file(path, fmt::format("#!/bin/sh\necho \"$@\" >{}.arguments\n", path.string()));
+  fs::permissions(path, fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
+}
+
+std::string LinuxCnc::arguments_of(int code) const {
+  std::string text = read_file(folder_.path() / fmt::format("M{}.arguments", code));
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
 }
 
 void LinuxCnc::stop() {

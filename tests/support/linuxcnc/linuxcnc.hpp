@@ -12,7 +12,8 @@
 namespace dripline::test_support {
 
 /// A real LinuxCNC with the simulated mill of deploy/examples/linuxcnc, and a witness of its own: a
-/// component that samples the motors' positions and the line in motion every millisecond.
+/// component that samples the motors' positions and the line in motion every millisecond. Output 1
+/// is wired to input 2.
 ///
 /// Only one can run in a system, so the test program must be in namespaces of its own
 /// (linuxcnc_main.cpp).
@@ -28,6 +29,14 @@ class LinuxCnc {
 
   /// The tool table, before the start.
   void set_tools(const std::string& table) const;
+  /// Adds lines to a section of its INI file, before the start.
+  void add_to_ini(const std::string& section, const std::string& lines) const;
+  /// The numbers of the INI file stay, and count in inches.
+  void count_in_inches() const;
+  /// A function M100 to M199 that writes its arguments to `arguments_of`, before the start.
+  void add_function(int code) const;
+  /// Of its last call; empty: none.
+  std::string arguments_of(int code) const;
   /// Waits until it is up; failures are those of gtest. Once more after its end.
   void start();
   void stop();
