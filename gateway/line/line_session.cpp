@@ -94,7 +94,7 @@ void LineSession::supply(const std::string& id, std::uint64_t offset, const std:
 void LineSession::supply_failed(const std::string& id, const Error& error, wire::Discipline& line,
                                 wire::LineTime now) {
   if (!sending_ || sending_->job.id != id) return;
-  count(line);
+  count(line.state());
   line.abort(now);
   finish(SendOutcome::Interrupted, error.what);
 }
@@ -104,7 +104,7 @@ void LineSession::fill(wire::Discipline& line, wire::LineTime now) {
     if (!offer_some(line, now)) break;
   }
   if (!sending_) return;
-  count(line);
+  count(line.state());
   fetch_more();
 }
 
@@ -123,7 +123,7 @@ bool LineSession::offer_some(wire::Discipline& line, wire::LineTime now) {
   const auto taken = line.offer(std::string_view(sending.text).substr(0, size), is_last, now);
   if (!taken) {
     if (line.state().phase != wire::Phase::Idle) line.abort(now);
-    count(line);
+    count(line.state());
     finish(SendOutcome::Interrupted, taken.error().what);
     return false;
   }
@@ -142,10 +142,10 @@ void LineSession::note_offer(std::size_t size) {
   host_.on_progress(*progress());
 }
 
-void LineSession::count(const wire::Discipline& line) {
+void LineSession::count(const wire::LineState& line) {
   if (!sending_ || sending_->waits_for_line) return;
   const std::uint64_t offered = sending_->ledger.offered() - sending_->text.size();
-  const std::uint64_t left = is_checked_ ? sending_->accepted : line.state().text_sent;
+  const std::uint64_t left = is_checked_ ? sending_->accepted : line.text_sent;
   const std::uint64_t before = sending_->ledger.place().bytes;
   sending_->ledger.advance(std::min(left, offered));
   if (sending_->ledger.place().bytes != before) host_.on_progress(*progress());
@@ -174,7 +174,7 @@ bool LineSession::resume(const std::string& id, wire::Discipline& line, wire::Li
 bool LineSession::abort(const std::string& id, const std::string& reason, wire::Discipline& line,
                         wire::LineTime now) {
   if (!sending_ || sending_->job.id != id) return false;
-  count(line);
+  count(line.state());
   line.abort(now);
   finish(SendOutcome::Aborted, reason);
   return true;
@@ -206,7 +206,7 @@ void LineSession::on_lost(const Error& error, wire::Discipline& line) {
   if (is_checked_ && line.state().phase != wire::Phase::Idle) return;
   if (is_receiving_) end_receiving({.what = Incoming::What::Failed, .text = error.what});
   if (!sending_ || sending_->waits_for_line) return;
-  count(line);
+  count(line.state());
   if (sending_->ledger.place().bytes > 0) {
     return finish(SendOutcome::Interrupted, fmt::format("the line is lost: {}", error.what));
   }
@@ -233,7 +233,7 @@ void LineSession::poll(wire::Discipline& line, wire::LineTime now) {
   fill(line, now);
 }
 
-void LineSession::stop(const std::string& reason) {
+void LineSession::stop(const std::string& reason, const wire::LineState& last) {
   if (is_receiving_) end_receiving({.what = Incoming::What::Failed, .text = reason});
   if (sending_) finish(SendOutcome::Interrupted, reason);
 }
@@ -241,6 +241,7 @@ void LineSession::stop(const std::string& reason) {
 std::uint64_t LineSession::text_ahead() const {
   if (!sending_) return 0;
   const std::uint64_t fetched = sending_->next_fetch - sending_->job.first_byte;
+  count(last);
   return fetched - std::min(fetched, sending_->ledger.place().bytes);
 }
 
@@ -293,7 +294,7 @@ void LineSession::on_failed(const Error& error, wire::Discipline& line) {
   if (error.code == Errc::Io) return on_lost(error, line);
   if (is_receiving_) end_receiving({.what = Incoming::What::Failed, .text = error.what});
   if (!sending_ || line.state().phase == wire::Phase::Sending) return;
-  count(line);
+  count(line.state());
   finish(SendOutcome::Interrupted, error.what);
 }
 

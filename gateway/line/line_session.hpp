@@ -126,8 +126,9 @@ class LineSession {
   void on_open(wire::Discipline& line, wire::LineTime now);
   /// Called some times a second.
   void poll(wire::Discipline& line, wire::LineTime now);
-  /// The owner stops: what is in progress ends.
-  void stop(const std::string& reason);
+  /// The owner stops, and the line has stopped in that state: what is in progress ends, with all
+  /// that was sent. An operator continues after it.
+  void stop(const std::string& reason, const wire::LineState& last);
 
   std::optional<SendProgress> progress() const;
   /// Bytes of the program that were fetched and are not sent yet.
@@ -150,7 +151,7 @@ class LineSession {
   void fill(wire::Discipline& line, wire::LineTime now);
   bool offer_some(wire::Discipline& line, wire::LineTime now);
   void fetch_more();
-  void count(const wire::Discipline& line);
+  void count(const wire::LineState& line);
   void note_offer(std::size_t size);
   void finish(SendOutcome outcome, std::string reason);
   void on_failed(const Error& error, wire::Discipline& line);

@@ -90,8 +90,8 @@ void PortLine::close(const std::string& reason) {
     if (std::exchange(is_closed_, true)) return;
     driver = std::move(driver_);
   }
-  driver.reset();
-  session_.stop(reason);
+  if (driver) driver->stop();
+  session_.stop(reason, driver ? driver->state() : wire::LineState{});
   refresh();
   recorder_.flush();
 }

@@ -35,10 +35,13 @@ class Line final : public LineDriver {
       : parts_(std::move(parts)),
         discipline_(std::move(discipline)),
         pacer_(wire::character_time(parts_.settings)) {}
-  ~Line() override {
+  ~Line() override { Line::stop(); }
+  void stop() override {
     stops_ = true;
     commands_.wake();
     if (thread_.joinable()) thread_.join();
+    channel_.reset();
+    is_open_ = false;
   }
   void begin() { thread_ = std::thread(&Line::run, this); }
 

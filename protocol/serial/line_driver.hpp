@@ -64,6 +64,9 @@ class LineDriver {
   /// Runs `work` on the line's thread, soon, in the order of posting; also while there is no
   /// channel. Work that still waits when the driver ends is dropped.
   virtual void post(std::function<void(wire::Discipline&, wire::LineTime)> work) = 0;
+  /// Ends the thread and closes the channel; work that waits is dropped. `state` is what was then:
+  /// nothing was sent since. Not from the line's thread. The destructor does the same.
+  virtual void stop() = 0;
   virtual wire::LineState state() const = 0;  ///< any thread
   virtual bool is_open() const = 0;           ///< any thread
 };

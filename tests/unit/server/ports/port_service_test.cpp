@@ -4,6 +4,23 @@
 namespace dripline::server_test {
 namespace {
 
+/// Whoever continues after the block that is named continues where the control has not been.
+TEST_F(PortServiceTest, CountsAllThatWasSentWhenTheServerStops) {
+  start_ports();
+  auto port = mill();
+  port.settings = {{"baud", "19200"}, {"eob", "lf"}};
+  add_port(port);
+  push("O1", blocks(500));
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  std::string came = line().read_until("\nN50 ");
+  ports_.reset();
+  came += line().read_for(std::chrono::milliseconds(50));
+  const auto stopped = store_->runs.find(run->id);
+  EXPECT_EQ(stopped->state, storage::RunState::Interrupted);
+  EXPECT_EQ(stopped->counters.sent, came.size()) << stopped->reason;
+}
+
 TEST_F(PortServiceTest, KeepsPortsAndOpensThemAgain) {
   start_ports();
   add_port(mill());

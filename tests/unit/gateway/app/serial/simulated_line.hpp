@@ -31,6 +31,7 @@ class SimulatedLine final : public serial::LineDriver {
   void post(std::function<void(wire::Discipline&, wire::LineTime)> work) override {
     posted_.push_back(std::move(work));
   }
+  void stop() override {}
   wire::LineState state() const override { return discipline_->state(); }
   bool is_open() const override { return wire_.is_open; }
 
