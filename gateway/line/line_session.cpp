@@ -1,6 +1,7 @@
 #include "gateway/line/line_session.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "gateway/line/line_words.hpp"
 
@@ -41,7 +42,11 @@ std::string_view to_string(SendOutcome outcome) {
 }
 
 LineSession::LineSession(const wire::LineSettings& settings, SessionHost& host)
-    : host_(host), is_checked_(is_checked_flow(settings.flow)), ahead_(ahead_of(settings)) {}
+    : host_(host),
+      is_checked_(is_checked_flow(settings.flow)),
+      ahead_(ahead_of(settings)),
+      idle_end_(settings.flow == wire::Flow::DcCodes ? std::chrono::milliseconds(0)
+                                                     : settings.idle_end) {}
 
 Result<void> LineSession::begin(SendJob job, wire::Discipline& line, wire::LineTime now) {
   if (sending_) return fail(Errc::Busy, "the line is sending {}", sending_->job.id);
@@ -214,6 +219,7 @@ void LineSession::on_lost(const Error& error, wire::Discipline& line) {
 }
 
 void LineSession::on_open(wire::Discipline& line, wire::LineTime now) {
+  opened_ = now;
   if (!sending_ || !sending_->waits_for_line) return;
   if (line.state().phase != wire::Phase::Idle) line.abort(now);
   if (auto begun = start_over(line, now); !begun) {
@@ -235,13 +241,13 @@ void LineSession::poll(wire::Discipline& line, wire::LineTime now) {
 
 void LineSession::stop(const std::string& reason, const wire::LineState& last) {
   if (is_receiving_) end_receiving({.what = Incoming::What::Failed, .text = reason});
+  count(last);
   if (sending_) finish(SendOutcome::Interrupted, reason);
 }
 
 std::uint64_t LineSession::text_ahead() const {
   if (!sending_) return 0;
   const std::uint64_t fetched = sending_->next_fetch - sending_->job.first_byte;
-  count(last);
   return fetched - std::min(fetched, sending_->ledger.place().bytes);
 }
 
@@ -264,7 +270,10 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
     if (!began->is_receiving) return;
     if (std::exchange(is_asking_, false)) return;  // reported when it was requested
     is_receiving_ = true;
-    host_.on_incoming({.what = Incoming::What::Began, .text = std::move(began->name)});
+    const auto opened = std::exchange(opened_, std::nullopt);
+    host_.on_incoming({.what = Incoming::What::Began,
+                       .text = std::move(began->name),
+                       .may_be_rest = opened && now - *opened < idle_end_});
   } else if (const auto* ended = std::get_if<wire::TransferEnded>(&event)) {
     if (ended->is_receiving) {
       return end_receiving({.what = Incoming::What::Ended, .text = {}, .is_cut = ended->is_cut});

@@ -9,6 +9,9 @@ namespace dripline::line {
 namespace {
 
 constexpr std::size_t kMaxWaiting = 8;
+constexpr const char* kRest =
+    "what came right after the line was opened does not begin as a program: it may be the rest of "
+    "one, and is kept as printed lines; send the program again";
 
 /// The line as it was printed; other control characters than TAB become escapes.
 std::string printed_text(const std::string& line) {
@@ -48,6 +51,7 @@ std::vector<InboundSplitter::Item> InboundRouter::split(const Incoming& incoming
       is_in_transfer_ = true;
       program_name_ = incoming.text;
       splitter_.take_programs_only(sink_.sends_programs_only());
+      if (incoming.may_be_rest) splitter_.expect_rest();
       splitter_.begin(incoming.text, incoming.is_program);
       break;
     case Incoming::What::Text:
@@ -58,6 +62,7 @@ std::vector<InboundSplitter::Item> InboundRouter::split(const Incoming& incoming
       if (incoming.is_cut) splitter_.lose();
       break;
     case Incoming::What::Ended:
+      if (splitter_.has_rest()) report(kRest);
       return incoming.is_cut ? splitter_.end_silent() : splitter_.end();
     case Incoming::What::Failed:
       return splitter_.fail();

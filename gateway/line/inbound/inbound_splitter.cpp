@@ -20,6 +20,12 @@ bool is_percent(std::string_view line) {
          line[first] == '%';
 }
 
+bool has_number_first(std::string_view line) {
+  const auto first = line.find_first_not_of(" \t");
+  return first != std::string_view::npos &&
+         std::string_view("Oo:").find(line[first]) != std::string_view::npos;
+}
+
 }  // namespace
 
 void InboundSplitter::begin(std::string name, bool is_program) {
@@ -51,13 +57,14 @@ std::vector<InboundSplitter::Item> InboundSplitter::take(std::string_view text) 
 /// A rule may decide that such a line is printed, or begins a program; a call in it decides
 /// neither.
 bool InboundSplitter::is_program_line(const std::string& line) const {
+  if (is_first_of_rest_ && has_number_first(line)) return false;
   const auto hit = rules_.judge(TextKind::Line, line);
   if (hit.rule != nullptr && hit.action == RuleAction::Program) return true;
   if (hit.rule != nullptr &&
       (hit.action == RuleAction::Report || hit.action == RuleAction::Ignore)) {
     return false;
   }
-  return takes_programs_only_ || begins_program(line, is_after_percent_);
+  return takes_any() || begins_program(line, is_after_percent_);
 }
 
 /// Another program than the one in hand. `:15` is what ISO tapes have for O15.
@@ -73,7 +80,11 @@ bool InboundSplitter::begins_next(const std::string& line) {
 /// What a complete line is depends on what came before it.
 void InboundSplitter::end_line(bool is_cut) {
   const std::string line = std::exchange(line_, {});
-  is_cut = std::exchange(is_lost_, false) || is_cut;
+  take_line(line, std::exchange(is_lost_, false) || is_cut);
+  is_first_of_rest_ = false;
+}
+
+void InboundSplitter::take_line(const std::string& line, bool is_cut) {
   if (is_program_) {
     if (begins_next(line)) {
       end_program();
@@ -93,6 +104,7 @@ void InboundSplitter::end_line(bool is_cut) {
   if (line.find_first_not_of(" \t") == std::string::npos) return;
   if (!is_program_line(line)) {
     is_printing_ = is_printing_ || std::exchange(is_after_percent_, false);
+    has_rest_ = has_rest_ || takes_programs_only_;
     items_.push_back({.what = Item::What::Line, .text = line, .is_cut = is_cut});
     return;
   }
@@ -101,7 +113,7 @@ void InboundSplitter::end_line(bool is_cut) {
 }
 
 bool InboundSplitter::may_be_program() const {
-  return is_program_ || takes_programs_only_ || is_after_percent_ ||
+  return is_program_ || takes_any() || is_after_percent_ ||
          (!line_.empty() && is_program_line(line_));
 }
 
@@ -146,7 +158,7 @@ std::vector<InboundSplitter::Item> InboundSplitter::end() {
   if (is_program_ && takes_programs_only_) add_to_program("%\n");
   if (is_program_) end_program();
   name_.clear();
-  is_after_percent_ = is_printing_ = false;
+  is_after_percent_ = is_printing_ = may_be_rest_ = is_first_of_rest_ = has_rest_ = false;
   return taken();
 }
 

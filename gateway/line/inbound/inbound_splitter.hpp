@@ -39,6 +39,12 @@ class InboundSplitter {
 
   /// What such a control sends is a program whatever it looks like: it prints nothing.
   void take_programs_only(bool only) { takes_programs_only_ = only; }
+  /// The beginning of what comes next may be missing: its first line may not be whole, and only
+  /// what begins as a program is one, also of such a control; not with an O number in that line,
+  /// which may be the end of a comment. Until the transfer is over.
+  void expect_rest() { may_be_rest_ = is_first_of_rest_ = is_lost_ = true; }
+  /// Text was printed that would have been a program otherwise.
+  bool has_rest() const { return has_rest_; }
   /// A transfer begins; one with a name, or a requested one, is a program and nothing else.
   void begin(std::string name, bool is_program = false);
   std::vector<Item> take(std::string_view text);
@@ -55,7 +61,9 @@ class InboundSplitter {
 
  private:
   void end_line(bool is_cut = false);
+  void take_line(const std::string& line, bool is_cut);
   bool is_program_line(const std::string& line) const;
+  bool takes_any() const { return takes_programs_only_ && !may_be_rest_; }
   bool begins_next(const std::string& line);
   void begin_program();
   void begin_program_with(const std::string& line);
@@ -67,6 +75,7 @@ class InboundSplitter {
   const RuleSet& rules_;
   const bool extracts_;
   bool takes_programs_only_ = false;
+  bool may_be_rest_ = false, is_first_of_rest_ = false, has_rest_ = false;
   interpreter::centurion::ProgramSplitter programs_;  ///< of the text in hand
   std::vector<Item> items_;
   std::string line_;   ///< not complete

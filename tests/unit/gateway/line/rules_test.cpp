@@ -220,6 +220,27 @@ TEST(InboundSplitter, TakesAProgramInOneLongLineForAProgram) {
   EXPECT_EQ(whole(splitter, text), "P<:" + text + "\n%\n>");
 }
 
+/// What came before it went to another server, or is lost with the line.
+TEST(InboundSplitter, TakesTheRestOfATextForNoProgram) {
+  const RuleSet none;
+  InboundSplitter splitter(none);
+  splitter.take_programs_only(true);
+  splitter.expect_rest();
+  EXPECT_FALSE(splitter.may_be_program());
+  EXPECT_EQ(text_of_items(splitter.take("X1 Y1\nG1\nPN8 G20 ;\nG0\n")),
+            "L<X1 Y1|>L<G1>P<:PN8 G20 ;\nG0\n");
+  EXPECT_TRUE(splitter.has_rest());
+  EXPECT_EQ(text_of_items(splitter.end()), "%\n>");
+  EXPECT_EQ(whole(splitter, "G1\n"), "P<:G1\n%\n>") << "the next text is whole";
+  splitter.expect_rest();
+  EXPECT_EQ(whole(splitter, "PN9 G20 ;\n"), "P<:PN9 G20 ;\n%\n>") << "it begins as one";
+  splitter.take_programs_only(false);
+  splitter.expect_rest();
+  EXPECT_EQ(whole(splitter, "O1)\nM30\n"), "L<O1)|>L<M30>") << "the end of a comment";
+  splitter.expect_rest();
+  EXPECT_EQ(whole(splitter, "%\nO1\nM30\n%\n"), "P<:%\nO1\nM30\n%\n>");
+}
+
 TEST(InboundSplitter, KnowsPrintedLinesFromWhatMayBeAProgram) {
   const RuleSet none;
   InboundSplitter splitter(none);

@@ -41,6 +41,7 @@ TEST_F(PortServiceTest, PutsPrintedLinesIntoTheReportOfTheRun) {
   ASSERT_TRUE(run);
   line().read_until("N30 G1 X3.5 Y-3.25\n");
   ASSERT_TRUE(wait_state(run->id, RunState::Completed));
+  let_pass_idle_end();
   line().write("X1.5\tY2.25\r\nPROBE Z-1.");
   line().write("125\r\n");
   ASSERT_TRUE(wait([&] { return records_of(run->id, "probe").size() == 1; }));
@@ -75,6 +76,7 @@ std::vector<std::string> texts_of(const std::vector<storage::Record>& records) {
 TEST_F(PortServiceTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
   start_ports();
   add_port(mill(kCalls));
+  let_pass_idle_end();
   line().write("B 2\nPROBE Z-1.125\n");
   ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 2; }));
   EXPECT_EQ(texts_of(*store_->records.machine_report("mill", {}, 100)),
@@ -82,6 +84,7 @@ TEST_F(PortServiceTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
   ports_.reset();  // the server stops, and starts again
   start_ports();
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  let_pass_idle_end();
   line().write("B 3\n");
   ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 3; }));
   EXPECT_EQ(store_->records.machine_report("mill", {}, 100)->back().text, "B 3");
@@ -321,6 +324,7 @@ TEST_F(PortServiceTest, StoresEveryLineOnceWhateverTheStoreAnswers) {
   ASSERT_TRUE(run);
   ASSERT_TRUE(wait_state(run->id, RunState::Completed));
   records.failures_ = 2;
+  let_pass_idle_end();
   line().write("LINE 1\nLINE 2\n");
   ASSERT_TRUE(wait([&] { return records.failures_ < 2; }));
   line().write("LINE 3\n");

@@ -64,6 +64,8 @@ class PortServiceTest : public ServerTest {
     ASSERT_TRUE(saved) << saved.error().what;
     ASSERT_TRUE(wait([&] { return ports_->port(port.name)->is_open; }));
   }
+  /// What comes sooner after the opening of mill()'s line may be the rest of a text.
+  void let_pass_idle_end() { line().read_for(std::chrono::milliseconds(70)); }
   test_support::TestLine& line(const std::string& address = "/dev/line1") {
     const std::lock_guard lock(lines_mutex_);
     auto& line = lines_[address];
