@@ -162,6 +162,15 @@ Result<void> PortService::check_idle(const std::string& name) const {
               what_it_does(view));
 }
 
+Result<void> PortService::check_free_to_end(const std::string& name) const {
+  if (auto idle = check_idle(name); !idle) return idle;
+  const auto entry = find(name);
+  const auto progress = entry && entry->line ? entry->line->progress() : std::nullopt;
+  if (!progress || progress->sent.bytes == 0) return {};
+  return fail(Errc::Busy, "port '{}' of machine '{}' is sending what its control asked for", name,
+              entry->port.machine);
+}
+
 Result<PortService::Entry> PortService::find(const std::string& name) const {
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(name);

@@ -57,6 +57,8 @@ class PortService final : public PortControl, private LineDirectory {
   LineMachines& machines() { return line_machines_; }
   /// Whether its line may be closed. Errors: Busy (a run, a transfer, or the control sends; named).
   Result<void> check_idle(const std::string& name) const;
+  /// The same for a server that ends: also of a program that the control was offered and reads.
+  Result<void> check_free_to_end(const std::string& name) const;
 
   std::vector<PortView> ports() const override;
   Result<PortView> port(const std::string& name) const override;
@@ -106,6 +108,7 @@ class PortService final : public PortControl, private LineDirectory {
   PortListener listener_for(const Entry& entry, const Machine& machine);
   std::shared_ptr<PortLine> make_line(const Entry& entry, const Strands& strands,
                                       PortListener listener);
+  bool is_program_broken(const Entry& entry) const;
   /// Of an open line, some times a second: it continues while the store is waited for.
   struct Ticking {
     std::weak_ptr<PortLine> line;

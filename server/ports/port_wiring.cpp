@@ -158,7 +158,8 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
       .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc,
       .tells_aborts = entry.settings.flow == wire::Flow::Heidenhain ||
                       entry.settings.flow == wire::Flow::HeidenhainBcc ||
-                      entry.settings.flow == wire::Flow::Xmodem};
+                      entry.settings.flow == wire::Flow::Xmodem,
+      .follows_answers = true};
   const auto inbound = std::make_shared<InboundHandler>(InboundHandler::Parts{
       .machines = store_.machines,
       .programs = programs_,
@@ -180,9 +181,10 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
               note_transfer(name, end);
               if (end.outcome == SendOutcome::Completed) inbound->on_transfer_completed();
             }
-            if (end.progress.kind == JobKind::Answer) inbound->on_answer_over();
+            if (end.progress.kind == JobKind::Answer) inbound->on_answer_over(end);
             if (end.progress.kind != JobKind::Run) return;
             inbound->on_run(end.progress.id);
+            if (end.outcome == SendOutcome::Completed) inbound->on_run_completed();
             line_machines_.on_sent(name, end, [inbound] { inbound->on_run_stored(); });
           },
       .on_request = [inbound](const wire::TransferRequest& request) { inbound->answer(request); },
@@ -191,7 +193,6 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
 
 std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Strands& strands,
                                                  PortListener listener) {
-  const auto broken = broken_run(store_.runs, entry.port.machine, true);
   return PortLine::make(
       {.names = {entry.port.name, entry.port.machine, entry.port.address},
        .settings = entry.settings,
@@ -203,7 +204,16 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
        .recording = {.port = entry.port.name, .folder = options_.recordings},
        .on_traffic = [this](const PortTraffic& traffic) { tell_traffic(traffic); },
        .listener = std::move(listener),
-       .is_program_broken = broken && broken->has_value()});
+       .is_program_broken = is_program_broken(entry)});
+}
+
+/// A control may be in the middle of a run, or of an offered program.
+bool PortService::is_program_broken(const Entry& entry) const {
+  const auto run = broken_run(store_.runs, entry.port.machine, true);
+  if (run && run->has_value()) return true;
+  if (entry.settings.offer != wire::Offer::All) return false;
+  const auto offer = broken_offer(store_.audit, entry.port.machine);
+  return offer && offer->has_value();
 }
 
 void PortService::tick(const Ticking& ticking, unsigned count) {

@@ -235,7 +235,17 @@ Result<void> TncStandard::check_text(std::string_view text, std::size_t line) {
   return {};
 }
 
+/// A control that has room again for what another host has begun: its operator begins again.
+bool TncStandard::is_release() {
+  const bool is_begin = phase_ == Phase::Idle || (is_sending() && stage_ == Stage::Start);
+  if (!is_begin || !std::exchange(is_release_due_, false)) return false;
+  queue_control(settings_.heidenhain.eot);
+  emit_fault({Errc::Conflict, "DC1 came for the program that was broken off: EOT answers it"});
+  return true;
+}
+
 void TncStandard::on_dc1(LineTime now) {
+  if (is_release()) return;
   if (is_sending() && stage_ == Stage::Answer) end_transfer(now);  // it asks for the next program
   if (is_sending()) {
     if (stage_ == Stage::Start) stage_ = Stage::Leader;
@@ -256,7 +266,7 @@ void TncStandard::on_dc3(LineTime now) {
 }
 
 void TncStandard::on_eot(LineTime now) {
-  is_asked_ = false;
+  is_asked_ = is_release_due_ = false;
   if (is_sending()) {
     if (stage_ == Stage::Answer || (is_host() && has_sent_end_)) return end_transfer(now);
     if (stage_ == Stage::Start) return;
@@ -292,7 +302,7 @@ void TncStandard::on_character(char c, LineTime now) {
   const bool is_line_end = c == '\r' || c == '\n';
   if ((c < ' ' && !is_line_end) || c == 0x7F) return;
   if (phase_ == Phase::Idle && is_host() && !is_line_end) {
-    is_asked_ = false;  // the control sends now
+    is_asked_ = is_release_due_ = false;  // the control sends now
     begin_transfer(Phase::Receiving, "");
     if (spoiled_ && now - *spoiled_ < settings_.idle_end) {
       emit_fault({Errc::Corrupt, "a character before the first one was spoiled"});

@@ -30,6 +30,7 @@ class TncStandard final : public DisciplineBase {
   Result<void> refuse(std::string_view reason, LineTime now) override;
   void set_ready(bool is_ready, LineTime now) override;
   void abort(LineTime now) override;
+  void expect_release() override { is_release_due_ = is_host(); }
   LineState state() const override;
 
  private:
@@ -45,6 +46,7 @@ class TncStandard final : public DisciplineBase {
   void refill(LineTime now);
   void encode_next();
   void end_sent(LineTime now);
+  bool is_release();
   void on_dc1(LineTime now);
   void on_dc3(LineTime now);
   void on_eot(LineTime now);
@@ -72,6 +74,7 @@ class TncStandard final : public DisciplineBase {
   std::string sent_line_;          ///< the beginning of the line being sent
   bool has_sent_end_ = false;      ///< an END line was sent
   bool is_asked_ = false;          ///< host: DC1 came while idle
+  bool is_release_due_ = false;    ///< host: the next DC1 is of a program that was broken off
   bool is_stopped_ = false;        ///< by the other end's DC3
   bool is_hold_reported_ = false;  ///< by an event
 

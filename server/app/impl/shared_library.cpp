@@ -85,7 +85,7 @@ Result<std::vector<std::string>> ServerParts::hand_over() {
                   "it has ended, or abort it",
                   view.port.name, view.port.machine);
     }
-    if (const auto idle = ports.check_idle(view.port.name); !idle) {
+    if (const auto idle = ports.check_free_to_end(view.port.name); !idle) {
       return fail(Errc::Busy,
                   "{}, which a hand-over would cut off: wait until it has ended, or end it (dnc "
                   "port stop {})",

@@ -37,8 +37,9 @@ class InboundHandler final : private line::InboundSink {
     router_.take(incoming, std::move(kept));
   }
   void answer(const wire::TransferRequest& request) { calls_.answer(request); }
-  void on_answer_over() { calls_.on_answer_over(); }
+  void on_answer_over(const SendEnd& end) { calls_.on_answer_over(end); }
   void on_transfer_completed() { calls_.on_transfer_completed(); }
+  void on_run_completed() { calls_.on_run_completed(); }
   void on_run_stored() { calls_.on_run_stored(); }
   /// What is printed from now on belongs to this run, until another one is on the line: a control
   /// prints while it executes, which continues after everything has been sent.

@@ -67,8 +67,14 @@ std::vector<storage::Revision> numbered_programs(std::span<const storage::Progra
   return revisions;
 }
 
-constexpr const char* kAuthor = "request from the control";
 constexpr std::uint64_t kMaxPrograms = 10'000;
+
+SendJob answer_job() {
+  SendJob job;
+  job.kind = JobKind::Answer;
+  job.id = fmt::format("answer-{}", random_hex(4));
+  return job;
+}
 
 }  // namespace
 
@@ -145,7 +151,7 @@ RequestedLine::Started RemoteRequestHandler::on_started(bool is_request) const {
 Result<void> RemoteRequestHandler::note(std::string action, std::string subject,
                                         std::string detail) const {
   return parts_.store.audit.add({.time = parts_.clock.now(),
-                                 .who = {kAuthor, "", ""},
+                                 .who = {kRequestAuthor, "", ""},
                                  .action = std::move(action),
                                  .subject = std::move(subject),
                                  .detail = std::move(detail)});
@@ -169,7 +175,7 @@ void RemoteRequestHandler::send(const std::string& name, bool is_request) {
   parts_.line->start_later({.machine = parts_.machine,
                             .program = *program,
                             .revision = {},
-                            .author = kAuthor,
+                            .author = kRequestAuthor,
                             .before = note_start("run.start")},
                            on_started(is_request), is_request ? name : "");
 }
@@ -188,7 +194,7 @@ void RemoteRequestHandler::restart(const std::string& block) {
   parts_.line->start_later({.machine = parts_.machine,
                             .program = last->front().program,
                             .revision = last->front().revision,
-                            .author = kAuthor,
+                            .author = kRequestAuthor,
                             .from = *point,
                             .head = choice == "HEAD"  ? machines::StartHead::Send
                                     : choice == "SET" ? machines::StartHead::Set
@@ -216,7 +222,7 @@ void RemoteRequestHandler::repeat() {
   parts_.line->start_later({.machine = parts_.machine,
                             .program = run.program,
                             .revision = run.revision,
-                            .author = kAuthor,
+                            .author = kRequestAuthor,
                             .before = note_start("run.start")},
                            on_started(true), "");
 }
@@ -228,7 +234,7 @@ void RemoteRequestHandler::start_next_job() {
   parts_.line->start_later({.machine = parts_.machine,
                             .program = job->program,
                             .revision = job->revision,
-                            .author = kAuthor,
+                            .author = kRequestAuthor,
                             .job = job->id,
                             .before = note_start("run.start")},
                            on_started(false), "");
@@ -255,6 +261,7 @@ void RemoteRequestHandler::send_listing(bool is_request) {
 /// lists them, or takes those it wants. They are no runs.
 void RemoteRequestHandler::send_next() {
   if (auto sound = check_last_run(); !sound) return refuse(sound.error().what, true);
+  if (auto sound = check_last_offer(); !sound) return refuse(sound.error().what, true);
   if (auto listed = list_offers(); !listed) return refuse(listed.error().what, true);
   if (next_offer_ >= offers_->size()) {
     if (!std::exchange(is_end_told_, true)) {
@@ -269,15 +276,33 @@ void RemoteRequestHandler::send_next() {
       {.machine = parts_.machine, .program = revision.program, .revision = revision.number});
   if (!admitted) return refuse(admitted.error().what, true);
   const std::string what = fmt::format("{} revision {}", revision.program, revision.number);
-  if (auto noted = note("port.offer", parts_.machine, what); !noted)
-    return refuse(noted.error().what, true);
-  parts_.line->note(fmt::format("the control asked: program {} revision {} is offered",
-                                revision.program, revision.number));
-  SendJob job;
+  SendJob job = answer_job();
+  if (auto noted = offered_.begin(job.id, what); !noted) return refuse(noted.error().what, true);
+  parts_.line->note(fmt::format("the control asked: program {} is offered", what));
   job.name = line::program_number(revision.program);
   job.source = source_of(ProgramStream::of(revision.content, revision.size), parts_.store.programs);
   job.size = revision.size;
-  put_on_line(std::move(job));
+  parts_.line->send(std::move(job));
+}
+
+/// The same of an offered program, which may be another server's offer. A control whose protocol
+/// has words for it is told once, and asks again; any other may go on asking for the rest.
+Result<void> RemoteRequestHandler::check_last_offer() {
+  // A heading begins a transfer: it asks for no rest.
+  if (!parts_.follows_answers || parts_.refuses) return {};
+  const auto broken = offered_.broken();
+  if (!broken) return fail(broken.error());
+  if (!*broken) return {};
+  const std::string program = **broken;
+  offers_.reset();  // it begins with the first one again
+  if (parts_.tells_aborts) offered_.settle("the control was told that it was broken off");
+  return fail(Errc::Conflict,
+              "program {} was broken off while the control read it, and it may be asking for the "
+              "rest: {}",
+              program,
+              parts_.tells_aborts
+                  ? "ask again at the control"
+                  : "nothing is offered until a run or dnc port send has gone through");
 }
 
 /// A control in the middle of a program that was broken off asks for the rest of it with the same
@@ -343,16 +368,10 @@ void RemoteRequestHandler::report(const std::vector<std::string>& words) const {
 }
 
 void RemoteRequestHandler::send_answer(std::string name, std::string text) const {
-  SendJob job;
+  SendJob job = answer_job();
   job.name = std::move(name);
   job.size = text.size();
   job.text = std::move(text);
-  put_on_line(std::move(job));
-}
-
-void RemoteRequestHandler::put_on_line(SendJob job) const {
-  job.kind = JobKind::Answer;
-  job.id = fmt::format("answer-{}", random_hex(4));
   parts_.line->send(std::move(job));
 }
 

@@ -7,6 +7,7 @@
 #include "gateway/line/inbound/rule_set.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/releases.hpp"
+#include "server/ports/requests/offer_trail.hpp"
 #include "server/ports/requests/requested_line.hpp"
 
 namespace dripline::ports {
@@ -38,17 +39,29 @@ class RemoteRequestHandler {
     bool refuses = false;  ///< a request that is not answered at once is worth nothing: blockwise
     bool tells_aborts =
         false;  ///< the protocol reports to the control that a program is broken off
+    bool follows_answers = false;  ///< on_answer_over is called
   };
-  explicit RemoteRequestHandler(Parts parts) : parts_(std::move(parts)) {}
+  explicit RemoteRequestHandler(Parts parts)
+      : parts_(std::move(parts)), offered_(parts_.store.audit, parts_.clock, parts_.machine) {}
 
   /// Send, Directory, Restart or NextJob.
   void carry_out(line::RuleAction action, const std::string& argument);
   /// A request of the protocol itself.
   void answer(const wire::TransferRequest& request);
   /// What `answer` put on the line has been sent, or not.
-  void on_answer_over() { asked_at_ = parts_.clock.steady_now(); }
+  void on_answer_over(const SendEnd& end) {
+    asked_at_ = parts_.clock.steady_now();
+    offered_.end(end);
+  }
   /// All programs of a transfer to the control have arrived.
-  void on_transfer_completed() { is_sent_since_ = true; }
+  void on_transfer_completed() {
+    is_sent_since_ = true;
+    on_run_completed();
+  }
+  /// A run's program has arrived.
+  void on_run_completed() {
+    if (parts_.offer == wire::Offer::All) offered_.settle("another program went through since");
+  }
   /// A run is on the line, or was.
   void on_run() { is_sent_since_ = false; }
   /// The end of a run is stored, or may be.
@@ -70,6 +83,7 @@ class RemoteRequestHandler {
   void send_listing(bool is_request);
   void send_next();
   Result<void> check_last_run() const;
+  Result<void> check_last_offer();
   /// The audit entry comes before the control gets anything.
   Result<void> note(std::string action, std::string subject, std::string detail) const;
   std::function<Result<void>(const storage::Run&)> note_start(std::string action) const;
@@ -80,7 +94,6 @@ class RemoteRequestHandler {
   void refuse(const std::string& why, bool is_request,
               library::Refusal refusal = library::Refusal::None) const;
   void send_answer(std::string name, std::string text) const;
-  void put_on_line(SendJob job) const;
   RequestedLine::Started on_started(bool is_request) const;
   /// The library's name for what the control calls `name`. Errors: NotFound.
   Result<std::string> find_program(const std::string& name) const;
@@ -89,6 +102,7 @@ class RemoteRequestHandler {
   std::string control() const;
 
   Parts parts_;
+  OfferTrail offered_;
   /// Of a control that asks for one program after the other (its directory, all programs); none
   /// between such sequences.
   std::optional<std::vector<storage::Revision>> offers_;

@@ -27,6 +27,41 @@ TEST(TncStandard, KeepsTheRequestUntilTheControlTakesItBack) {
   EXPECT_FALSE(host->state().awaits_start);
 }
 
+/// The control has room again for a program that another host has begun.
+TEST(TncStandard, AHostThatWasReplacedInTheMiddleTakesNoReleaseForAStart) {
+  for (const bool is_begun_before : {false, true}) {
+    auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
+    std::array<std::byte, 60> room{};
+    const auto hear = [&](std::string_view text) {
+      host->receive(std::as_bytes(std::span(text)), LineTime{});
+    };
+    const auto say = [&] {
+      const auto size = host->transmit(room, {});
+      return std::string(reinterpret_cast<const char*>(room.data()), size);
+    };
+    host->expect_release();
+    if (is_begun_before) {
+      ASSERT_TRUE(host->begin_send("5", {}));
+      ASSERT_TRUE(host->offer(kProgram, true, {}));
+    }
+    hear("\x11");
+    EXPECT_EQ(say(), "\x04");
+    EXPECT_FALSE(host->state().is_asked);
+    EXPECT_EQ(host->state().awaits_start, is_begun_before);
+    hear("\x11");
+    EXPECT_EQ(host->state().is_asked, !is_begun_before);
+    EXPECT_EQ(say().empty(), !is_begun_before);
+  }
+}
+
+TEST(TncStandard, AControlThatEndsTheTransmissionItselfMayBeginAgain) {
+  auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
+  const std::string heard = "\x04\x11";
+  host->expect_release();
+  host->receive(std::as_bytes(std::span(heard)), {});
+  EXPECT_TRUE(host->state().is_asked);
+}
+
 // Rows: HD-221 (leader, line ends, end characters).
 TEST(TncStandard, SendsExactlyTheCharactersOfTheProtocol) {
   auto settings = settings_of(Flow::Heidenhain);
