@@ -1,5 +1,6 @@
 #include "storage/postgresql_standby.hpp"
 
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -22,7 +23,7 @@ constexpr std::chrono::milliseconds kNoteEvery{1000};
 struct PostgresqlStandby::Connection {
   postgresql::Database database;
   SteadyClock::time_point since;
-  SteadyClock::time_point noted{};
+  std::optional<SteadyClock::time_point> noted{};
   bool has_place = false;  ///< its schema has all that is looked at
 };
 
@@ -96,11 +97,23 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
   const auto others = waiting_servers(database, options_.holder);
   if (!others) return fail(others.error());
   view.has_others = !others->empty();
-  if (SteadyClock::now() - connection_->noted < kNoteEvery) return view;
-  if (auto noted = note_waiting(database, options_.holder, options_.described); !noted)
-    return fail(noted.error());
-  connection_->noted = SteadyClock::now();
+  if (auto noted = note(); !noted) return fail(noted.error());
   return view;
+}
+
+/// That this server waits, each second; or that it does not, once.
+Result<void> PostgresqlStandby::note() {
+  auto& noted = connection_->noted;
+  if (!is_able_) {
+    if (!noted) return {};
+    noted.reset();
+    return drop_waiting(connection_->database, options_.holder);
+  }
+  const auto now = SteadyClock::now();
+  if (noted && now - *noted < kNoteEvery) return {};
+  auto done = note_waiting(connection_->database, options_.holder, options_.described);
+  if (done) noted = now;
+  return done;
 }
 
 Result<bool> PostgresqlStandby::has_other_token(const std::string& user, const std::string& name,

@@ -40,6 +40,9 @@ class PostgresqlStandby {
   /// connection: after an outage of the database its holder comes first. Errors: Io, Denied,
   /// Unsupported (a newer version's tables).
   Result<View> look();
+  /// Whether it could take over: one that cannot is not among the servers that wait, so that
+  /// nothing is handed over to it. From the next look on.
+  void set_able(bool is_able) { is_able_ = is_able; }
 
   /// Whether a token of this user and name is kept in the database, and is not this secret. Errors:
   /// Io.
@@ -52,8 +55,10 @@ class PostgresqlStandby {
   struct Connection;
   Result<void> connect();
   Result<View> read();
+  Result<void> note();
 
   const Options options_;
+  bool is_able_ = true;
   std::unique_ptr<Connection> connection_;  ///< null: not connected
 };
 

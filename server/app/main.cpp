@@ -8,6 +8,7 @@
 #include <ctime>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "protocol/dds/configuration.hpp"
 #include "protocol/process/daemon_log.hpp"
@@ -125,6 +126,7 @@ struct Turn {
   Settings settings;
   std::uint64_t handed_over = 0;  ///< the term of the place that it handed over last; 0: none
   int late = 0;                   ///< how often another server was quicker, since the last start
+  bool is_first = true;           ///< the process has just been started
   bool is_over = false;           ///< the process ends
 };
 
@@ -133,10 +135,12 @@ Result<bool> stand_by(Turn& turn, const sigset_t& signals, const Clock& clock) {
   auto opened = Standby::open(turn.settings, clock, {.handed_over = turn.handed_over});
   if (!opened) return fail(opened.error());
   Standby& standby = **opened;
+  if (std::exchange(turn.is_first, false)) {
+    if (auto free = standby.check_ports(); !free) return fail(free.error());
+  }
   auto is_due = standby.look();
   if (is_due && *is_due) process::log_info("{}", standby.takeover());
   if (!is_due || *is_due) return is_due;
-  standby.warn_of_ports();
   if (auto listens = standby.listen(); !listens) return fail(listens.error());
   turn.settings.http = standby.address();  // port 0 would be another one after the wait
   process::log_info("dncd {} standing by at {}: {}", DRIPLINE_VERSION, standby.url(),

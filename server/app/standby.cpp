@@ -23,6 +23,7 @@ constexpr int kUnavailable = 503;
 /// After a hand-over another server is waited for; when none has come, this one may have it again.
 constexpr std::chrono::seconds kForOthers{10};
 
+constexpr std::chrono::seconds kPortsEvery{1};
 /// What a start would refuse is refused now, and not at the moment of need. Returns the DDS
 /// network.
 Result<dds::NetworkOptions> check_settings(const Settings& settings, const Clock& clock) {
@@ -151,7 +152,8 @@ Result<bool> Standby::look() {
   if (view->term != view_.term) {
     if (auto fits = check(*view); !fits) return fail(fits.error());
   }
-  const bool is_due = view->is_free && !is_for_others(*view);
+  const bool is_free = view->is_free && !is_for_others(*view);
+  const bool is_due = has_ports(is_free) && is_free;
   const std::lock_guard lock(mutex_);
   if (!std::exchange(fault_, "").empty()) process::log_info("the database answers again");
   if (view->term != view_.term && view_.term != 0 && !view->is_free)
@@ -160,13 +162,27 @@ Result<bool> Standby::look() {
   return is_due;
 }
 
-void Standby::warn_of_ports() const {
+Result<void> Standby::check_ports() const {
   const auto free = dds::check_ports(parts_->network);
-  if (free) return;
-  process::log_warning(
-      "{}: this server cannot take over before it is free. Two servers on one computer need a "
-      "--dds-port each, {} ports apart or more",
-      free.error().what, 2 * parts_->network.cells);
+  if (free) return {};
+  return fail(Errc::Busy,
+              "{}: two servers on one computer need a --dds-port each, {} apart or more",
+              free.error().what, 2 * parts_->network.cells);
+}
+
+/// Looked at when it matters, and each second for people and for a hand-over.
+bool Standby::has_ports(bool is_due) {
+  const SteadyTime now = parts_->clock.steady_now();
+  if (!is_due && now - ports_seen_ < kPortsEvery) return port_fault_.empty();
+  ports_seen_ = now;
+  const auto free = check_ports();
+  parts_->database.set_able(free.has_value());
+  const std::lock_guard lock(mutex_);
+  const std::string before = std::exchange(port_fault_, free ? "" : free.error().what);
+  if (!free && before.empty())
+    process::log_warning("standing by, but this server cannot take over: {}", port_fault_);
+  if (free && !before.empty()) process::log_info("the UDP ports are free: it can take over again");
+  return free.has_value();
 }
 
 Result<void> Standby::listen() {
@@ -192,8 +208,9 @@ Result<void> Standby::listen() {
 
 std::string Standby::status() const {
   const std::lock_guard lock(mutex_);
-  return fmt::format("{}: standby for {}{}", url_, name_of(view_),
-                     fault_.empty() ? "" : ", the database cannot be reached");
+  return fmt::format("{}: standby for {}{}{}", url_, name_of(view_),
+                     fault_.empty() ? "" : ", the database cannot be reached",
+                     port_fault_.empty() ? "" : ", its UDP ports are in use");
 }
 
 std::string Standby::takeover() const {
@@ -215,14 +232,16 @@ std::string Standby::takeover() const {
 /// What anybody may know, and for everything else which server to ask.
 api::Response Standby::answer(const api::Request& request) const {
   const std::lock_guard lock(mutex_);
-  const bool is_well = fault_.empty();
+  const bool is_well = fault_.empty() && port_fault_.empty();
   auto reasons = nlohmann::json::array();
-  if (!is_well) {
-    reasons.push_back(
-        {{"subject", "store"},
-         {"status", "degraded"},
-         {"message", "the database that this server stands by for cannot be reached"}});
-  }
+  const auto add_reason = [&reasons](const char* subject, const char* message) {
+    reasons.push_back({{"subject", subject}, {"status", "degraded"}, {"message", message}});
+  };
+  if (!fault_.empty())
+    add_reason("store", "the database that this server stands by for cannot be reached");
+  if (!port_fault_.empty())
+    add_reason("dds",
+               "a UDP port that this server needs for gateways is in use: it cannot take over");
   nlohmann::json health{
       {"status", is_well ? "ok" : "degraded"}, {"role", "standby"}, {"reasons", reasons}};
   const std::string path = fmt::format("/{}", fmt::join(request.target.segments, "/"));
@@ -234,7 +253,8 @@ api::Response Standby::answer(const api::Request& request) const {
   if (path == "/api/v1/metrics") {
     api::MetricsText out;
     out.gauge("dripline_server_active", "1: this server has its library; 0: it stands by.", 0);
-    out.gauge("dripline_server_standby_ok", "1: a server that stands by sees its database.",
+    out.gauge("dripline_server_standby_ok",
+              "1: a server that stands by sees its database and has its UDP ports.",
               is_well ? 1 : 0);
     api::Response response;
     response.content_type = api::MetricsText::kContentType;
@@ -243,7 +263,8 @@ api::Response Standby::answer(const api::Request& request) const {
   }
   if (wants_page(request)) {
     api::Response page = standby_page(
-        {.active = view_.described, .url = view_.url, .is_database_lost = !is_well}, request);
+        {.active = view_.described, .url = view_.url, .is_database_lost = !fault_.empty()},
+        request);
     page.ends_connection = true;
     return page;
   }

@@ -38,11 +38,12 @@ class Standby {
   Standby& operator=(const Standby&) = delete;
 
   /// True: the place is free, try to take it. A database that cannot be reached is logged once, and
-  /// waited for. Errors: Unsupported (a newer version's tables), Corrupt (another database).
+  /// waited for, and so is a UDP port in use: the place is never taken without gateways. Errors:
+  /// Unsupported (a newer version's tables), Corrupt (another database).
   Result<bool> look();
-  /// Once, before it waits: a port that is in use now may be free when it takes over, or belongs
-  /// to a server that stays, so it is no reason to refuse.
-  void warn_of_ports() const;
+  /// At the start of the process: a port that another server on this computer has stays its own, so
+  /// this one could take over only when that one has ended, and not when it hangs. Errors: Busy.
+  Result<void> check_ports() const;
   /// Listens at the address of the settings. Errors: Io, Denied.
   Result<void> listen();
   /// HOST:PORT where it listens, which the server takes over.
@@ -61,6 +62,7 @@ class Standby {
   Result<void> check(const storage::PostgresqlStandby::View& view) const;
   Result<void> check_token(const std::string& token) const;
   bool is_for_others(const storage::PostgresqlStandby::View& view) const;
+  bool has_ports(bool is_due);
   api::Response answer(const api::Request& request) const;
 
   std::unique_ptr<Parts> parts_;
@@ -68,6 +70,8 @@ class Standby {
   mutable std::mutex mutex_;
   storage::PostgresqlStandby::View view_;  ///< the last
   std::string fault_;                      ///< why the database cannot be looked at; empty: it can
+  std::string port_fault_;                 ///< why it cannot take over; empty: it can
+  SteadyTime ports_seen_{};
   std::unique_ptr<api::HttpServer> http_;  // last: its threads use the others
 };
 

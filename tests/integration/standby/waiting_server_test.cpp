@@ -1,4 +1,6 @@
 // A server that waits for another one's library: what it says, and which folders may not wait.
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <fstream>
 
 #include "tests/integration/standby/standby_fixture.hpp"
@@ -65,22 +67,61 @@ TEST_F(WaitingServer, IsAskedByNobodyWhoNamesBothServers) {
     EXPECT_NE(refused.output.find(shop_->rest(server).url()), std::string::npos) << refused.output;
 }
 
-/// The port may be free when it takes over: on this computer the other server ends first.
-TEST_F(WaitingServer, WarnsOfAPortThatTheActiveOneOnThisComputerHas) {
+/// It could take over only where the other one has ended, and not where that one hangs.
+TEST_F(WaitingServer, IsRefusedWithThePortOfTheActiveOneOnThisComputer) {
   shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
   shop_->start(0);
   ASSERT_TRUE(shop_->wait_active(0));
   shop_->share_keys();
-  test_support::ChildProcess server(
+  const auto refused = test_support::run_to_end(
       {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
        "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain()), "--dds-port",
        std::to_string(shop_->dds_port(0))},
       shop_->folder() / "same.out");
-  ASSERT_TRUE(test_support::eventually([&] { return shop_->role(1) == "standby"; }))
-      << server.output();
-  EXPECT_NE(server.output().find(fmt::format("UDP port {} is in use", shop_->dds_port(0))),
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.output.find(fmt::format("UDP port {} is in use", shop_->dds_port(0))),
             std::string::npos)
-      << server.output();
+      << refused.output;
+  EXPECT_NE(refused.output.find("--dds-port each, 16 apart"), std::string::npos) << refused.output;
+  EXPECT_EQ(shop_->role(0), "active");
+}
+
+/// The place is not taken without gateways, and nothing is handed over to a server that cannot.
+TEST_F(WaitingServer, WaitsForAPortThatAnotherProgramHasTakenMeanwhile) {
+  begin();
+  const auto term = [&] {
+    return connect().text("SELECT CAST(term AS text) FROM store_holder").value_or("");
+  };
+  const auto before = term();
+  std::optional<Descriptor> other(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(shop_->dds_port(1));
+  ASSERT_EQ(::bind(other->get(), reinterpret_cast<sockaddr*>(&place), sizeof place), 0);
+  const auto standbys = [&] {
+    return shop_->rest(0).get("/api/v1/server").json()["sharing"]["standbys"].size();
+  };
+  ASSERT_TRUE(test_support::eventually([&] { return standbys() == 0; })) << shop_->log(1);
+  const auto refused = shop_->rest(0).post("/api/v1/server/drain", nlohmann::json::object());
+  EXPECT_EQ(refused.status, 409) << refused.body;
+  shop_->server(0).kill();
+  ASSERT_TRUE(test_support::eventually([&] {
+    auto database = connect();
+    return database.integer(
+               "SELECT count(*) FROM store_holder WHERE until < now() - interval "
+               "'500 milliseconds'") == 1;
+  }));
+  EXPECT_EQ(shop_->role(1), "standby");
+  EXPECT_EQ(term(), before);
+  const auto health = shop_->rest(1).get("/api/v1/health");
+  EXPECT_NE(health.body.find("a UDP port that this server needs"), std::string::npos)
+      << health.body;
+  EXPECT_NE(shop_->log(1).find(fmt::format("cannot take over: DDS domain {}: UDP port {} is in use",
+                                           shop_->domain(), shop_->dds_port(1))),
+            std::string::npos)
+      << shop_->log(1);
+  other.reset();
+  EXPECT_TRUE(shop_->wait_active(1)) << shop_->log(1);
 }
 
 TEST_F(WaitingServer, AFolderWithoutTheKeysIsRefused) {
