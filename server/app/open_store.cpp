@@ -68,27 +68,7 @@ std::chrono::milliseconds wait_for_holder(const Settings& settings) {
 
 Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& settings,
                                   const Clock& clock, OnLost on_lost) {
-  if (auto known = check_url(settings.store); !known) return fail(known.error());
-  if (!settings.backups.empty()) {
-    return fail(Errc::Unsupported,
-                "backups: {} is a folder for backups of a SQLite file; a PostgreSQL database is "
-                "backed up by its own tools (deploy/docs/operations.md): start without it",
-                settings.backups);
-  }
-  if (settings.begin_empty) {
-    return fail(
-        Errc::Unsupported,
-        "--begin-empty is for a SQLite file: to begin again in PostgreSQL, make a database, "
-        "name it with --store, and remove {}",
-        folder.identity_file().string());
-  }
-  // Before the database is touched: a migration goes into an empty one.
-  if (std::error_code ec; std::filesystem::exists(folder.database(), ec)) {
-    return fail(Errc::Conflict,
-                "what this state folder keeps is in {}: move it into the database first (dnc "
-                "server migrate --to URL), or start without --store",
-                folder.database().string());
-  }
+  if (auto can = check_postgresql(folder, settings); !can) return fail(can.error());
   auto lock = folder.lock();
   if (!lock) return fail(lock.error());
   const auto holder = holder_name(folder);
@@ -156,6 +136,31 @@ Result<void> check_url(const std::string& url) {
         "store: the URL has a password in it. Whoever can list processes or read the service's "
         "configuration and the log of its start sees it: put it into ~/.pgpass, or the file that "
         "PGPASSFILE names, and take it out of the URL");
+  }
+  return {};
+}
+
+Result<void> check_postgresql(const StateFolder& folder, const Settings& settings) {
+  if (auto known = check_url(settings.store); !known) return known;
+  if (!settings.backups.empty()) {
+    return fail(Errc::Unsupported,
+                "backups: {} is a folder for backups of a SQLite file; a PostgreSQL database is "
+                "backed up by its own tools (deploy/docs/operations.md): start without it",
+                settings.backups);
+  }
+  if (settings.begin_empty) {
+    return fail(
+        Errc::Unsupported,
+        "--begin-empty is for a SQLite file: to begin again in PostgreSQL, make a database, "
+        "name it with --store, and remove {}",
+        folder.identity_file().string());
+  }
+  // Before the database is touched: a migration goes into an empty one.
+  if (std::error_code ec; std::filesystem::exists(folder.database(), ec)) {
+    return fail(Errc::Conflict,
+                "what this state folder keeps is in {}: move it into the database first (dnc "
+                "server migrate --to URL), or start without --store",
+                folder.database().string());
   }
   return {};
 }

@@ -44,5 +44,9 @@ Result<SigningKey> signing_key(const StateFolder& folder);
 
 /// Warns of a password in the URL. Errors: Unsupported (none of postgresql://), Syntax.
 Result<void> check_url(const std::string& url);
+/// What keeps a server of this folder from a PostgreSQL database, whatever is in that. Errors:
+/// those of check_url, Unsupported (settings of a SQLite file), Conflict (the folder has such a
+/// file).
+Result<void> check_postgresql(const StateFolder& folder, const Settings& settings);
 
 }  // namespace dripline::app

@@ -12,6 +12,7 @@
 #include "server/app/open_store.hpp"
 #include "server/app/standby_page.hpp"
 #include "server/identity/accounts.hpp"
+#include "server/identity/revoked_certificates.hpp"
 #include "server/library/release_policy.hpp"
 
 namespace dripline::app {
@@ -22,8 +23,8 @@ using View = storage::PostgresqlStandby::View;
 constexpr int kUnavailable = 503;
 /// After a hand-over another server is waited for; when none has come, this one may have it again.
 constexpr std::chrono::seconds kForOthers{10};
-
 constexpr std::chrono::seconds kPortsEvery{1};
+
 /// What a start would refuse is refused now, and not at the moment of need. Returns the DDS
 /// network.
 Result<dds::NetworkOptions> check_settings(const Settings& settings, const Clock& clock) {
@@ -32,13 +33,16 @@ Result<dds::NetworkOptions> check_settings(const Settings& settings, const Clock
                 "standby: servers share a PostgreSQL database (store = \"postgresql://...\"); the "
                 "SQLite file of a state folder is one server's");
   }
-  if (auto known = check_url(settings.store); !known) return fail(known.error());
   if (auto agent = mtconnect_options(settings); !agent) return fail(agent.error());
   auto network = dds_network(settings, clock.now());
   if (!network) return fail(network.error());
   if (auto safe = mqtt::check_exposure(settings.mqtt); !safe) return fail(safe.error());
   if (auto policy = library::ReleasePolicy::read(settings.policy); !policy)
     return fail(policy.error());
+  if (!settings.tls_client_revoked.empty()) {
+    const auto revoked = identity::read_revoked(settings.tls_client_revoked);
+    if (!revoked) return fail(Errc::Denied, "tls-client-revoked: {}", revoked.error().what);
+  }
   return std::move(network->options);
 }
 
@@ -77,6 +81,7 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   if (!http) return fail(http.error());
   auto folder = StateFolder::open(settings.state);
   if (!folder) return fail(folder.error());
+  if (auto can = check_postgresql(*folder, settings); !can) return fail(can.error());
   auto lock = folder->lock();
   if (!lock) return fail(lock.error());
   const auto token = folder->token();
