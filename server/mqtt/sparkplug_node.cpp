@@ -16,7 +16,8 @@ SparkplugNode::SparkplugNode(Parts parts, const MqttSettings& settings, Options 
       queue_(settings.status_interval),
       broker_(parts_.clock, "mqtt: sparkplug", settings.broker + " as " + name_, options.state,
               parts_.on_fault),
-      session_(settings.sparkplug_group, settings.sparkplug_node, parts_.version) {}
+      session_(settings.sparkplug_group, settings.sparkplug_node, parts_.version,
+               parts_.first_connection) {}
 
 SparkplugNode::~SparkplugNode() {
   end();

@@ -36,6 +36,7 @@ class SparkplugNode {
     BrokerLink& link;
     const Clock& clock;
     std::string version;
+    std::uint8_t first_connection = 0;  ///< SparkplugSession
     /// All of them, whenever they are to be born.
     std::function<std::vector<machines::MachineView>()> machines;
     std::function<nlohmann::json(const machines::MachineView&)> status_json;

@@ -16,8 +16,13 @@ namespace dripline::mqtt {
 /// its devices, numbered without a gap. Pure. (Eclipse Sparkplug 3.0, chapters 5 and 6)
 class SparkplugSession {
  public:
-  SparkplugSession(std::string group, std::string node, std::string version)
-      : group_(std::move(group)), node_(std::move(node)), version_(std::move(version)) {}
+  /// `first`: bdSeq of the first connection. Another one than of the last connection of the server
+  /// before, so that its death is not taken for this one's.
+  SparkplugSession(std::string group, std::string node, std::string version, std::uint8_t first)
+      : group_(std::move(group)),
+        node_(std::move(node)),
+        version_(std::move(version)),
+        connection_(static_cast<std::uint8_t>(first - 1)) {}
 
   /// A new connection. Returns its last will: the node's death.
   Message begin(UtcTime now);
@@ -40,8 +45,8 @@ class SparkplugSession {
   Metric birth_death_number() const;
 
   const std::string group_, node_, version_;
-  std::uint8_t connection_ = 255;  ///< bdSeq; the first is 0
-  std::uint8_t next_ = 0;          ///< seq
+  std::uint8_t connection_;  ///< bdSeq
+  std::uint8_t next_ = 0;    ///< seq
   std::map<std::string, Values> born_;
 };
 

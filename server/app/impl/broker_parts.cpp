@@ -11,6 +11,16 @@ std::string client_of(const Settings& settings, const std::string& identity) {
   return client.empty() ? "dncd-" + identity.substr(0, kIdentity) : client;
 }
 
+/// Of a Sparkplug node, among 256 numbers: not that of the server that had the library before, nor
+/// the ones that it came to by connecting again some times. The term grows with each taking of the
+/// place; a file's server counts seconds.
+std::uint8_t first_connection_of(const storage::OpenedStore& store, const Clock& clock) {
+  constexpr std::uint64_t kApart = 37;  // odd: 256 terms that follow each other have all numbers
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(clock.now().time_since_epoch());
+  const auto grown = store.term() != 0 ? store.term() : static_cast<std::uint64_t>(seconds.count());
+  return static_cast<std::uint8_t>(kApart * grown);
+}
+
 }  // namespace
 
 std::unique_ptr<mqtt::BrokerLink> ServerParts::make_link(const Settings& settings,
@@ -47,6 +57,7 @@ std::unique_ptr<mqtt::SparkplugNode> ServerParts::make_sparkplug(const Settings&
           .link = *sparkplug_broker,
           .clock = clock,
           .version = DRIPLINE_VERSION,
+          .first_connection = first_connection_of(*store, clock),
           .machines = [this] { return machines.machines(); },
           .status_json = api::machine_json,
           .on_fault = watch_faults("mqtt", "broker", "the broker has not been reached for long")},

@@ -26,7 +26,7 @@ class SparkplugSessionTest : public testing::Test {
     (void)session_.begin(kNow);
     (void)session_.birth(kNow);
   }
-  SparkplugSession session_{"hall", "dnc", "1"};
+  SparkplugSession session_{"hall", "dnc", "1", 0};
 };
 
 TEST_F(SparkplugSessionTest, HasTheSameNumberInBirthAndDeathOfAConnection) {
@@ -44,6 +44,12 @@ TEST_F(SparkplugSessionTest, HasTheSameNumberInBirthAndDeathOfAConnection) {
                           {kRebirth, Metric::Type::Boolean, false},
                           {"Properties/Software", Metric::Type::Text, "Dripline 1"}}));
   }
+}
+
+TEST_F(SparkplugSessionTest, CountsItsConnectionsFromTheOneItIsGiven) {
+  SparkplugSession session{"hall", "dnc", "1", 255};
+  EXPECT_EQ(session.begin(kNow).payload, payload({}, {bd_seq(255)}));
+  EXPECT_EQ(session.begin(kNow).payload, payload({}, {bd_seq(0)}));
 }
 
 TEST_F(SparkplugSessionTest, BeginsADeviceWithAllAndContinuesWithWhatChanges) {
