@@ -94,17 +94,37 @@ void LineOperator::take(LineItem& item) {
       if (state_ == State::Listening) listen_at_ = parts_.clock.steady_now() + kListenAgain;
       return;
     case What::Channel:
-      process::log_info("line {} {} {}", address(), item.text.empty() ? "is open" : item.text,
-                        parts_.run.label());
-      fault_ = item.text.empty() ? "" : fmt::format("line: {}", item.text);
-      return;
+      return on_channel(item.text);
+    case What::Steady:
+      return on_steady();
   }
 }
 
-/// A fault that lasts is logged once.
+void LineOperator::on_channel(const std::string& lost) {
+  log_line(lost.empty() ? losses_.on_open() : losses_.on_lost(lost, parts_.clock.steady_now()));
+  fault_ = lost.empty() ? "" : fmt::format("line: {}", lost);
+}
+
+void LineOperator::on_steady() {
+  logged_fault_.clear();
+  log_line(losses_.on_steady());
+}
+
+void LineOperator::log_line(const std::optional<line::LossLog::Message>& message) const {
+  if (!message) return;
+  const auto& [is_warning, text] = *message;
+  if (is_warning) {
+    process::log_warning("line={} {} {}", address(), text, parts_.run.label());
+  } else {
+    process::log_info("line={} {} {}", address(), text, parts_.run.label());
+  }
+}
+
+/// A fault that lasts is logged once, also when a line that comes and goes repeats it.
 void LineOperator::set_fault(std::string_view reason) {
-  const auto text = fmt::format("line: {}", reason);
-  if (std::exchange(fault_, text) != text) process::log_warning("{} {}", text, parts_.run.label());
+  fault_ = fmt::format("line: {}", reason);
+  if (std::exchange(logged_fault_, fault_) != fault_)
+    process::log_warning("{} {}", fault_, parts_.run.label());
 }
 
 void LineOperator::take_text(std::string_view text) {
@@ -114,6 +134,7 @@ void LineOperator::take_text(std::string_view text) {
   }
   if (state_ != State::Feeding) return parts_.line.release(text.size());
   fault_.clear();
+  logged_fault_.clear();
   feed_->append(text);
 }
 

@@ -9,6 +9,7 @@
 #include "gateway/app/run/run_session.hpp"
 #include "gateway/feed/control_line.hpp"
 #include "gateway/feed/line_feed.hpp"
+#include "gateway/line/loss_log.hpp"
 
 namespace dripline::gateway {
 
@@ -27,7 +28,8 @@ class LineOperator {
         begin_run;
   };
   /// All references must outlive it.
-  explicit LineOperator(Parts parts) : parts_(std::move(parts)), request_(parts_.request) {}
+  explicit LineOperator(Parts parts)
+      : parts_(std::move(parts)), losses_(parts_.line.address()), request_(parts_.request) {}
 
   void poll(SteadyTime now);
   /// When to be called again at the latest; none: when the line has something.
@@ -58,13 +60,18 @@ class LineOperator {
   void listen(bool may_ask);
   void release();
   void set_fault(std::string_view reason);
+  void on_channel(const std::string& lost);
+  void on_steady();
+  void log_line(const std::optional<line::LossLog::Message>& message) const;
 
   Parts parts_;
+  line::LossLog losses_;
   State state_ = State::Closed;
   feed::LineFeed* feed_ = nullptr;  ///< of the session
   std::uint64_t released_ = 0;      ///< bytes of its text
   std::string program_, fault_;
-  std::string request_;  ///< still to be asked for; "next": always
+  std::string logged_fault_;  ///< since text came, or the line was steady last
+  std::string request_;       ///< still to be asked for; "next": always
   std::optional<SteadyTime> listen_at_;
   std::vector<feed::LineItem> held_;  ///< of the next run: the emergency stop is pressed
 };

@@ -24,6 +24,7 @@ Result<std::unique_ptr<ControlLine>> ControlLine::start(Parts parts) {
   listener.on_channel = [raw = line.get()](const Error* lost) {
     raw->put(What::Channel, lost != nullptr ? lost->what : std::string());
   };
+  listener.on_steady = [raw = line.get()] { raw->put(What::Steady, {}); };
   listener.on_room = [raw = line.get()] { raw->post_pump(); };
   auto driver = serial::LineDriver::start({.address = line->parts_.address,
                                            .settings = line->parts_.settings,

@@ -23,6 +23,7 @@ struct LineItem {
     Asked,    ///< the host wants one, `text` is its name
     Fault,    ///< any other fault; `text` describes it
     Channel,  ///< the line is open (empty text), or why it is not
+    Steady,   ///< it has stayed open for some time (serial::LineListener::on_steady)
   };
   What what = What::Text;
   std::string text;

@@ -8,6 +8,7 @@
 #include "tests/support/line/host_line.hpp"
 #include "tests/support/line/pty.hpp"
 #include "tests/support/program_generator.hpp"
+#include "tests/unit/protocol/serial/tcp_peer.hpp"
 
 /// A drip feed over a line: a host in the test's hands, a real gateway in the place of a Centurion.
 namespace dripline::integration {
@@ -152,6 +153,22 @@ TEST(Line, TakesTheNextProgramWhenTheHostsPortIsBack) {
   host.send(printing(5));
   ASSERT_TRUE(gateway.wait_ended(2));
   EXPECT_TRUE(eventually([&] { return host.received() == printed(5); }));
+}
+
+/// A device server whose port another client has takes a connection, and ends it.
+TEST(Line, ThatIsEndedAtOnceIsLoggedOnce) {
+  serial::TcpPeer server;
+  LineGateway gateway({.address = server.address(), .settings = kSettings});
+  const auto end_one = [&] {
+    ASSERT_TRUE(eventually([&] { return server.accept(); }));
+    server.hang_up();
+  };
+  for (int time = 0; time < 3; ++time) end_one();
+  ASSERT_TRUE(gateway.wait_logged("is opened and lost again and again"));
+  EXPECT_TRUE(gateway.wait_logged("Another client may have the port"));
+  const std::string before = gateway.log();
+  for (int time = 0; time < 3; ++time) end_one();
+  EXPECT_EQ(gateway.log(), before);
 }
 
 TEST(Line, FollowsADeviceServer) {
