@@ -209,11 +209,11 @@ class ClientCertificates : public testing::Test {
 TEST_F(ClientCertificates, AreUsersWithoutTokens) {
   shop_.start();
   for (const std::string user : {"anna", "bert"}) {
-    shop_.issue(user);
+    shop_.files.issue(user);
     const auto added = dnc("user add " + user + " --role viewer", "token");
     ASSERT_EQ(added.status, 0) << added.output;
   }
-  shop_.issue("admin", "strangers");
+  shop_.files.issue("admin", "strangers");
   const auto who = dnc("program list", "anna");
   EXPECT_EQ(who.status, 0) << who.output;
   const auto denied = dnc("user list", "anna");
@@ -226,10 +226,10 @@ TEST_F(ClientCertificates, AreUsersWithoutTokens) {
   ASSERT_EQ(dnc("audit export " + trail, "token").status, 0);
   std::stringstream entries;
   entries << std::ifstream(trail).rdbuf();
-  EXPECT_NE(entries.str().find("certificate " + shop_.serial("anna")), std::string::npos)
+  EXPECT_NE(entries.str().find("certificate " + shop_.files.serial("anna")), std::string::npos)
       << "who was refused the users";
   // Revoked while the server runs: it reads the list again.
-  shop_.revoke("anna");
+  shop_.files.revoke("anna");
   EXPECT_TRUE(eventually([&] { return dnc("program list", "anna").status == 4; },
                          std::chrono::seconds(40)));
   EXPECT_EQ(dnc("program list", "bert").status, 0);

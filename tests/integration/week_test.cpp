@@ -54,7 +54,7 @@ class Week : public testing::Test {
                                                                        {"bert", "approver"},
                                                                        {"olga", "operator"},
                                                                        {"quentin", "viewer"}}) {
-      shop_.issue(name);
+      shop_.files.issue(name);
       good(shop_.dnc("user add " + name + " --role " + role + " --group all", "token"));
     }
     shop_.system.start_gateway();
@@ -163,7 +163,7 @@ TEST_F(Week, OfACamGroup) {
        {"program.store", "program.submit", "program.reject", "program.approve", "program.release",
         "job.add", "run.start", "run.end", "program.accept", "program.withdraw", "access.refused"})
     EXPECT_NE(trail.str().find(action), std::string::npos) << action;
-  EXPECT_NE(trail.str().find("certificate " + shop_.serial("bert")), std::string::npos);
+  EXPECT_NE(trail.str().find("certificate " + shop_.files.serial("bert")), std::string::npos);
 }
 
 }  // namespace

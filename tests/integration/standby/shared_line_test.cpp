@@ -1,67 +1,13 @@
 // A control at the end of a device server, which two servers reach: never fed by both, and never by
 // one that may have lost the library.
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <array>
-#include <atomic>
-#include <thread>
-
+#include "tests/integration/standby/device_port.hpp"
 #include "tests/integration/standby/standby_fixture.hpp"
 
 namespace dripline::integration {
 namespace {
 
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 using test_support::eventually;
-
-/// A device server that lets several computers use its port at once, as many do.
-class OpenDeviceServer {
- public:
-  OpenDeviceServer() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in place{};
-    place.sin_family = AF_INET;
-    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof place;
-    auto* address = reinterpret_cast<sockaddr*>(&place);
-    EXPECT_EQ(::bind(listener_.get(), address, size), 0);
-    EXPECT_EQ(::listen(listener_.get(), 4), 0);
-    ::getsockname(listener_.get(), address, &size);
-    address_ = "tcp://127.0.0.1:" + std::to_string(ntohs(place.sin_port));
-    thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
-  }
-  const std::string& address() const { return address_; }
-  std::size_t received() const { return received_; }
-  bool stays_silent(milliseconds time) const {
-    const std::size_t before = received_;
-    std::this_thread::sleep_for(time);
-    return received_ == before;
-  }
-
- private:
-  void serve(const std::stop_token& stop) {
-    std::vector<Descriptor> clients;
-    while (!stop.stop_requested()) {
-      std::vector<pollfd> ends{{listener_.get(), POLLIN, 0}};
-      for (const auto& client : clients) ends.push_back({client.get(), POLLIN, 0});
-      if (::poll(ends.data(), ends.size(), 20) <= 0) continue;
-      for (std::size_t i = clients.size(); i > 0; --i) {
-        std::array<char, 256> piece;
-        if (ends[i].revents == 0) continue;
-        const auto got = ::recv(clients[i - 1].get(), piece.data(), piece.size(), 0);
-        if (got > 0) received_ += static_cast<std::size_t>(got);
-        if (got <= 0) clients.erase(clients.begin() + static_cast<std::ptrdiff_t>(i - 1));
-      }
-      if (ends[0].revents != 0) clients.emplace_back(::accept(listener_.get(), nullptr, nullptr));
-    }
-  }
-  Descriptor listener_;
-  std::string address_;
-  std::atomic<std::size_t> received_ = 0;
-  std::jthread thread_;
-};
 
 /// A control at the end of a device server, which both servers reach.
 class SharedLine : public TwoServersTest {
@@ -87,7 +33,7 @@ class SharedLine : public TwoServersTest {
     return shop_->rest(server).get("/api/v1/ports/line-1").json();
   }
 
-  OpenDeviceServer device_;
+  DevicePort device_;
   std::string id_;
 };
 

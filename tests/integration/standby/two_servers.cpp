@@ -172,11 +172,12 @@ std::string TwoServers::gateway_log() const {
   return text_of(folder() / "gateway.log");
 }
 
-void TwoServers::push(int server, const std::string& program, const std::string& text) const {
+void TwoServers::push(int server, const std::string& program, const std::string& text,
+                      const std::string& control) const {
   constexpr std::size_t kPiece = 4 << 20;
   const RestClient client = rest(server);
   const auto upload =
-      client.post("/api/v1/uploads", {{"program", program}, {"control", "centurion"}}).json();
+      client.post("/api/v1/uploads", {{"program", program}, {"control", control}}).json();
   const std::string path = "/api/v1/uploads/" + upload.value("id", "none");
   for (std::size_t at = 0; at < text.size(); at += kPiece) {
     const auto reply =

@@ -55,7 +55,8 @@ class TwoServers {
   const std::string& tag() const { return tag_; }
   std::filesystem::path gateway_state() const { return folder() / "gateway"; }
 
-  void push(int server, const std::string& name, const std::string& text) const;
+  void push(int server, const std::string& name, const std::string& text,
+            const std::string& control = "centurion") const;
 
  private:
   static std::size_t at(int server) { return static_cast<std::size_t>(server); }
