@@ -160,6 +160,31 @@ class Cluster:
             signal_to(process, signal.SIGCONT)
         self.frozen = []
 
+    def lose_majority(self):
+        """Two of three etcd lose their power."""
+        for node in NAMES[1:]:
+            kill_group(self.etcd[node])
+
+    def find_majority(self):
+        for node in NAMES[1:]:
+            self.start_etcd(node)
+
+    def rebuild(self, node):
+        """`patronictl reinit`: for a replica that does not find its way back."""
+        body = json.dumps({"force": True}).encode()
+        request = urllib.request.Request(f"http://127.0.0.1:{self.port(node, 'patroni')}/reinitialize", body, {"Content-Type": "application/json"})
+        try:
+            urllib.request.urlopen(request, timeout=60).close()
+        except OSError:
+            pass
+
+    def lost_replicas(self):
+        """Those that stream from no primary."""
+        found = self.primaries()
+        links = self.ask(found[0], "/patroni").get("replication", []) if len(found) == 1 else []
+        streaming = {link.get("application_name") for link in links if link.get("state") == "streaming"}
+        return [node for node in NAMES if found and node not in found and node not in streaming]
+
     def switch_over(self, leader):
         """Planned, to the synchronous replica. False: Patroni refuses it, which just after a change it does."""
         body = json.dumps({"leader": leader, "candidate": self.synchronous()}).encode()

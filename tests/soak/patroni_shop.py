@@ -2,10 +2,12 @@
 
 What the server has acknowledged is noted, and judged at the end.
 """
+import contextlib
 import hashlib
 import json
 import pathlib
 import shutil
+import sqlite3
 import subprocess
 import threading
 import time
@@ -179,6 +181,19 @@ class Shop:
         status, body = server.ask("/api/v1/runs", {"machine": lathe, "program": "O0300"})
         if status == 201:
             self.runs[lathe].append(json.loads(body)["id"])
+
+    # --- What the machines do meanwhile, without a server ---
+
+    def panel(self, lathe):
+        """The machine's own panel: "ACTIVE ... text_bytes=..."."""
+        done = subprocess.run([str(self.programs / "dncgw"), "panel", "--state", str(self.folder / lathe), "status"], text=True, capture_output=True,
+                              timeout=10)
+        return done.stdout
+
+    def waiting_records(self, lathe):
+        """In the gateway's outbox, which no server has acknowledged yet."""
+        with contextlib.closing(sqlite3.connect(f"file:{self.folder / lathe / 'outbox.sqlite'}?mode=ro", uri=True, timeout=10)) as outbox:
+            return outbox.execute("SELECT count(*) FROM record").fetchone()[0]
 
     # --- What is judged ---
 
