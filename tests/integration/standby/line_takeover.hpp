@@ -11,14 +11,21 @@ namespace dripline::integration {
 /// ends.
 class LineTakeover : public TwoServersTest {
  protected:
+  explicit LineTakeover(DevicePort::Kind kind = DevicePort::Kind::Raw) : device_(kind) {}
   void begin_with_port(nlohmann::json settings) {
     begin();
     settings["machine"] = "mill-1";
     settings["address"] = device_.address();
     const auto added = shop_->rest(0).put_bytes("/api/v1/ports/line-1", settings.dump());
     ASSERT_LT(added.status, 300) << added.body;
-    ASSERT_TRUE(test_support::eventually([&] { return port(0).value("open", false); }))
-        << port(0).dump();
+    expect_open(0);
+  }
+  /// At the server's end and at the control's.
+  void expect_open(int server) {
+    ASSERT_TRUE(test_support::eventually([&] { return port(server).value("open", false); }))
+        << port(server).dump();
+    const std::size_t until_now = server == 0 ? 1 : 2;
+    ASSERT_TRUE(test_support::eventually([&] { return device_.connections() >= until_now; }));
   }
   /// The second server has the library and the line.
   void kill_first() {
@@ -27,8 +34,7 @@ class LineTakeover : public TwoServersTest {
   }
   void expect_taken() {
     ASSERT_TRUE(shop_->wait_active(1)) << shop_->log(1);
-    ASSERT_TRUE(test_support::eventually([&] { return port(1).value("open", false); }))
-        << port(1).dump();
+    expect_open(1);
   }
   nlohmann::json port(int server) const {
     return shop_->rest(server).get("/api/v1/ports/line-1").json();

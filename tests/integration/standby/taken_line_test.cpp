@@ -12,40 +12,37 @@ using std::chrono::milliseconds;
 using test_support::eventually;
 
 class TakenLine : public LineTakeover {};
+class TakenRfc2217Line : public LineTakeover {
+ protected:
+  TakenRfc2217Line() : LineTakeover(DevicePort::Kind::Rfc2217) {}
+};
 
 constexpr int kBaud = 1, kDataSize = 2, kParity = 3, kStopSize = 4;
 
 /// The rate, the format and the characters of one server are the other one's too.
-TEST_F(TakenLine, OfRfc2217IsSetUpAgainAndGetsNothingTwice) {
-  DevicePort device(DevicePort::Kind::Rfc2217);
-  begin();
-  const json settings{{"machine", "mill-1"},
-                      {"address", device.address()},
-                      {"template", "plain"},
-                      {"settings", {{"line", "19200e72"}, {"eob", "lf"}}}};
-  ASSERT_LT(shop_->rest(0).put_bytes("/api/v1/ports/line-1", settings.dump()).status, 300);
+TEST_F(TakenRfc2217Line, IsSetUpAgainAndGetsNothingTwice) {
+  begin_with_port({{"template", "plain"}, {"settings", {{"line", "19200e72"}, {"eob", "lf"}}}});
   const std::string text = program("O1\n", 6000);
   shop_->push(0, "O1", text);
-  ASSERT_TRUE(eventually([&] { return port(0).value("open", false); })) << port(0).dump();
   const std::string id = start(0, "O1");
-  ASSERT_TRUE(eventually([&] { return device.received() > 500; }));
+  ASSERT_TRUE(eventually([&] { return device_.received() > 500; }));
   kill_first();
-  ASSERT_EQ(device.connections(), 2u);
-  const auto of_second = device.settings(1);
+  ASSERT_EQ(device_.connections(), 2u);
+  const auto of_second = device_.settings(1);
   EXPECT_EQ(of_second.at(kBaud), 19200u);
   EXPECT_EQ(of_second.at(kDataSize), 7u);
   EXPECT_EQ(of_second.at(kParity), 3u);
   EXPECT_EQ(of_second.at(kStopSize), 2u);
-  EXPECT_EQ(of_second, device.settings(0));
+  EXPECT_EQ(of_second, device_.settings(0));
   ASSERT_TRUE(wait_state(1, id, "interrupted"));
   EXPECT_NE(run(1, id).value("reason", "").find("at least"), std::string::npos) << run(1, id);
-  EXPECT_TRUE(device.stays_silent(milliseconds(700))) << "nothing was commanded";
-  const std::size_t before = device.received();
-  EXPECT_EQ(device.text(), text.substr(0, before)) << "a part of it, once";
+  EXPECT_TRUE(device_.stays_silent(milliseconds(700))) << "nothing was commanded";
+  const std::size_t before = device_.received();
+  EXPECT_EQ(device_.text(), text.substr(0, before)) << "a part of it, once";
   EXPECT_LE(run(1, id).value("sent", 0u), before);
   start(1, "O1");
-  ASSERT_TRUE(eventually([&] { return device.received() > before + 500; }));
-  EXPECT_TRUE(text.starts_with(device.text(before))) << device.text(before);
+  ASSERT_TRUE(eventually([&] { return device_.received() > before + 500; }));
+  EXPECT_TRUE(text.starts_with(device_.text(before))) << device_.text(before);
 }
 
 TEST_F(TakenLine, OfRawTcpIsOpenedAtOnceAfterAnOrderlyEnd) {
