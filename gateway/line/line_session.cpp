@@ -50,6 +50,7 @@ LineSession::LineSession(const wire::LineSettings& settings, SessionHost& host)
 
 Result<void> LineSession::begin(SendJob job, wire::Discipline& line, wire::LineTime now) {
   if (sending_) return fail(Errc::Busy, "the line is sending {}", sending_->job.id);
+  opened_.reset();  // what it prints from now on it prints for this
   Sending sending;
   sending.job = std::move(job);
   sending_ = std::move(sending);

@@ -62,7 +62,8 @@ struct Incoming {
   What what = What::Text;
   std::string text;  ///< Began: the name, when the protocol carries it; Text; Damaged, Failed: why
   bool is_program = false;  ///< Began: a program was requested; it is no printed line
-  /// Began: just after the line was opened, so that it may be the rest of what came before.
+  /// Began: just after the line was opened, before anything was sent, so that it may be the rest of
+  /// what came before.
   bool may_be_rest = false;
   /// Ended: by silence, so its last line may not be whole. Damaged: text is missing.
   bool is_cut = false;
@@ -166,7 +167,7 @@ class LineSession {
   const std::size_t ahead_;
   /// Silence between two texts of a control; 0: a character begins each.
   const std::chrono::milliseconds idle_end_;
-  std::optional<wire::LineTime> opened_;
+  std::optional<wire::LineTime> opened_;  ///< and nothing was sent or received since
   std::optional<Sending> sending_;
   bool is_receiving_ = false;
   bool is_asking_ = false;  ///< what begins next was requested, and reported, by the server
