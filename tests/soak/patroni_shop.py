@@ -83,8 +83,8 @@ class Server:
 class Shop:
     """Ports from `first_port` on; a DDS domain of its own."""
 
-    def __init__(self, folder, programs, store, first_port, domain=87):
-        self.folder, self.programs, self.store = pathlib.Path(folder), pathlib.Path(programs), store
+    def __init__(self, folder, programs, store, first_port, speed="100x", domain=87):
+        self.folder, self.programs, self.store, self.speed = pathlib.Path(folder), pathlib.Path(programs), store, speed
         self.folder.mkdir(parents=True)
         self.dds_options = ["--dds-domain", str(domain), "--dds-tag", f"soak-{first_port}"]
         dds_port = 7410 + 250 * domain
@@ -111,7 +111,7 @@ class Shop:
         for lathe in LATHES:
             out = open(self.folder / f"{lathe}.out", "ab")
             self.lathes[lathe] = subprocess.Popen(
-                [str(self.programs / "dncgw"), "--machine", lathe, "--control", "centurion", "--state", str(self.folder / lathe), "--speed", "100x",
+                [str(self.programs / "dncgw"), "--machine", lathe, "--control", "centurion", "--state", str(self.folder / lathe), "--speed", self.speed,
                  "--log", str(self.folder / f"{lathe}.log"), "--server", servers, *self.dds_options], stdout=out, stderr=out)
         self.text = program_of_lathe()
         if not self.push("O0300", self.text):
