@@ -20,10 +20,10 @@ bool is_percent(std::string_view line) {
          line[first] == '%';
 }
 
-bool has_number_first(std::string_view line) {
-  const auto first = line.find_first_not_of(" \t");
-  return first != std::string_view::npos &&
-         std::string_view("Oo:").find(line[first]) != std::string_view::npos;
+/// "O1 ROUGH)": the comment began in text that is not here.
+bool ends_comment(std::string_view line) {
+  const auto bracket = line.find_first_of("()");
+  return bracket != std::string_view::npos && line[bracket] == ')';
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::vector<InboundSplitter::Item> InboundSplitter::take(std::string_view text) 
 /// A rule may decide that such a line is printed, or begins a program; a call in it decides
 /// neither.
 bool InboundSplitter::is_program_line(const std::string& line) const {
-  if (is_first_of_rest_ && has_number_first(line)) return false;
+  if (is_first_of_rest_ && ends_comment(line)) return false;
   const auto hit = rules_.judge(TextKind::Line, line);
   if (hit.rule != nullptr && hit.action == RuleAction::Program) return true;
   if (hit.rule != nullptr &&

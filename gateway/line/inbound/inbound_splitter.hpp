@@ -40,8 +40,8 @@ class InboundSplitter {
   /// What such a control sends is a program whatever it looks like: it prints nothing.
   void take_programs_only(bool only) { takes_programs_only_ = only; }
   /// The beginning of what comes next may be missing: its first line may not be whole, and only
-  /// what begins as a program is one, also of such a control; not with an O number in that line,
-  /// which may be the end of a comment. Until the transfer is over.
+  /// what begins as a program is one, also of such a control; not where that line is the end of
+  /// a comment. Until the transfer is over.
   void expect_rest() { may_be_rest_ = is_first_of_rest_ = is_lost_ = true; }
   /// Text was printed that would have been a program otherwise.
   bool has_rest() const { return has_rest_; }
