@@ -149,7 +149,11 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     co_return refused ? refused : client_gone();
   }
 
-  static std::optional<Response> client_gone() { return Response{.status = 0}; }
+  static std::optional<Response> client_gone() {
+    Response response;
+    response.status = 0;
+    return response;
+  }
 
   awaitable<bool> take_memory(std::uint64_t size, BodyMemory::Share& share) {
     const auto end = Clock::now() + limits_.body;
