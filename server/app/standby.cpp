@@ -185,7 +185,7 @@ bool Standby::has_ports(bool is_due) {
   const std::lock_guard lock(mutex_);
   const std::string before = std::exchange(port_fault_, free ? "" : free.error().what);
   if (!free && before.empty())
-    process::log_warning("standing by, but this server cannot take over: {}", port_fault_);
+    process::log_warning("this server cannot take over: {}", port_fault_);
   if (free && !before.empty()) process::log_info("the UDP ports are free: it can take over again");
   return free.has_value();
 }

@@ -170,7 +170,7 @@ class Cluster:
             self.start_etcd(node)
 
     def rebuild(self, node):
-        """`patronictl reinit`: for a replica that does not find its way back."""
+        """`patronictl reinit`: for a replica that does not recover."""
         body = json.dumps({"force": True}).encode()
         request = urllib.request.Request(f"http://127.0.0.1:{self.port(node, 'patroni')}/reinitialize", body, {"Content-Type": "application/json"})
         try:

@@ -127,10 +127,9 @@ void Adaptation::on_coolant(const interpreter::Coolant& event) {
 void Adaptation::on_tool(const interpreter::ToolChange& event) {
   if (event.is_preselection || !is_open()) return;
   if (event.is_in_spindle) {
-    return refuse(
-        event.origin,
-        fmt::format("tool {} is said to be in the spindle already: {} has no word for that",
-                    event.number, target().name));
+    return refuse(event.origin,
+                  fmt::format("tool {} is to be in the spindle already: {} has no word for that",
+                              event.number, target().name));
   }
   tool_ = event.number;
   if (target().max_tool == 0 || event.number < 0 || event.number > target().max_tool) {

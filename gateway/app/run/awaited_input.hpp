@@ -12,7 +12,7 @@ namespace dripline::gateway {
 class AwaitedInput {
  public:
   AwaitedInput(const interpreter::InputQuestion& question, SteadyTime now);
-  /// The pin as it is now. Whether the wait is fulfilled, or over; nothing: it goes on.
+  /// The pin as it is now. Whether the wait is fulfilled, or over; nothing: it continues.
   std::optional<bool> look(bool state, SteadyTime now);
 
  private:

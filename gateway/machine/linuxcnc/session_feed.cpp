@@ -69,7 +69,7 @@ Result<void> Session::check_wrapped() const {
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     if ((hello_->wrapped >> i & 1U) != 0)
       return fail(Errc::Unsupported,
-                  "LinuxCNC's axis {0} begins anew at 360 degrees, and programs count on: set "
+                  "LinuxCNC's axis {0} begins again at 360 degrees, and programs count on: set "
                   "[AXIS_{0}]WRAPPED_ROTARY = 0",
                   streamed::letter_of(i));
   }

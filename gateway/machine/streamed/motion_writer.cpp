@@ -13,7 +13,7 @@ using interpreter::Axis;
 namespace {
 
 /// Devices refuse an arc whose radii differ by 0.005 (and by more than a thousandth). Start, center
-/// and end are rounded on the way, by up to three of the last digits together.
+/// and end are rounded in between, by up to three of the last digits together.
 double max_radius_change(int decimals) {
   return std::min(0.004, 0.005 - 3 * std::pow(10, -decimals));
 }

@@ -56,7 +56,7 @@ struct TextRules {
   std::optional<double> seconds_ahead;
   std::optional<double> max_rpm, min_rpm;  ///< of a spindle that is on, where they are known
   bool has_mist = true;
-  bool has_reverse = true;  ///< the spindle turns counterclockwise too
+  bool has_reverse = true;  ///< the spindle has both directions
   bool homes = true;        ///< the axes are homed before every program
   std::string max_rpm_setting = {}, min_rpm_setting = {}, homing_setting = {};
 

@@ -49,8 +49,8 @@ void OfferTrail::end(const SendEnd& end) {
   job_.clear();
   const bool has_begun = end.progress.sent.bytes > 0 || end.progress.is_checked;
   broken_ = program_;
-  if (end.outcome == SendOutcome::Completed) return settle("sent to its end");
-  if (!has_begun) settle("nothing of it was sent");
+  if (end.outcome == SendOutcome::Completed) return close("sent to its end");
+  if (!has_begun) close("nothing of it was sent");
 }
 
 Result<std::optional<std::string>> OfferTrail::broken() {
@@ -63,7 +63,7 @@ Result<std::optional<std::string>> OfferTrail::broken() {
 }
 
 /// Where that cannot be stored the next server asks the operator once more.
-void OfferTrail::settle(const std::string& why) {
+void OfferTrail::close(const std::string& why) {
   const auto known = broken();
   if (!known || !*known) return;
   const auto noted = note(kOffered, fmt::format("{}: {}", **known, why));

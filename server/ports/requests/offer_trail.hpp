@@ -32,7 +32,7 @@ class OfferTrail {
   /// As broken_offer, which is asked for what was before this object.
   Result<std::optional<std::string>> broken();
   /// The control knows that it was broken off, or has got another program since.
-  void settle(const std::string& why);
+  void close(const std::string& why);
 
  private:
   Result<void> note(const char* action, const std::string& detail) const;

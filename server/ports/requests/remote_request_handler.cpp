@@ -286,7 +286,7 @@ void RemoteRequestHandler::send_next() {
 }
 
 /// The same of an offered program, which may be another server's offer. A control whose protocol
-/// has words for it is told once, and asks again; any other may go on asking for the rest.
+/// has words for it gets them once, and asks again; any other may ask for the rest.
 Result<void> RemoteRequestHandler::check_last_offer() {
   // A heading begins a transfer: it asks for no rest.
   if (!parts_.follows_answers || parts_.refuses) return {};
@@ -295,7 +295,7 @@ Result<void> RemoteRequestHandler::check_last_offer() {
   if (!*broken) return {};
   const std::string program = **broken;
   offers_.reset();  // it begins with the first one again
-  if (parts_.tells_aborts) offered_.settle("the control was told that it was broken off");
+  if (parts_.tells_aborts) offered_.close("the control knows that it was broken off");
   return fail(Errc::Conflict,
               "program {} was broken off while the control read it, and it may be asking for the "
               "rest: {}",

@@ -60,7 +60,7 @@ class RemoteRequestHandler {
   }
   /// A run's program has arrived.
   void on_run_completed() {
-    if (parts_.offer == wire::Offer::All) offered_.settle("another program went through since");
+    if (parts_.offer == wire::Offer::All) offered_.close("another program went through since");
   }
   /// A run is on the line, or was.
   void on_run() { is_sent_since_ = false; }

@@ -24,7 +24,7 @@ struct Frames {
   MachinePoint work{}, local{}, shift{};
 
   bool are_plain() const { return !mirror[0] && !mirror[1] && !scales && !rotates; }
-  /// Mirror image and scaling, of one axis; each is its own way back but for the factor.
+  /// Mirror image and scaling, of one axis; each is its own inverse but for the factor.
   double flat(std::size_t i, double at) const {
     if (mirror[i]) at = 2 * *mirror[i] - at;
     return scales ? center[i] + factor[i] * (at - center[i]) : at;

@@ -54,7 +54,7 @@ class LineTakeover : public TwoServersTest {
         [&] { return device_.text(from).find(text) != std::string::npos; });
   }
   /// Once nothing more comes.
-  std::size_t settled() const {
+  std::size_t received_at_rest() const {
     EXPECT_TRUE(test_support::eventually(
         [&] { return device_.stays_silent(std::chrono::milliseconds(300)); }));
     return device_.received();

@@ -84,7 +84,7 @@ TEST_F(TakenLine, ThatAFanucReleasesStartsNothing) {
   const std::string id = start(0, "O1");
   ASSERT_TRUE(wait_text("\nN9 "));
   device_.write("\x13");
-  settled();
+  received_at_rest();
   kill_first();
   ASSERT_TRUE(wait_state(1, id, "interrupted"));
   const std::size_t before = device_.received();

@@ -32,15 +32,15 @@ class TakenRequests : public LineTakeover {
 TEST_F(TakenRequests, ATncInTheMiddleOfAnOfferedProgramGetsNoOtherOne) {
   begin_offer();
   device_.write("\x13");
-  const std::size_t before = settled();
+  const std::size_t before = received_at_rest();
   kill_first();
   for (int time = 1; time <= 2; ++time) {
     device_.write("\x11");
-    const auto told = before + static_cast<std::size_t>(time);
-    ASSERT_TRUE(eventually([&] { return device_.received() >= told; })) << port(1).dump();
+    const auto answered = before + static_cast<std::size_t>(time);
+    ASSERT_TRUE(eventually([&] { return device_.received() >= answered; })) << port(1).dump();
     EXPECT_TRUE(device_.stays_silent(milliseconds(300)));
     EXPECT_EQ(device_.text(before), std::string(static_cast<std::size_t>(time), '\x04'))
-        << "it is told that the transmission is over";
+        << "it gets the end of the transmission";
   }
   device_.write("\x11");
   EXPECT_TRUE(wait_text("BEGIN PGM 21 ", before)) << "asked for once more, from its beginning";

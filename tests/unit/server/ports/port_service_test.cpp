@@ -4,7 +4,7 @@
 namespace dripline::server_test {
 namespace {
 
-/// Whoever continues after the block that is named continues where the control has not been.
+/// A run that continues after the block that is named continues where the control has not been.
 TEST_F(PortServiceTest, CountsAllThatWasSentWhenTheServerStops) {
   start_ports();
   auto port = mill();

@@ -162,7 +162,7 @@ bool synchronized_move(Run& run, int g_code) {
   back.named = target.named;
   run.events().on_override_inhibit(tapping_lock(run.origin));
   thread_to(run, target, lead);
-  // LinuxCNC's I, 1 at least, is how many times as fast it turns on the way back.
+  // LinuxCNC's I, 1 at least, is how many times as fast it is during the return.
   const double speed = run.state.spindle.speed;
   run.state.spindle.speed *= std::fmax(1, run.block.words.value_or('I', 1));
   turn_spindle(run, other);

@@ -70,7 +70,7 @@ bool is_same_point(const Axes& a, const Axes& b) {
 }
 
 /// G38.2 is an error in contact, and G38.4 free. A move until contact leaves the tool just there
-/// for one until release, and the other way round.
+/// for one until release, and conversely.
 bool must_begin_otherwise(const Run& run, int g_code) {
   if (g_code == 383 || g_code == 385) return false;
   const int before = run.state.modes.motion;

@@ -311,7 +311,7 @@ void end_program(Run& run, bool rewinds) {
     return;
   }
   if (rewinds) switch_off(run);
-  const bool is_keyed_in = run.options.is_mdi && !rewinds;  // the next text goes on from here
+  const bool is_keyed_in = run.options.is_mdi && !rewinds;  // the next text begins here
   if (!is_keyed_in) end_cycles(run);
   report_pockets(run);
   state.phase = RunPhase::Ended;

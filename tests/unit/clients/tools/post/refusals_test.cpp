@@ -106,7 +106,7 @@ TEST(ToolInTheSpindle, IsRefused) {
   const auto setup = setup_from("[control]\nprofile = \"linuxcnc\"\n");
   const auto converted = convert({"rs274ngc", "G21 G0 X1\nM61 Q3\nG0 X2\nM2\n", setup}, "fanuc");
   EXPECT_FALSE(converted.is_proved) << converted.text;
-  EXPECT_TRUE(converted.reason().starts_with("line 2: tool 3 is said to be in the spindle"))
+  EXPECT_TRUE(converted.reason().starts_with("line 2: tool 3 is to be in the spindle"))
       << converted.reason();
 }
 

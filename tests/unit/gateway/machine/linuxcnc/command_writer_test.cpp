@@ -35,7 +35,7 @@ TEST(LinuxCncCommands, AToolThatIsInTheSpindleIsNamedAndNotChanged) {
   lines.clear();
   EXPECT_FALSE(
       writer.tool({.origin = {}, .number = 3, .offset = {}, .is_in_spindle = true}, lines));
-  EXPECT_THAT(lines, ElementsAre("M61Q3")) << "no M6, and the spindle goes on";
+  EXPECT_THAT(lines, ElementsAre("M61Q3")) << "no M6, and the spindle continues";
 }
 
 TEST(LinuxCncCommands, CoolantIsSwitchedAsAWhole) {
