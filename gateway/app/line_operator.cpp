@@ -106,7 +106,7 @@ void LineOperator::on_channel(const std::string& lost) {
 }
 
 void LineOperator::on_steady() {
-  logged_fault_.clear();
+  logged_faults_.clear();
   log_line(losses_.on_steady());
 }
 
@@ -123,7 +123,8 @@ void LineOperator::log_line(const std::optional<line::LossLog::Message>& message
 /// A fault that lasts is logged once, also when a line that comes and goes repeats it.
 void LineOperator::set_fault(std::string_view reason) {
   fault_ = fmt::format("line: {}", reason);
-  if (std::exchange(logged_fault_, fault_) != fault_)
+  constexpr std::size_t kMaxFaults = 16;
+  if (logged_faults_.size() < kMaxFaults && logged_faults_.insert(fault_).second)
     process::log_warning("{} {}", fault_, parts_.run.label());
 }
 
@@ -134,7 +135,7 @@ void LineOperator::take_text(std::string_view text) {
   }
   if (state_ != State::Feeding) return parts_.line.release(text.size());
   fault_.clear();
-  logged_fault_.clear();
+  logged_faults_.clear();
   feed_->append(text);
 }
 

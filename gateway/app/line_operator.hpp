@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -70,8 +71,8 @@ class LineOperator {
   feed::LineFeed* feed_ = nullptr;  ///< of the session
   std::uint64_t released_ = 0;      ///< bytes of its text
   std::string program_, fault_;
-  std::string logged_fault_;  ///< since text came, or the line was steady last
-  std::string request_;       ///< still to be asked for; "next": always
+  std::set<std::string> logged_faults_;  ///< since text came, or the line was steady last
+  std::string request_;                  ///< still to be asked for; "next": always
   std::optional<SteadyTime> listen_at_;
   std::vector<feed::LineItem> held_;  ///< of the next run: the emergency stop is pressed
 };
