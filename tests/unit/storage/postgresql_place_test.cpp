@@ -1,4 +1,4 @@
-// Who has the database: one server at a time, by a lease with a term; whoever lost it stores
+// Who has the database: one server at a time, by a lease with a term; a server that lost it stores
 // nothing.
 #include <atomic>
 #include <thread>

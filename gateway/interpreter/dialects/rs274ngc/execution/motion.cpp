@@ -111,7 +111,7 @@ Feed feed_of_line(const Run& run, const Target& target, const Feed& feed) {
   return Feed::per_minute(Length::mm(run.state.feed));
 }
 
-/// In G95 LinuxCNC takes up the lead anew after each rapid: F counts in the units of that time.
+/// In G95 LinuxCNC takes up the lead again after each rapid: F counts in the units of that time.
 void renew_lead(Run& run) {
   State& state = run.state;
   if (state.modes.feed != FeedMode::PerRevolution || !run.is_linuxcnc()) [[likely]]
