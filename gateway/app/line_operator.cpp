@@ -111,13 +111,7 @@ void LineOperator::on_steady() {
 }
 
 void LineOperator::log_line(const std::optional<line::LossLog::Message>& message) const {
-  if (!message) return;
-  const auto& [is_warning, text] = *message;
-  if (is_warning) {
-    process::log_warning("line={} {} {}", address(), text, parts_.run.label());
-  } else {
-    process::log_info("line={} {} {}", address(), text, parts_.run.label());
-  }
+  line::log_message(fmt::format("line={} {}", address(), parts_.run.label()), message);
 }
 
 /// A fault that lasts is logged once, also when a line that comes and goes repeats it.

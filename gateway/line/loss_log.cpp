@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "protocol/process/log.hpp"
+
 namespace dripline::line {
 
 LossLog::LossLog(std::string_view address)
@@ -54,6 +56,15 @@ std::optional<LossLog::Message> LossLog::on_steady() {
   period_.is_open = true;
   if (!before.is_unsteady) return std::nullopt;
   return Message{false, fmt::format("is open and stays so; it was lost {} times", before.lost)};
+}
+
+void log_message(std::string_view names, const std::optional<LossLog::Message>& message) {
+  if (!message) return;
+  if (message->is_warning) {
+    process::log_warning("{} {}", names, message->text);
+  } else {
+    process::log_info("{} {}", names, message->text);
+  }
 }
 
 }  // namespace dripline::line

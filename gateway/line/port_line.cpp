@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "gateway/line/once_answer.hpp"
 #include "protocol/process/log.hpp"
 
@@ -127,13 +129,7 @@ void PortLine::on_steady() {
 }
 
 void PortLine::log_line(const std::optional<LossLog::Message>& message) const {
-  if (!message) return;
-  const auto& [is_warning, text] = *message;
-  if (is_warning) {
-    process::log_warning("port={} machine={} {}", parts_.names.name, parts_.names.machine, text);
-  } else {
-    process::log_info("port={} machine={} {}", parts_.names.name, parts_.names.machine, text);
-  }
+  log_message(fmt::format("port={} machine={}", parts_.names.name, parts_.names.machine), message);
 }
 
 void PortLine::set_fault(const std::string& words) {

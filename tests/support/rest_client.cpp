@@ -1,6 +1,7 @@
 #include "tests/support/rest_client.hpp"
 
 #include <httplib.h>
+#include <csignal>
 
 namespace dripline::test_support {
 namespace {
@@ -21,7 +22,9 @@ RestClient::Reply reply(const httplib::Result& result) {
 }  // namespace
 
 RestClient::RestClient(std::string url, std::string token)
-    : url_(std::move(url)), token_(std::move(token)) {}
+    : url_(std::move(url)), token_(std::move(token)) {
+  std::signal(SIGPIPE, SIG_IGN);  // a server that is gone fails the request, not the test's process
+}
 
 RestClient::Reply RestClient::get(const std::string& path,
                                   const std::multimap<std::string, std::string>& headers) const {

@@ -26,21 +26,19 @@ double ArcPath::plane_length() const {
   return std::fabs(sweep) * (start_radius + end_radius) / 2;
 }
 
-double ArcPath::linear_length() const {
-  double square = plane_length();
-  square *= square;
-  for (std::size_t i = 0; i < kMaxAxes; ++i)
-    if (i != first && i != second && !interpreter::is_rotary(static_cast<interpreter::Axis>(i)))
-      square += (to[i] - from[i]) * (to[i] - from[i]);
-  return std::sqrt(square);
+double ArcPath::feed_length() const {
+  const std::size_t begin = first - first % 3;  // of X, Y and Z
+  return length_of_axes(begin, begin + 3);
 }
 
 double ArcPath::length() const {
-  double square = linear_length();
-  square *= square;
-  for (std::size_t i = 0; i < kMaxAxes; ++i)
-    if (interpreter::is_rotary(static_cast<interpreter::Axis>(i)))
-      square += (to[i] - from[i]) * (to[i] - from[i]);
+  return length_of_axes(0, kMaxAxes);
+}
+
+double ArcPath::length_of_axes(std::size_t begin, std::size_t end) const {
+  double square = plane_length() * plane_length();
+  for (std::size_t i = begin; i < end; ++i)
+    if (i != first && i != second) square += (to[i] - from[i]) * (to[i] - from[i]);
   return std::sqrt(square);
 }
 

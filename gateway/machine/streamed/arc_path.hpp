@@ -16,10 +16,14 @@ struct ArcPath {
   Coordinates from{}, to{};
 
   double plane_length() const;
-  double length() const;         ///< of all axes
-  double linear_length() const;  ///< of the linear axes, which a feed is for
+  double length() const;       ///< of all axes
+  double feed_length() const;  ///< of the plane's axes and the one across it, which a feed is for
   /// `part` from 0 to 1 of the path; the axes outside the plane move evenly with the angle.
   Coordinates at(double part) const;
+
+ private:
+  /// Of the plane's axes and those others from `begin` to before `end`.
+  double length_of_axes(std::size_t begin, std::size_t end) const;
 };
 
 /// The direction is the one that meets the end, as for the simulated machine; the event's decides

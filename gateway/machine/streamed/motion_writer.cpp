@@ -303,8 +303,8 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
       return Refusal{"MCH0002", fmt::format("the machine has no {} axis", letter_of(axis))};
   for (const Coordinates& extreme : extremes(path))
     if (auto refusal = check_travel(rules_, at_, extreme, display_)) return refusal;
-  const double linear = path.linear_length();
-  const PathLength measured{linear, rules_.feeds_all_axes ? length : linear};
+  const double program = path.feed_length();
+  const PathLength measured{program, rules_.feeds_all_axes ? length : program};
   double feed = 0;
   if (auto refusal = feed_of(event.feed, measured, feed)) return refusal;
   bool has_rotary = false;

@@ -102,7 +102,8 @@ enum class FrameCode : std::uint8_t {
   MirrorEnd
 };
 constexpr bool ends_frame(FrameCode code) {
-  return static_cast<unsigned>(code) % 2 == 1;
+  return code == FrameCode::RotationEnd || code == FrameCode::ScalingEnd ||
+         code == FrameCode::MirrorEnd;
 }
 
 /// What a hole cycle keeps from block to block: levels in program coordinates of the hole's axis.

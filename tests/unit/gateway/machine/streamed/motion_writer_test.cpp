@@ -110,6 +110,17 @@ TEST(MotionWriter, AFeedIsThatOfXYZAndElseOfUVW) {
   EXPECT_THAT(it.line(point({{Axis::X, 3}, {Axis::U, 4}}), once_a_minute).lines,
               ElementsAre("G61G1X3U4F3"));
   EXPECT_THAT(it.line(point({{Axis::U, 9}}), once_a_minute).lines, ElementsAre("G1U9F5"));
+  MotionText arc;
+  EXPECT_FALSE(it.writer.arc({.origin = {},
+                              .to = point({{Axis::X, 13}, {Axis::Y, 0}, {Axis::U, 99}}),
+                              .center_first = Length::mm(8),
+                              .center_second = Length::mm(0),
+                              .turn = interpreter::Turn::Clockwise,
+                              .sweep = Angle::degrees(180),
+                              .feed = once_a_minute},
+                             arc));
+  EXPECT_THAT(arc.lines.front(), testing::EndsWith("F15.708")) << "the half circle's length";
+  EXPECT_NEAR(arc.seconds, 60, 0.1);
 }
 
 TEST(MotionWriter, LongMovesAreWrittenInPiecesWhereTheDeviceHasLittleAhead) {
