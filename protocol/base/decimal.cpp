@@ -56,4 +56,11 @@ Result<Decimal> parse_decimal(std::string_view text) {
   return number;
 }
 
+std::string decimal_text(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
 }  // namespace dripline

@@ -27,4 +27,8 @@ struct Decimal {
 /// digits. No exponent, no blanks, no locale. Errors: Syntax, LimitExceeded (more than 18 digits).
 Result<Decimal> parse_decimal(std::string_view text);
 
+/// `value` rounded to at most `decimals` digits after the point; without zeros at its end, a point
+/// that nothing follows, or "-0".
+std::string decimal_text(double value, int decimals);
+
 }  // namespace dripline

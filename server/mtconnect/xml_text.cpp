@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <array>
-#include <cmath>
 
+#include "protocol/base/decimal.hpp"
 #include "protocol/base/utf8.hpp"
 
 namespace dripline::mtconnect {
@@ -102,15 +102,7 @@ void append_time(std::string& xml, UtcTime time) {
 }
 
 std::string number_text(double value) {
-  constexpr double kScale = 10'000;
-  constexpr double kLargest = 1e14;  // with four decimals within a 64-bit integer
-  if (std::abs(value) >= kLargest) return fmt::format("{:.0f}", value);
-  const auto scaled = std::llround(value * kScale);
-  const auto size = static_cast<unsigned long long>(std::abs(scaled));
-  std::string text = fmt::format("{}{}.{:04}", scaled < 0 ? "-" : "", size / 10'000, size % 10'000);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
+  return decimal_text(value, 4);
 }
 
 }  // namespace dripline::mtconnect

@@ -4,16 +4,14 @@
 #include <iterator>
 
 #include "clients/tools/charts/text.hpp"
+#include "protocol/base/decimal.hpp"
 
 namespace dripline::charts {
 namespace {
 
 /// Two decimals are 1/9600 inch; zeros at the end go.
 std::string number(double value) {
-  std::string text = fmt::format("{:.2f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
+  return decimal_text(value, 2);
 }
 
 std::string hex(Color color) {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/base/decimal.hpp"
 #include "protocol/base/lines.hpp"
 
 namespace dripline::conversational {
@@ -53,12 +54,10 @@ Result<TypedNumber> parse_entry(std::string_view typed) {
 }
 
 std::string number_text(double value) {
-  std::string text = fmt::format("{:.6f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
+  std::string text = decimal_text(value, 6);
   const std::size_t first = text.front() == '-' ? 1 : 0;
   if (text.size() > first + 1 && text[first] == '0') text.erase(first, 1);
-  return text == "-0" ? "0" : text;
+  return text;
 }
 
 }  // namespace dripline::conversational

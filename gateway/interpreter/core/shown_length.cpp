@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "protocol/base/decimal.hpp"
+
 namespace dripline::interpreter {
 namespace {
 
@@ -11,10 +13,7 @@ bool is_doubled(Axis axis, const LengthDisplay& display) {
 
 /// Without zeros at its end, and without "-0".
 std::string rounded(double value) {
-  std::string text = fmt::format("{:.4f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text == "-0" ? "0" : text;
+  return decimal_text(value, 4);
 }
 
 std::string_view name_of(Units units) {

@@ -1,5 +1,6 @@
 #include "gateway/machine/grbl/board_session.hpp"
 #include "gateway/machine/grbl/codes.hpp"
+#include "protocol/base/decimal.hpp"
 
 /// The part of the session that moves one axis without a program.
 namespace dripline::machine::grbl {
@@ -14,8 +15,8 @@ constexpr std::string_view kJogLine = "$J=";
 
 Result<void> BoardSession::jog(const Jog& jog, SteadyTime now) {
   const std::string line = fmt::format("{}G21G91{}{}F{}", kJogLine, interpreter::letter(jog.axis),
-                                       streamed::trimmed(jog.distance, rules_.decimals),
-                                       streamed::trimmed(jog.feed_per_minute, 1));
+                                       decimal_text(jog.distance, rules_.decimals),
+                                       decimal_text(jog.feed_per_minute, 1));
   const bool is_free = counter_.unanswered_lines() == 0 && tracker_.is_empty() && !jog_;
   if (!is_free || !may_send(line.size())) return fail(Errc::Busy, "the board is not at rest");
   jog_fault_.clear();

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "protocol/base/decimal.hpp"
+
 namespace dripline::machine::linuxcnc {
 
 using interpreter::SpindleState;
@@ -41,8 +43,8 @@ std::optional<Refusal> LinuxCncCommands::miscellaneous(const interpreter::Miscel
   if (!std::isfinite(event.p.value_or(0)) || !std::isfinite(event.q.value_or(0)))
     return Refusal{"MCH0006", fmt::format("a word of M{} without a value", event.code)};
   std::string line = fmt::format("M{}", event.code);
-  if (event.p) line += "P" + streamed::trimmed(*event.p, kDecimals);
-  if (event.q) line += "Q" + streamed::trimmed(*event.q, kDecimals);
+  if (event.p) line += "P" + decimal_text(*event.p, kDecimals);
+  if (event.q) line += "Q" + decimal_text(*event.q, kDecimals);
   lines.push_back(std::move(line));
   return std::nullopt;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/base/decimal.hpp"
+
 namespace dripline::machine::streamed {
 
 using interpreter::SpindleState;
@@ -45,7 +47,7 @@ std::optional<Refusal> CommandWriter::spindle(const interpreter::Spindle& event,
                          ? std::min(event.revolutions_per_minute, *event.max_revolutions)
                          : event.revolutions_per_minute;
   if (auto refusal = check_speed(rpm, rules_)) return refusal;
-  lines.push_back((event.state == SpindleState::Clockwise ? "M3S" : "M4S") + trimmed(rpm, 3));
+  lines.push_back((event.state == SpindleState::Clockwise ? "M3S" : "M4S") + decimal_text(rpm, 3));
   return std::nullopt;
 }
 

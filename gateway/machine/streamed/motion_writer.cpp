@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gateway/machine/streamed/arc_path.hpp"
+#include "protocol/base/decimal.hpp"
 
 namespace dripline::machine::streamed {
 
@@ -45,13 +46,6 @@ double distance(const Coordinates& from, const Coordinates& to) {
   double square = 0;
   for (std::size_t i = 0; i < kMaxAxes; ++i) square += (to[i] - from[i]) * (to[i] - from[i]);
   return std::sqrt(square);
-}
-
-std::string trimmed(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
 }
 
 /// Where soft limits are in force the device would stop in the middle of the program instead.
@@ -96,7 +90,7 @@ void MotionWriter::begin(const Coordinates& at) {
 }
 
 std::string MotionWriter::number(double value) const {
-  return trimmed(value, rules_.decimals);
+  return decimal_text(value, rules_.decimals);
 }
 
 /// Of the number as it is written.
@@ -168,9 +162,9 @@ std::string MotionWriter::feed_words(const Motion& motion, const Coordinates& to
   const bool was_timed = std::exchange(is_timed_, rules_.times_rotary_axes && is_mixed);
   if (is_timed_) {  // the word is needed in every line
     feed_.clear();
-    return (was_timed ? "F" : "G93F") + trimmed(*motion.feed / distance(at_, to), 4);
+    return (was_timed ? "F" : "G93F") + decimal_text(*motion.feed / distance(at_, to), 4);
   }
-  std::string text = trimmed(*motion.feed, 3);
+  std::string text = decimal_text(*motion.feed, 3);
   if (std::exchange(feed_, text) == text) return {};
   return (was_timed ? "G94F" : "F") + text;
 }
@@ -344,13 +338,13 @@ std::optional<Refusal> MotionWriter::probe(const interpreter::Probe& event, Moti
   const bool is_contact = event.until == interpreter::ProbeUntil::Contact;
   const std::string code = is_contact ? "G38.3" : "G38.5";
   text.seconds = seconds_of(to, feed);
-  feed_ = trimmed(feed, 3);
+  feed_ = decimal_text(feed, 3);
   const char* mode = std::exchange(is_timed_, false) ? "G94F" : "F";
   return append(code + axis_words(to) + mode + feed_, text);
 }
 
 std::string MotionWriter::dwell(double seconds) {
-  return "G4P" + trimmed(seconds, 3);
+  return "G4P" + decimal_text(seconds, 3);
 }
 
 std::optional<Refusal> MotionWriter::dwell(double seconds, std::vector<std::string>& lines) const {

@@ -72,7 +72,5 @@ interpreter::Position position_of(const Coordinates& point, const TextRules& rul
 Coordinates coordinates_of(const interpreter::Position& position);
 /// Of all axes, degrees as millimeters.
 double distance(const Coordinates& from, const Coordinates& to);
-/// Without trailing zeros and a minus before nothing: every byte is time on the line.
-std::string trimmed(double value, int decimals);
 
 }  // namespace dripline::machine::streamed

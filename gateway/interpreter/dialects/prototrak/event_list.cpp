@@ -4,15 +4,15 @@
 #include <cmath>
 #include <string_view>
 
+#include "protocol/base/decimal.hpp"
+
 namespace dripline::interpreter::prototrak {
 namespace {
 
 /// At the control's resolution, without needless zeros but always with a point.
 std::string number(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text == "-0." || text == "0.") return "0.";
-  return text;
+  const std::string text = decimal_text(value, decimals);
+  return text.find('.') == std::string::npos ? text + "." : text;
 }
 
 class EventLine {

@@ -50,5 +50,14 @@ TEST(ParseDecimalErrors, RefusesMoreDigitsThanItCanHold) {
   EXPECT_EQ(parse_decimal("0.0000000000000000001").error().code, Errc::LimitExceeded);
 }
 
+TEST(DecimalText, HasNoZerosAtItsEndAndNoMinusBeforeNothing) {
+  EXPECT_EQ(decimal_text(1.25, 4), "1.25");
+  EXPECT_EQ(decimal_text(-0.33333, 3), "-0.333");
+  EXPECT_EQ(decimal_text(100, 3), "100");
+  EXPECT_EQ(decimal_text(100, 0), "100");
+  EXPECT_EQ(decimal_text(-0.00004, 4), "0");
+  EXPECT_EQ(decimal_text(-0.4, 0), "0");
+}
+
 }  // namespace
 }  // namespace dripline

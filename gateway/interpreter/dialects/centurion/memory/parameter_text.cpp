@@ -9,6 +9,7 @@
 #include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/keywords.hpp"
+#include "protocol/base/decimal.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -17,10 +18,7 @@ constexpr int kWorkSystems = 6, kReferences = 4, kFirstUnnamed = 200;
 constexpr int kLastToolField = static_cast<int>(ToolField::WearRadius);
 
 std::string value_text(double value) {
-  std::string text = fmt::format("{:.10f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text == "-0" ? "0" : text;
+  return decimal_text(value, 10);
 }
 
 class Writer {

@@ -4,6 +4,7 @@
 
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/print_mask.hpp"
+#include "protocol/base/decimal.hpp"
 
 /// FN 15: PRINT, values as they are. FN 16: F-PRINT mask / target. The mask is a text of the
 /// program store, read whole before anything is put out; the block waits for it.
@@ -65,11 +66,9 @@ PrintTarget target_of(const std::string& text) {
 /// As a control has written it: a sign, at most four decimals without zeros at the end, and a
 /// comma.
 std::string printed_value(double value) {
-  std::string text = fmt::format("{:+.4f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
+  std::string text = decimal_text(value, 4);
   std::ranges::replace(text, '.', ',');
-  return text == "-0" ? "+0" : text;
+  return text.starts_with('-') ? text : "+" + text;
 }
 
 /// FN 15, to the file that a control with its printing set to FILE has for it.
