@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace dripline::machine::grbl {
 
@@ -43,6 +44,16 @@ std::size_t BoardInfo::axes() const {
   std::size_t count = 0;
   while (count < kMaxAxes && settings_.contains(100 + static_cast<int>(count))) ++count;
   return count;
+}
+
+char BoardInfo::letter(std::size_t axis) const {
+  return axis < letters_.size() ? letters_[axis] : streamed::letter_of(axis);
+}
+
+std::optional<std::size_t> BoardInfo::number_of(std::size_t axis) const {
+  const auto found = interpreter::axis_of(letter(axis));
+  if (!found) return std::nullopt;
+  return static_cast<std::size_t>(*found);
 }
 
 std::size_t BoardInfo::window() const {
@@ -112,7 +123,7 @@ TextRules BoardInfo::rules() const {
   TextRules rules;
   double finest = 0;
   for (std::size_t i = 0; i < axes(); ++i) {
-    rules.axes[i] = axis_rules(i);
+    if (const auto number = number_of(i)) rules.axes[*number] = axis_rules(i);
     finest = std::max(finest, steps(i));
   }
   rules.decimals = finest > 500 ? 4 : 3;  // a digit is at most half a step
@@ -138,9 +149,12 @@ TextRules BoardInfo::rules() const {
 
 Coordinates BoardInfo::in_mm(const AxisValues& values) const {
   Coordinates point{};
-  for (std::size_t i = 0; i < values.count; ++i)
-    point[i] = values.value[i] *
-               (interpreter::is_rotary(static_cast<interpreter::Axis>(i)) ? 1 : report_scale());
+  for (std::size_t i = 0; i < values.count; ++i) {
+    const auto axis = interpreter::axis_of(letter(i));
+    if (!axis) continue;
+    point[static_cast<std::size_t>(*axis)] =
+        values.value[i] * (interpreter::is_rotary(*axis) ? 1 : report_scale());
+  }
   return point;
 }
 
@@ -158,6 +172,24 @@ Result<void> BoardInfo::check_settings() const {
   return {};
 }
 
+Result<void> BoardInfo::check_axes() const {
+  if (axes() < 2)
+    return fail(Errc::Unsupported, "the board states {} axes ($100 ...), at least 2 are needed",
+                axes());
+  std::set<std::size_t> numbers;
+  for (std::size_t i = 0; i < axes(); ++i) {
+    const auto number = number_of(i);
+    if (!number || !numbers.insert(*number).second)
+      return fail(Errc::Unsupported, "the board's axes are {}: programs move X Y Z A B C U V W",
+                  letters_);
+    if (!(steps(i) > 0 && max_rate(i) > 0 && acceleration(i) > 0))
+      return fail(Errc::Unsupported,
+                  "axis {}: steps ${}={}, rate ${}={} and acceleration ${}={} must be above 0",
+                  letter(i), 100 + i, steps(i), 110 + i, max_rate(i), 120 + i, acceleration(i));
+  }
+  return {};
+}
+
 Result<void> BoardInfo::check() const {
   if (!is_grbl_hal_ && !version_.starts_with("1.1"))
     return fail(Errc::Unsupported, "the firmware is Grbl {}, this back end needs 1.1 or grblHAL",
@@ -167,17 +199,8 @@ Result<void> BoardInfo::check() const {
     return fail(Errc::Unsupported,
                 "the board's receive buffer has {} bytes, at least {} are needed", build_->bytes,
                 kLeastWindow + 1);
-  if (axes() < 2)
-    return fail(Errc::Unsupported, "the board states {} axes ($100 ...), at least 2 are needed",
-                axes());
   if (auto complete = check_settings(); !complete) return complete;
-  for (std::size_t i = 0; i < axes(); ++i) {
-    if (!(steps(i) > 0 && max_rate(i) > 0 && acceleration(i) > 0))
-      return fail(Errc::Unsupported,
-                  "axis {}: steps ${}={}, rate ${}={} and acceleration ${}={} must be above 0",
-                  streamed::letter_of(i), 100 + i, steps(i), 110 + i, max_rate(i), 120 + i,
-                  acceleration(i));
-  }
+  if (auto usable = check_axes(); !usable) return usable;
   if (setting_or(32, 0) != 0)
     return fail(Errc::Unsupported, "the board is in {} mode ($32={}): a milling machine has $32=0",
                 setting_or(32, 0) == 1 ? "laser" : "lathe", setting_or(32, 0));

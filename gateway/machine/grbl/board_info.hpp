@@ -19,6 +19,7 @@ class BoardInfo {
   // -- filled by the replies, in any order --------------------------------------------------------
   void take(const Greeting& greeting);
   void take(const BuildReply& build) { build_ = build; }
+  void take(const AxesReply& axes) { letters_ = axes.letters; }
   void take(const SettingReply& setting) { settings_[setting.number] = setting.value; }
   void take(const OffsetReply& offset) { offsets_[offset.name] = offset.value; }
 
@@ -29,6 +30,8 @@ class BoardInfo {
   // -- what they mean -----------------------------------------------------------------------------
   std::string firmware() const;  ///< "Grbl 1.1f"
   std::size_t axes() const;      ///< those with a $100 setting
+  // `axis` counts them in the board's order.
+  char letter(std::size_t axis) const;  ///< as it states, else X, Y, Z, A, B, C
   double steps(std::size_t axis) const { return setting(100, axis); }     ///< per mm or degree
   double max_rate(std::size_t axis) const { return setting(110, axis); }  ///< per minute
   double acceleration(std::size_t axis) const {
@@ -56,6 +59,9 @@ class BoardInfo {
 
  private:
   Result<void> check_settings() const;
+  Result<void> check_axes() const;
+  /// Its number among those of programs; nullopt: they have no such axis.
+  std::optional<std::size_t> number_of(std::size_t axis) const;
   double seconds_ahead() const;
   streamed::TextRules::AxisRules axis_rules(std::size_t axis) const;
   /// In machine coordinates, where soft limits ($20) make it known.
@@ -71,6 +77,7 @@ class BoardInfo {
   std::string version_;
   bool is_grbl_hal_ = false;
   std::optional<BuildReply> build_;
+  std::string letters_;  ///< of its axes, where it states them
   std::map<int, double> settings_;
   std::map<std::string, AxisValues> offsets_;
 };

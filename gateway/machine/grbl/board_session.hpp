@@ -121,6 +121,7 @@ class BoardSession final : public streamed::Device {
   void on(const StatusReport& report, SteadyTime now);
   void on(const SettingReply& setting, SteadyTime) { info_.take(setting); }
   void on(const BuildReply& build, SteadyTime) { info_.take(build); }
+  void on(const AxesReply& axes, SteadyTime) { info_.take(axes); }
   void on(const OffsetReply& offset, SteadyTime) { info_.take(offset); }
   void on(const ProbeReply& probe, SteadyTime now);
   void on(const ModesReply& modes, SteadyTime) { modes_ = modes; }

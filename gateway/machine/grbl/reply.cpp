@@ -132,6 +132,12 @@ Reply parse_build(std::string_view text) {
   return build;
 }
 
+Reply parse_axes(std::string_view text) {
+  const auto count = number_of<std::size_t>(cut(text, ':'));
+  if (!count || *count != text.size()) return GarbageReply{};
+  return AxesReply{std::string(text)};
+}
+
 Reply parse_probe(std::string_view text) {
   const auto at = axes_of(cut(text, ':'));
   if (!at || (text != "0" && text != "1")) return GarbageReply{};
@@ -155,6 +161,7 @@ bool is_offset(std::string_view name) {
 Reply parse_bracket(std::string_view text) {
   const std::string_view name = cut(text, ':');
   if (name == "OPT") return parse_build(text);
+  if (name == "AXS") return parse_axes(text);
   if (name == "PRB") return parse_probe(text);
   if (name == "GC") return parse_modes(text);
   if (name == "MSG") return NoticeReply{std::string(text)};

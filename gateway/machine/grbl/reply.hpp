@@ -13,7 +13,7 @@
 /// What a board of the Grbl 1.1 class sends, line by line. Pure; any thread.
 namespace dripline::machine::grbl {
 
-inline constexpr std::size_t kMaxAxes = 6;  ///< X Y Z A B C
+inline constexpr std::size_t kMaxAxes = 6;  ///< X Y Z A B C, or as the board states ([AXS:])
 
 /// Values of the board's axes, in its order; `count` of them are present. Millimetres or degrees,
 /// or inches where the board reports in inches ($13).
@@ -84,6 +84,10 @@ struct BuildReply {
   int blocks = 0;  ///< of the planner
   int bytes = 0;   ///< of the receive buffer
 };
+/// `[AXS:count:letters]` of grblHAL's `$I`: its axes in the order of every list of values.
+struct AxesReply {
+  std::string letters;
+};
 struct ProbeReply {
   AxisValues at;
   bool tripped = false;
@@ -107,9 +111,9 @@ struct GarbageReply {
   std::string text;  ///< its beginning
 };
 
-using Reply =
-    std::variant<OkReply, ErrorReply, AlarmReply, Greeting, StatusReport, SettingReply, BuildReply,
-                 ProbeReply, OffsetReply, ModesReply, NoticeReply, UnusedReply, GarbageReply>;
+using Reply = std::variant<OkReply, ErrorReply, AlarmReply, Greeting, StatusReport, SettingReply,
+                           BuildReply, AxesReply, ProbeReply, OffsetReply, ModesReply, NoticeReply,
+                           UnusedReply, GarbageReply>;
 
 /// `line` without its end. A number that is none, or a report with a member that does not parse, is
 /// GarbageReply: never a value that the board did not send.

@@ -114,6 +114,22 @@ TEST_F(BoardText, TurnsInverseTimeIntoFeedPerMinute) {
   EXPECT_EQ(line(30, 40, 0, Feed::inverse_time(4)), Lines{"G1X30Y40F200"});
 }
 
+TEST_F(BoardText, NamesAxesAsTheBoardDoes) {
+  BoardInfo board = board_of(1000, 5);
+  board.take(AxesReply{"XYZBU"});
+  ASSERT_TRUE(board.check());
+  const auto at = board.in_mm({{1, 2, 3, 4, 5}, 5});
+  EXPECT_EQ(at, (streamed::Coordinates{1, 2, 3, 0, 4, 0, 5}));
+  make(board);
+  Position to = point(0, 0, 0);
+  to.set(Axis::B, Angle::degrees(30));
+  to.set(Axis::U, Length::mm(2));
+  EXPECT_FALSE(writer.rapid({{}, to}, text));
+  EXPECT_EQ(text.lines, Lines{"G0B30U2"});
+  to.set(Axis::A, Angle::degrees(1));
+  EXPECT_TRUE(writer.rapid({{}, to}, text)) << "it has no A";
+}
+
 // What a board makes of a feed then depends on its version and a setting: 3 mm or 5 units.
 TEST_F(BoardText, TimesMovesOfLinearAndRotaryAxesTogether) {
   make(board_of(1000, 4));
@@ -347,6 +363,11 @@ TEST(BoardInfoTest, NamesWhatMakesABoardUnfit) {
               return silent;
             }()),
             "the board does not state its setting $10");
+  for (const char* letters : {"XYQ", "XYX"}) {
+    board = board_of();
+    board.take(AxesReply{letters});
+    EXPECT_NE(reason(board).find("the board's axes are XY"), std::string::npos) << letters;
+  }
   board = board_of();
   board.take(BuildReply{"VN", 15, 64});
   EXPECT_NE(reason(board).find("64 bytes"), std::string::npos);

@@ -59,6 +59,7 @@ TEST(BoardReply, ReadsSettingsBuildProbeOffsetsAndModes) {
   EXPECT_EQ(build.letters, "VNML+");
   EXPECT_EQ(build.blocks, 100);
   EXPECT_EQ(build.bytes, 1024);
+  EXPECT_EQ(parsed<AxesReply>("[AXS:4:XYZB]").letters, "XYZB");
   EXPECT_TRUE(parsed<ProbeReply>("[PRB:1.000,2.000,-3.250:1]").tripped);
   EXPECT_EQ(parsed<ProbeReply>("[PRB:1.000,2.000,-3.250:1]").at.value[2], -3.25);
   EXPECT_EQ(parsed<OffsetReply>("[G54:4.000,0.000,0.000]").name, "G54");
@@ -78,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(, Garbage,
                                          "<Idle|MPos:>", "<Idle|Bf:15>", "<Idle|Bf:-1,3>",
                                          "<Idle|Ln:-4>", "<Idle|Ov:100,100>", "<Run:x|MPos:0,0>",
                                          "error:", "error:x", "ALARM:-1", "okay", "o",
-                                         "[PRB:0,0:2]", "[PRB:1,0]", "[OPT:V,15]", "[G54:x]"));
+                                         "[PRB:0,0:2]", "[PRB:1,0]", "[OPT:V,15]", "[AXS:3:XY]",
+                                         "[G54:x]"));
 
 TEST(LineSplitter, GivesTheSameLinesForAnyPieces) {
   const std::string text = "ok\r\n<Idle|MPos:0,0,0>\r\n\r\nerror:2\n";
