@@ -144,7 +144,8 @@ void ActionRecorder::on_tool(const interpreter::ToolChange& event) {
 void ActionRecorder::on_miscellaneous(const interpreter::Miscellaneous& event) {
   Action& action = push(ActionKind::Function, event.origin);
   action.code = event.code;
-  action.numbers = {event.p.value_or(Action::kNoNumber), event.q.value_or(Action::kNoNumber), 0};
+  action.numbers = {event.p.value_or(Action::kNoNumber), event.q.value_or(Action::kNoNumber),
+                    event.e.value_or(Action::kNoNumber)};
 }
 
 void ActionRecorder::on_pin(const interpreter::PinChange& event) {

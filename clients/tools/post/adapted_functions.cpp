@@ -164,8 +164,9 @@ void Adaptation::on_miscellaneous(const interpreter::Miscellaneous& event) {
                               "and 99",
                               event.code, target().min_m, target().max_m, target().name));
   }
-  if (event.p || event.q) {
-    return refuse(event.origin, fmt::format("M{} with P or Q: these are not written", event.code));
+  if (event.e || event.p || event.q) {
+    return refuse(event.origin,
+                  fmt::format("M{} with E, P or Q: these are not written", event.code));
   }
   EventGate::on_miscellaneous(event);
 }

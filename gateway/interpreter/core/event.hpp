@@ -223,7 +223,7 @@ struct Blank {
 struct Miscellaneous {
   Origin origin;
   int code = 0;
-  std::optional<double> p = {}, q = {};  ///< its words, where the control hands them on
+  std::optional<double> e = {}, p = {}, q = {};  ///< its words, where the control hands them on
   bool is_done = false;  ///< other events do what it does: nothing is left to the machine
 };
 struct PinChange {

@@ -37,12 +37,15 @@ std::optional<Refusal> LinuxCncCommands::tool(const interpreter::ToolChange& eve
 std::optional<Refusal> LinuxCncCommands::miscellaneous(const interpreter::Miscellaneous& event,
                                                        Lines& lines) {
   if (event.code == streamed::kToolChangeFunction) return std::nullopt;
-  if (event.code < 100 || event.code > 199)
+  const bool is_analog = event.code == 67 || event.code == 68;
+  if (!is_analog && (event.code < 100 || event.code > 199))
     return Refusal{"MCH0008", fmt::format("this machine cannot do M{}", event.code)};
   constexpr int kDecimals = 6;  // as many as LinuxCNC hands on
-  if (!std::isfinite(event.p.value_or(0)) || !std::isfinite(event.q.value_or(0)))
-    return Refusal{"MCH0006", fmt::format("a word of M{} without a value", event.code)};
-  std::string line = fmt::format("M{}", event.code);
+  for (const auto& word : {event.e, event.p, event.q})
+    if (!std::isfinite(word.value_or(0)))
+      return Refusal{"MCH0006", fmt::format("a word of M{} without a value", event.code)};
+  std::string line = is_analog ? "M68" : fmt::format("M{}", event.code);
+  if (event.e) line += fmt::format("E{:.0f}", *event.e);
   if (event.p) line += "P" + decimal_text(*event.p, kDecimals);
   if (event.q) line += "Q" + decimal_text(*event.q, kDecimals);
   lines.push_back(std::move(line));

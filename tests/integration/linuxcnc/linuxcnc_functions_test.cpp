@@ -41,6 +41,15 @@ TEST_F(LinuxCncFunctions, SwitchOutputsAndReadInputs) {
   }));
 }
 
+TEST_F(LinuxCncFunctions, WriteAndReadAnalogValues) {
+  run("G21 M68 E1 Q2.5\nM66 E2 L0\nG0 X#5399\nM67 E1 Q4\nG0 Y1\nM66 E2\nG0 X#5399\nM2\n");
+  EXPECT_TRUE(rests());
+  EXPECT_NEAR(x(), 4, 0.001);
+  EXPECT_TRUE(std::ranges::any_of(linuxcnc->samples(), [](const LinuxCnc::Sample& sample) {
+    return std::fabs(sample.at[0] - 2.5) < 0.001 && std::fabs(sample.at[1]) < 0.001;
+  }));
+}
+
 TEST_F(LinuxCncFunctions, AToolIsNamedWithoutAChange) {
   run("G21 G0 X1 Z2\nM61 Q2\nG0 X3\nM2\n");
   for (const auto& sample : linuxcnc->samples())

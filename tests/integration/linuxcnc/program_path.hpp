@@ -173,11 +173,15 @@ class LinuxCncPrograms : public LinuxCncTest {
     return linuxcnc->samples();
   }
 
-  /// The state of an input, once everything before it is executed.
+  /// The state of an input or a pin, once everything before it is executed.
   bool answer(interpreter::Interpreter& interpreter) const {
+    if (!machine->drained() || machine->state() != MachineState::Idle) return false;
+    if (const auto* asked = std::get_if<interpreter::SignalQuestion>(&interpreter.question())) {
+      const auto value = machine->signal(asked->name);
+      return value && interpreter.answer(*value).has_value();
+    }
     const auto asked = std::get<interpreter::InputQuestion>(interpreter.question());
-    const bool rests = machine->drained() && machine->state() == MachineState::Idle;
-    return rests && interpreter.answer(machine->input(asked.pin)).has_value();
+    return interpreter.answer(machine->input(asked.pin)).has_value();
   }
 
   std::string head, tools;  ///< of our interpreter's setup, TOML

@@ -56,6 +56,7 @@ LinuxCnc::LinuxCnc() {
              "net y => sampler.0.pin.2\n"
              "net z => sampler.0.pin.3\n"
              "net loop motion.digital-out-01 => motion.digital-in-02\n"
+             "net level motion.analog-out-01 => motion.analog-in-02\n"
              "loadusr ./witness\n");
   write_file(folder_.path() / "witness", "#!/bin/sh\nexec stdbuf -oL halsampler >witness.txt\n");
   fs::permissions(folder_.path() / "witness", fs::perms::owner_all | fs::perms::others_exec);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <cmath>
+#include <utility>
 
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
@@ -106,7 +107,7 @@ bool orient(Run& run) {
   return true;
 }
 
-/// The numbers of LinuxCNC's digital inputs and outputs.
+/// The numbers of LinuxCNC's inputs and outputs, digital and analog.
 constexpr double kMaxPin = 63;
 
 /// M62 to M65. What M62 and M63 switch with the next motion is switched before it.
@@ -118,13 +119,14 @@ bool switch_output(Run& run, int code) {
   return true;
 }
 
-/// M67, M68: an analog output.
+/// M67, M68: an analog output. What M67 writes with the next motion is written before it.
 bool write_output(Run& run, int code) {
   const Words& words = run.block.words;
-  if (!words.has('E') || words['E'] < 0 || !words.has('Q')) {
+  const double output = std::round(words.value_or('E', -1));
+  if (!(output >= 0 && output <= kMaxPin) || !words.has('Q')) {
     return run.fail_word(ErrorCode::IoWords, 'E', fmt::format("M{}", code));
   }
-  run.events().on_miscellaneous({run.origin, code});
+  run.events().on_miscellaneous({.origin = run.origin, .code = code, .e = output, .q = words['Q']});
   return true;
 }
 
@@ -156,6 +158,25 @@ bool read_digital(Run& run, InputWait wait) {
   return true;
 }
 
+/// M66 of an analog input, which LinuxCNC's HAL has as a pin. A machine without it answers nothing:
+/// whether it can do M66 is then its own affair, and the result is 0.
+bool read_analog(Run& run) {
+  const double input = std::round(run.block.words['E']);
+  if (!(input >= 0 && input <= kMaxPin)) return run.fail_word(ErrorCode::IoWords, 'E', "M66");
+  const std::string name = fmt::format("motion.analog-in-{:02.0f}", input);
+  std::optional<double> value;
+  if (run.options.hal) {
+    if (const auto found = run.options.hal->find(name); found != run.options.hal->end())
+      value = found->second;
+  } else if (!run.options.answers_pins) {
+    if (!run.answer) return run.ask(SignalQuestion{name});
+    value = std::get<SignalValue>(*std::exchange(run.answer, std::nullopt)).value;
+  }
+  run.events().on_miscellaneous({.origin = run.origin, .code = 66, .is_done = value.has_value()});
+  run.parameters[kInputResult] = value.value_or(0);
+  return true;
+}
+
 /// M66: the result is #5399.
 bool read_input(Run& run) {
   const Words& words = run.block.words;
@@ -167,10 +188,7 @@ bool read_input(Run& run) {
   if (mode < 0 || mode > 4 || (words.has('E') && waits) || (waits && words.value_or('Q', 0) <= 0)) {
     return run.fail_word(ErrorCode::IoWords, 'L', "M66");
   }
-  if (words.has('P')) return read_digital(run, static_cast<InputWait>(mode));
-  run.events().on_miscellaneous({run.origin, 66});
-  run.parameters[kInputResult] = 0;
-  return true;
+  return words.has('P') ? read_digital(run, static_cast<InputWait>(mode)) : read_analog(run);
 }
 
 bool select_tool(Run& run) {

@@ -116,7 +116,7 @@ TEST(WordsOfAFunction, AreRefused) {
   EXPECT_TRUE(plain.is_proved) << plain.reason();
   const auto words = convert({"rs274ngc", "G21 G0 X1\nM101 P5\nG0 X2\nM2\n", setup}, "linuxcnc");
   EXPECT_FALSE(words.is_proved) << words.text;
-  EXPECT_TRUE(words.reason().starts_with("line 2: M101 with P or Q")) << words.reason();
+  EXPECT_TRUE(words.reason().starts_with("line 2: M101 with E, P or Q")) << words.reason();
 }
 
 /// A probing move stays refused.

@@ -60,6 +60,9 @@ TEST(LinuxCncCommands, OutputsAndFunctionsOfTheBuilder) {
   EXPECT_FALSE(writer.miscellaneous({.origin = {}, .code = 199, .p = 5, .q = -0.25}, lines));
   EXPECT_THAT(lines, ElementsAre("M199P5Q-0.25"));
   EXPECT_TRUE(writer.miscellaneous({.origin = {}, .code = 100, .p = INFINITY}, lines));
+  lines.clear();
+  EXPECT_FALSE(writer.miscellaneous({.origin = {}, .code = 67, .e = 3, .q = -0.5}, lines));
+  EXPECT_THAT(lines, ElementsAre("M68E3Q-0.5")) << "the motion before it has ended";
 }
 
 TEST(LinuxCncCommands, WhatLinuxCncLacksIsRefused) {

@@ -26,6 +26,22 @@ TEST(Rs274State, APinIsAskedForInTheMiddleOfALine) {
   EXPECT_THAT(run.log().lines(), Contains(HasSubstr(" X7 Y1")).Times(1));
 }
 
+TEST(Rs274State, AnAnalogInputIsAPinOfHal) {
+  const std::string text = "G21 M66 E1\nG0 X#5399\nM2\n";
+  for (const std::optional<double> value : {std::optional(-2.5), std::optional<double>()}) {
+    ControlRun run(text, kLater);
+    ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+    EXPECT_EQ(std::get<SignalQuestion>(run.interpreter().question()).name, "motion.analog-in-01");
+    ASSERT_TRUE(run.interpreter().answer(SignalValue{value, "this machine has no signals"}));
+    EXPECT_EQ(run.step(), StepState::Ended);
+    EXPECT_THAT(run.log().lines(), Contains(HasSubstr(value ? " X-2.5" : " X0")));
+  }
+  ControlRun listed(text,
+                    "[control]\nprofile = \"linuxcnc\"\nhal = {\"motion.analog-in-01\" = 3}\n");
+  EXPECT_EQ(listed.step(), StepState::Ended);
+  EXPECT_THAT(listed.log().lines(), Contains(HasSubstr(" X3")));
+}
+
 TEST(Rs274State, AWaitForAPinThatIsOverLeavesMinusOne) {
   for (const auto& [fulfilled, result] : {std::pair{true, " X0"}, {false, " X-1"}}) {
     ControlRun run("#5399 = 7\nM66 P2 L4 Q1.5\nG21 G0 X5\nX#5399\nM2\n", kLater);
