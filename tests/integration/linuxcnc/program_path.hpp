@@ -174,7 +174,7 @@ class LinuxCncPrograms : public LinuxCncTest {
   }
 
   /// The state of an input or a pin, once everything before it is executed.
-  bool answer(interpreter::Interpreter& interpreter) const {
+  bool answer(interpreter::Interpreter& interpreter) {
     if (!machine->drained() || machine->state() != MachineState::Idle) return false;
     if (const auto* asked = std::get_if<interpreter::SignalQuestion>(&interpreter.question())) {
       const auto value = machine->signal(asked->name);
