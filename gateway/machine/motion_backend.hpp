@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,12 @@
 #include "protocol/base/result.hpp"
 
 namespace dripline::machine {
+
+/// A device that reads programs by itself too: those of `control` that name no unit in `units`.
+struct ProgramReader {
+  std::string_view control;
+  interpreter::Units units = interpreter::Units::Millimeter;
+};
 
 /// What a back end can do. A program that asks for more gets an alarm in place of the event
 /// (capability_filter.hpp); an operator's command that asks for more is refused.
@@ -41,6 +48,7 @@ struct MotionCapabilities {
   /// the axes are those of the program, and a length has no place.
   bool adds_lengths = false;
   bool jog = false;  ///< moves an axis without a program (`MotionBackend::jog`)
+  std::optional<ProgramReader> reader = {};
 };
 
 /// One axis moves by a distance, without a program; a click of a handwheel is one.

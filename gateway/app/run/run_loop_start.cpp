@@ -90,6 +90,23 @@ StartOrigin RunLoop::read_on(const report::ActiveRun& run, StartOrigin origin) c
   return origin;
 }
 
+/// A program that names no unit is read in that of the setup, and was perhaps written for the one
+/// in which the device itself reads it.
+Result<void> RunLoop::check_units(const interpreter::Setup& setup) const {
+  const auto& reader = parts_.machine.capabilities().reader;
+  if (!reader || reader->control != parts_.dialect.name) return {};
+  const auto stated = setup.units.value_or(parts_.dialect.units);
+  if (stated == reader->units) return {};
+  const auto name = [](interpreter::Units units) {
+    return units == interpreter::Units::Inch ? "in" : "mm";
+  };
+  return fail(
+      Errc::Conflict,
+      "the machine's unit is {0}, that of the setup {1}: programs without G20 and G21 would "
+      "be read in {1}. Set units = \"{0}\" in the setup",
+      name(reader->units), name(stated));
+}
+
 Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
                             const StartOrigin& given) {
   const StartOrigin origin = read_on(run, given);
@@ -118,6 +135,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   }
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
   if (is_restart) conditions.restart_of = origin.from.restart->run;
+  if (auto done = check_units(*setup); !done) return done;
   if (auto done = parts_.machine.check_begin(axes); !done) return done;
   // A line cannot be read again, and the run of a restart was looked through before.
   auto check = is_restart || !parts_.keeps_checkpoints ? nullptr : parts_.machine.make_check(axes);

@@ -48,6 +48,7 @@ const MotionCapabilities& StreamedMachine::capabilities() const {
   const Lock lock(mutex_);
   const TextRules& rules = device_.rules();
   for (std::size_t i = 0; i < kMaxAxes; ++i) capabilities_.axes.set(i, rules.has(i));
+  capabilities_.reader = rules.reader;
   return capabilities_;
 }
 

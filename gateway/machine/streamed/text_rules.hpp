@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/interpreter/core/event.hpp"
+#include "gateway/machine/motion_backend.hpp"
 
 namespace dripline::machine::streamed {
 
@@ -58,6 +58,7 @@ struct TextRules {
   bool has_mist = true;
   bool has_reverse = true;  ///< the spindle has both directions
   bool homes = true;        ///< the axes are homed before every program
+  std::optional<ProgramReader> reader = {};
   std::string max_rpm_setting = {}, min_rpm_setting = {}, homing_setting = {};
 
   bool has(std::size_t axis) const { return axis < kMaxAxes && axes[axis].has_value(); }

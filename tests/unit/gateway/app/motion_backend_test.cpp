@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
+#include "tests/unit/gateway/app/toy_control.hpp"
 #include "tests/unit/gateway/app/toy_motion.hpp"
 
 /// The gateway on a back end that is not the simulated machine and can do less.
@@ -71,6 +72,32 @@ TEST_F(MotionBackendTest, RefusesASetupThatDisagreesWithTheMachine) {
   const auto second = fixture.start("O1");
   EXPECT_FALSE(second.accepted);
   EXPECT_EQ(second.reason, "X is at 7 mm, the setup begins at 0 mm");
+}
+
+/// A device that reads programs of the control by itself, in inches.
+class InchMotion final : public ToyMotion {
+ public:
+  explicit InchMotion(machine::ExecutionSink& sink)
+      : ToyMotion(sink), capabilities_(ToyMotion::capabilities()) {
+    capabilities_.reader = {toy_control().name, interpreter::Units::Inch};
+  }
+  const machine::MotionCapabilities& capabilities() const override { return capabilities_; }
+
+ private:
+  machine::MotionCapabilities capabilities_;
+};
+
+TEST_F(MotionBackendTest, RefusesASetupInAnotherUnitThanTheDevices) {
+  fixture.motion = [](machine::ExecutionSink& sink) { return std::make_unique<InchMotion>(sink); };
+  fixture.restart_gateway();
+  fixture.push("O1", "X7\nEND\n");
+  const auto refused = fixture.start("O1");
+  EXPECT_FALSE(refused.accepted);
+  EXPECT_TRUE(refused.reason.starts_with("the machine's unit is in, that of the setup mm: "))
+      << refused.reason;
+  fixture.setup.units = interpreter::Units::Inch;
+  fixture.restart_gateway();
+  EXPECT_EQ(run("X7\nEND\n").outcome, RunOutcome::Completed);
 }
 
 TEST_F(MotionBackendTest, RefusesCommandsThatTheBackEndCannotCarryOut) {
