@@ -1,5 +1,5 @@
 // Hot folders, job queues and webhooks whatever is killed, and client certificates over real TLS.
-// DRIPLINE_KILLS changes how often (200 by default).
+// DRIPLINE_KILLS changes how often (60 by default).
 #include <gtest/gtest.h>
 #include <httplib.h>
 #include <algorithm>
@@ -24,7 +24,7 @@ using test_support::eventually;
 
 int kills() {
   const char* wanted = std::getenv("DRIPLINE_KILLS");
-  return wanted != nullptr ? std::atoi(wanted) : 200;
+  return wanted != nullptr ? std::atoi(wanted) : 60;
 }
 
 /// Receives webhooks, and keeps the numbers of the events in the order in which they came first.

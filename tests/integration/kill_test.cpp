@@ -1,5 +1,5 @@
 // Promises 1 and 2: nothing is lost or doubled and the executed counter is right, whatever is
-// killed, at whatever moment. DRIPLINE_KILLS changes how often (100 by default).
+// killed, at whatever moment. DRIPLINE_KILLS changes how often (40 by default).
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <csignal>
@@ -20,7 +20,7 @@ constexpr milliseconds kLongestWait{600};  // before a kill; a whole run where t
 
 int kills() {
   const char* wanted = std::getenv("DRIPLINE_KILLS");
-  return wanted != nullptr ? std::atoi(wanted) : 100;
+  return wanted != nullptr ? std::atoi(wanted) : 40;
 }
 
 std::string report_program(std::uint64_t lines) {

@@ -1,5 +1,5 @@
 // Records and states at a real broker: outages of the broker, kills of the server, TLS, refusals.
-// DRIPLINE_KILLS changes how often (30 by default).
+// DRIPLINE_KILLS changes how often (15 by default).
 #include <sys/stat.h>
 #include <algorithm>
 #include <cstdlib>
@@ -21,7 +21,7 @@ using test_support::eventually;
 
 int kills() {
   const char* wanted = std::getenv("DRIPLINE_KILLS");
-  return wanted != nullptr ? std::atoi(wanted) : 30;
+  return wanted != nullptr ? std::atoi(wanted) : 15;
 }
 
 class Mqtt : public testing::Test {

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kTolerance = 1e-6 * 25.4;
-constexpr std::uint64_t kPrograms = 2'500;
+constexpr std::uint64_t kPrograms = 1'000;
 
 std::uint64_t number_of(const char* name, std::uint64_t fallback) {
   const char* text = std::getenv(name);

@@ -83,7 +83,7 @@ TEST_F(TakenRequests, OneThatWasCutOffIsNotCarriedOutAndTheNextOneIs) {
 }
 
 TEST_F(TakenRequests, AProgramThatWasCutOffIsNotStoredByEither) {
-  begin_with_port({{"template", "plain"}, {"settings", {{"eob", "lf"}, {"idle_end_ms", 300}}}});
+  begin_with_port({{"template", "plain"}, {"settings", {{"eob", "lf"}, {"idle_end_ms", 1500}}}});
   const std::string text = "%\nO77\n" + program("", 40) + "%\n";
   device_.write(text.substr(0, 200));
   ASSERT_TRUE(eventually([&] { return port(0).value("received", 0u) >= 200; }));
