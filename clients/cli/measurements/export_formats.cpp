@@ -76,7 +76,8 @@ Result<void> write_in_pieces(const MeasurementExport& request, MeasurementSource
 /// The first of the names that is a program on the path.
 std::string find_browser() {
   const char* path = std::getenv("PATH");
-  for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
+  for (const char* name :
+       {"chromium", "chromium-headless-shell", "chromium-browser", "google-chrome"}) {
     std::string_view folders = path == nullptr ? "/usr/bin" : path;
     while (!folders.empty()) {
       const auto folder = folders.substr(0, folders.find(':'));
