@@ -17,6 +17,7 @@ constexpr std::size_t kMaxWindow = 4096;
 constexpr double kMinFeed = 1;             ///< per minute; a lower one is raised to it
 constexpr double kMaxArcRadius = 1'000;    ///< mm: of larger ones single precision moves the center
 constexpr double kMaxArcTolerance = 0.01;  ///< mm ($12): coarser arcs are ours, as chords
+constexpr double kArcMargin = 0.01;        ///< mm: what single precision adds to an arc
 constexpr double kMaxDwell = 3'000;        ///< seconds: Grbl counts 50 ms in 16 bits
 
 bool is_zero(const AxisValues& offset) {
@@ -134,6 +135,7 @@ TextRules BoardInfo::rules() const {
   rules.feeds_all_axes = rules.times_rotary_axes = true;
   rules.min_feed = kMinFeed;
   rules.max_arc_radius = setting_or(12, 0) > kMaxArcTolerance ? 0 : kMaxArcRadius;
+  rules.arc_margin = kArcMargin;
   rules.max_dwell = kMaxDwell;
   rules.seconds_ahead = seconds_ahead();
   if (setting_or(30, 0) > 0) rules.max_rpm = setting_or(30, 0);

@@ -285,6 +285,20 @@ std::optional<Refusal> MotionWriter::arc_line(const interpreter::Arc& event, con
   return std::nullopt;
 }
 
+/// Whether the device may find a point of the arc outside of the travel that touches its end.
+bool MotionWriter::nears_limit(const ArcPath& path, std::vector<Coordinates> extremes) const {
+  if (rules_.arc_margin == 0) return false;
+  extremes.push_back(path.from);
+  extremes.push_back(path.to);
+  for (const std::size_t axis : {path.first, path.second}) {
+    if (!rules_.axes[axis]->travel) continue;
+    const auto& [low, high] = *rules_.axes[axis]->travel;
+    for (const Coordinates& point : extremes)
+      if (std::min(point[axis] - low, high - point[axis]) < rules_.arc_margin) return true;
+  }
+  return false;
+}
+
 std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionText& text) {
   Coordinates to;
   if (auto refusal = target_of(event.to, to)) return refusal;
@@ -295,7 +309,8 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
   for (const std::size_t axis : {path.first, path.second})
     if (!rules_.has(axis))
       return Refusal{"MCH0002", fmt::format("the machine has no {} axis", letter_of(axis))};
-  for (const Coordinates& extreme : extremes(path))
+  const auto farthest = extremes(path);
+  for (const Coordinates& extreme : farthest)
     if (auto refusal = check_travel(rules_, at_, extreme, display_)) return refusal;
   const double program = path.feed_length();
   const PathLength measured{program, rules_.feeds_all_axes ? length : program};
@@ -306,7 +321,7 @@ std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionTe
   const bool is_spiral =
       std::fabs(path.end_radius - path.start_radius) > max_radius_change(rules_.decimals);
   const bool is_arc = !is_spiral && !has_rotary && length >= kShortestArc &&
-                      path.start_radius <= rules_.max_arc_radius;
+                      path.start_radius <= rules_.max_arc_radius && !nears_limit(path, farthest);
   interpreter::Arc turned = event;  // in the direction of the path
   turned.turn = path.sweep > 0 ? interpreter::Turn::Counterclockwise : interpreter::Turn::Clockwise;
   const double seconds = std::max(measured.device / feed * 60, least_seconds(path));

@@ -48,6 +48,8 @@ struct TextRules {
   double min_feed = 0;  ///< per minute; the device raises a lower one
   /// Larger arcs are written as chords: the device's numbers are too coarse for their center.
   double max_arc_radius = std::numeric_limits<double>::infinity();
+  /// So are those that come as near (mm) to the end of the travel: the device would be beyond it.
+  double arc_margin = 0;
   double max_dwell = 1e6;  ///< seconds of one line
   /// G61.1 and G61 before the move; false: a dwell of no time after it.
   bool has_stop_mode = false;

@@ -304,6 +304,10 @@ TEST_F(BoardText, KeepsToTheTravelWhereSoftLimitsAreInForce) {
   EXPECT_EQ(refusal->text, "Y 1 mm is outside the machine's travel of -200 to 0 ($20, $23, $131)");
   (void)arc(-200, -100, 0, -200, -50, 180, Turn::Counterclockwise);
   EXPECT_TRUE(refusal) << "the arc bulges beyond the travel";
+  (void)rapid(-100, -100, 0);
+  EXPECT_EQ(arc(-100, -50, 0, -100, -75, 180), Lines{"G17G3X-100Y-50I0J25F600"});
+  EXPECT_EQ(arc(-100, 0, 0, -100, -25, 180).front().substr(0, 3), "G1X")
+      << "in single precision the arc would leave the travel";
   make(board);
   EXPECT_EQ(rapid(-200, 0.00004, 0), Lines{"G0X-200"}) << "rounded, it is at its limit";
   (void)rapid(0, 0.0001, 0);
