@@ -82,8 +82,7 @@ bool choose(Run& run, int number) {
   }
   if (!refuse_in_transfer(run, number)) return false;
   if (find_known(run, number) == nullptr) take_definition_ahead(run, number);
-  const ToolData* data = find_known(run, number);
-  if (data == nullptr) data = find(run.tools, number);  // what the setup has besides
+  const ToolData* data = find_tool(run, number);
   if (data == nullptr) return run.fail(ErrorCode::ToolDefMissing, fmt::format("tool {}", number));
   tool.number = number;
   tool.data = *data;
@@ -97,6 +96,11 @@ bool choose(Run& run, int number) {
 }
 
 }  // namespace
+
+const ToolData* find_tool(const Run& run, int number) {
+  const ToolData* data = find_known(run, number);
+  return data != nullptr ? data : find(run.tools, number);  // what the setup has besides
+}
 
 bool define_tool(Run& run, const Block& block) {
   State& state = run.state;

@@ -12,6 +12,8 @@ bool define_tool(Run& run, const Block& block);
 /// resort, only as many as fit the control's memory, so that the first cut does not wait for a
 /// whole long program. 0: no search is needed.
 std::uint64_t reach_of_definition(const Run& run, const Block& block);
+/// Of the tool file, of a TOOL DEF or of the setup; nullptr: there is no such tool.
+const ToolData* find_tool(const Run& run, int number);
 /// TOOL CALL, and the plane functions of ISO.
 bool call_tool(Run& run, const Block& block);
 /// Loads the tools of the setup: the central tool file, or tools defined before.

@@ -6,6 +6,7 @@
 #include "gateway/interpreter/core/language/expression.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
 namespace dripline::interpreter::tnc155::itnc {
@@ -210,6 +211,17 @@ bool index_of_system(Run& run, int& index) {
   return true;
 }
 
+/// ID 50: length and radius of a tool in the table, without DL and DR of a TOOL CALL. Without an
+/// index of the one that was called.
+bool read_tool(Run& run, const Block& block, int field, int index) {
+  const int number = index == 0 ? run.state.tool.number : index;
+  constexpr ToolData kNoTool{};
+  const ToolData* data = number == 0 ? &kNoTool : find_tool(run, number);
+  if (data == nullptr) return run.fail(ErrorCode::ToolDefMissing, fmt::format("tool {}", number));
+  return set(run, block.target,
+             (field == 1 ? data->length : data->radius) / run.state.mm_per_unit());
+}
+
 /// ID 240: where the program has brought an axis, in machine coordinates.
 bool read_machine_position(Run& run, const Block& block, Axis axis) {
   const State& state = run.state;
@@ -265,7 +277,9 @@ bool read_system(Run& run, const Block& block) {
   const double unit = state.mm_per_unit();
   const bool is_moved = place >= 1 && place <= 3 && state.machine.has(static_cast<Axis>(place - 1));
   const bool is_position = id == 270 || id == 240;
-  const bool is_rebuilt = id == 220 || (is_position ? is_moved : state.tool.is_called);
+  const bool is_of_table = id == 50 && place > 0;
+  const bool is_rebuilt =
+      id == 220 || is_of_table || (is_position ? is_moved : state.tool.is_called);
   if (!note_system_in_search(run, block, is_rebuilt)) return false;
   if (place == 0 && (id == 20 || id == 60)) {
     if (number == 1) return set(run, block.target, state.tool.number);
@@ -274,6 +288,9 @@ bool read_system(Run& run, const Block& block) {
       return set(run, block.target, static_cast<double>(state.tool.axis));
     }
     if (number == (id == 20 ? 4 : 3)) return set(run, block.target, state.spindle.speed);
+  }
+  if (id == 50 && (number == 1 || number == 2) && (is_of_table || state.tool.is_called)) {
+    return read_tool(run, block, number, place);
   }
   if (id == 220 && number == 2 && place >= 1 && place <= 3) {
     return set(run, block.target,
