@@ -154,7 +154,7 @@ async function main(): Promise<void> {
   const shop = new Shop();
   shop.serverArgs = ['--dds-cells', kCells!, '--discovery-interval-ms', kDiscovery!, '--lease-ms', kLease!];
   await shop.startServer();
-  const browser = await openBrowser();
+  const browser = await openBrowser(['--disable-gpu']);
   const first = await visit(browser, shop);
   const pid = childWith('chromium');
   await shop.startMachine('mill-0', { control: 'fanuc' });

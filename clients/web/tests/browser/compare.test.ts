@@ -1,7 +1,7 @@
 // Two revisions compared: side by side, normalized, by motion on a machine's setup, with conditions, hostile.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { assertNoComplaints, findBarriers, kWebGl, shopForTests } from './page';
+import { assertNoComplaints, findBarriers, shopForTests } from './page';
 
 const kFirst = 'O0100 (SQUARE)\nG21 G90 G94 G55\nG0 X0. Y0. Z5.\nG1 Z0. F100.\nG1 X100. F500.\nG1 Y100.\nG1 X0.\nG0 Z5.\nM30\n';
 const kSecond = kFirst.replace('X100. F500.', 'X100.5 F450.').replace('G1 X0.', '(BACK)\nG1 X0.');
@@ -12,7 +12,7 @@ const { shop, visit } = shopForTests(async (shop) => {
   await shop.api('PUT', 'machines/mill-1/setup', '[[offset]]\nname = "G54"\nX = 500.0\n');
   for (const text of [kFirst, kSecond, kSecond.replace('G55', 'G54').replaceAll('G1 ', 'G01 ')]) await shop.push('O0100', text, 'fanuc');
   for (const size of ['1.', '2.']) await shop.push('O0200', `O0200 (${kHostile})\nG21\nG0 X#500\nG0 Y${size} (${kHostile})\nM30\n`, 'fanuc');
-}, undefined, kWebGl);
+});
 
 const complete = '[data-complete=true]';
 

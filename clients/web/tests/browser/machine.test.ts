@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Page } from 'playwright-core';
 import { LineControl } from './line_control';
-import { assertNoComplaints, findBarriers, kWebGl, pressTwice, shopForTests } from './page';
+import { assertNoComplaints, findBarriers, pressTwice, shopForTests } from './page';
 import { longProgram, until } from './shop';
 
 const kHostileLine = '<script>alert(1)</script>';
@@ -14,7 +14,7 @@ const { shop, visit } = shopForTests(async (shop) => {
   await shop.startMachine('lathe-1', { control: 'centurion' });
   await shop.push('O0100', longProgram('O0100', 2000), 'fanuc');
   await shop.push('O0300', `O0300\nG20 G93 G98\nINPUT (<B>DIAMETER</B>) P1\nPOPEN P0\nDPRNT [${kHostileLine}]\nPCLOS\nM30\n`, 'centurion');
-}, undefined, kWebGl);
+});
 
 const state = (page: Page, word: string) => page.locator('.machine-head .pill', { hasText: word });
 

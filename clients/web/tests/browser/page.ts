@@ -9,11 +9,10 @@ import { Shop } from './shop';
 export const kWidths = [1280, 800] as const;
 export const kThemes = ['light', 'dark'] as const;
 
-/// WebGL as on a computer with a graphics processor, which the path needs. Without one, drawing everything by it takes a multiple of Chromium's own drawing.
-export const kWebGl = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-const kNoWebGl = ['--disable-gpu'];
+/// WebGL as on a computer with a graphics processor, which the path needs; without one, drawing everything by it takes a multiple of Chromium's own drawing.
+const kWebGl = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
-export async function openBrowser(drawing = kNoWebGl): Promise<Browser> {
+export async function openBrowser(drawing = kWebGl): Promise<Browser> {
   return chromium.launch({
     executablePath: process.env.CHROMIUM!,
     args: ['--no-sandbox', ...drawing, '--disable-background-networking', '--force-device-scale-factor=1'],
@@ -78,15 +77,15 @@ export async function visit(browser: Browser, shop: Shop, place = '', options: V
   return { page, complaints, requests };
 }
 
-/// A shop and a browser for the tests of a file; what a test has opened is closed after it. Tests that look at a path ask for kWebGl.
-export function shopForTests(prepare: (shop: Shop) => Promise<void>, argsOf: (shop: Shop) => string[] = () => [], drawing = kNoWebGl) {
+/// A shop and a browser for the tests of a file; what a test has opened is closed after it.
+export function shopForTests(prepare: (shop: Shop) => Promise<void>, argsOf: (shop: Shop) => string[] = () => []) {
   const shop = new Shop();
   shop.serverArgs = argsOf(shop);
   let browser: Browser | undefined;
   before(async () => {
     await shop.startServer();
     await prepare(shop);
-    browser = await openBrowser(drawing);
+    browser = await openBrowser();
   });
   afterEach(async () => {
     for (const context of browser?.contexts() ?? []) await context.close();

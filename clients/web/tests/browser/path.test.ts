@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Page } from 'playwright-core';
-import { assertNoComplaints, findBarriers, kWebGl, shopForTests } from './page';
+import { assertNoComplaints, findBarriers, shopForTests } from './page';
 
 const kSquare = 'O0100 (SQUARE)\nG21 G90 G94\nT1 M6\nG0 X0. Y0. Z5.\nG1 Z0. F100.\nG1 X100. F500.\nG1 Y100.\nG1 X0.\nG1 Y0.\nG0 Z5.\nM30\n';
 const kHostile = '<img src=x onerror=alert`1`>';
@@ -15,7 +15,7 @@ const { shop, visit } = shopForTests(async (shop) => {
   await shop.push('O0300', 'O0300\nG20 G93 G98\nG0 X2. Z0.\nG1 Z-1. F10.\nM30\n', 'centurion');
   const lines = Array.from({ length: 100_000 }, (_, i) => `G1 X${(i % 1000) / 10} Y${Math.floor(i / 1000)}.`);
   await shop.push('O0400', `O0400\nG21 G90 F500.\n${lines.join('\n')}\nM30\n`, 'fanuc');
-}, undefined, kWebGl);
+});
 
 const complete = (page: Page) => page.locator('[data-complete=true]').waitFor();
 const current = (page: Page) => page.locator('.path-blocks [aria-current=step] .number');

@@ -4,7 +4,7 @@ import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import type { Page } from 'playwright-core';
 import { exampleShop } from './example_shop';
-import { kThemes, kWebGl, kWidths, openBrowser, visit } from './page';
+import { kThemes, kWidths, openBrowser, visit } from './page';
 
 const kNarrow = 390;
 
@@ -73,7 +73,7 @@ async function main(): Promise<void> {
   const folder = path.resolve(process.argv[2]!);
   mkdirSync(folder, { recursive: true });
   const shop = await exampleShop();
-  const browser = await openBrowser(kWebGl);
+  const browser = await openBrowser();
   try {
     for (const [name, place] of Object.entries(kPlaces)) {
       if (process.argv[3] && !process.argv[3].split(',').some((part) => name.includes(part))) continue;
