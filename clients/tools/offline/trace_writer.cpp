@@ -262,6 +262,7 @@ void TraceWriter::on_blank(const Blank& blank) {
 void TraceWriter::on_miscellaneous(const Miscellaneous& function) {
   begin("misc", function.origin);
   member("code", function.code);
+  if (function.e) member("e", *function.e);
   if (function.p) member("p", *function.p);
   if (function.q) member("q", *function.q);
   end();

@@ -27,7 +27,7 @@ TEST(Rs274State, APinIsAskedForInTheMiddleOfALine) {
 }
 
 TEST(Rs274State, AnAnalogInputIsAPinOfHal) {
-  const std::string text = "G21 M66 E1\nG0 X#5399\nM2\n";
+  const std::string text = "G21 G0 X7\nM66 E1\nG0 X#5399\nM2\n";
   for (const std::optional<double> value : {std::optional(-2.5), std::optional<double>()}) {
     ControlRun run(text, kLater);
     ASSERT_EQ(run.step(), StepState::NeedsAnswer);
