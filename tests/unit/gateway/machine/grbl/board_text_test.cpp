@@ -305,7 +305,7 @@ TEST_F(BoardText, KeepsToTheTravelWhereSoftLimitsAreInForce) {
   (void)arc(-200, -100, 0, -200, -50, 180, Turn::Counterclockwise);
   EXPECT_TRUE(refusal) << "the arc bulges beyond the travel";
   (void)rapid(-100, -100, 0);
-  EXPECT_EQ(arc(-100, -50, 0, -100, -75, 180), Lines{"G17G3X-100Y-50I0J25F600"});
+  EXPECT_EQ(arc(-100, -50, 0, -100, -75, 180), Lines{"G17G3Y-50X-100I0J25F600"});
   EXPECT_EQ(arc(-100, 0, 0, -100, -25, 180).front().substr(0, 3), "G1X")
       << "in single precision the arc would leave the travel";
   make(board);
