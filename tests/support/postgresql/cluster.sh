@@ -20,6 +20,15 @@ if [[ -S $folder/.s.PGSQL.5432 ]] && "${as[@]}" "$bin/pg_ctl" -D "$folder/data" 
 fi
 rm -rf "$folder"
 mkdir -p "$folder"
+# In memory where there is room, and no figures are asked for: a database is made for each test.
+memory=
+if [[ ${DRIPLINE_FSYNC:-off} == off ]] && (($(df --output=avail -k /dev/shm 2>/dev/null | tail -1 || echo 0) > 2 << 20)); then
+  memory=/dev/shm/$(basename "$folder")
+  rm -rf "$memory"
+  mkdir "$memory"
+  ln -s "$memory" "$folder/data"
+  if [[ $(id -u) == 0 ]]; then chown postgres: "$memory"; fi
+fi
 chmod 755 "$folder"
 if [[ $(id -u) == 0 ]]; then chown postgres: "$folder"; fi
 cd "$folder"
@@ -27,13 +36,13 @@ cd "$folder"
 fsync=${DRIPLINE_FSYNC:-off}
 "${as[@]}" "$bin/pg_ctl" -D "$folder/data" -w -l "$folder/server.log" start >"$folder/start.log" 2>&1 \
   -o "-k $folder -c listen_addresses='' -c fsync=$fsync -c full_page_writes=$fsync -c max_connections=200 \
-      -c shared_buffers=64MB -c max_wal_size=1GB -c wal_level=minimal -c max_wal_senders=0 -c autovacuum=off"
+      -c shared_buffers=64MB -c max_wal_size=512MB -c wal_level=minimal -c max_wal_senders=0 -c autovacuum=off"
 "$bin/psql" -h "$folder" -U dripline -d postgres -qc 'CREATE DATABASE dripline' 2>>"$folder/start.log"
 
 (
   exec </dev/null >/dev/null 2>&1
   while kill -0 "$process" 2>/dev/null; do sleep 1; done
   "${as[@]}" "$bin/pg_ctl" -D "$folder/data" -m immediate stop
-  rm -rf "$folder"
+  rm -rf "$folder" ${memory:+"$memory"}
 ) &
 disown
