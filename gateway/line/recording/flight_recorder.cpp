@@ -83,6 +83,7 @@ void FlightRecorder::drop_old(UtcTime now) {
 }
 
 void FlightRecorder::flush() {
+  const std::lock_guard one_at_a_time(flushing_);
   const UtcTime now = clock_.now();
   std::vector<PortTraffic> fresh;
   {

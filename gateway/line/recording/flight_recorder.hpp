@@ -35,7 +35,7 @@ class FlightRecorder {
 
   /// Uses memory only: for the line's thread.
   void add(const serial::LineTraffic& traffic);
-  /// Publishes and writes complete entries; called some times a second, from one thread at a time.
+  /// Publishes and writes complete entries, in their order; called some times a second.
   void flush();
   /// Resets the counts.
   void on_opened();
@@ -65,8 +65,9 @@ class FlightRecorder {
   const Options options_;
   const Clock& clock_;
   const std::function<void(const PortTraffic&)> on_entry_;
+  std::mutex flushing_;                ///< one flush at a time; taken before `mutex_`
   std::optional<RecordingFile> file_;  ///< used by flush only
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;           ///< guards all below
   std::deque<PortTraffic> entries_;
   std::optional<PortTraffic> open_;  ///< still growing
   std::uint64_t first_ = kFirst;     ///< number of the oldest entry, or of the next one

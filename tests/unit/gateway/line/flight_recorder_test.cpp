@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+#include <atomic>
 #include <fstream>
+#include <thread>
 
 #include "gateway/line/block_ledger.hpp"
 #include "gateway/line/recording/flight_recorder.hpp"
@@ -51,6 +53,28 @@ TEST_F(RecorderTest, JoinsCharactersThatFollowEachOther) {
   EXPECT_EQ(recorder.sent(), 4u);
   EXPECT_EQ(recorder.received(), 1u);
   EXPECT_EQ(recorder.faults(), 1u);
+}
+
+// The end of a server flushes beside the thread that does so all the time.
+TEST_F(RecorderTest, WritesEveryEntryOnceAndInOrderWhoeverFlushes) {
+  constexpr int kEntries = 500;
+  {
+    auto recorder = make({.port = {}, .folder = folder_.path()});
+    std::atomic<bool> is_over = false;
+    std::thread other([&] {
+      while (!is_over) recorder.flush();
+    });
+    for (int i = 0; i < kEntries; ++i) {
+      add(recorder, What::Note, std::to_string(i));
+      recorder.flush();
+    }
+    is_over = true;
+    other.join();
+  }
+  EXPECT_EQ(notified_.size(), kEntries);
+  const auto kept = make({.port = {}, .folder = folder_.path()}).entries();
+  ASSERT_EQ(kept.size(), kEntries);
+  for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].text, std::to_string(i));
 }
 
 TEST_F(RecorderTest, IsBoundedInBytesAndInTime) {
