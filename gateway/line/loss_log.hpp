@@ -54,7 +54,7 @@ class LossLog {
   Period period_;
 };
 
-/// Writes it, if there is one, behind `names` ("port=lathe machine=m1").
+/// Writes it, if there is one, after `names` ("port=lathe machine=m1").
 void log_message(std::string_view names, const std::optional<LossLog::Message>& message);
 
 }  // namespace dripline::line

@@ -152,10 +152,10 @@ TextRules BoardInfo::rules() const {
 Coordinates BoardInfo::in_mm(const AxisValues& values) const {
   Coordinates point{};
   for (std::size_t i = 0; i < values.count; ++i) {
-    const auto axis = interpreter::axis_of(letter(i));
-    if (!axis) continue;
-    point[static_cast<std::size_t>(*axis)] =
-        values.value[i] * (interpreter::is_rotary(*axis) ? 1 : report_scale());
+    const auto number = number_of(i);
+    if (!number) continue;
+    const bool is_rotary = interpreter::is_rotary(static_cast<interpreter::Axis>(*number));
+    point[*number] = values.value[i] * (is_rotary ? 1 : report_scale());
   }
   return point;
 }

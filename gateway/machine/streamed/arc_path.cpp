@@ -27,17 +27,16 @@ double ArcPath::plane_length() const {
 }
 
 double ArcPath::feed_length() const {
-  const std::size_t begin = first - first % 3;  // of X, Y and Z
-  return length_of_axes(begin, begin + 3);
+  return length_of_axes(3);
 }
 
 double ArcPath::length() const {
-  return length_of_axes(0, kMaxAxes);
+  return length_of_axes(kMaxAxes);
 }
 
-double ArcPath::length_of_axes(std::size_t begin, std::size_t end) const {
+double ArcPath::length_of_axes(std::size_t count) const {
   double square = plane_length() * plane_length();
-  for (std::size_t i = begin; i < end; ++i)
+  for (std::size_t i = 0; i < count; ++i)
     if (i != first && i != second) square += (to[i] - from[i]) * (to[i] - from[i]);
   return std::sqrt(square);
 }

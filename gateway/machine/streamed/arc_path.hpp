@@ -17,13 +17,13 @@ struct ArcPath {
 
   double plane_length() const;
   double length() const;       ///< of all axes
-  double feed_length() const;  ///< of the plane's axes and the one across it, which a feed is for
+  double feed_length() const;  ///< of X, Y and Z, which a feed is for
   /// `part` from 0 to 1 of the path; the axes outside the plane move evenly with the angle.
   Coordinates at(double part) const;
 
  private:
-  /// Of the plane's axes and those others from `begin` to before `end`.
-  double length_of_axes(std::size_t begin, std::size_t end) const;
+  /// Of the first `count` axes.
+  double length_of_axes(std::size_t count) const;
 };
 
 /// The direction is the one that meets the end, as for the simulated machine; the event's decides

@@ -1,6 +1,7 @@
 #include "gateway/machine/streamed/motion_writer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -286,17 +287,17 @@ std::optional<Refusal> MotionWriter::arc_line(const interpreter::Arc& event, con
 }
 
 /// Whether the device may find a point of the arc outside of the travel that touches its end.
-bool MotionWriter::nears_limit(const ArcPath& path, std::vector<Coordinates> extremes) const {
-  if (rules_.arc_margin == 0) return false;
-  extremes.push_back(path.from);
-  extremes.push_back(path.to);
-  for (const std::size_t axis : {path.first, path.second}) {
-    if (!rules_.axes[axis]->travel) continue;
-    const auto& [low, high] = *rules_.axes[axis]->travel;
-    for (const Coordinates& point : extremes)
-      if (std::min(point[axis] - low, high - point[axis]) < rules_.arc_margin) return true;
-  }
-  return false;
+bool MotionWriter::nears_limit(const ArcPath& path,
+                               const std::vector<Coordinates>& extremes) const {
+  const auto is_near = [&](const Coordinates& point) {
+    return std::ranges::any_of(std::array{path.first, path.second}, [&](std::size_t axis) {
+      const auto& travel = rules_.axes[axis]->travel;
+      return travel &&
+             std::min(point[axis] - travel->low, travel->high - point[axis]) < rules_.arc_margin;
+    });
+  };
+  return rules_.arc_margin > 0 &&
+         (is_near(path.from) || is_near(path.to) || std::ranges::any_of(extremes, is_near));
 }
 
 std::optional<Refusal> MotionWriter::arc(const interpreter::Arc& event, MotionText& text) {

@@ -63,7 +63,7 @@ class MotionWriter {
     bool rests = false;
   };
   std::optional<Refusal> target_of(const interpreter::Position& to, Coordinates& target) const;
-  bool nears_limit(const ArcPath& path, std::vector<Coordinates> extremes) const;
+  bool nears_limit(const ArcPath& path, const std::vector<Coordinates>& extremes) const;
   std::optional<Refusal> straight(const Motion& motion, const Coordinates& to, MotionText& text);
   std::optional<Refusal> straight_line(const Motion& motion, const Coordinates& to,
                                        MotionText& text);

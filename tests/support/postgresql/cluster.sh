@@ -21,8 +21,8 @@ fi
 rm -rf "$folder"
 mkdir -p "$folder"
 # In memory where there is room, and no figures are asked for: a database is made for each test.
-memory=
-if [[ ${DRIPLINE_FSYNC:-off} == off ]] && (($(df --output=avail -k /dev/shm 2>/dev/null | tail -1 || echo 0) > 2 << 20)); then
+fsync=${DRIPLINE_FSYNC:-off} memory=
+if [[ $fsync == off ]] && (($(df --output=avail -k /dev/shm 2>/dev/null | tail -1 || echo 0) > 2 << 20)); then
   memory=/dev/shm/$(basename "$folder")
   rm -rf "$memory"
   mkdir "$memory"
@@ -33,7 +33,6 @@ chmod 755 "$folder"
 if [[ $(id -u) == 0 ]]; then chown postgres: "$folder"; fi
 cd "$folder"
 "${as[@]}" "$bin/initdb" -D "$folder/data" -A trust -U dripline --no-locale -E UTF8 --no-sync >"$folder/initdb.log" 2>&1
-fsync=${DRIPLINE_FSYNC:-off}
 "${as[@]}" "$bin/pg_ctl" -D "$folder/data" -w -l "$folder/server.log" start >"$folder/start.log" 2>&1 \
   -o "-k $folder -c listen_addresses='' -c fsync=$fsync -c full_page_writes=$fsync -c max_connections=200 \
       -c shared_buffers=64MB -c max_wal_size=512MB -c wal_level=minimal -c max_wal_senders=0 -c autovacuum=off"
