@@ -98,7 +98,7 @@ Result<void> RunLoop::check_units(const interpreter::Setup& setup) const {
   const auto stated = setup.units.value_or(parts_.dialect.units);
   if (stated == reader->units) return {};
   const auto name = [](interpreter::Units units) {
-    return units == interpreter::Units::Inch ? "in" : "mm";
+    return interpreter::shown_unit(interpreter::Axis::X, units);
   };
   return fail(
       Errc::Conflict,

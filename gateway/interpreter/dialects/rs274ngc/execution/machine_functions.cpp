@@ -2,12 +2,12 @@
 
 #include <fmt/core.h>
 #include <cmath>
-#include <utility>
 
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/saved_modes.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/splines.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/tool_table.hpp"
 
 namespace dripline::interpreter::rs274ngc {
@@ -163,14 +163,11 @@ bool read_digital(Run& run, InputWait wait) {
 bool read_analog(Run& run) {
   const double input = std::round(run.block.words['E']);
   if (!(input >= 0 && input <= kMaxPin)) return run.fail_word(ErrorCode::IoWords, 'E', "M66");
-  const std::string name = fmt::format("motion.analog-in-{:02.0f}", input);
   std::optional<double> value;
-  if (run.options.hal) {
-    if (const auto found = run.options.hal->find(name); found != run.options.hal->end())
-      value = found->second;
-  } else if (!run.options.answers_pins) {
-    if (!run.answer) return run.ask(SignalQuestion{name});
-    value = std::get<SignalValue>(*std::exchange(run.answer, std::nullopt)).value;
+  if (run.options.hal || !run.options.answers_pins) {
+    const auto signal = ask_signal(run, fmt::format("motion.analog-in-{:02.0f}", input));
+    if (!signal) return false;
+    value = signal->value;
   }
   run.events().on_miscellaneous({.origin = run.origin, .code = 66, .is_done = value.has_value()});
   run.parameters[kInputResult] = value.value_or(0);

@@ -181,17 +181,9 @@ SignalValue listed_value(const Run& run, std::string_view hal) {
 const SignalValue* find_signal(Run& run, std::string_view hal) {
   for (const Run::Signal& known : run.signals)
     if (known.name == hal) return &known.value;
-  if (!run.options.hal && !run.answer) {
-    run.ask(SignalQuestion{std::string(hal)});
-    return nullptr;
-  }
-  SignalValue value;
-  if (run.options.hal) {
-    value = listed_value(run, hal);
-  } else {
-    value = std::get<SignalValue>(*std::exchange(run.answer, std::nullopt));
-  }
-  return &run.signals.emplace_back(Run::Signal{std::string(hal), std::move(value)}).value;
+  auto value = ask_signal(run, hal);
+  if (!value) return nullptr;
+  return &run.signals.emplace_back(Run::Signal{std::string(hal), *std::move(value)}).value;
 }
 
 bool read_signal(Run& run, std::string_view hal, std::uint32_t column, double& value) {
@@ -270,6 +262,13 @@ std::optional<double> named_for_text(Run& run, std::string_view name) {
   const auto hal = hal_name(name);  // a comment asks nothing: what its line has read
   for (const Run::Signal& known : run.signals)
     if (!hal.empty() && known.name == hal) return known.value.value;
+  return std::nullopt;
+}
+
+std::optional<SignalValue> ask_signal(Run& run, std::string_view hal) {
+  if (run.options.hal) return listed_value(run, hal);
+  if (run.answer) return std::get<SignalValue>(*std::exchange(run.answer, std::nullopt));
+  run.ask(SignalQuestion{std::string(hal)});
   return std::nullopt;
 }
 

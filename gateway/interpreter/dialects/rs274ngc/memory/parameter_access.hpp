@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
@@ -18,6 +19,10 @@ bool read_named(Run& run, std::string_view name, std::uint32_t column, double& v
 bool is_defined(Run& run, std::string_view name, bool& is_there);
 /// The number under which a name can be set; alarms on those that only show the state.
 bool name_to_set(Run& run, std::string_view name, std::uint32_t column, NameId& id);
+
+/// A HAL pin as the setup lists it, else as the machine answers. nullopt: the machine is asked
+/// first.
+std::optional<SignalValue> ask_signal(Run& run, std::string_view hal);
 
 /// For the texts of comments: the value after a #, without alarms.
 std::optional<double> parameter_for_text(Run& run, int index);
