@@ -164,6 +164,13 @@ bool change_compensation(Run& run, const Block& block, const PlaneMove& move) {
   return start_again(run, block);
 }
 
+/// A later control suspends RL and RR by M98 for its block only (iTNC 530, User's Manual: machining
+/// open contour corners). Where its tool goes from there is a picture in the manual: without R0 the
+/// path is not known.
+bool is_after_m98(const Run& run) {
+  return run.options.is_itnc && run.state.is_parallel && !run.state.needs_side;
+}
+
 bool is_plain(const State& state, const Block& block) {
   return !state.uses_stages &&
          (block.compensation == Compensation::NotProgrammed ||
@@ -233,6 +240,8 @@ bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
   }
   State& state = run.state;
   if (!check_blend(run, block, move)) return false;
+  if (is_after_m98(run) && move.has_any && block.compensation != Compensation::Off)
+    return refuse_start(run, "the block after M98 needs R0 here");
   // The manual does not state whether the control continues beside the contour or on it: on it the
   // tool would cut too deep by its radius.
   if (block.compensation != Compensation::NotProgrammed) state.needs_side = false;
