@@ -13,7 +13,7 @@ constexpr std::array kStateNames{
     StateName{RunState::Ordered, "ordered"},     StateName{RunState::Active, "active"},
     StateName{RunState::Completed, "completed"}, StateName{RunState::Aborted, "aborted"},
     StateName{RunState::Alarmed, "alarmed"},     StateName{RunState::Interrupted, "interrupted"},
-    StateName{RunState::Refused, "refused"},
+    StateName{RunState::Refused, "refused"},     StateName{RunState::Tested, "tested"},
 };
 
 }  // namespace
@@ -30,8 +30,8 @@ Result<RunState> parse_run_state(std::string_view text) {
     if (row.name == text) return row.state;
   }
   return fail(Errc::Syntax,
-              "'{}' is not a run state: ordered, active, completed, aborted, alarmed, interrupted "
-              "or refused",
+              "'{}' is not a run state: ordered, active, completed, aborted, alarmed, interrupted, "
+              "refused or tested",
               text);
 }
 

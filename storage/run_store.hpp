@@ -22,6 +22,7 @@ enum class RunState : std::uint8_t {
   Alarmed,
   Interrupted,  ///< cut off; `executed` is the block executed last
   Refused,      ///< the gateway refused it, or did not answer in time
+  Tested,       ///< a test run that found nothing: nothing moved, no part was made
 };
 std::string_view to_string(RunState state);
 Result<RunState> parse_run_state(std::string_view text);

@@ -323,6 +323,7 @@ Reply<Run> Client::start_run(const RunRequest& request) {
   if (!request.head.empty()) json["head"] = request.head;
   if (!request.memory.empty()) json["memory"] = request.memory;
   if (request.pass) json["pass"] = *request.pass;
+  if (request.is_test) json["test"] = true;
   return fetch<Run>(with_method("POST", path_of("runs")), dumped(json));
 }
 

@@ -52,7 +52,7 @@ struct Coordinates {
 struct PanelSwitches {
   std::string optional_stop, block_skip;
   std::string skip_levels;  ///< those from 2 on that are skipped: "2,9"
-  std::string dry_run, machine_lock, handwheel;
+  std::string dry_run, machine_lock, handwheel, test_run;
 };
 
 /// What the gateway allows of jogs.

@@ -101,6 +101,7 @@ struct RunRequest {
   std::string memory = {};
   /// At a gateway, with `from`: the pass, from 1, of a block that is executed more than once.
   std::optional<std::uint64_t> pass = {};
+  bool is_test = false;  ///< at a gateway: nothing moves
 };
 
 /// An empty text matches every run.

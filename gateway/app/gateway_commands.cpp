@@ -196,13 +196,14 @@ Reply Gateway::start(const dds::Command& command) {
 Reply Gateway::operate(const dds::Command& command) {
   switch (command.action) {
     case CommandAction::Hold:
+      if (loop_.is_testing()) return {true, std::string(kTestRun)};
       machine_->hold();
       loop_.keep_hold();
       return {};
     case CommandAction::Resume:
       return resume();
     case CommandAction::Abort:
-      machine_->abort();
+      loop_.abort();
       return {};
     case CommandAction::Answer: {
       const auto taken = run_.session->answer(command.argument);

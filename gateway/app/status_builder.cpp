@@ -157,7 +157,10 @@ dds::Status StatusBuilder::build(const LinkState& links) const {
       parts_.clock.steady_now().time_since_epoch());
   status.outbox = static_cast<std::uint32_t>(
       std::min<std::uint64_t>(parts_.outbox.unacknowledged(), UINT32_MAX));
-  const machine::MachineStatus now = parts_.machine.status();
+  machine::MachineStatus now = parts_.machine.status();
+  // A test run is at a place of its program, and the machine is not.
+  if (const RunSession* run = parts_.run.session.get(); run != nullptr && run->is_test())
+    now.origin = run->check()->origin();
   fill_machine(status, now);
   if (parts_.run.session) fill_run(status, now);
   fill_execution(status, links);
@@ -235,8 +238,10 @@ Execution StatusBuilder::execution_of_run(std::string& message, const LinkState&
     return Execution::Waiting;
   }
   if (const ProgramCheck* check = session.check()) {
-    message = fmt::format("looking through the program for what the machine cannot do, block {}",
-                          check->block());
+    message = fmt::format(
+        "{}, block {}",
+        session.is_test() ? kTestRun : "looking through the program for what the machine cannot do",
+        check->block());
     return Execution::Waiting;
   }
   if (parts_.consent.is_awaited()) {

@@ -71,6 +71,14 @@ class MotionCheck {
   virtual interpreter::EventSink& events() = 0;
   /// As MotionBackend's.
   virtual void set_lengths(const ToolLengths&) {}
+  /// After each block.
+  virtual void pass_block() {}
+  /// What the probe move of an open ProbeQuestion finds; nothing: it is not known beforehand.
+  virtual std::optional<interpreter::ProbeResult> probe(const interpreter::Probe&) {
+    return std::nullopt;
+  }
+  /// Of the moves and dwells so far, at 100 % override; nothing: it is not known.
+  virtual std::optional<Seconds> motion_time() const { return std::nullopt; }
   /// The first thing that the machine cannot do, with its line.
   virtual const std::optional<interpreter::Diagnostic>& refusal() const = 0;
 };
@@ -100,6 +108,11 @@ class MotionBackend {
   /// machine cannot do is found at its place only.
   virtual std::unique_ptr<MotionCheck> make_check(const interpreter::Position&) const {
     return nullptr;
+  }
+  /// For a test run of a program that begins at `at`: nothing moves. Null: the machine knows no
+  /// limits beforehand.
+  virtual std::unique_ptr<MotionCheck> make_test(const interpreter::Position& at) const {
+    return make_check(at);
   }
   /// A new program that begins at `at`: clears queue, stops, alarm, hold and spindle; keeps the
   /// panel.

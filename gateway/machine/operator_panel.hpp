@@ -24,6 +24,7 @@ struct OperatorPanel {
   double dry_run_speed = 0;
   bool dry_run_spindle = true;  ///< the spindle runs in a dry run
   bool machine_lock = false;    ///< programs run, and the axes end where they were; kept here only
+  bool test_run = false;        ///< a start tests the program and moves nothing; kept here only
 
   static constexpr double kMaxFeedOverride = 2, kMaxRapidOverride = 1, kMaxSpindleOverride = 2.55;
 

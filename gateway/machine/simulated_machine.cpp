@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "gateway/machine/simulated_check.hpp"
+
 namespace dripline::machine {
 
 SimulatedMachine::SimulatedMachine(const MachineLimits& limits, interpreter::Workpiece workpiece,
@@ -18,6 +20,10 @@ SimulatedMachine::SimulatedMachine(const MachineLimits& limits, interpreter::Wor
   for (std::size_t i = 0; i < limits_.axes.size(); ++i)
     capabilities_.axes.set(i, limits_.axes[i].has_value());
   executor_.begin({});
+}
+
+std::unique_ptr<MotionCheck> SimulatedMachine::make_test(const interpreter::Position& at) const {
+  return std::make_unique<SimulatedCheck>(limits_, workpiece_, at);
 }
 
 }  // namespace dripline::machine

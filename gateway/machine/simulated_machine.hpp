@@ -25,6 +25,7 @@ class SimulatedMachine final : public MotionBackend {
 
   const MotionCapabilities& capabilities() const override { return capabilities_; }
   Result<void> check_begin(const interpreter::Position&) const override { return {}; }
+  std::unique_ptr<MotionCheck> make_test(const interpreter::Position& at) const override;
   void begin(const interpreter::Position& at) override { executor_.begin(at); }
   void begin_next(const interpreter::Position& at) override { executor_.begin_next(at); }
 

@@ -89,7 +89,7 @@ struct PanelSwitches {
   SwitchState optional_stop = SwitchState::Unknown, block_skip = SwitchState::Unknown;
   std::string skip_levels;  ///< those from 2 on that are skipped: "2,9"
   SwitchState dry_run = SwitchState::Unknown, machine_lock = SwitchState::Unknown;
-  SwitchState handwheel = SwitchState::Unknown;
+  SwitchState handwheel = SwitchState::Unknown, test_run = SwitchState::Unknown;
   friend bool operator==(const PanelSwitches&, const PanelSwitches&) = default;
 };
 

@@ -15,8 +15,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kMaxDepth = 8;  // the texts nest two deep; the rest is for later members
-constexpr std::array<std::string_view, 4> kOutcomes{"completed", "aborted", "alarmed",
-                                                    "interrupted"};
+constexpr std::array<std::string_view, 5> kOutcomes{"completed", "aborted", "alarmed",
+                                                    "interrupted", "tested"};
 constexpr std::string_view kAxes = "XYZABCUVW";
 
 /// Counts brackets outside strings. The text is refused before parsing, so that hostile nesting

@@ -24,8 +24,14 @@ struct RunStartText {
   friend bool operator==(const RunStartText&, const RunStartText&) = default;
 };
 
-enum class RunOutcome : std::uint8_t { Completed, Aborted, Alarmed, Interrupted };
-std::string_view to_string(RunOutcome value);  ///< completed, aborted, alarmed, interrupted
+enum class RunOutcome : std::uint8_t {
+  Completed,
+  Aborted,
+  Alarmed,
+  Interrupted,
+  Tested,  ///< a test run that found nothing; nothing moved, and no part was made
+};
+std::string_view to_string(RunOutcome value);  ///< completed, aborted, alarmed, interrupted, tested
 
 /// RecordKind::RunEnded
 struct RunEndText {

@@ -86,7 +86,8 @@ struct StartRequest {
   StartPoint from = {};
   StartHead head = StartHead::Ask;
   StartMemory memory = StartMemory::Ask;
-  std::optional<RestartRequest> restart = {};  ///< then nothing of the three before
+  bool is_test = false;  ///< a test run, which moves nothing; only at a gateway
+  std::optional<RestartRequest> restart = {};  ///< then nothing of the four before
   bool is_mdi = false;  ///< the program was keyed in for this run; only at a gateway
   std::optional<std::uint64_t> job = {};  ///< of the machine's queue, that it is a run of
   /// Called when the run is stored and nothing has gone to the machine. Its error refuses the run.

@@ -16,6 +16,8 @@ storage::RunState to_state(dds::RunOutcome outcome) {
       return storage::RunState::Aborted;
     case dds::RunOutcome::Alarmed:
       return storage::RunState::Alarmed;
+    case dds::RunOutcome::Tested:
+      return storage::RunState::Tested;
     case dds::RunOutcome::Interrupted:
       return storage::RunState::Interrupted;
   }

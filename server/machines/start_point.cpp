@@ -48,6 +48,7 @@ std::string start_argument(const StartRequest& request) {
   if (request.restart)
     return fmt::format("restart={} at={}", request.restart->run, request.restart->at);
   std::string text = start_text(request.from);
+  if (request.is_test) text += text.empty() ? "test=yes" : " test=yes";
   if (text.empty()) return text;
   if (request.from.pass) text += fmt::format(" pass={}", *request.from.pass);
   if (request.memory == StartMemory::Begin) text += " memory=begin";

@@ -119,6 +119,12 @@ Result<SendJob> LineRuns::job(const storage::Run& run, const machines::StartRequ
                 "a serial line, and its control has its own memory",
                 run.machine);
   }
+  if (request.is_test) {
+    return fail(Errc::Unsupported,
+                "machine '{}' is on a serial line: only a gateway tests a program (dnc check does "
+                "it without a machine)",
+                run.machine);
+  }
   const auto place = find_start(store_.programs, run, request.from);
   if (!place) return fail(place.error());
   auto head = start_head(store_.programs, run, *place, request.head);

@@ -90,7 +90,7 @@ Style style_of_execution(const std::string& execution) {
 }
 
 Style style_of_state(const std::string& state) {
-  if (state == "completed") return Style::Good;
+  if (state == "completed" || state == "tested") return Style::Good;
   if (state == "active" || state == "ordered") return Style::Busy;
   return Style::Bad;
 }
@@ -193,6 +193,7 @@ std::string switches_text(const client::MachineStatus& status) {
   add("dry_run", switches.dry_run);
   add("machine_lock", switches.machine_lock);
   add("handwheel", switches.handwheel);
+  add("test_run", switches.test_run);
   return text;
 }
 

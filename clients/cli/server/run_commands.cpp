@@ -172,6 +172,9 @@ void add_start(Command group, Context& context) {
   command.add_option("--pass", options->request.pass,
                      "With --from at a gateway: start at this pass of the block (loops, "
                      "subprograms)");
+  command.add_flag("--test-run", options->request.is_test,
+                   "At a gateway: test the program with the control's memory and the machine's "
+                   "limits; nothing moves");
   auto follow = command.add_flag("--follow", options->follows, "Follow the run to its end");
   command.add_flag("--wait", options->waits, "Wait for its end and print only the outcome")
       .excludes(follow);
@@ -182,7 +185,8 @@ void add_start(Command group, Context& context) {
       "that --send-head would send.\nAt a gateway the control searches the program up to the start "
       "block. A start is refused if it would apply\nchanges of the memory twice, or if its block "
       "is in a loop or a subprogram, unless --memory and --pass\ndecide it.\n\nWith --follow or "
-      "--wait the exit status is the run's: 0 completed, 1 anything else. Ctrl-C ends\nthe "
+      "--wait the exit status is the run's: 0 completed or tested, 1 anything else.\nCtrl-C ends "
+      "the "
       "watching (status 130), never the run.\n\nExample:\n  dnc run start lathe-1 O0200 --follow");
   run_at_server(command, context, options, start);
 }
@@ -194,7 +198,7 @@ void add_list(Command group, Context& context) {
   command.add_option("--program", options->query.program, "List only runs of this program");
   command.add_option("--state", options->query.state,
                      "List only runs in this state: ordered, active, completed, aborted, alarmed, "
-                     "interrupted, refused");
+                     "interrupted, refused, tested");
   command.add_option("--limit", options->limit, "List at most this many, 0 for all [20]");
   add_json_flag(command, context);
   run_at_server(command, context, options, list);
@@ -224,7 +228,7 @@ void add_run_commands(Command app, Context& context) {
   watch_command.add_flag("--json", context.wants_json,
                          "Print each change as one JSON object per line");
   watch_command.footer(
-      "Exit status: 0 completed, 1 anything else, 130 after Ctrl-C (the run continues).");
+      "Exit status: 0 completed or tested, 1 anything else, 130 after Ctrl-C (the run continues).");
   run_at_server(watch_command, context, watched, watch);
 }
 

@@ -126,7 +126,8 @@ void add_switch(Command group, Context& context) {
       "machine switch too.\nsingle_block, optional_stop, dry_run: from the block or move that the "
       "machine executes next (dry_run of a\nLinuxCNC or Grbl machine: from the next start). "
       "block_skip: for blocks that are not read yet; the run's report\nstates the block. "
-      "machine_lock: only without a run.\n\nExample:\n  dnc run switch latest single_block on");
+      "machine_lock, test_run: only without a run.\n\nExample:\n  dnc run switch latest "
+      "single_block on");
   command.callback([&context, options] {
     context.status =
         give(context, options->run, {switch_command(options->name, options->state == "on")});

@@ -10,7 +10,7 @@ namespace dripline::cli {
 
 inline constexpr const char* kSwitchHelp =
     "single_block, optional_stop, block_skip (block_skip_2 to block_skip_9 where the control has "
-    "them), dry_run, machine_lock, handwheel or emergency_stop";
+    "them), dry_run, machine_lock, test_run, handwheel or emergency_stop";
 
 /// A dash is read as an underscore: "emergency-stop".
 client::CommandRequest switch_command(std::string name, bool is_on);

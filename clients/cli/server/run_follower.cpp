@@ -146,7 +146,7 @@ class RunFollower {
 
   int finish() {
     area_.clear();
-    const bool is_good = run_.state == "completed";
+    const bool is_good = run_.state == "completed" || run_.state == "tested";
     if (context_.wants_json) {
       if (style_ == WatchStyle::Silent) context_.print(json_text(run_));
     } else {

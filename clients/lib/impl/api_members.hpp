@@ -84,7 +84,8 @@ void members(V& v, Is<Screen> auto& x) {
 
 template <class V>
 void members(V& v, Is<PanelSwitches> auto& x) {
-  DRIPLINE_MEMBERS(optional_stop, block_skip, skip_levels, dry_run, machine_lock, handwheel);
+  DRIPLINE_MEMBERS(optional_stop, block_skip, skip_levels, dry_run, machine_lock, handwheel,
+                   test_run);
 }
 
 template <class V>

@@ -11,6 +11,7 @@ bool lets_run_on(const dds::Command& command, const machine::OperatorPanel& pane
   if (command.argument.starts_with("block_skip") || command.argument == "dry_run") return true;
   if (command.value != 0) return false;
   if (command.argument == "machine_lock") return panel.machine_lock;
+  if (command.argument == "test_run") return panel.test_run;
   if (command.argument == "emergency_stop") return panel.emergency_stop;
   if (command.argument == "single_block") return panel.single_block;
   if (command.argument == "optional_stop") return panel.optional_stop;

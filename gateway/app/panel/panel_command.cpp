@@ -40,7 +40,8 @@ constexpr std::array kRows{
             "press it (on), or release it"},
     VerbRow{"answer TEXT", Verb::Answer, Takes::Text, "answer the program's question"},
     VerbRow{"switch NAME on|off", Verb::Switch, Takes::NameAndState,
-            "set single_block, optional_stop, block_skip, dry_run, machine_lock or handwheel"},
+            "set single_block, optional_stop, block_skip, dry_run, machine_lock, test_run or "
+            "handwheel"},
     VerbRow{"feed-override PERCENT", Verb::FeedOverride, Takes::Percent, "set the feed override"},
     VerbRow{"rapid-override PERCENT", Verb::RapidOverride, Takes::Percent,
             "set the rapid override"},

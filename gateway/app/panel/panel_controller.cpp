@@ -111,6 +111,7 @@ dds::PanelSwitches PanelController::switches() const {
   }
   shown.dry_run = state_of(tables_.dry_run.has_value(), panel.dry_run);
   shown.machine_lock = state_of(rules.machine_lock && machine.places_axes, panel.machine_lock);
+  shown.test_run = state_of(true, panel.test_run);
   shown.handwheel = state_of(machine.handwheel && !tables_.click_seconds.empty(), panel.handwheel);
   return shown;
 }
@@ -127,6 +128,7 @@ std::string PanelController::known_switches() const {
   if (levels > 1) names += fmt::format("block_skip_2 to block_skip_{}, ", levels);
   add("dry_run", has.dry_run);
   add("machine_lock", has.machine_lock);
+  add("test_run", has.test_run);
   add("handwheel", has.handwheel);
   return names + "emergency_stop";
 }
@@ -155,6 +157,7 @@ Reply PanelController::set_switch(const dds::Command& command) {
   if (name == "dry_run") return set_dry_run(is_on);
   if (name == "machine_lock" && parts_.dialect.switches.machine_lock)
     return set_machine_lock(is_on);
+  if (name == "test_run") return set_test_run(is_on);
   if (name == "handwheel" && machine.handwheel) {
     if (tables_.click_seconds.empty())
       return refuse(
@@ -232,6 +235,16 @@ Reply PanelController::set_machine_lock(bool is_on) {
                               parts_.run.session->run().run));
   OperatorPanel panel = parts_.machine.panel();
   panel.machine_lock = is_on;
+  parts_.machine.set_panel(panel);
+  return {};
+}
+
+Reply PanelController::set_test_run(bool is_on) {
+  if (parts_.run.session)
+    return refuse(fmt::format("test run is changed only without a run: {} is active",
+                              parts_.run.session->run().run));
+  OperatorPanel panel = parts_.machine.panel();
+  panel.test_run = is_on;
   parts_.machine.set_panel(panel);
   return {};
 }

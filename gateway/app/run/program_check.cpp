@@ -8,13 +8,13 @@ using interpreter::StepState;
 using machine::ToolLengths;
 
 void ProgramCheck::Refusals::on_alarm(const interpreter::Alarm& alarm) {
-  if (!first && alarm.diagnostic.id.starts_with("MCH")) first = alarm.diagnostic;
+  if (!first && (keeps_all_ || alarm.diagnostic.id.starts_with("MCH"))) first = alarm.diagnostic;
   out().on_alarm(alarm);
 }
 
 ProgramCheck::ProgramCheck(Parts parts)
     : parts_(std::move(parts)),
-      refusals_(parts_.machine->events()),
+      refusals_(parts_.machine->events(), parts_.is_test),
       filter_(parts_.capabilities, refusals_,
               [this] {
                 return machine::CapabilityFilter::Now{interpreter_->modes(),
@@ -35,14 +35,16 @@ ProgramCheck::State ProgramCheck::work(SteadyTime now) {
   // A length is looked for after each block: the next one may end it while a motion still waits.
   if (is_over()) return state_;
   if (!began_) began_ = now;
-  if (now - *began_ > kLimit) return state_ = State::Passed;
+  if (!parts_.is_test && now - *began_ > kLimit) return state_ = State::Passed;
   const StepState step = interpreter_->step(1);
   (void)filter_.note_block(interpreter_->origin());
+  parts_.machine->pass_block();
   if (const auto refusal = found()) {
     refusal_.origin.line = refusal->line;
     refusal_.diagnostic = *refusal;
     refusal_.diagnostic.text =
-        fmt::format("{} (line {}, found before the first move)", refusal->text, refusal->line);
+        fmt::format("{} (line {}, {})", refusal->text, refusal->line,
+                    parts_.is_test ? "found by a test run" : "found before the first move");
     return state_ = State::Refused;
   }
   switch (step) {
@@ -59,12 +61,43 @@ ProgramCheck::State ProgramCheck::work(SteadyTime now) {
   return state_ = State::Passed;
 }
 
+namespace {
+
+std::string described(const interpreter::Question& question) {
+  using namespace interpreter;
+  if (const auto* prompt = std::get_if<PromptQuestion>(&question))
+    return fmt::format("asks the operator: {}", prompt->text);
+  if (const auto* input = std::get_if<InputQuestion>(&question))
+    return fmt::format("asks for input {}", input->pin);
+  if (const auto* signal = std::get_if<SignalQuestion>(&question))
+    return fmt::format("asks for signal {}", signal->name);
+  return std::holds_alternative<ProbeQuestion>(question) ? "probes" : "asks for the time";
+}
+
+}  // namespace
+
+/// Nothing: it is not known before the program runs.
+std::optional<interpreter::Answer> ProgramCheck::answer_to(const interpreter::Question& question) {
+  using namespace interpreter;
+  if (std::holds_alternative<PromptQuestion>(question)) {
+    if (next_answer_ >= parts_.answers.size()) return std::nullopt;
+    return PromptAnswer{parts_.answers[next_answer_++]};
+  }
+  if (const auto* probe = std::get_if<ProbeQuestion>(&question)) {
+    auto result = parts_.machine->probe(probe->probe);
+    if (!result) return std::nullopt;
+    filter_.note_probed(result->at);
+    return *std::move(result);
+  }
+  if (std::holds_alternative<TimeQuestion>(question) && parts_.time) return parts_.time();
+  return std::nullopt;
+}
+
 bool ProgramCheck::answer() {
-  if (!std::holds_alternative<interpreter::PromptQuestion>(interpreter_->question()) ||
-      next_answer_ >= parts_.answers.size())
-    return false;
-  const interpreter::PromptAnswer given{parts_.answers[next_answer_++]};
-  return interpreter_->answer(given).has_value();
+  const auto given = answer_to(interpreter_->question());
+  if (given && interpreter_->answer(*given)) return true;
+  unanswered_ = described(interpreter_->question());
+  return false;
 }
 
 }  // namespace dripline::gateway

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,8 +14,8 @@ namespace dripline::gateway {
 
 /// Looks through a program before its first move for what the machine cannot do: the middle of a
 /// cut is the worst place for an alarm. It ends at a question whose answer is not known beforehand,
-/// at the program's end, and after kLimit; what it has not reached stays an alarm at its place. One
-/// thread.
+/// at the program's end, and after kLimit; what it has not reached stays an alarm at its place.
+/// A test run is the same without a limit, and finds the program's own alarms too. One thread.
 class ProgramCheck {
  public:
   struct Parts {
@@ -24,6 +25,9 @@ class ProgramCheck {
     interpreter::Position at = {};      ///< of the program at its beginning, which
     machine::ToolLengths lengths = {};  ///< leaves these out
     std::vector<std::string> answers;   ///< of the setup, to the program's prompts
+    bool is_test = false;
+    /// What the control's clock shows; empty: it is not known beforehand.
+    std::function<interpreter::LocalTime()> time = {};
   };
   explicit ProgramCheck(Parts parts);
   ProgramCheck(const ProgramCheck&) = delete;
@@ -43,8 +47,12 @@ class ProgramCheck {
   bool is_over() const { return state_ == State::Passed || state_ == State::Refused; }
   /// When refused: what the machine cannot do, with its line.
   const interpreter::Alarm& refusal() const { return refusal_; }
+  /// When passed: what the program asked for where this ended before its end; empty: nothing.
+  const std::string& unanswered() const { return unanswered_; }
   /// Looked through so far, for the operator.
   std::uint64_t block() const { return interpreter_->blocks(); }
+  const interpreter::Origin& origin() const { return interpreter_->origin(); }
+  std::optional<machine::Seconds> motion_time() const { return parts_.machine->motion_time(); }
 
   static constexpr std::chrono::seconds kLimit{10};
 
@@ -52,12 +60,17 @@ class ProgramCheck {
   /// Keeps the first alarm of the filter in front of it.
   class Refusals final : public interpreter::EventFilter {
    public:
-    using EventFilter::EventFilter;
+    Refusals(interpreter::EventSink& out, bool keeps_all)
+        : EventFilter(out), keeps_all_(keeps_all) {}
     void on_alarm(const interpreter::Alarm& alarm) override;
     std::optional<interpreter::Diagnostic> first;
+
+   private:
+    const bool keeps_all_;
   };
 
   bool answer();
+  std::optional<interpreter::Answer> answer_to(const interpreter::Question& question);
   std::optional<interpreter::Diagnostic> found() const;
 
   Parts parts_;
@@ -68,6 +81,7 @@ class ProgramCheck {
   std::optional<SteadyTime> began_;
   std::size_t next_answer_ = 0;
   interpreter::Alarm refusal_;
+  std::string unanswered_;
 };
 
 }  // namespace dripline::gateway

@@ -93,6 +93,8 @@ bool RunLoop::wait_for_beginning(SteadyTime now) {
 void RunLoop::check_program(SteadyTime now) {
   RunSession& session = *parts_.run.session;
   ProgramCheck& check = *session.check();
+  if (session.is_test() && parts_.machine.panel().emergency_stop)
+    return end(dds::RunOutcome::Aborted, "EMERGENCY STOP");
   auto state = ProgramCheck::State::Working;
   while (state == ProgramCheck::State::Working && parts_.clock.steady_now() < now + kSlice) {
     session.feed().poll(now);
@@ -100,6 +102,7 @@ void RunLoop::check_program(SteadyTime now) {
     if (parts_.clock.steady_now() == now && ++look_rounds_ % 64 == 0) break;
   }
   if (!check.is_over()) return;
+  if (session.is_test()) return end_test(check);
   if (state == ProgramCheck::State::Refused) {
     const interpreter::Alarm refusal = check.refusal();
     session.end_check();
@@ -191,7 +194,8 @@ void RunLoop::end(dds::RunOutcome outcome, const std::string& reason) {
   dds::RunEndText text;
   text.outcome = outcome;
   text.reason = valid_text(reason, kMaxReason);
-  text.motion_seconds = parts_.run.session->motion_seconds();
+  const bool is_test = parts_.run.session->is_test();
+  if (!is_test) text.motion_seconds = parts_.run.session->motion_seconds();
   const feed::ProgramFeed& feed = parts_.run.session->feed();
   if (feed.content_length() > 0) {
     text.content_sha256 = feed.content_digest().hex();
@@ -200,9 +204,10 @@ void RunLoop::end(dds::RunOutcome outcome, const std::string& reason) {
   const bool is_completed = outcome == dds::RunOutcome::Completed;
   parts_.run.last_execution =
       is_completed ? dds::Execution::ProgramCompleted : dds::Execution::Stopped;
+  if (is_test) parts_.run.last_execution = dds::Execution::Ready;
   parts_.run.last_message = text.reason;
   if (is_completed) keep_tape();
-  report_memory();
+  if (!is_test) report_memory();
   stage_ending(outcome);
   parts_.recorder.end(std::move(text));
   parts_.consent.end_wait();
@@ -222,13 +227,16 @@ void RunLoop::try_to_finish(SteadyTime now) {
   }
   const bool is_completed = parts_.run.last_execution == dds::Execution::ProgramCompleted;
   const std::string& message = parts_.run.last_message;
+  const bool is_whole = is_completed || parts_.run.session->is_test();
   process::log_info("run ended {}{}{} executed={} accepted={} sent={} {}",
-                    is_completed ? "completed" : "cut off", message.empty() ? "" : ": ", message,
+                    is_whole ? "completed" : "cut off", message.empty() ? "" : ": ", message,
                     recorder.executed().executed, recorder.executed().accepted,
                     recorder.executed().sent, parts_.run.label());
   recorder.finish();
-  note_left();
-  take_modes();
+  if (!parts_.run.session->is_test()) {
+    note_left();
+    take_modes();
+  }
   if (locked_at_) {
     parts_.machine.begin(locked_at_->at);
     parts_.run.tool = std::exchange(locked_at_, std::nullopt)->tool;

@@ -66,6 +66,10 @@ class RunLoop {
   }
   /// The program is looked through before its first move.
   bool is_checking() const { return parts_.run.is_active() && parts_.run.session->check(); }
+  /// Nothing of the run reaches the machine.
+  bool is_testing() const { return parts_.run.is_active() && parts_.run.session->is_test(); }
+  /// By the operator. A run's end comes when the machine rests.
+  void abort();
   /// A look-through has work to do, and does not wait for text.
   bool is_looking_through() const;
   /// A hold is the operator's from here on: records on disk again do not end it.
@@ -89,6 +93,13 @@ class RunLoop {
   Result<interpreter::Setup> setup_of(const StartOrigin& origin,
                                       const std::optional<RestartPlan>& restart) const;
   Conditions conditions_of(const StartOrigin& origin) const;
+  Result<std::unique_ptr<machine::MotionCheck>> check_of(const interpreter::Position& axes,
+                                                         bool tests, bool is_restart) const;
+  bool is_test(const StartOrigin& origin) const {
+    return origin.from.is_test || parts_.machine.panel().test_run;
+  }
+  void begin_test(std::unique_ptr<RunSession> session);
+  void end_test(const ProgramCheck& check);
   std::optional<interpreter::PanelTables::DryRun> dry_run() const;
   StartOrigin read_on(const report::ActiveRun& run, StartOrigin origin) const;
   void keep_tape();
@@ -151,6 +162,8 @@ inline constexpr std::string_view kIsRebuilding =
     "the restart still looks through the program: cycle start when it reports what it will do";
 inline constexpr std::string_view kIsChecking =
     "the program is still looked through for what the machine cannot do: press cycle start again";
+inline constexpr std::string_view kTestOfRestart =
+    "a restart is not tested: it finds its place by running (switch test_run off)";
 inline constexpr std::string_view kEmergencyStop =
     "the emergency stop is pressed: release it first (switch emergency_stop off)";
 

@@ -54,6 +54,8 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
     setup.start = restart ? restart->conditions.begun_at : parts_.machine.status().axes();
     setup.start.unmark_all();
   }
+  if (is_test(origin) && !parts_.dialect.switches.test_mode.empty())
+    setup.control.set("mode", {std::string(parts_.dialect.switches.test_mode), 0});
   if (origin.from.is_mdi) {
     setup.is_mdi = true;
     return setup;
@@ -113,7 +115,8 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   if (parts_.machine.panel().emergency_stop) return fail(Errc::Busy, "{}", kEmergencyStop);
   auto restart = plan_of(run, origin);
   if (!restart) return fail(restart.error());
-  const bool is_restart = restart->has_value();
+  const bool is_restart = restart->has_value(), tests = is_test(origin);
+  if (tests && is_restart) return fail(Errc::Busy, "{}", kTestOfRestart);
   auto setup = setup_of(origin, *restart);
   if (!setup) return fail(setup.error());
   const interpreter::Snapshot* const modes = modes_for(origin);
@@ -136,9 +139,8 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
   if (is_restart) conditions.restart_of = origin.from.restart->run;
   if (auto done = check_units(*setup); !done) return done;
-  if (auto done = parts_.machine.check_begin(axes); !done) return done;
-  // A line cannot be read again, and the run of a restart was looked through before.
-  auto check = is_restart || !parts_.keeps_checkpoints ? nullptr : parts_.machine.make_check(axes);
+  auto check = check_of(axes, tests, is_restart);
+  if (!check) return fail(check.error());
   auto session = RunSession::make(
       {.run = run,
        .feed = std::move(feed),
@@ -147,11 +149,12 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
        .clock = parts_.clock,
        .memory = parts_.memory,
        .begins_with_former_memory = origin.from.memory == StartMemory::Begin,
-       .checkpoints = parts_.keeps_checkpoints && !is_mdi ? &parts_.outbox : nullptr,
+       .checkpoints = parts_.keeps_checkpoints && !is_mdi && !tests ? &parts_.outbox : nullptr,
        .restart = *std::move(restart),
-       .check = std::move(check),
+       .check = *std::move(check),
        .is_lathe = parts_.dialect.machine == interpreter::MachineKind::Lathe,
        .is_mdi = is_mdi,
+       .is_test = tests,
        .modes = modes,
        .tool = stays ? std::optional(tool) : std::nullopt,
        .at = at,
@@ -164,10 +167,15 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
     return fail(session.error().code, "{}{}", is_memory ? "" : "setup: ", session.error().what);
   }
   notice_ = is_mdi && modes == nullptr ? notice_of_mdi() : std::string();
+  if (tests) notice_ = kTestRun;
   if (auto done = stage_start(run, origin, std::move(conditions), **session); !done) return done;
 
   parts_.journal.begin(run.run);
   parts_.on_begin(*setup);
+  if (tests) {
+    begin_test(*std::move(session));
+    return {};
+  }
   locked_at_.reset();
   if (parts_.machine.panel().machine_lock)
     locked_at_ = Locked{is_mdi ? at : parts_.machine.status().position, tool};
@@ -195,6 +203,21 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   return {};
 }
 
+/// The look-through of the program, if there is one. Errors: those of MotionBackend::check_begin;
+/// Unsupported.
+Result<std::unique_ptr<machine::MotionCheck>> RunLoop::check_of(const interpreter::Position& axes,
+                                                                bool tests, bool is_restart) const {
+  if (tests) {
+    auto check = parts_.machine.make_test(axes);
+    if (!check) return fail(Errc::Unsupported, "this machine has no test run");
+    return check;
+  }
+  if (auto done = parts_.machine.check_begin(axes); !done) return fail(done.error());
+  // A line cannot be read again, and the run of a restart was looked through before.
+  if (is_restart || !parts_.keeps_checkpoints) return nullptr;
+  return parts_.machine.make_check(axes);
+}
+
 /// Of a machine that does not obey the panel's switch by itself.
 std::optional<interpreter::PanelTables::DryRun> RunLoop::dry_run() const {
   const machine::OperatorPanel& panel = parts_.machine.panel();
@@ -207,11 +230,12 @@ std::optional<interpreter::PanelTables::DryRun> RunLoop::dry_run() const {
 Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigin& origin,
                                   Conditions conditions, RunSession& session) {
   parts_.outbox.discard();
-  if (origin.from.place.empty() && !origin.from.restart && !origin.from.is_mdi) {
+  const bool is_whole = origin.from.place.empty() && !origin.from.restart && !origin.from.is_mdi;
+  if (is_whole && !session.is_test()) {
     parts_.memory.stage_beginning(run.revision);
     parts_.memory.set_tape(run.revision, origin.from.part.value_or(1));
   }
-  parts_.memory.stage();
+  if (!session.is_test()) parts_.memory.stage();
   parts_.recorder.begin(run, parts_.setup_digest, [&session](std::uint64_t block) {
     return ExecutionRecorder::FeedProgress{session.feed().sent(), session.accepted(),
                                            session.path_at(block), session.length_at(block)};

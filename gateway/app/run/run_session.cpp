@@ -77,13 +77,16 @@ Result<void> RunSession::give_memory(const Make& make, const interpreter::Setup&
 /// kept is not in the setup.
 Result<void> RunSession::begin_check(const Make& make, const interpreter::Setup& setup) {
   if (!parts_.check) return {};
-  auto check = std::make_unique<ProgramCheck>(
-      ProgramCheck::Parts{.machine = std::move(parts_.check),
-                          .capabilities = parts_.machine.capabilities(),
-                          .dialect = dialect_,
-                          .at = parts_.at,
-                          .lengths = parts_.lengths,
-                          .answers = setup_.answers});
+  auto check = std::make_unique<ProgramCheck>(ProgramCheck::Parts{
+      .machine = std::move(parts_.check),
+      .capabilities = parts_.machine.capabilities(),
+      .dialect = dialect_,
+      .at = parts_.at,
+      .lengths = parts_.lengths,
+      .answers = setup_.answers,
+      .is_test = parts_.is_test,
+      .time = parts_.is_test ? [this] { return interpreter::local_time_at(clock_ms()); }
+                             : std::function<interpreter::LocalTime()>()});
   auto made = make(setup, check->events());
   if (!made) return fail(made.error());
   if (retained_ != nullptr || parts_.modes != nullptr)
@@ -252,63 +255,6 @@ const std::optional<interpreter::CoordinateFrame>& RunSession::frame_at(std::uin
   return frames_[last].frame;
 }
 
-bool RunSession::resolve_question() {
-  const interpreter::Question question = interpreter_->question();
-  return std::visit([this](const auto& asked) { return resolve(asked); }, question);
-}
-
-bool RunSession::resolve(const interpreter::ProbeQuestion& question) {
-  waits_ = Waits::ForMachine;
-  if (!parts_.machine.capabilities().probing) {
-    events_.refuse(question.probe.origin, "probe");
-    is_over_ = true;
-    return false;
-  }
-  if (!is_probing_ && !events_.takes_probe(question.probe)) {
-    is_over_ = true;
-    return false;
-  }
-  if (!is_probing_) {
-    parts_.machine.begin_probe(question.probe);
-    is_probing_ = true;
-  }
-  const auto probed = parts_.recorder.take_probed();
-  if (!probed || !probed->result) return false;
-  is_probing_ = false;
-  events_.note_probed(probed->result->at);
-  return give(*probed->result);
-}
-
-bool RunSession::resolve(const interpreter::PromptQuestion&) {
-  if (!machine_rests()) return false;
-  if (next_answer_ < setup_.answers.size()) {
-    return give(interpreter::PromptAnswer{setup_.answers[next_answer_++]});
-  }
-  waits_ = Waits::ForOperator;
-  return false;
-}
-
-bool RunSession::resolve(const interpreter::InputQuestion& question) {
-  if (!machine_rests()) return false;
-  const bool state = parts_.machine.input(question.pin);
-  if (question.wait == interpreter::InputWait::Nothing) return give(state);
-  if (!input_wait_) input_wait_.emplace(question, parts_.clock.steady_now());
-  const auto fulfilled = input_wait_->look(state, parts_.clock.steady_now());
-  if (!fulfilled || !give(*fulfilled)) return false;
-  input_wait_.reset();
-  return true;
-}
-
-bool RunSession::resolve(const interpreter::TimeQuestion&) {
-  return machine_rests() && give(interpreter::local_time_at(clock_ms()));
-}
-
-bool RunSession::resolve(const interpreter::SignalQuestion& question) {
-  if (!machine_rests()) return false;
-  const auto value = parts_.machine.signal(question.name);
-  return value && give(*value);
-}
-
 Result<interpreter::Snapshot> RunSession::take_modes() {
   if (auto done = interpreter_->begin_next_text(); !done) return fail(done.error());
   return interpreter_->snapshot();
@@ -355,36 +301,6 @@ void RunSession::note_real_time(SteadyTime::duration elapsed) {
   const bool moves = parts_.machine.state() == machine::MachineState::Running;
   if (moves && !parts_.machine.capabilities().simulated_time)
     motion_seconds_ += std::chrono::duration<double>(elapsed).count();
-}
-
-bool RunSession::machine_rests() const {
-  return parts_.machine.drained() && parts_.machine.state() == machine::MachineState::Idle;
-}
-
-/// An answer the interpreter cannot use leaves the question open; the next one in line, or the
-/// operator, is asked.
-bool RunSession::give(const interpreter::Answer& answer) {
-  const auto taken = interpreter_->answer(answer);
-  if (!taken) return false;
-  has_question_ = false;
-  if (checkpoints_) checkpoints_->note_answer(answer);
-  return true;
-}
-
-std::string RunSession::prompt() const {
-  if (waits_ != Waits::ForOperator) return {};
-  const auto* question = std::get_if<interpreter::PromptQuestion>(&interpreter_->question());
-  return question == nullptr ? std::string() : question->text;
-}
-
-Result<void> RunSession::answer(const std::string& text) {
-  if (waits_ != Waits::ForOperator) return fail(Errc::Busy, "the program has asked nothing");
-  const interpreter::PromptAnswer given{text};
-  const auto taken = interpreter_->answer(given);
-  if (!taken) return taken;
-  has_question_ = false;
-  if (checkpoints_) checkpoints_->note_answer(given);
-  return {};
 }
 
 void RunSession::size_feed(std::optional<double> speed_factor) {

@@ -41,7 +41,8 @@ class RunSession {
     std::optional<RestartPlan> restart = {};
     std::unique_ptr<machine::MotionCheck> check = {};  ///< null: the program is not looked through
     bool is_lathe = false;
-    bool is_mdi = false;  ///< keyed in at the control
+    bool is_mdi = false;   ///< keyed in at the control
+    bool is_test = false;  ///< `check` is all that is done; nothing reaches the machine
     const interpreter::Snapshot* modes =
         nullptr;  ///< in which the control is; null: as at power on
     /// How the position relates to the axes; nothing: these are at the start of the program.
@@ -69,6 +70,7 @@ class RunSession {
 
   const report::ActiveRun& run() const { return parts_.run; }
   bool is_mdi() const { return parts_.is_mdi; }
+  bool is_test() const { return parts_.is_test; }
   bool keeps_checkpoints() const { return checkpoints_.has_value(); }
   /// After the run was completed: the control as its end leaves it, for an MDI. The session is of
   /// no other use then. Errors: those of Interpreter::begin_next_text.
@@ -77,7 +79,10 @@ class RunSession {
   std::uint32_t next_part() { return interpreter_->next_part(); }
   feed::ProgramFeed& feed() { return *parts_.feed; }
   const feed::ProgramFeed& feed() const { return *parts_.feed; }
-  std::uint64_t accepted() const { return interpreter_->blocks(); }
+  /// Blocks interpreted.
+  std::uint64_t accepted() const {
+    return parts_.is_test ? check_->block() : interpreter_->blocks();
+  }
   /// The modes of `block`.
   const interpreter::ActiveModes& modes_at(std::uint64_t block) const;
   /// The program's coordinate frame at that block; nothing when the control does not report it.

@@ -22,4 +22,6 @@ std::string valid_text(std::string_view bytes, std::size_t max_bytes);
 /// Reasons and alarm texts are cut at this, so that their JSON always fits a record.
 inline constexpr std::size_t kMaxReason = 512;
 
+inline constexpr std::string_view kTestRun = "test run: nothing moves";
+
 }  // namespace dripline::gateway

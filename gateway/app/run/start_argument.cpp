@@ -7,7 +7,7 @@
 namespace dripline::gateway {
 namespace {
 
-constexpr std::string_view kPart = "part=";
+constexpr std::string_view kPart = "part=", kTest = "test=yes";
 
 std::string_view take_word(std::string_view& text) {
   const std::size_t end = text.find(' ');
@@ -36,6 +36,8 @@ Result<void> read_choice(std::string_view word, StartArgument& start) {
     start.head = line::HeadChoice::Send;
   } else if (word == "head=set") {
     start.head = line::HeadChoice::Set;
+  } else if (word == kTest) {
+    start.is_test = true;
   } else if (const auto pass = read_count(word, "pass=")) {
     if (!*pass) return fail(pass->error());
     start.pass = **pass;
@@ -79,7 +81,7 @@ Result<StartArgument> parse_start_argument(std::string_view text) {
     start.is_mdi = true;
     return start;
   }
-  if (!text.starts_with(kPart)) start.place = take_word(text);
+  if (!text.starts_with(kPart) && !text.starts_with(kTest)) start.place = take_word(text);
   while (!text.empty()) {
     if (auto read = read_choice(take_word(text), start); !read) return fail(read.error());
   }

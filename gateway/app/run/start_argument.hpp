@@ -20,8 +20,7 @@ enum class StartMemory : std::uint8_t {
 };
 
 /// Where a run begins, as its start command states: "N120", "N120 pass=3 memory=begin",
-/// "N120 head=send",
-/// "restart=RUN at=executed"; empty: at the first block.
+/// "N120 head=send", "test=yes", "restart=RUN at=executed"; empty: at the first block.
 struct StartArgument {
   std::string place;  ///< for the dialect to read
   std::optional<std::uint32_t> pass;
@@ -31,7 +30,8 @@ struct StartArgument {
   std::optional<RestartArgument> restart = {};  ///< then there is nothing else
   /// Which program of a tape, where the reader is not at its beginning.
   std::optional<std::uint32_t> part = {};
-  bool is_mdi = false;  ///< the text is keyed in at the control; then there is nothing else
+  bool is_mdi = false;   ///< the text is keyed in at the control; then there is nothing else
+  bool is_test = false;  ///< a test run, whatever the panel's switch says
   friend bool operator==(const StartArgument&, const StartArgument&) = default;
 };
 /// Errors: Syntax (an unknown word; nothing is started then).

@@ -73,10 +73,12 @@ Result<machines::StartRequest> decode_start(std::string_view body) {
   const auto head = object->optional_text("head", kMaxStartPoint);
   const auto memory = object->optional_text("memory", kMaxStartPoint);
   const auto pass = object->optional_unsigned("pass");
+  const auto test = object->optional_flag("test");
   if (auto good = object->finish(); !good) return fail(good.error());
   if (head && *head != "send" && *head != "set") {
     return fail(Errc::Syntax, "head is '{}'; expected send or set", *head);
   }
+  start.is_test = test.value_or(false);
   if (head) start.head = *head == "send" ? machines::StartHead::Send : machines::StartHead::Set;
   if (memory && *memory != "begin" && *memory != "now") {
     return fail(Errc::Syntax, "memory is '{}'; expected begin or now", *memory);

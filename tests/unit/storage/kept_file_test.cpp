@@ -277,7 +277,7 @@ INSTANTIATE_TEST_SUITE_P(, KeptFile,
                          testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
                                          "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql",
-                                         "v17.sql", "v18.sql", "v19.sql", "v20.sql"),
+                                         "v17.sql", "v18.sql", "v19.sql", "v20.sql", "v21.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

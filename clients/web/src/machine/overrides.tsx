@@ -8,13 +8,13 @@ import { commandMachine } from './commands';
 const kStep = 0.1;
 const kMax = 2; // the machine has its own limits
 const kOverrides = ['feed_override', 'rapid_override', 'spindle_override'] as const;
-const kSwitches = ['single_block', 'optional_stop', 'block_skip', 'dry_run', 'machine_lock', 'handwheel'] as const;
+const kSwitches = ['single_block', 'optional_stop', 'block_skip', 'dry_run', 'machine_lock', 'test_run', 'handwheel'] as const;
 type Switch = (typeof kSwitches)[number];
 
 /// Where the switch is; null: there is none, undefined: an older gateway does not report it.
 function stateOf(status: NonNullable<Status>, name: Switch): boolean | null | undefined {
   if (name === 'single_block') return status.single_block;
-  if (!status.switches) return name === 'dry_run' || name === 'machine_lock' ? null : undefined;
+  if (!status.switches) return name === 'dry_run' || name === 'machine_lock' || name === 'test_run' ? null : undefined;
   const state = status.switches[name];
   return state === null ? null : state === 'on';
 }

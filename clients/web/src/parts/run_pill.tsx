@@ -4,7 +4,7 @@ import type { Tone } from '../live/machine_state';
 import { texts } from '../texts/texts';
 
 const kTones: Record<Run['state'], Tone> = {
-  ordered: 'waiting', active: 'running', completed: 'done', aborted: 'offline', alarmed: 'alarm', interrupted: 'waiting', refused: 'alarm',
+  ordered: 'waiting', active: 'running', completed: 'done', aborted: 'offline', alarmed: 'alarm', interrupted: 'waiting', refused: 'alarm', tested: 'ready',
 };
 
 export function RunPill({ state }: { state: Run['state'] }) {

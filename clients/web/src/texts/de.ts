@@ -102,7 +102,7 @@ export const de: Texts = {
     queueHeldBy: (reason) => `Auftragsliste angehalten: ${reason}`,
   },
   runStates: {
-    ordered: 'Gestartet', active: 'Läuft', completed: 'Beendet', aborted: 'Abgebrochen', alarmed: 'Alarm', interrupted: 'Unterbrochen', refused: 'Abgelehnt',
+    ordered: 'Gestartet', active: 'Läuft', completed: 'Beendet', aborted: 'Abgebrochen', alarmed: 'Alarm', interrupted: 'Unterbrochen', refused: 'Abgelehnt', tested: 'Getestet',
   },
   diff: { title: 'Unterschiede', same: 'Kein Unterschied.' },
   ...machine,

@@ -104,7 +104,7 @@ export const en = {
     queueHeldBy: (reason: string) => `queue held: ${reason}`,
   },
   runStates: {
-    ordered: 'Started', active: 'Running', completed: 'Completed', aborted: 'Aborted', alarmed: 'Alarm', interrupted: 'Interrupted', refused: 'Refused',
+    ordered: 'Started', active: 'Running', completed: 'Completed', aborted: 'Aborted', alarmed: 'Alarm', interrupted: 'Interrupted', refused: 'Refused', tested: 'Tested',
   },
   diff: { title: 'Differences', same: 'No difference.' },
   ...machine,

@@ -26,7 +26,7 @@ nlohmann::json status_json() {
       "emergency_stop":true,"remote_enable":"not_given","waits_for":"cycle_start",
       "jog":{"step":1.0,"feed":300.0,"moving":true,"refusal":null},
       "switches":{"optional_stop":"on","block_skip":"off","skip_levels":"2,9","dry_run":null,
-      "machine_lock":null,"handwheel":"off"}})");
+      "machine_lock":null,"handwheel":"off","test_run":"off"}})");
 }
 
 TEST(ApiJson, ReadsAMachineWithItsStatus) {

@@ -35,6 +35,7 @@ class NeedsConsent : public testing::TestWithParam<ConsentCase> {};
 TEST_P(NeedsConsent, IsJudged) {
   machine::OperatorPanel panel;
   panel.single_block = panel.optional_stop = panel.block_skip = panel.machine_lock = true;
+  panel.test_run = true;
   panel.handwheel = panel.emergency_stop = true;
   panel.feed_override = panel.rapid_override = panel.spindle_override = 0.5;
   EXPECT_EQ(needs_consent(GetParam().command, panel), GetParam().needs);
@@ -61,6 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
         ConsentCase{"dry_run_off", order_of(CommandAction::Switch, 0, "dry_run"), true},
         ConsentCase{"machine_lock_on", order_of(CommandAction::Switch, 1, "machine_lock"), false},
         ConsentCase{"machine_lock_off", order_of(CommandAction::Switch, 0, "machine_lock"), true},
+        ConsentCase{"test_run_on", order_of(CommandAction::Switch, 1, "test_run"), false},
+        ConsentCase{"test_run_off", order_of(CommandAction::Switch, 0, "test_run"), true},
         ConsentCase{"slower", order_of(CommandAction::FeedOverride, 0.4), false},
         ConsentCase{"same", order_of(CommandAction::FeedOverride, 0.5), false},
         ConsentCase{"faster", order_of(CommandAction::FeedOverride, 0.6), true},

@@ -213,7 +213,7 @@ TEST(DryRun, IsRefusedWhereThereIsNone) {
   SwitchFixture tnc(interpreter::kTnc155Dialect);
   EXPECT_EQ(tnc.turn("dry_run", true).reason, "control tnc155 has no dry run");
   EXPECT_EQ(tnc.turn("block_skip", true).reason,
-            "no switch 'block_skip': single_block, emergency_stop");
+            "no switch 'block_skip': single_block, test_run, emergency_stop");
 }
 
 // A device is given what the program does: there the feeds of the program change, at a start.

@@ -57,7 +57,8 @@ TEST_F(OpenApi, ListsTheWordsOfEveryEnumeration) {
   expect_words("ActiveModes", "compensation", words_of(dds::CompensationSide{}));
   expect_words("ActiveModes", "feed_unit", words_of(dds::FeedUnit{}));
   expect_words("ActiveModes", "spindle", words_of(dds::SpindleState{}));
-  for (const char* name : {"optional_stop", "block_skip", "dry_run", "machine_lock", "handwheel"})
+  for (const char* name :
+       {"optional_stop", "block_skip", "dry_run", "machine_lock", "test_run", "handwheel"})
     expect_words("PanelSwitches", name, words_of(dds::SwitchState{}));
   expect_words("Record", "kind", words_of(dds::RecordKind{}));
 }

@@ -87,7 +87,7 @@ export const machine: typeof Shape = {
     spindleLoad: 'Spindellast',
     panel: 'Override und Schalter',
     overrides: { feed_override: 'Vorschub', rapid_override: 'Eilgang', spindle_override: 'Spindel' },
-    switches: { single_block: 'Einzelsatz', optional_stop: 'Wahlweiser Halt', block_skip: 'Satz ausblenden', dry_run: 'Probelauf', machine_lock: 'Maschinensperre', start: 'Es hängt von der Position beim Start ab', handwheel: 'Handrad' },
+    switches: { single_block: 'Einzelsatz', optional_stop: 'Wahlweiser Halt', block_skip: 'Satz ausblenden', dry_run: 'Probelauf', machine_lock: 'Maschinensperre', test_run: 'Programmtest', start: 'Es hängt von der Position beim Start ab', handwheel: 'Handrad' },
     less: 'Weniger',
     more: 'Mehr',
     on: 'ein',

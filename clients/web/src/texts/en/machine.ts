@@ -85,7 +85,7 @@ export const machine = {
     spindleLoad: 'Spindle load',
     panel: 'Overrides and switches',
     overrides: { feed_override: 'Feed', rapid_override: 'Rapid traverse', spindle_override: 'Spindle' },
-    switches: { single_block: 'Single block', optional_stop: 'Optional stop', block_skip: 'Block skip', dry_run: 'Dry run', machine_lock: 'Machine lock', start: 'It depends on the position at the start', handwheel: 'Handwheel' },
+    switches: { single_block: 'Single block', optional_stop: 'Optional stop', block_skip: 'Block skip', dry_run: 'Dry run', machine_lock: 'Machine lock', test_run: 'Test run', start: 'It depends on the position at the start', handwheel: 'Handwheel' },
     less: 'Less',
     more: 'More',
     on: 'on',
