@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include "gateway/interpreter/dialects/centurion/cycles/profile.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -2,7 +2,8 @@
 
 #include <optional>
 
-#include "gateway/interpreter/dialects/centurion/cycles/profile.hpp"
+#include "gateway/interpreter/core/geometry/profile.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/pattern.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
 /// Rough turning and facing (manual: G71, G72): parallel cuts down to the pattern with
@@ -31,6 +32,28 @@ class PassWriter {
 
   Run& run_;
   PatternCycle& cycle_;
+};
+
+/// How the cuts lie: all four kinds of turning and of facing look the same in the frame.
+class ProfileFrame {
+ public:
+  /// `out`: +1 where the work is toward smaller positions. `cut`: the direction of the cuts.
+  ProfileFrame(bool is_facing, int out, int cut) : is_facing_(is_facing), out_(out), cut_(cut) {}
+  ProfilePoint of(const PlanePoint& point) const {
+    return is_facing_ ? ProfilePoint{out_ * point.z, cut_ * point.x}
+                      : ProfilePoint{out_ * point.x, cut_ * point.z};
+  }
+  PlanePoint back(const ProfilePoint& point) const {
+    return is_facing_ ? PlanePoint{cut_ * point.along, out_ * point.depth}
+                      : PlanePoint{out_ * point.depth, cut_ * point.along};
+  }
+  /// Whether counterclockwise stays counterclockwise (along to the right, depth up).
+  bool keeps_rotation() const { return (out_ * cut_ > 0) != is_facing_; }
+
+ private:
+  bool is_facing_;
+  int out_;
+  int cut_;
 };
 
 struct Roughing {

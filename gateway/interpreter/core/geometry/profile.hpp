@@ -1,12 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "gateway/interpreter/dialects/centurion/cycles/pattern.hpp"
-
 /// The contour that roughing cuts down to, seen along the direction of the cuts. Pure.
-namespace dripline::interpreter::centurion {
+namespace dripline::interpreter {
 
 /// Lengths closer than this are one, in millimeters.
 inline constexpr double kSameLength = 1e-6;
@@ -16,27 +15,6 @@ inline constexpr double kSameLength = 1e-6;
 struct ProfilePoint {
   double depth = 0;
   double along = 0;
-};
-
-class ProfileFrame {
- public:
-  /// `out`: +1 where the work is toward smaller positions. `cut`: the direction of the cuts.
-  ProfileFrame(bool is_facing, int out, int cut) : is_facing_(is_facing), out_(out), cut_(cut) {}
-  ProfilePoint of(const PlanePoint& point) const {
-    return is_facing_ ? ProfilePoint{out_ * point.z, cut_ * point.x}
-                      : ProfilePoint{out_ * point.x, cut_ * point.z};
-  }
-  PlanePoint back(const ProfilePoint& point) const {
-    return is_facing_ ? PlanePoint{cut_ * point.along, out_ * point.depth}
-                      : PlanePoint{out_ * point.depth, cut_ * point.along};
-  }
-  /// Whether counterclockwise stays counterclockwise (along to the right, depth up).
-  bool keeps_rotation() const { return (out_ * cut_ > 0) != is_facing_; }
-
- private:
-  bool is_facing_;
-  int out_;
-  int cut_;
 };
 
 /// A part of the contour on which depth and along are both monotonic.
@@ -57,6 +35,7 @@ struct OpenInterval {
   double from = 0;
   double to = 0;
   bool is_open_at_start = false;
+  std::size_t opening_piece = 0;  ///< unless it is open at the start
   std::size_t closing_piece = 0;  ///< size of the profile: it never comes up
 };
 
@@ -72,6 +51,8 @@ struct ProfileArc {
 void add_arc(Profile& profile, const ProfileArc& arc);
 void shift(Profile& profile, double depth, double along);
 
+/// Of a piece, at a place along the cut; of a wall the higher end.
+double depth_at(const ProfilePiece& piece, double along);
 /// In order along the cut, which begins at `start`.
 std::vector<OpenInterval> open_at(const Profile& profile, double level, double start);
 /// Where along the cut a piece reaches `level`.
@@ -79,4 +60,4 @@ double along_at(const ProfilePiece& piece, double level);
 /// The highest contour between two places; nothing where there is none.
 std::optional<double> highest_between(const Profile& profile, double from, double to);
 
-}  // namespace dripline::interpreter::centurion
+}  // namespace dripline::interpreter

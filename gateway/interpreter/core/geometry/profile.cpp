@@ -1,12 +1,25 @@
-#include "gateway/interpreter/dialects/centurion/cycles/profile.hpp"
+#include "gateway/interpreter/core/geometry/profile.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace dripline::interpreter::centurion {
+#include "protocol/base/units.hpp"
+
+namespace dripline::interpreter {
 namespace {
 
 constexpr double kRadians = Angle::kPi / 180;
+
+bool is_below(double depth, double level) {
+  return depth <= level + kSameLength;
+}
+
+ProfilePoint on_circle(const ProfileArc& arc, double radius, double degrees) {
+  return {arc.center.depth + radius * std::sin(degrees * kRadians),
+          arc.center.along + radius * std::cos(degrees * kRadians)};
+}
+
+}  // namespace
 
 double depth_at(const ProfilePiece& piece, double along) {
   if (piece.is_arc) {
@@ -19,17 +32,6 @@ double depth_at(const ProfilePiece& piece, double along) {
   const double part = std::clamp((along - piece.from.along) / length, 0.0, 1.0);
   return piece.from.depth + (piece.to.depth - piece.from.depth) * part;
 }
-
-bool is_below(double depth, double level) {
-  return depth <= level + kSameLength;
-}
-
-ProfilePoint on_circle(const ProfileArc& arc, double radius, double degrees) {
-  return {arc.center.depth + radius * std::sin(degrees * kRadians),
-          arc.center.along + radius * std::cos(degrees * kRadians)};
-}
-
-}  // namespace
 
 void add_line(Profile& profile, const ProfilePoint& from, const ProfilePoint& to) {
   ProfilePiece piece;
@@ -113,6 +115,7 @@ std::vector<OpenInterval> open_at(const Profile& profile, double level, double s
     if (is_open && !is_below(piece.to.depth, level)) close(along_at(piece, level), i);
     if (!is_open && is_below(piece.to.depth, level) && !is_below(piece.from.depth, level)) {
       interval.from = along_at(piece, level);
+      interval.opening_piece = i;
       is_open = true;
     }
   }
@@ -132,4 +135,4 @@ std::optional<double> highest_between(const Profile& profile, double from, doubl
   return highest;
 }
 
-}  // namespace dripline::interpreter::centurion
+}  // namespace dripline::interpreter
