@@ -43,6 +43,7 @@ struct ErrorCode {
   static constexpr DiagnosticRow CornerTooLarge{"PS055", "MISSING MOVE VALUE IN CHF/CNR"};
   static constexpr DiagnosticRow NotMonotonic{"PS064", "SHAPE PROGRAM NOT MONOTONOUSLY"};
   static constexpr DiagnosticRow IllegalContour{"PS065", "ILLEGAL COMMAND IN G70-G76"};
+  static constexpr DiagnosticRow TooManyPockets{"PS068", "TEN OR MORE POCKETS"};
   static constexpr DiagnosticRow SequenceNotFound{"PS060", "SEQUENCE NUMBER NOT FOUND"};
   static constexpr DiagnosticRow IllegalProgramNumber{"PS074", "ILLEGAL PROGRAM NUMBER"};
   static constexpr DiagnosticRow NoP{"PS076", "ADDRESS P NOT DEFINED"};

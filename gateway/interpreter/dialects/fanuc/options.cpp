@@ -24,6 +24,7 @@ struct ModelRow {
   int program_digits = 4;
   std::uint32_t last_sequence = 99'999;
   bool has_program_names = false;
+  std::size_t max_pockets = 10;
 };
 constexpr ModelRow kSixteenI{RepeatAddress::K, CallForm::EightDigits, 4, 149, 531, true, true};
 constexpr std::array<ModelRow, 9> kModels{
@@ -31,12 +32,13 @@ constexpr std::array<ModelRow, 9> kModels{
      {RepeatAddress::L, CallForm::L, 2, 149, 531, false, false, false, 4, 9999},
      {RepeatAddress::L, CallForm::L, 4, 199, 599},
      {RepeatAddress::K, CallForm::EightDigits, 4, 149, 531},
-     {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true},
+     {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true, false, 4, 99'999, false,
+      0},
      kSixteenI,
      kSixteenI,
      kSixteenI,
-     {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true, true, 4, 99'999'999,
-      true}}};
+     {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true, true, 4, 99'999'999, true,
+      0}}};
 
 AxisValues values_of(const Position& position) {
   AxisValues values{};
@@ -61,6 +63,7 @@ Result<void> read_model(const Options& options, const OptionKey& key, C& control
   control.program_digits = row.program_digits;
   control.last_sequence = row.last_sequence;
   control.has_program_names = row.has_program_names;
+  control.max_pockets = row.max_pockets;
   if (row.call_depth > 8) control.max_nesting = 15;
   return {};
 }
@@ -214,8 +217,7 @@ constexpr std::array kSharedRows{
     Row{{"model", "0M|6M|11M|16M|0i|16i|18i|21i|30i",
          "sets the defaults of repeat_address, m98_form, max_call_depth, last_common, last_kept, "
          "program_digits, program_names; whether the control has G54.1, MOD and POW, and the long "
-         "numbers of "
-         "system variables",
+         "numbers of system variables; of a lathe, how many pockets G71 and G72 cut",
          "16M"},
         read_model},
     row<&C::calculator_point>(

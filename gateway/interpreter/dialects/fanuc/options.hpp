@@ -22,11 +22,12 @@ struct ControlOptions {
   bool is_lathe = false;
   CodeSystem code_system = CodeSystem::A;  ///< of a lathe
   bool x_is_diameter = false;
-  bool has_c_axis = false;    ///< of a lathe
-  bool has_y_axis = false;    ///< of a lathe
-  int turret_digits = 2;      ///< of the offset number in T
-  double feed_unit_turn = 0;  ///< of F without a point, per revolution; 0: an alarm
-  double thread_chamfer = 0;  ///< of G92, in leads
+  bool has_c_axis = false;       ///< of a lathe
+  bool has_y_axis = false;       ///< of a lathe
+  int turret_digits = 2;         ///< of the offset number in T
+  std::size_t max_pockets = 10;  ///< of G71 and G72; 0: any number
+  double feed_unit_turn = 0;     ///< of F without a point, per revolution; 0: an alarm
+  double thread_chamfer = 0;     ///< of G92, in leads
   Model model = Model::M16;
   bool has_pages = true;                 ///< G54.1
   bool has_later_functions = false;      ///< MOD, POW

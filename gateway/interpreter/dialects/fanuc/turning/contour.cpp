@@ -53,6 +53,40 @@ void take_back_modes(Run& run) {
   state.d_number = before.d_number;
 }
 
+template <class Coordinate>
+bool is_monotonic(const std::vector<ContourMove>& moves, double start, Coordinate coordinate) {
+  constexpr double kClose = 1e-6;
+  bool rises = false;
+  bool falls = false;
+  double from = start;
+  for (const ContourMove& move : moves) {
+    rises |= coordinate(move) > from + kClose;
+    falls |= coordinate(move) < from - kClose;
+    from = coordinate(move);
+  }
+  return !(rises && falls);
+}
+
+/// The tool returns to where G70 began. Over a contour with pockets it leaves the work before it
+/// goes back along it: the straight path may lead through a shoulder.
+bool leave_finished(Run& run, const Position& start) {
+  const ContourCycle& cycle = run.state.contour;
+  if (cycle.is_type_two) {
+    const bool is_turned = is_monotonic(cycle.moves, start.raw(Axis::Z),
+                                        [](const ContourMove& move) { return move.z; });
+    const bool is_faced = is_monotonic(cycle.moves, start.raw(Axis::X),
+                                       [](const ContourMove& move) { return move.x; });
+    const bool has_faced = run.state.turning.has_faced;
+    if (is_turned || is_faced) {
+      const Axis first = is_faced && (has_faced || !is_turned) ? Axis::Z : Axis::X;
+      Position off = run.state.position;
+      off.set_raw(first, start.raw(first));
+      if (!rapid_to(run, off)) return false;
+    }
+  }
+  return rapid_to(run, start);
+}
+
 bool end_contour(Run& run) {
   ModalState& state = run.state;
   ContourCycle& cycle = state.contour;
@@ -68,7 +102,7 @@ bool end_contour(Run& run) {
     run.blender.place(state.position);
   }
   cycle.code = code;
-  const bool is_done = is_finishing ? rapid_to(run, start) : make_passes(run);
+  const bool is_done = is_finishing ? leave_finished(run, start) : make_passes(run);
   cycle.code = 0;
   cycle.moves.clear();
   run.lead_stages();
@@ -89,21 +123,29 @@ bool changes(const Run& run, Group group) {
 
 namespace {
 
-/// Alarm 065 of the manual: the block of P has G00 or G01, and of G71 and G72 the axis of the depth
-/// alone. With the other axis as well it asks for type II, which cuts pockets along the contour.
+/// Alarm 065 of the manual: the block of P has G00 or G01, and of G71 and G72 the axis of the
+/// depth. With the other axis as well it asks for type II, which cuts pockets along the contour.
 bool check_first_block(Run& run) {
   const Block& block = run.block;
   ContourCycle& cycle = run.state.contour;
-  if (cycle.code == kTurningCycles || std::exchange(cycle.has_begun, true)) return true;
+  if (std::exchange(cycle.has_begun, true)) return true;
+  const bool names_x = block.words.has_any(set_of(X, U));
+  const bool names_z = block.words.has_any(set_of(Z, W));
+  const bool names_both = names_x && names_z;
+  if (cycle.code == kTurningCycles) {
+    cycle.is_type_two = names_both;
+    return true;
+  }
   if (!block.names(kMotionGroup) || block.g[kMotionGroup] > 1)
     return refuse_contour(run, "the block of P has no G00 or G01");
+  if (cycle.code == kTurningCycles + 3) return true;
+  cycle.is_type_two = names_both;
   const bool is_turning = cycle.code == kTurningCycles + 1;
+  if (names_both || !(is_turning ? names_z : names_x)) return true;
   const AddressSet other = is_turning ? set_of(Z, W) : set_of(X, U);
-  const AddressSet words = block.words.present() & other;
-  if (cycle.code == kTurningCycles + 3 || words == 0) return true;
-  return run.fail(ErrorCode::IllegalContour, block.words.first_column(words),
-                  fmt::format("the block of P names {} as well: type II is not supported",
-                              is_turning ? "Z" : "X"));
+  return run.fail(ErrorCode::IllegalContour, block.words.first_column(other),
+                  fmt::format("the block of P names {} and not {}", is_turning ? "Z" : "X",
+                              is_turning ? "X" : "Z"));
 }
 
 }  // namespace
@@ -141,6 +183,9 @@ bool follow_contour(Run& run) {
   }
   if (run.block.parts.ending != Ending::None || state.jump.kind == JumpKind::Call) {
     return refuse_contour(run, fmt::format("the program ends or calls before N{}", cycle.last));
+  }
+  if (cycle.code == kTurningCycles && cycle.is_type_two) {
+    cycle.moves.push_back({.x = state.position.raw(Axis::X), .z = state.position.raw(Axis::Z)});
   }
   if (run.recorder.is_full()) {
     return refuse_contour(

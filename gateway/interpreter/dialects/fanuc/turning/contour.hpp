@@ -23,14 +23,15 @@ struct ContourMove {
 
 /// A cycle whose contour is being executed.
 struct ContourCycle {
-  std::uint8_t code = 0;   ///< G70 to G73 as 170 to 173; 0: none
-  bool has_place = false;  ///< `back` is known
-  bool has_begun = false;  ///< the block of P has been executed
-  std::uint32_t last = 0;  ///< N of the last block
-  TextPosition back;       ///< after the block of the cycle
-  double allowance_x = 0;  ///< a radius
+  std::uint8_t code = 0;     ///< G70 to G73 as 170 to 173; 0: none
+  bool has_place = false;    ///< `back` is known
+  bool has_begun = false;    ///< the block of P has been executed
+  bool is_type_two = false;  ///< and it names both axes
+  std::uint32_t last = 0;    ///< N of the last block
+  TextPosition back;         ///< after the block of the cycle
+  double allowance_x = 0;    ///< a radius
   double allowance_z = 0;
-  std::vector<ContourMove> moves;
+  std::vector<ContourMove> moves;  ///< of G70 with both axes: where its blocks end
 };
 
 /// What earlier blocks have set for the cycles: the first blocks of G71 to G76. Radii.
@@ -46,6 +47,7 @@ struct TurningData {
   double thread_angle = 0;    ///< degrees
   double thread_least = 0;
   double thread_finish = 0;
+  bool has_faced = false;  ///< the last contour with pockets was one of G72
 };
 
 /// Keeps the moves and drops what else the blocks would do; warnings and alarms go on.

@@ -2,29 +2,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/turning/passes.hpp"
 #include "gateway/interpreter/dialects/fanuc/turning/turning.hpp"
 
-/// G71, G72 and G73: the passes along a recorded contour, which G70 then finishes.
+/// G71 and G72 of type I, and G73: the passes along a recorded contour, which G70 then finishes.
 namespace dripline::interpreter::fanuc {
 namespace {
 
-constexpr double kClose = 1e-6;
-constexpr double kMaxPasses = 5000;
-
-/// `depth` is the axis that the cuts of G71 and G72 step along, `along` the one they run along.
-struct Place {
-  double depth = 0;
-  double along = 0;
-};
-
-class Passes {
+/// Type I, and G73.
+class ParallelPasses : public Passes {
  public:
-  explicit Passes(Run& run)
-      : run_(run),
-        cycle_(run.state.contour),
-        is_facing_(cycle_.code == 172),
-        start_(place_of(run.state.position.raw(Axis::X), run.state.position.raw(Axis::Z))) {}
+  using Passes::Passes;
 
   bool rough() {
     if (!check_contour()) return false;
@@ -62,23 +50,6 @@ class Passes {
   }
 
  private:
-  Place place_of(double x, double z) const { return is_facing_ ? Place{z, x} : Place{x, z}; }
-  Place here() const {
-    return place_of(run_.state.position.raw(Axis::X), run_.state.position.raw(Axis::Z));
-  }
-  Position on_machine(Place at) const {
-    Position to = run_.state.position;
-    const double x = is_facing_ ? at.along : at.depth;
-    const double z = is_facing_ ? at.depth : at.along;
-    if (x != to.raw(Axis::X)) to.set_raw(Axis::X, x);
-    if (z != to.raw(Axis::Z)) to.set_raw(Axis::Z, z);
-    return to;
-  }
-  bool rapid(Place to) { return rapid_to(run_, on_machine(to)); }
-  bool feed(Place to) { return line_to(run_, on_machine(to), run_.active_feed()); }
-  bool approach(Place to) { return cycle_.moves.front().is_rapid ? rapid(to) : feed(to); }
-  bool refuse(std::string_view why) { return run_.fail(ErrorCode::IllegalContour, 0, why); }
-
   /// The first move goes down to the contour, along the depth alone; the rest is monotonic in both
   /// axes, and not beyond the start, to which the last cut returns.
   bool check_contour() {
@@ -92,8 +63,7 @@ class Passes {
     out_ = start_.depth > first_.depth ? 1 : -1;
     const Place last = place_of(moves.back().x, moves.back().z);
     forward_ = last.along < first_.along ? -1 : 1;
-    const Place shift = place_of(cycle_.allowance_x, cycle_.allowance_z);
-    if (out_ * shift.depth < 0) {
+    if (out_ * place_of(cycle_.allowance_x, cycle_.allowance_z).depth < 0) {
       return refuse("the finish allowance leads into the part");
     }
     Place from = first_;
@@ -108,7 +78,7 @@ class Passes {
                          fmt::format("move {} of the contour turns back", i + 1));
       }
       if (out_ * (to.depth - start_.depth) > kClose) {
-        return refuse(fmt::format("move {} of the contour goes beyond the start point", i + 1));
+        return refuse_beyond(i);
       }
       from = to;
     }
@@ -160,47 +130,13 @@ class Passes {
            rapid({level + out_ * escape, end - forward_ * escape}) &&
            rapid({level + out_ * escape, begin.along});
   }
-
-  /// The moves from `first` on, shifted.
-  bool follow(std::size_t first, double x, double z) {
-    for (std::size_t i = first; i < cycle_.moves.size(); ++i) {
-      const ContourMove& move = cycle_.moves[i];
-      const Position to = on_machine(place_of(move.x + x, move.z + z));
-      if (i == 0 && move.is_rapid) {
-        if (!rapid_to(run_, to)) return false;
-      } else if (!move.is_arc) {
-        if (!line_to(run_, to, run_.active_feed())) return false;
-      } else if (!arc_to(run_, arc_of_move(move, to, x, z))) {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  Arc arc_of_move(const ContourMove& move, const Position& to, double x, double z) const {
-    return {.origin = run_.origin,
-            .to = to,
-            .center_first = Length::mm(move.center_z + z),
-            .center_second = Length::mm(move.center_x + x),
-            .plane = Plane::ZX,
-            .turn = move.is_clockwise ? Turn::Clockwise : Turn::Counterclockwise,
-            .sweep = Angle::degrees(move.sweep),
-            .feed = run_.active_feed()};
-  }
-
-  Run& run_;
-  const ContourCycle& cycle_;
-  bool is_facing_;
-  Place start_;
-  Place first_;
-  double out_ = 1;      ///< from the contour to the start
-  double forward_ = 1;  ///< of the cuts
 };
 
 }  // namespace
 
 bool make_passes(Run& run) {
-  Passes passes(run);
+  if (run.state.contour.is_type_two) return rough_pockets(run);
+  ParallelPasses passes(run);
   return run.state.contour.code == 173 ? passes.repeat() : passes.rough();
 }
 

@@ -30,7 +30,7 @@ bool execute_turning_cycle(Run& run);
 bool follow_contour(Run& run);
 /// Whether the block in hand may be within a contour. False: an alarm.
 bool check_contour_block(Run& run);
-/// Rough passes along what has been recorded; roughing.cpp.
+/// Rough passes along what has been recorded; roughing.cpp, pocket_roughing.cpp.
 bool make_passes(Run& run);
 
 }  // namespace dripline::interpreter::fanuc
