@@ -63,9 +63,7 @@ class ParallelPasses : public Passes {
     out_ = start_.depth > first_.depth ? 1 : -1;
     const Place last = place_of(moves.back().x, moves.back().z);
     forward_ = last.along < first_.along ? -1 : 1;
-    if (out_ * place_of(cycle_.allowance_x, cycle_.allowance_z).depth < 0) {
-      return refuse("the finish allowance leads into the part");
-    }
+    if (!check_allowance()) return false;
     Place from = first_;
     for (std::size_t i = 1; i < moves.size(); ++i) {
       const Place to = place_of(moves[i].x, moves[i].z);
