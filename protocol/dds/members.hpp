@@ -151,7 +151,7 @@ void members(V&& v, Is<PanelSwitches> auto& m) {
   v(DRIPLINE_MEMBER_AS(dry_run, switch_dry_run));
   v(DRIPLINE_MEMBER_AS(machine_lock, switch_machine_lock));
   v(DRIPLINE_MEMBER_AS(handwheel, switch_handwheel));
-  v(DRIPLINE_MEMBER_AS(test_run, switch_test_run));
+  v(DRIPLINE_MEMBER_AS(test_run, switch_test_run));  // the last of the IDL
 }
 
 template <class V>
