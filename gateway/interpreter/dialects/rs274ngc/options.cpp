@@ -1,7 +1,9 @@
 #include "gateway/interpreter/dialects/rs274ngc/options.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <span>
 
 #include "gateway/interpreter/core/option_rows.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/retained_memory.hpp"
@@ -151,6 +153,18 @@ Result<void> load_variable(const VariableRecord& variable, const ControlOptions&
   return {};
 }
 
+/// An offset that the setup states is in force. That of the memory may be one that G92.2, or M2 of
+/// the profile nist, has taken out of force.
+void mark_g92(const Setup& setup, Parameters& parameters) {
+  const auto is_mark = [](const VariableRecord& variable) {
+    return variable.name == "#5210" || variable.name == "5210";
+  };
+  if (std::ranges::any_of(setup.variables, is_mark)) return;
+  const auto values = std::span(parameters).subspan(kG92Offsets, kAxisCount);
+  if (std::ranges::any_of(values, [](double value) { return value != 0; }))
+    parameters[kG92Active] = 1;
+}
+
 Tool tool_of(const ToolRecord& record, const ControlOptions& options) {
   Tool tool;
   tool.number = record.number;
@@ -165,11 +179,12 @@ Tool tool_of(const ToolRecord& record, const ControlOptions& options) {
 void load_active_offsets(const ControlOptions& options, const Parameters& parameters,
                          State& state) {
   const auto first = static_cast<std::size_t>(first_of_system(state.system));
+  const bool has_g92 = parameters[kG92Active] != 0;
   for (const Axis axis : kAllAxes) {
     const std::size_t i = index_of(axis);
     const double scale = is_rotary(axis) ? 1 : options.mm_per_machine_unit;
     state.system_offset[i] = parameters[first + i] * scale;
-    state.g92[i] = parameters[kG92Offsets + i] * scale;
+    state.g92[i] = has_g92 ? parameters[kG92Offsets + i] * scale : 0;
   }
   if (options.is_linuxcnc()) {
     state.rotation = parameters[first + kSystemRotation];
@@ -188,6 +203,7 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Stat
   for (const VariableRecord& variable : setup.variables) {
     if (auto loaded = load_variable(variable, options, parameters); !loaded) return loaded;
   }
+  mark_g92(setup, parameters);
   for (const ToolRecord& record : setup.tools) {
     if (!options.is_linuxcnc() && record.number > options.slots) {
       return fail(Errc::Unsupported, "tool {}: this changer has {} slots", record.number,

@@ -257,7 +257,7 @@ TEST(Playback, ReadsBackAsABlock) {
 
 // G92 of RS274/NGC is kept in its parameters: the setup has none.
 TEST(PositionSetter, SaysWhetherSetupOrMemoryHasWhatStandsAgainstIt) {
-  Shop shop(interpreter::kRs274NgcDialect);
+  Shop shop(interpreter::kRs274NgcDialect, "[control]\nprofile = \"linuxcnc\"\n");
   ASSERT_EQ(shop.run("G21\nG92 X5\nM2\n"), "completed");
   shop.restart_gateway();
   EXPECT_THAT(shop.set("datum G54 X 0 mm"), AllOf(HasSubstr("the control's memory has kept it"),

@@ -334,7 +334,10 @@ bool execute_one_shot(Run& run, int g_code) {
 }
 
 void reset_coordinates(Run& run) {
-  if (!run.is_linuxcnc()) load_axis_offsets(run, false);
+  if (!run.is_linuxcnc()) {
+    load_axis_offsets(run, false);
+    run.parameters[kG92Active] = 0;
+  }
   if (run.state.system != 1) load_system(run, 1);
 }
 

@@ -36,7 +36,8 @@ Result<std::vector<CellNumber>> changes(const PositionSetting& setting, const Re
   const auto work = number_of(read, parameter(first + axis), setting.offset);
   if (!work) return fail(work.error());
   const double at = place.at[static_cast<std::size_t>(axis)];
-  const double shift = read(parameter(kG92Offsets + axis)).value_or(0) * unit;
+  const bool is_shifted = read(parameter(kG92Active)).value_or(0) != 0;
+  const double shift = is_shifted ? read(parameter(kG92Offsets + axis)).value_or(0) * unit : 0;
   if (setting.tool == 0) {
     const double datum = at - setting.canonical() - shift;
     if (auto fits = check_size(datum, kMaxLength, setting.offset); !fits) return fail(fits.error());

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
+#include "gateway/interpreter/core/retained_memory.hpp"
 #include "tests/unit/gateway/interpreter/dialects/rs274ngc/control_run.hpp"
 
 /// Rows: NGC-050, NGC-086, NGC-090, NGC-091
@@ -106,8 +108,38 @@ TEST(Rs274State, AProbeThatWasInContactBeforeItsMoveIsAnAlarmOfG382) {
     ASSERT_TRUE(run.interpreter().answer(result));
     const bool must_move = std::string_view(code) == "G38.2";
     EXPECT_EQ(run.step(), must_move ? StepState::Alarmed : StepState::Ended);
-    EXPECT_THAT(run.log().lines(), Contains(HasSubstr(must_move ? "NGC0245" : " X1")));
+    EXPECT_THAT(run.log().lines(), Contains(HasSubstr(must_move ? "NGC0245" : "X1")));
   }
+}
+
+/// Where `G0 X1` goes in a program that begins with what the first one has left in the memory.
+std::string next_move(const std::string& text, const std::string& setup) {
+  ControlRun first(text, setup);
+  EXPECT_EQ(first.step(), StepState::Ended) << text;
+  auto& memory = dynamic_cast<RetainedMemory&>(first.interpreter());
+  std::vector<double> values;
+  memory.read_memory(values);
+  std::string next = setup;
+  const auto cells = memory.memory_cells();
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    next += fmt::format("[[variable]]\nname = \"{}\"\nvalue = {:.6f}\n", cells[i].name, values[i]);
+  ControlRun second("G21 G0 X1\nM2\n", next);
+  EXPECT_EQ(second.step(), StepState::Ended) << text;
+  const auto& lines = second.log().lines();
+  const auto move = std::ranges::find_if(
+      lines, [](const std::string& line) { return line.find("rapid") != std::string::npos; });
+  return move == lines.end() ? "no move" : move->substr(move->find(" X") + 1, 2);
+}
+
+// G92.2 leaves the values for G92.3, and they must not come into force with the next program.
+TEST(Rs274State, AnAxisOffsetOutOfForceStaysSoInTheNextProgram) {
+  const std::string later(kLater), nist, with_record = "[[offset]]\nname = \"G92\"\nX = 7.0\n";
+  EXPECT_EQ(next_move("G21 G0 X4\nG92 X1\nM2\n", later), "X4") << "LinuxCNC's M2 leaves it";
+  EXPECT_EQ(next_move("G21 G0 X4\nG92 X1\nG92.2\nM2\n", later), "X1");
+  EXPECT_EQ(next_move("G21 G0 X4\nG92 X1\nG92.2\nG92.3\nM2\n", later), "X4");
+  EXPECT_EQ(next_move("G21 G0 X4\nG92 X1\nM2\n", nist), "X1") << "M2 is like G92.2";
+  EXPECT_EQ(next_move("G21 G0 X4\nM2\n", later + with_record), "X8");
+  EXPECT_EQ(next_move("G92.2\nG21 G0 X4\nM2\n", later + with_record), "X1");
 }
 
 // LinuxCNC's M2 leaves them for MDI.
