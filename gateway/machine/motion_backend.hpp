@@ -24,6 +24,8 @@ namespace dripline::machine {
 struct ProgramReader {
   std::string_view control;
   interpreter::Units units = interpreter::Units::Millimeter;
+  std::string startup_code = {};  ///< `[control] startup_code` by which it has other modes
+  std::string settings = {};      ///< that make it read programs otherwise, for people
 };
 
 /// What a back end can do. A program that asks for more gets an alarm in place of the event

@@ -111,7 +111,6 @@ class RunLoop {
   std::string notice_of_mdi() const;
   Result<std::optional<RestartPlan>> plan_of(const report::ActiveRun& run,
                                              const StartOrigin& origin) const;
-  Result<void> check_units(const interpreter::Setup& setup) const;
   Result<void> stage_start(const report::ActiveRun& run, const StartOrigin& origin,
                            Conditions conditions, RunSession& session);
   void run_slice(SteadyTime now);

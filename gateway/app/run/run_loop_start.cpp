@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "gateway/app/run/run_loop.hpp"
+#include "gateway/app/run/start_checks.hpp"
 #include "gateway/interpreter/core/option_rows.hpp"
 #include "protocol/process/log.hpp"
 
@@ -92,23 +93,6 @@ StartOrigin RunLoop::read_on(const report::ActiveRun& run, StartOrigin origin) c
   return origin;
 }
 
-/// A program that names no unit is read in that of the setup, and was perhaps written for the one
-/// in which the device itself reads it.
-Result<void> RunLoop::check_units(const interpreter::Setup& setup) const {
-  const auto& reader = parts_.machine.capabilities().reader;
-  if (!reader || reader->control != parts_.dialect.name) return {};
-  const auto stated = setup.units.value_or(parts_.dialect.units);
-  if (stated == reader->units) return {};
-  const auto name = [](interpreter::Units units) {
-    return interpreter::shown_unit(interpreter::Axis::X, units);
-  };
-  return fail(
-      Errc::Conflict,
-      "the machine's unit is {0}, that of the setup {1}: programs without G20 and G21 would "
-      "be read in {1}. Set units = \"{0}\" in the setup",
-      name(reader->units), name(stated));
-}
-
 Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
                             const StartOrigin& given) {
   const StartOrigin origin = read_on(run, given);
@@ -138,7 +122,8 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   }
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
   if (is_restart) conditions.restart_of = origin.from.restart->run;
-  if (auto done = check_units(*setup); !done) return done;
+  if (auto done = check_reader(parts_.machine.capabilities().reader, parts_.dialect, *setup); !done)
+    return done;
   auto check = check_of(axes, tests, is_restart);
   if (!check) return fail(check.error());
   auto session = RunSession::make(

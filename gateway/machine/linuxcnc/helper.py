@@ -141,8 +141,12 @@ class Machine:
         except (TypeError, ValueError):
             return 0.0
 
+    def is_on(self, section, key):
+        return (self.ini.find(section, key) or "0").strip().lower() not in ("0", "no", "n", "false", "f", "off", "")
+
     def introduce(self):
         s = self.stat
+        settings = [key for key in ("RETAIN_G43", "DISABLE_AUTO_G54") if self.is_on("RS274NGC", key)]
         say({
             "hello": 1,
             "version": linuxcnc.version,
@@ -153,6 +157,8 @@ class Machine:
             "acceleration": [self.number("AXIS_" + letter, "MAX_ACCELERATION") for letter in "XYZABCUVW"],
             "rpm": self.number("SPINDLE_0", "MAX_FORWARD_VELOCITY"),
             "wrapped": sum(1 << i for i, letter in enumerate("XYZABCUVW") if self.number("AXIS_" + letter, "WRAPPED_ROTARY") != 0),
+            "startup_code": next(filter(None, (self.ini.find(section, "RS274NGC_STARTUP_CODE") for section in ("RS274NGC", "EMC"))), ""),
+            "settings": ", ".join("[RS274NGC]" + key for key in settings),
             "read_ahead": int(self.number("TASK", "INTERP_MAX_LEN") or 1000),
         })
 

@@ -100,6 +100,8 @@ bool read(Reader& from, HelloReply& to) {
   from.number("rpm", to.max_rpm);
   from.whole("wrapped", to.wrapped, 0, (1 << kMaxAxes) - 1);
   from.whole("read_ahead", to.read_ahead, 0, 1'000'000);
+  from.text("startup_code", to.startup_code);
+  from.text("settings", to.settings);
   return from.is_good();
 }
 

@@ -24,6 +24,8 @@ struct HelloReply {
   double max_rpm = 0;                                       ///< 0: unknown
   std::uint32_t wrapped = 0;                                ///< axes that count to 360 degrees only
   int read_ahead = 0;                                       ///< [TASK]INTERP_MAX_LEN
+  std::string startup_code;                                 ///< [RS274NGC]RS274NGC_STARTUP_CODE
+  std::string settings;  ///< that are on and make it read programs otherwise than ours are
 };
 
 /// Numbers of LinuxCNC's interface.

@@ -30,8 +30,12 @@ TextRules Session::rules_of(const HelloReply& hello) const {
   rules.decimals = 6;
   rules.line_limit = 200;
   rules.has_stop_mode = true;
-  rules.reader = ProgramReader{"rs274ngc", hello.units_per_mm == 1 ? interpreter::Units::Millimeter
-                                                                   : interpreter::Units::Inch};
+  const bool is_metric = hello.units_per_mm == 1;
+  rules.reader =
+      ProgramReader{.control = "rs274ngc",
+                    .units = is_metric ? interpreter::Units::Millimeter : interpreter::Units::Inch,
+                    .startup_code = hello.startup_code,
+                    .settings = hello.settings};
   if (hello.max_rpm > 0) rules.max_rpm = hello.max_rpm;
   rules.max_rpm_setting = " ([SPINDLE_0]MAX_FORWARD_VELOCITY)";
   double braking = 0;

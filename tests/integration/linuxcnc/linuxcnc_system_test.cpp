@@ -1,5 +1,6 @@
 // Server, gateway and a real LinuxCNC.
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -20,6 +21,7 @@ class LinuxCncSystem : public MotionSystem {
     if (const std::string missing = LinuxCnc::missing(); !missing.empty())
       GTEST_SKIP() << "skipped: " << missing;
     linuxcnc.emplace();
+    if (!ini.empty()) linuxcnc->add_to_ini("RS274NGC", ini);
     linuxcnc->start();
     start_system(control, "linuxcnc:" + linuxcnc->ini(), more);
   }
@@ -33,6 +35,7 @@ class LinuxCncSystem : public MotionSystem {
     ASSERT_TRUE(eventually([&] { return panel({"home"}).status == 0; })) << panel({"home"}).output;
   }
 
+  std::string ini;  ///< more lines of its [RS274NGC]
   std::optional<LinuxCnc> linuxcnc;
 };
 
@@ -55,6 +58,27 @@ TEST_F(LinuxCncSystem, AProgramOfATnc155RunsOnALinuxCncMill) {
   }
   EXPECT_NEAR(deepest, -8, 0.001);
   EXPECT_NEAR(widest, 95, 0.001);
+}
+
+TEST_F(LinuxCncSystem, ProgramsBeginInTheModesOfItsStartupCode) {
+  ini = "RS274NGC_STARTUP_CODE = G20 G40 G64 P0.01 (inches)";
+  start("rs274ngc");
+  if (IsSkipped() || HasFatalFailure()) return;
+  const std::string text = "G0 X1\nM2\n";
+  system->push("inch", text);
+  EXPECT_TRUE(eventually([&] {
+    return post_run("inch").body.find("Set startup_code = ") != std::string::npos;
+  })) << post_run("inch").body;
+  const auto setup = std::filesystem::path(linuxcnc->ini()).parent_path() / "setup.toml";
+  std::ofstream(setup) << "[control]\nprofile = \"linuxcnc\"\n"
+                          "startup_code = \"G20 G40 G64 P0.01 (inches)\"\n";
+  system.reset();
+  start_system("rs274ngc", "linuxcnc:" + linuxcnc->ini(), {"--setup", setup.string()});
+  system->push("inch", text);
+  turn_on("inch");
+  EXPECT_EQ(system->wait_ended(start_run("inch")).value("state", ""), "completed");
+  EXPECT_TRUE(eventually([&] { return std::fabs(linuxcnc->position()[0] - 25.4) < 0.001; }))
+      << linuxcnc->position()[0];
 }
 
 TEST_F(LinuxCncSystem, BlocksKeyedInMoveTheMachineAndAnAbortStopsIt) {

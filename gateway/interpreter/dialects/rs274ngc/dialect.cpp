@@ -8,6 +8,7 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/interpreter.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/startup_code.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -38,6 +39,7 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   if (auto loaded = load_memory(setup, *options, state, *parameters, tools); !loaded) {
     return fail(loaded.error());
   }
+  if (auto begun = apply_startup_code(*options, state); !begun) return fail(begun.error());
   auto made = std::make_unique<Rs274NgcInterpreter>(std::move(*options), std::move(tools),
                                                     std::move(state), *parameters, source, sink);
   made->set_parameter_file(listed_parameters(setup));

@@ -18,6 +18,13 @@ class Rs274NgcInterpreter final : public BlockInterpreter<Rs274NgcInterpreter>,
   /// Which free parameters its parameter file lists, rising: these it keeps for good.
   void set_parameter_file(std::vector<int> numbers) { in_file_ = std::move(numbers); }
 
+  const State& state() const { return run_.state; }
+  /// As before the first block, but for what `state` has.
+  void begin_with(State state) {
+    run_.state = std::move(state);
+    run_.origin = {};
+  }
+
   bool set_block_skip(std::uint16_t levels) override {
     run_.block_skip = (levels & 2u) != 0;
     return true;

@@ -24,6 +24,10 @@ Result<void> read_axes(const Options& options, const OptionKey& key, C& control)
   return {};
 }
 
+Result<void> read_startup_code(const Options& options, const OptionKey& key, C& control) {
+  return assign(options.text(key.key, ""), control.startup_code);
+}
+
 /// A table of names and numbers, as the machine's HAL has them.
 Result<void> read_hal(const Options& options, const OptionKey& key, C& control) {
   const OptionValue* given = options.find(key.key);
@@ -62,6 +66,9 @@ constexpr std::array kRows{
     row<&C::spline_tolerance>("spline_tolerance", kLength,
                               "distance of a spline's straight pieces from the curve",
                               {.low = 1e-6}),
+    Row{{"startup_code", kText,
+         "RS274NGC_STARTUP_CODE of LinuxCNC's INI file: modes that programs begin with", "none"},
+        read_startup_code},
     pins_row<&C::pins, &C::answers_pins>(),
     Row{{"hal", "table", "HAL pins that programs read: { \"motion.in-position\" = 1 }",
          "the machine is asked"},

@@ -41,6 +41,7 @@ struct ControlOptions {
   std::uint64_t max_passes = 1'000'000;  ///< of loops and calls, together
   std::uint64_t max_restarts = 1000;     ///< of the main program by M99
   double spline_tolerance = 0.001;       ///< mm, of the pieces of G5 to G5.3
+  std::string startup_code;              ///< startup_code.hpp
   double mm_per_machine_unit = 1;        ///< of stored parameters
   std::vector<std::int64_t> pins;
   bool answers_pins = false;  ///< `pins` was given: no operator need be asked

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 inline constexpr std::string_view kHello =
     R"({"hello":1,"version":"2.9","units":1.0,"axes":7,"limits":[[-400,400],[-300,300],[-200,200],)"
     R"([0,0],[0,0],[0,0],[0,0],[0,0],[0,0]],"wrapped":0,"velocity":[200,200,200,0,0,0,0,0,0],)"
-    R"("acceleration":[2000,500,2000,0,0,0,0,0,0],"rpm":6000,"read_ahead":2})";
+    R"("acceleration":[2000,500,2000,0,0,0,0,0,0],"rpm":6000,"read_ahead":2,"startup_code":"","settings":""})";
 
 /// A session whose helper is the test: it reads what LinuxCNC was sent, and reports what the test
 /// has set.

@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
                                 [](FakeHelper& it) {
                                   it.session.opened(it.now);
                                   std::string hello(kHello);
-                                  hello.replace(hello.rfind(":2}"), 3, ":1000}");
+                                  hello.replace(hello.find("ahead\":2"), 8, "ahead\":1000");
                                   it.say(hello);
                                 }}),
     [](const auto& i) { return std::string{i.param.name}; });

@@ -18,6 +18,21 @@ TEST(LinuxCncSession, OpensAProgramWithTheModesThatAllLinesRelyOn) {
   EXPECT_FALSE(helper.session.may_send(10)) << "LinuxCNC does not read it yet";
 }
 
+TEST(LinuxCncSession, StatesByWhatLinuxCncReadsPrograms) {
+  FakeHelper helper;
+  helper.session.lost("again");
+  helper.session.opened(helper.now);
+  std::string hello(kHello);
+  hello.replace(hello.find("\"startup_code\":\"\""), 17, "\"startup_code\":\"G20 G64\"");
+  hello.replace(hello.find("\"settings\":\"\""), 13, "\"settings\":\"RETAIN_G43\"");
+  helper.say(hello);
+  const auto& reader = helper.session.rules().reader;
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(reader->control, "rs274ngc");
+  EXPECT_EQ(reader->startup_code, "G20 G64");
+  EXPECT_EQ(reader->settings, "RETAIN_G43");
+}
+
 TEST(LinuxCncSession, ReportsTheProbeAsItIsNow) {
   FakeHelper helper;
   EXPECT_EQ(helper.session.is_touching(), false);

@@ -84,5 +84,68 @@ TEST(Rs274Options, UnknownOnesAndForeignRecordsAreNamed) {
   }
 }
 
+struct StartupCase {
+  std::string name;
+  std::string code;
+  std::string why;  ///< of the refusal; empty: it is taken
+};
+void PrintTo(const StartupCase& shown, std::ostream* out) {
+  *out << shown.name;
+}
+class Rs274StartupCode : public testing::TestWithParam<StartupCase> {};
+
+TEST_P(Rs274StartupCode, SetsModesThatM2LeavesOrIsRefused) {
+  const StartupCase& given = GetParam();
+  for (const std::string profile : {"linuxcnc", "nist"}) {
+    const auto setup = parse_setup("[control]\nprofile = \"" + profile + "\"\nstartup_code = \"" +
+                                   given.code + "\"\n");
+    ASSERT_TRUE(setup) << setup.error().what;
+    MemorySource source("M2\n");
+    EventLog log;
+    const auto made = (*find_dialect("rs274ngc"))->make(*setup, source, log);
+    EXPECT_EQ(made.has_value(), given.why.empty()) << (made ? "" : made.error().what);
+    if (!made) {
+      EXPECT_THAT(made.error().what, HasSubstr(given.why));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , Rs274StartupCode,
+    testing::Values(
+        StartupCase{"of_stepconf", "G21 G40 G49 G80 G90 G92.1 G94 G97 M52P1", ""},
+        StartupCase{"of_pncconf", "G20 G40 G90 G94 G97 G64", ""},
+        StartupCase{"of_a_mill", "F10 S300 G20 G17 G40 G43H0 G54 G64 P0.001 G80 G94 M5 M9", ""},
+        StartupCase{"of_a_lathe", "G18 G21 G40 G49 G54 G80 G90 G94 G8 M9 M5 G64 P0.005", ""},
+        StartupCase{"of_a_simulation", "G0 G21 G54 (debug, startup)", ""},
+        StartupCase{"g91", "G91", "G91 would be in force until the first M2 only"},
+        StartupCase{"g93", "G93", "G93 would"}, StartupCase{"g95", "G95", "G95 would"},
+        StartupCase{"g55", "G55", "a work system other than G54 would"},
+        StartupCase{"g41", "G41 D0", "G41 and G42 would"},
+        StartupCase{"g96", "G96 D1000 S100", "G96 would"},
+        StartupCase{"m3", "M3 S100", "a spindle that turns would"},
+        StartupCase{"m8", "M8", "coolant would"},
+        StartupCase{"m49", "M49", "an inhibited override"},
+        StartupCase{"tilted_plane", "G17.1", "does more than set modes"},
+        StartupCase{"offset", "G10 L2 P1 X1", "does more than set modes"},
+        StartupCase{"g92", "G92 X1", "does more than set modes"},
+        StartupCase{"length", "G43.1 Z5", "does more than set modes"},
+        StartupCase{"tool", "M61 Q3", "does more than set modes"},
+        StartupCase{"parameter", "#100 = 5", "does more than set modes"},
+        StartupCase{"name", "#<_depth> = 5", "does more than set modes"},
+        StartupCase{"move", "G0 X1", "does more than set modes"},
+        StartupCase{"call", "o<begin> call", "NGC0"}, StartupCase{"question", "M66 P1 L0", "asks"},
+        StartupCase{"error", "G21 G20", "NGC0"}, StartupCase{"restart", "M99", "NGC0"}),
+    [](const auto& each) { return each.param.name; });
+
+TEST(Rs274Options, StartupCodeOfNistHasNoDiametersAndAbsoluteCenters) {
+  const auto setup = parse_setup("[control]\nstartup_code = \"G7\"\n");
+  MemorySource source("M2\n");
+  EventLog log;
+  const auto made = (*find_dialect("rs274ngc"))->make(*setup, source, log);
+  ASSERT_FALSE(made);
+  EXPECT_THAT(made.error().what, HasSubstr("nist has neither G7 nor G90.1"));
+}
+
 }  // namespace
 }  // namespace dripline::interpreter::rs274ngc
