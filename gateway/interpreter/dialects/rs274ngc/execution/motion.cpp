@@ -180,11 +180,47 @@ bool read_feed(Run& run, bool is_arc, Feed& feed) {
   return true;
 }
 
+void note_speed(Run& run, double length) {
+  State& state = run.state;
+  if (state.modes.feed != FeedMode::InverseTime || !run.is_linuxcnc()) [[likely]]
+    return;
+  constexpr double kOfNoLength = 0.1;
+  state.feed_units = state.units;
+  state.feed = length == 0 ? kOfNoLength : length / state.mm_per_unit() * run.block.words['F'];
+}
+
+namespace {
+
+/// Of the axes that LinuxCNC times a line by: X, Y and Z where one of them moves, else U, V and W,
+/// else the rotary ones, whose degrees it takes for units.
+double timed_length(const Run& run, const Target& target) {
+  const double unit = run.state.mm_per_unit();
+  Axes from;
+  begin_at_base(run, from);
+  const auto length_of = [&](std::array<Axis, 3> axes, double scale) {
+    double square = 0;
+    for (const Axis axis : axes) {
+      const double part = (target.to[index_of(axis)] - from[index_of(axis)]) * scale;
+      if (std::fabs(part) > 1e-7 * unit) square += part * part;
+    }
+    return std::sqrt(square);
+  };
+  if (const double length = length_of({Axis::X, Axis::Y, Axis::Z}, 1); length > 0) return length;
+  if (const double length = length_of({Axis::U, Axis::V, Axis::W}, 1); length > 0) return length;
+  return length_of(kRotaryAxes, unit);
+}
+
+}  // namespace
+
 bool straight_move(Run& run, int motion) {
   Target target;
   if (!read_target(run, target)) return false;
   Feed feed;
-  if (motion == 10 && !read_feed(run, false, feed)) return false;
+  if (motion == 10) {
+    if (!read_feed(run, false, feed)) return false;
+    if (run.state.modes.feed == FeedMode::InverseTime) [[unlikely]]
+      note_speed(run, timed_length(run, target));
+  }
   if (shifts_moves(run)) [[unlikely]] {
     run.state.passes = 0;
     if (motion == 0) renew_lead(run);

@@ -27,6 +27,10 @@ bool read_target(Run& run, Target& target);
 /// The feed of this line's move. Errors: none is in force, or the line lacks the F of G93.
 bool read_feed(Run& run, bool is_arc, Feed& feed);
 
+/// In G93 the control makes a speed of F and the length (mm or degrees) of the path as programmed:
+/// what #<_feed> shows and M70 keeps.
+void note_speed(Run& run, double length);
+
 /// G0 and G1.
 bool straight_move(Run& run, int motion);
 /// G28 and G30.
