@@ -37,6 +37,10 @@ std::optional<Refusal> LinuxCncCommands::tool(const interpreter::ToolChange& eve
 std::optional<Refusal> LinuxCncCommands::miscellaneous(const interpreter::Miscellaneous& event,
                                                        Lines& lines) {
   if (event.code == streamed::kToolChangeFunction) return std::nullopt;
+  if (event.code == 52 && event.p) {
+    lines.emplace_back(*event.p == 0 ? "M52P0" : "M52P1");
+    return std::nullopt;
+  }
   const bool is_analog = event.code == 67 || event.code == 68;
   if (!is_analog && (event.code < 100 || event.code > 199))
     return Refusal{"MCH0008", fmt::format("this machine cannot do M{}", event.code)};

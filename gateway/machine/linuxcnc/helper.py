@@ -6,6 +6,7 @@ it has started is aborted. When LinuxCNC's task ends, what the task has given to
 """
 import json
 import os
+import re
 import select
 import sys
 import time
@@ -78,6 +79,15 @@ def stop_motion():
     return component  # a component that is collected ends the connection with HAL
 
 
+def leaves_adaptive(code):
+    """Whether adaptive feed is on (M52) after a startup code."""
+    words = re.sub(r"\([^)]*\)|;.*|\s", "", code).upper()
+    if not re.search(r"M0*52(?![\d.])", words):
+        return False
+    number = re.search(r"P([-+]?[\d.]+)", words)
+    return number is None or float(number[1]) != 0
+
+
 def signal(name):
     """A HAL pin, parameter or signal as it is now."""
     component = hal.component("dripline-read-%d" % os.getpid())
@@ -146,6 +156,7 @@ class Machine:
 
     def introduce(self):
         s = self.stat
+        code = next(filter(None, (self.ini.find(section, "RS274NGC_STARTUP_CODE") for section in ("RS274NGC", "EMC"))), "")
         settings = [key for key in ("RETAIN_G43", "DISABLE_AUTO_G54") if self.is_on("RS274NGC", key)]
         say({
             "hello": 1,
@@ -157,7 +168,8 @@ class Machine:
             "acceleration": [self.number("AXIS_" + letter, "MAX_ACCELERATION") for letter in "XYZABCUVW"],
             "rpm": self.number("SPINDLE_0", "MAX_FORWARD_VELOCITY"),
             "wrapped": sum(1 << i for i, letter in enumerate("XYZABCUVW") if self.number("AXIS_" + letter, "WRAPPED_ROTARY") != 0),
-            "startup_code": next(filter(None, (self.ini.find(section, "RS274NGC_STARTUP_CODE") for section in ("RS274NGC", "EMC"))), ""),
+            "startup_code": code,
+            "adaptive": leaves_adaptive(code),
             "settings": ", ".join("[RS274NGC]" + key for key in settings),
             "read_ahead": int(self.number("TASK", "INTERP_MAX_LEN") or 1000),
         })
@@ -186,6 +198,7 @@ class Machine:
             "spindle": s.spindle[0]["speed"] if s.spindle[0]["enabled"] else 0.0,
             "tripped": bool(s.probe_tripped),
             "touching": bool(s.probe_val),
+            "adaptive": bool(s.adaptive_feed_enabled),
             "probing": bool(s.probing),
             "probed": list(s.probed_position),
             "inputs": sum(1 << i for i, value in enumerate(s.din[:32]) if value),

@@ -101,6 +101,7 @@ bool read(Reader& from, HelloReply& to) {
   from.whole("wrapped", to.wrapped, 0, (1 << kMaxAxes) - 1);
   from.whole("read_ahead", to.read_ahead, 0, 1'000'000);
   from.text("startup_code", to.startup_code);
+  from.flag("adaptive", to.is_adaptive);
   from.text("settings", to.settings);
   return from.is_good();
 }
@@ -121,6 +122,7 @@ bool read(Reader& from, StatusReply& to) {
   from.number("velocity", to.velocity);
   from.whole("tool", to.tool, -1'000'000'000, 1'000'000'000);
   from.number("spindle", to.spindle_rpm);
+  from.flag("adaptive", to.is_adaptive);
   from.flag("touching", to.is_touching);
   from.flag("tripped", to.is_tripped);
   from.numbers("probed", to.probed);

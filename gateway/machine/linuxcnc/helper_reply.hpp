@@ -25,6 +25,7 @@ struct HelloReply {
   std::uint32_t wrapped = 0;                                ///< axes that count to 360 degrees only
   int read_ahead = 0;                                       ///< [TASK]INTERP_MAX_LEN
   std::string startup_code;                                 ///< [RS274NGC]RS274NGC_STARTUP_CODE
+  bool is_adaptive = false;                                 ///< after it: adaptive feed is on (M52)
   std::string settings;  ///< that are on and make it read programs otherwise than ours are
 };
 
@@ -46,6 +47,7 @@ struct StatusReply {
   double velocity = 0;      ///< per second
   int tool = 0;
   double spindle_rpm = 0;
+  bool is_adaptive = false;  ///< M52
   bool is_touching = false;  ///< the probe, now
   bool is_tripped = false;   ///< by the last probe move
   Coordinates probed{};

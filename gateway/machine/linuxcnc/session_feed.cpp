@@ -157,6 +157,9 @@ void Session::feed_opened(const std::string& path, SteadyTime now) {
   write(kFirstLine);
   write(kModes);
   write(kMoreModes);
+  // A former program may have left it otherwise; M2 does not change it.
+  if (status_ && status_->is_adaptive != hello_->is_adaptive)
+    write(hello_->is_adaptive ? "M52P1" : "M52P0");
   preamble_ = write(kMarker);
   in_flight_.push_back(preamble_);
   markers_.push_back(preamble_);

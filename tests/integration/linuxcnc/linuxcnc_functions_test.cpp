@@ -30,6 +30,18 @@ TEST_F(LinuxCncFunctions, ThatLeaveNothingToTheMachineAreNoReasonToRefuseAProgra
   EXPECT_NEAR(x(), 1, 0.001);
 }
 
+// M2 leaves it on, but the next program of ours begins without.
+TEST_F(LinuxCncFunctions, AdaptiveFeedIsOfTheProgram) {
+  LinuxCncItself itself(linuxcnc->ini());
+  run("G21 M52 P1\nG0 X1\nM2\n");
+  itself.run("G21 G90 G0 X2\nM2\n");
+  ASSERT_TRUE(wait([&] { return rests() && std::fabs(x() - 2) < 0.001; }));
+  EXPECT_TRUE(itself.is_adaptive());
+  run("G21 G0 X3\nM2\n");
+  itself.run("G21 G90 G0 X4\nM2\n");
+  EXPECT_FALSE(itself.is_adaptive());
+}
+
 TEST_F(LinuxCncFunctions, SwitchOutputsAndReadInputs) {
   run("G21 M64 P1\nM66 P2 L0\nG0 X[#5399*5]\nM65 P1\nM66 P2\nG0 Z[#5399*5+1]\nM62 P1\nG0 X6\n"
       "M66 P2\nG0 Z[#5399*5+2]\nM2\n");

@@ -39,6 +39,7 @@ class LinuxCncItself {
         << messages_ << text;
     EXPECT_EQ(messages_, "") << text;
   }
+  bool is_adaptive() const { return status_ && status_->is_adaptive; }
 
  private:
   using InterpreterState = machine::linuxcnc::InterpreterState;

@@ -50,12 +50,17 @@ bool apply_override(Run& run, int code) {
   if (!is_allowed_now(run, code)) return false;
   Overrides& overrides = run.state.overrides;
   const bool enables = run.block.words.value_or('P', 1) != 0;
+  const bool was_adaptive = overrides.adaptive;
   if (code == 48 || code == 49) overrides.speed = overrides.feed = code == 48;
   if (code == 50) overrides.feed = enables;
   if (code == 51) overrides.speed = enables;
   if (code == 52) overrides.adaptive = enables;
   if (code == 53) overrides.hold = enables;
-  run.events().on_miscellaneous({.origin = run.origin, .code = code, .is_done = code != 52});
+  Miscellaneous event{.origin = run.origin, .code = code};
+  // A machine without adaptive feed has nothing to turn off.
+  event.is_done = code != 52 || !(enables || was_adaptive);
+  if (code == 52) event.p = enables ? 1 : 0;
+  run.events().on_miscellaneous(event);
   run.events().on_override_inhibit(override_inhibit(run));
   return true;
 }

@@ -65,6 +65,14 @@ TEST(LinuxCncCommands, OutputsAndFunctionsOfTheBuilder) {
   EXPECT_THAT(lines, ElementsAre("M68E3Q-0.5")) << "the motion before it has ended";
 }
 
+TEST(LinuxCncCommands, AdaptiveFeedIsLinuxCncs) {
+  LinuxCncCommands writer;
+  streamed::CommandWriter::Lines lines;
+  EXPECT_FALSE(writer.miscellaneous({.origin = {}, .code = 52, .p = 1}, lines));
+  EXPECT_FALSE(writer.miscellaneous({.origin = {}, .code = 52, .p = 0}, lines));
+  EXPECT_THAT(lines, ElementsAre("M52P1", "M52P0"));
+}
+
 TEST(LinuxCncCommands, WhatLinuxCncLacksIsRefused) {
   LinuxCncCommands writer;
   streamed::CommandWriter::Lines lines;

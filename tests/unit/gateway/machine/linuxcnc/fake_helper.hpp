@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 inline constexpr std::string_view kHello =
     R"({"hello":1,"version":"2.9","units":1.0,"axes":7,"limits":[[-400,400],[-300,300],[-200,200],)"
     R"([0,0],[0,0],[0,0],[0,0],[0,0],[0,0]],"wrapped":0,"velocity":[200,200,200,0,0,0,0,0,0],)"
-    R"("acceleration":[2000,500,2000,0,0,0,0,0,0],"rpm":6000,"read_ahead":2,"startup_code":"","settings":""})";
+    R"("acceleration":[2000,500,2000,0,0,0,0,0,0],"rpm":6000,"read_ahead":2,"startup_code":"","adaptive":false,"settings":""})";
 
 /// A session whose helper is the test: it reads what LinuxCNC was sent, and reports what the test
 /// has set.
@@ -34,10 +34,10 @@ class FakeHelper {
         R"({{"status":{{"state":{},"mode":2,"interp":{},"exec":2,"read":{},"motion":{},"queue":{},)"
         R"("inpos":{},"paused":{},"homed":{},"homing":false,"at":[{},0,0,0,0,0,0,0,0],)"
         R"("actual":[0,0,0,0,0,0,0,0,0],"velocity":{},"offset":{},"system":9,"tool":0,)"
-        R"("spindle":0.0,"touching":{},"tripped":false,"probing":false,"probed":[0,0,0,0,0,0,0,0,0],)"
+        R"("spindle":0.0,"adaptive":{},"touching":{},"tripped":false,"probing":false,"probed":[0,0,0,0,0,0,0,0,0],)"
         R"("inputs":5,"inputs_above":2,"echo":1}}}})",
         state, interpreter, read, motion, motion > 0 ? 1 : 0, motion == 0, paused, homed, x,
-        velocity, has_offset, touching));
+        velocity, has_offset, adaptive, touching));
   }
   void done(std::uint64_t number, const std::string& problem = "") {
     say(fmt::format(R"({{"done":{},"problem":"{}","echo":1}})", number, problem));
@@ -76,7 +76,7 @@ class FakeHelper {
   SteadyTime now{};
   int state = 4, interpreter = 1;
   std::uint64_t read = 0, motion = 0;
-  bool paused = false, homed = true, has_offset = false, touching = false;
+  bool paused = false, homed = true, has_offset = false, adaptive = false, touching = false;
   double x = 0, velocity = 0;
   Session session;
   std::string text, commands;

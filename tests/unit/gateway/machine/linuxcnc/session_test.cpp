@@ -33,6 +33,17 @@ TEST(LinuxCncSession, StatesByWhatLinuxCncReadsPrograms) {
   EXPECT_EQ(reader->settings, "RETAIN_G43");
 }
 
+TEST(LinuxCncSession, BeginsWithoutTheAdaptiveFeedOfAFormerProgram) {
+  FakeHelper helper;
+  helper.adaptive = true;
+  helper.report();
+  helper.session.set_active(true, helper.now);
+  EXPECT_FALSE(helper.session.prepare(helper.now));
+  helper.session.feed_opened("/fifo", helper.now);
+  helper.pass(1ms);
+  EXPECT_NE(helper.text.find("\nG61M48\nM52P0\nM66P0L0\n"), std::string::npos) << helper.text;
+}
+
 TEST(LinuxCncSession, ReportsTheProbeAsItIsNow) {
   FakeHelper helper;
   EXPECT_EQ(helper.session.is_touching(), false);
