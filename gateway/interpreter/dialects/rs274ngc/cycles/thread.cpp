@@ -51,10 +51,14 @@ bool read_cycle(Run& run, ThreadCycle& cycle) {
   if (words.has_any(set_of("XYABCUVW@^"))) {
     return run.fail(ErrorCode::ThreadWords, 0, "G76 takes Z alone of the axes");
   }
+  // The peer halves them twice there, with G7, or does not at all.
+  if (run.block.g(GGroup::Lathe) >= 0)
+    return run.fail(ErrorCode::ThreadWords, 0, "G7 and G8 need a line before that of G76");
+  const double across = state.modes.is_diameter ? 0.5 : 1;  // I, J, K are diameters with G7
   cycle.pitch = run.mm(words['P']);
-  cycle.peak = run.mm(words['I']);
-  cycle.first_depth = run.mm(words['J']);
-  cycle.full_depth = run.mm(words['K']);
+  cycle.peak = run.mm(words['I']) * across;
+  cycle.first_depth = run.mm(words['J']) * across;
+  cycle.full_depth = run.mm(words['K']) * across;
   cycle.degression = words.value_or('R', 1);
   cycle.angle = words.value_or('Q', 0) * (Angle::kPi / 180);
   cycle.spring_passes = static_cast<int>(std::round(words.value_or('H', 0)));

@@ -1,5 +1,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/execution/execution.hpp"
 
+#include <utility>
+
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 
@@ -51,12 +53,20 @@ bool select_path(Run& run, int code) {
   return true;
 }
 
+/// X of the same line, which was read in the mode before, is a diameter with G7 and none with G8.
+void select_diameters(Run& run, bool is_diameter) {
+  Words& words = run.block.words;
+  const bool changes = std::exchange(run.state.modes.is_diameter, is_diameter) != is_diameter;
+  if (changes && words.has('X'))
+    words.set(address_of('X'), words['X'] * (is_diameter ? 0.5 : 2), words.column('X'));
+}
+
 /// Those that few lines have.
 bool apply_rare_modes(Run& run) {
   const Block& block = run.block;
   if (const int code = block.g(GGroup::Plane); code >= 0 && !select_plane(run, code)) return false;
   if (const int code = block.g(GGroup::Units); code >= 0 && !select_units(run, code)) return false;
-  if (const int code = block.g(GGroup::Lathe); code >= 0) run.state.modes.is_diameter = code == 70;
+  if (const int code = block.g(GGroup::Lathe); code >= 0) select_diameters(run, code == 70);
   if (const int code = block.g(GGroup::Radius); code >= 0 && !switch_compensation(run, code)) {
     return false;
   }
