@@ -118,10 +118,10 @@ void set_tool_length(Run& run, const Axes& length) {
 
 bool select_system(Run& run, int g_code) {
   const int system = g_code < 590 ? (g_code - 530) / 10 : 6 + (g_code - 590);
-  if (system == run.state.system) return true;
-  if (run.is_linuxcnc() && run.state.compensation.side != Side::Off) {
+  if (run.is_linuxcnc() && run.state.compensation.side != Side::Off) {  // one in force already, too
     return run.fail(ErrorCode::CompNotAllowed, 0, "a change of the coordinate system");
   }
+  if (system == run.state.system) return true;
   load_system(run, system);
   return true;
 }

@@ -204,6 +204,10 @@ bool read_parameter(Run& run, double index, std::uint32_t column, double& value)
                     fmt::format("#{} is not in 1 to {}", index, highest(run)));
   }
   const auto at = static_cast<std::size_t>(index);
+  // The position is that of the shifted path, and not even its end.
+  if (at >= kCurrentPosition && at < kCurrentPosition + kAxisCount && run.is_linuxcnc() &&
+      run.state.compensation.side != Side::Off) [[unlikely]]
+    return run.fail(ErrorCode::CompNotAllowed, column, fmt::format("reading #{}", index));
   value = at < kFirstReadOnly ? run.parameters[at] : live_parameter(run, static_cast<int>(at));
   return true;
 }
