@@ -139,6 +139,37 @@ TEST_F(LinuxCncTest, ProbesAndContinuesFromTheContact) {
   EXPECT_NEAR(z(), 0, 0.001);
 }
 
+// Off the surface the axes brake past the edge, and come back to it.
+TEST_F(LinuxCncTest, MovesOffASurfaceAndContinuesFromItsEdge) {
+  begin();
+  const auto probe = [&](double to, interpreter::ProbeUntil until) {
+    const std::size_t before = recorder.probes.size();
+    machine->begin_probe({.origin = program->begin_block(),
+                          .from = {},
+                          .to = machine::test::Program::at(0, to),
+                          .until = until,
+                          .feed = Feed::per_minute(Length::mm(6000)),
+                          .result = {}});
+    EXPECT_TRUE(wait([&] { return recorder.probes.size() > before || is_over(); })) << alarm();
+    program->end_block();
+    return recorder.probes.size() > before ? *recorder.probes.back().result
+                                           : interpreter::ProbeResult{};
+  };
+  for (int pass = 0; pass < 3; ++pass) {
+    const auto touched = probe(-150, interpreter::ProbeUntil::Contact);
+    ASSERT_TRUE(touched.tripped) << alarm();
+    const auto released = probe(0, interpreter::ProbeUntil::Release);
+    ASSERT_TRUE(released.tripped) << alarm();
+    EXPECT_NEAR(released.at.raw(interpreter::Axis::Z), -100, 0.3);
+    ASSERT_TRUE(rests());
+    EXPECT_NEAR(z(), released.at.raw(interpreter::Axis::Z), 0.001);
+  }
+  program->line(0, 0, 6000);
+  program->end();
+  ASSERT_TRUE(wait_over());
+  EXPECT_EQ(machine->state(), MachineState::Completed) << alarm();
+}
+
 TEST_F(LinuxCncTest, StopsAfterEveryBlockInSingleBlock) {
   auto panel = machine->panel();
   panel.single_block = true;
