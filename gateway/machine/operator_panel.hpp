@@ -19,7 +19,8 @@ struct OperatorPanel {
   double spindle_override = 1;  ///< 0 .. 2.55
   bool handwheel = false;       ///< the program advances only as the handwheel is turned
   bool emergency_stop = false;  ///< pressed in: see MotionBackend::set_panel
-  /// Moves at feed, threads included, run at `dry_run_speed` (mm per second at 100 %) instead.
+  /// Moves at feed, threads included, run at `dry_run_speed` (mm per second at 100 %) instead,
+  /// which is that of all axes together, degrees as millimeters.
   bool dry_run = false;
   double dry_run_speed = 0;
   bool dry_run_spindle = true;  ///< the spindle runs in a dry run

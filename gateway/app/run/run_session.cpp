@@ -100,9 +100,9 @@ namespace {
 
 interpreter::EventSink& front_of(std::optional<interpreter::DryRun>& stage,
                                  const std::optional<interpreter::PanelTables::DryRun>& dry_run,
-                                 interpreter::EventSink& out) {
+                                 const interpreter::Position& at, interpreter::EventSink& out) {
   if (!dry_run) return out;
-  return stage.emplace(out, Feed::per_minute(dry_run->feed), dry_run->turns_spindle);
+  return stage.emplace(out, Feed::per_minute(dry_run->feed), dry_run->turns_spindle, at);
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ RunSession::RunSession(Parts parts, const interpreter::Dialect& dialect,
               },
               {dialect.length_shifts_position, dialect.moves_with_length,
                [this](const ToolLengths& lengths) { parts_.machine.set_lengths(lengths); }}),
-      tracker_(front_of(dry_run_, parts_.dry_run, events_)),
+      tracker_(front_of(dry_run_, parts_.dry_run, parts_.at, events_)),
       tool_history_(dialect.length_shifts_position) {
   events_.begin(parts_.at, parts_.lengths);
   if (parts_.checkpoints != nullptr)

@@ -24,7 +24,7 @@ struct PanelTables {
   /// positions beyond the last one have its time. Empty: a handwheel drives no program.
   std::vector<double> click_seconds;
   struct DryRun {
-    Length feed;  ///< per minute, at 100 %
+    Length feed;  ///< per minute, at 100 %, of all axes together, degrees as millimeters
     bool turns_spindle = true;
   };
   std::optional<DryRun> dry_run = {};  ///< nothing: no dry run, or no feed is known for it

@@ -102,7 +102,8 @@ struct Move {
 
  private:
   double asked_speed(const OperatorPanel& panel) const {
-    if (panel.dry_run && pace != Pace::Rapid) return panel.dry_run_speed * panel.feed_override;
+    if (panel.dry_run && pace != Pace::Rapid)
+      return panel.dry_run_speed * panel.feed_override * path.part_of_all_axes();
     const double spindle = std::min(panel.spindle_override, spindle_headroom);
     switch (pace) {
       case Pace::Rapid:

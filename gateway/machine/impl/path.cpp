@@ -106,6 +106,14 @@ double Path::share(std::size_t axis) const {
   return std::fabs(to[axis] - from[axis]) / length;
 }
 
+double Path::part_of_all_axes() const {
+  double linear = 0, rotary = 0;
+  for (std::size_t i = 0; i < kAxisCount; ++i)
+    (is_rotary_axis(i) ? rotary : linear) += (to[i] - from[i]) * (to[i] - from[i]);
+  if (rotary == 0 || (linear == 0 && !is_arc())) return 1;
+  return length / std::hypot(length, std::sqrt(rotary));
+}
+
 Range Path::range(std::size_t axis) const {
   Range range{std::min(from[axis], to[axis]), std::max(from[axis], to[axis])};
   if (!is_arc() || (axis != circle.first && axis != circle.second)) return range;

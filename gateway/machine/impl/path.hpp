@@ -43,6 +43,8 @@ struct Path {
   Coordinates direction_at_end() const;
   /// The largest movement of this axis for one unit of length, anywhere on the path.
   double share(std::size_t axis) const;
+  /// `length` in relation to that of all axes together, degrees as millimeters.
+  double part_of_all_axes() const;
   /// The range of this axis on the path.
   Range range(std::size_t axis) const;
 };

@@ -103,6 +103,22 @@ TEST(FeedPerRevolution, FollowsTheSpindle) {
   EXPECT_NEAR(test.run_all(), trapezoid(10, 5, 1000), kExact);
 }
 
+TEST(DryRunFeed, IsThatOfAllAxesTogether) {
+  MachineLimits limits = plain_lathe();
+  limits.axis(Axis::C) = limits.axis(Axis::X);
+  TestMachine test(limits);
+  OperatorPanel panel;
+  panel.dry_run = true;
+  panel.dry_run_speed = 10;
+  test.machine.set_panel(panel);
+  Position to = Program::at(30, 0);
+  to.set(Axis::C, Angle::degrees(40));
+  const Origin& origin = test.program.begin_block();
+  test.machine.events().on_line({origin, to, Feed::per_minute(Length::mm(3000))});
+  test.program.end_block();
+  EXPECT_NEAR(test.run_all(), 50.0 / 10, 0.05);
+}
+
 TEST(FeedPerRevolution, FollowsTheSpindleOverride) {
   TestMachine test;
   test.program.spindle(600);

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
+#include "gateway/interpreter/core/path_feed.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/polar_coordinates.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/rotary_plane.hpp"
@@ -233,7 +234,7 @@ bool execute_plain(Run& run) {
     run.events().on_rapid({run.origin, line.to});
   } else {
     if (!check_feed(run)) return false;
-    line.feed = run.active_feed();
+    line.feed = feed_into_stages(run, line.to, run.active_feed());
     line.rests = run.rests_at_end();
     run.events().on_line(line);
   }
@@ -290,6 +291,10 @@ bool move(Run& run) {
   const std::uint8_t one_shot = run.block.parts.one_shot;
   if (one_shot >= 45 && one_shot <= 48 && !offset_target(run, to)) return false;
   if (mode == 0 || one_shot == 60) return position_to(run, to);
+  if ((mode == 33 || mode == kVariableThread) && travel_between(state.position, to).rotary != 0) {
+    return run.fail(ErrorCode::ImproperCommand, words.first_column(kRotaryWords),
+                    "a thread that moves a rotary axis is not supported");
+  }
   if (run.options.is_lathe && (mode == 33 || mode == kVariableThread)) {
     return cut_turned_thread(run, to);
   }
@@ -331,7 +336,8 @@ bool start_skip(Run& run) {
   }
   if (!end_waiting(run)) return false;
   ProbeQuestion question;
-  question.probe = {run.origin, run.state.position, to, ProbeUntil::Contact, run.active_feed(), {}};
+  const Feed feed = feed_on_line(run, run.state.position, to, run.active_feed());
+  question.probe = {run.origin, run.state.position, to, ProbeUntil::Contact, feed, {}};
   question.probe.from.mark_all_of(to);
   run.events();  // the header comes before anything the question brings about
   return run.ask(question);

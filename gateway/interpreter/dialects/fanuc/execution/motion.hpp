@@ -44,6 +44,11 @@ bool move_on_arc(Run& run);
 // machine coordinates, its marks say which axes have moved or are named. False: an alarm, before
 // the move. The present position follows.
 
+/// F of a straight move as its event has it: the control counts degrees as millimeters or inches.
+Feed feed_on_line(const Run& run, const Position& from, const Position& to, const Feed& feed);
+/// The same, unless a stage after cutter compensation sees to it.
+Feed feed_into_stages(const Run& run, const Position& to, const Feed& feed);
+
 bool rapid_to(Run& run, const Position& to);
 bool line_to(Run& run, const Position& to, const Feed& feed);
 bool thread_to(Run& run, const Position& to, Length lead, std::optional<Angle> start);

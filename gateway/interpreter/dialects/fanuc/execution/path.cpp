@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
+#include "gateway/interpreter/core/path_feed.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -134,6 +135,19 @@ bool check_stroke(Run& run, const Position& to) {
   return !is_limited(run) || check_path(run, run.state.position, to);
 }
 
+Feed feed_on_line(const Run& run, const Position& from, const Position& to, const Feed& feed) {
+  return feed_of_all_axes(feed, travel_between(from, to), Length::mm(run.increments.mm_per_unit));
+}
+
+Feed feed_into_stages(const Run& run, const Position& to, const Feed& feed) {
+  const Position& from = run.state.position;
+  const bool rotates = from.raw(Axis::A) != to.raw(Axis::A) ||
+                       from.raw(Axis::B) != to.raw(Axis::B) || from.raw(Axis::C) != to.raw(Axis::C);
+  if (!rotates || run.last != &run.sink) [[likely]]
+    return feed;
+  return feed_on_line(run, from, to, feed);
+}
+
 bool rapid_to(Run& run, const Position& to) {
   if (same_place(run.state.position, to)) return true;
   if (is_limited(run) && !check_path(run, run.state.position, to)) return false;
@@ -154,10 +168,12 @@ bool line_to(Run& run, const Position& to, const Feed& feed) {
     const Position from = held(run.state, run.state.position);
     const Position real = held(run.state, to);
     if (!same_place(from, real)) {
-      run.events().on_line({run.origin, real, feed, run.rests_at_end()});
+      const Feed own = run.last == &run.sink ? feed_on_line(run, from, real, feed) : feed;
+      run.events().on_line({run.origin, real, own, run.rests_at_end()});
     }
   } else {
-    run.events().on_line({run.origin, to, feed, run.rests_at_end()});
+    const Feed own = feed_into_stages(run, to, feed);
+    run.events().on_line({run.origin, to, own, run.rests_at_end()});
   }
   arrive(run, to);
   return true;

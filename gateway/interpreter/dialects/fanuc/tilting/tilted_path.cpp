@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
+#include "gateway/interpreter/core/path_feed.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -127,7 +128,15 @@ int TiltedPath::pieces_of(const Position& to) const {
   return pieces <= kMaxPieces ? static_cast<int>(pieces) : kMaxPieces + 1;
 }
 
-/// F is the speed of the tip, or of the rotary axes where it rests.
+/// Per revolution of a move of the machine's axes that takes so many.
+Feed TiltedPath::feed_within(double revolutions, const Position& to) const {
+  const AxisTravel travel = travel_between(state_.machine, to);
+  const double length = travel.linear != 0 ? travel.linear : travel.rotary;
+  return Feed::per_revolution(Length::mm(length / revolutions));
+}
+
+/// F is the speed of the tip, or of the rotary axes where it rests. Of a feed per revolution these
+/// are revolutions.
 double TiltedPath::minutes_of(const Line& line) const {
   const Kinematics& machine = options_.kinematics;
   const double path = length(linear_of(line.to) - linear_of(state_.flat));
@@ -156,18 +165,29 @@ void TiltedPath::deliver_straight(const Event& whole, void (EventSink::*deliver)
   const bool rotates =
       std::fabs(end.master - pose.master) > kNoMove || std::fabs(end.slave - pose.slave) > kNoMove;
   Event piece = whole;
+  double revolutions = 0;
   if constexpr (std::is_same_v<Event, Line>) {
     const bool is_timed = rotates && whole.feed.per() == Feed::Per::Minute;
     set_feed(piece, whole, pieces, is_timed ? minutes_of(whole) : 0);
+    if (rotates && whole.feed.per() == Feed::Per::Revolution) revolutions = minutes_of(whole);
   }
   for (int n = 1; n <= pieces; ++n) {
     const double part = static_cast<double>(n) / pieces;
     piece.to = on_machine(n == pieces ? whole.to : between(from, whole.to, part));
     piece.rests = whole.rests && n == pieces;
+    if constexpr (std::is_same_v<Event, Line>) {
+      if (revolutions > 0) piece.feed = feed_within(revolutions / pieces, piece.to);
+    }
     (out().*deliver)(piece);
     state_.machine = piece.to;
   }
   state_.flat = whole.to;
+}
+
+/// F of a move of the machine's axes.
+Feed TiltedPath::feed_of_axes(const Feed& feed, const Position& to) const {
+  return feed_of_all_axes(feed, travel_between(state_.machine, to),
+                          Length::mm(state_.tilt.mm_per_unit));
 }
 
 void TiltedPath::turn_to(const Origin& origin, Pose pose, const std::optional<Feed>& feed,
@@ -181,7 +201,7 @@ void TiltedPath::turn_to(const Origin& origin, Pose pose, const std::optional<Fe
   if (to.same_point(state_.machine) || (checks_stroke() && !check(origin, state_.machine, to)))
     return;
   if (feed) {
-    out().on_line({origin, to, *feed, rests});
+    out().on_line({origin, to, feed_of_axes(*feed, to), rests});
   } else {
     out().on_rapid({origin, to});
   }
@@ -239,8 +259,10 @@ void TiltedPath::on_rapid(const Rapid& event) {
 }
 
 void TiltedPath::on_line(const Line& event) {
-  if (!is_on()) return deliver_checked(event, &EventSink::on_line);
-  deliver_straight(event, &EventSink::on_line);
+  if (is_on()) return deliver_straight(event, &EventSink::on_line);
+  Line line = event;
+  line.feed = feed_of_axes(event.feed, event.to);
+  deliver_checked(line, &EventSink::on_line);
 }
 
 /// A rigid tap: as long as it was, along whatever axes.

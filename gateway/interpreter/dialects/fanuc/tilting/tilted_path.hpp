@@ -70,7 +70,7 @@ class TiltedPath final : public EventFilter {
 
   void on_rapid(const Rapid& event) override;
   void on_line(const Line& event) override;
-  void on_arc(const Arc& event) override;
+  void on_arc(const Arc& programmed) override;
   void on_thread(const Thread& event) override;
   void on_probe(const Probe& event) override;
   void on_units(const UnitsChange& event) override;
@@ -90,6 +90,8 @@ class TiltedPath final : public EventFilter {
   Matrix3 turn_now() const;
   int pieces_of(const Position& to) const;
   double minutes_of(const Line& line) const;
+  Feed feed_within(double revolutions, const Position& to) const;
+  Feed feed_of_axes(const Feed& feed, const Position& to) const;
   bool checks_stroke() const;
   bool check(const Origin& origin, const Position& from, const Position& to);
   bool check_pieces(const Origin& origin, const Position& to, int pieces);

@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "gateway/interpreter/core/path_feed.hpp"
+
 namespace dripline::interpreter::tnc155 {
 namespace {
 
@@ -12,16 +14,12 @@ constexpr double kSame = 1e-9;
 
 /// Of the linear axes, or of a rotary axis that moves alone, as the machine wants it.
 double feed_with_rotary(const Run& run, const Position& to, const Pace& pace) {
-  double linear = 0;
-  double rotary = 0;
-  for (const Axis axis : kAllAxes) {
-    const double travel = to.raw(axis) - run.state.machine.raw(axis);
-    (is_rotary(axis) ? rotary : linear) += travel * travel;
-  }
-  if (rotary == 0) return pace.feed;
-  if (linear == 0) return pace.rotary_feed;
-  if (run.options.contour_feed) return pace.feed * std::sqrt(linear / (linear + rotary));
-  return pace.rotary_feed * std::sqrt(linear / rotary);
+  const AxisTravel travel = travel_between(run.state.machine, to);
+  if (travel.rotary == 0) return pace.feed;
+  if (travel.linear == 0) return pace.rotary_feed;
+  if (!run.options.contour_feed) return pace.rotary_feed * travel.linear / travel.rotary;
+  const Feed feed = Feed::per_minute(Length::mm(pace.feed));
+  return feed_of_all_axes(feed, travel, Length::mm(1)).length().mm();
 }
 
 Feed feed_to(const Run& run, const Target& target, const Position& to, const Pace& pace) {
