@@ -7,6 +7,7 @@
 
 #include "clients/tools/post/arc_fit.hpp"
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
+#include "gateway/interpreter/core/path_feed.hpp"
 
 namespace dripline::post {
 namespace {
@@ -309,7 +310,8 @@ void Adaptation::arc_piece(const Arc& arc) {
   }
   std::string reason;
   if (can_be_arc(arc, reason)) {
-    const auto feed = feed_of(arc.origin, arc.feed, arc_length(at_, arc));
+    const Feed own = target().feeds_along_circle ? circle_feed_of(arc.feed, arc, at_) : arc.feed;
+    const auto feed = feed_of(arc.origin, own, arc_length(at_, arc));
     if (!feed) return;
     Arc adapted = arc;
     adapted.feed = *feed;

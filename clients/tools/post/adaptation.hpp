@@ -117,11 +117,12 @@ interpreter::Position of_target(const Target& target, interpreter::Position posi
                                 const interpreter::Position& start);
 
 /// What a program that was written does, without what belongs to the target and not to the program:
-/// the wait for a tool changed by hand, an M function of the end, off where it is off already.
+/// the wait for a tool changed by hand, an M function of the end, off where it is off already. The
+/// feed of a helix is the target's F, here and where Adaptation gives it out.
 class TargetView final : public interpreter::EventFilter {
  public:
   TargetView(interpreter::EventSink& out, const Target& target, const interpreter::Position& start)
-      : EventFilter(out), target_(target), start_(start) {}
+      : EventFilter(out), target_(target), start_(start), at_(start) {}
   void on_rapid(const interpreter::Rapid& event) override;
   void on_line(const interpreter::Line& event) override;
   void on_arc(const interpreter::Arc& event) override;
@@ -134,6 +135,7 @@ class TargetView final : public interpreter::EventFilter {
  private:
   const Target& target_;
   interpreter::Position start_;
+  interpreter::Position at_;
   interpreter::SpindleState spindle_ = interpreter::SpindleState::Off;
   bool has_coolant_ = false;
 };

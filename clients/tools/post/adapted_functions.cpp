@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "clients/tools/post/adaptation.hpp"
+#include "gateway/interpreter/core/path_feed.hpp"
 
 /// What a program does besides moving.
 namespace dripline::post {
@@ -227,25 +228,27 @@ void Adaptation::on_override_inhibit(const interpreter::OverrideInhibit& event) 
 
 void TargetView::on_rapid(const interpreter::Rapid& event) {
   interpreter::Rapid seen = event;
-  seen.to = of_target(target_, event.to, start_);
+  seen.to = at_ = of_target(target_, event.to, start_);
   EventFilter::on_rapid(seen);
 }
 
 void TargetView::on_line(const interpreter::Line& event) {
   interpreter::Line seen = event;
-  seen.to = of_target(target_, event.to, start_);
+  seen.to = at_ = of_target(target_, event.to, start_);
   EventFilter::on_line(seen);
 }
 
 void TargetView::on_arc(const interpreter::Arc& event) {
   interpreter::Arc seen = event;
   seen.to = of_target(target_, event.to, start_);
+  if (target_.feeds_along_circle) seen.feed = interpreter::circle_feed_of(event.feed, seen, at_);
+  at_ = seen.to;
   EventFilter::on_arc(seen);
 }
 
 void TargetView::on_thread(const interpreter::Thread& event) {
   interpreter::Thread seen = event;
-  seen.to = of_target(target_, event.to, start_);
+  seen.to = at_ = of_target(target_, event.to, start_);
   EventFilter::on_thread(seen);
 }
 

@@ -30,6 +30,7 @@ constexpr std::array kTargets{
            .dwell = {3, 99'999},
            .max_tool = 400,
            .max_radius_error = 0.01,
+           .feeds_along_circle = true,
            .has_oriented_spindle = true},
     Target{.name = "fanuc-t",
            .dialect = "fanuc-t",

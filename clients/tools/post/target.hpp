@@ -51,6 +51,7 @@ struct Target {
   double max_sweep = 360;      ///< degrees of one arc; 90: an arc stays in a quadrant
   bool has_all_planes = true;  ///< else arcs in XY alone
   bool has_helix = true;
+  bool feeds_along_circle = false;  ///< F of a helix is the speed along its circle
   bool has_surface_speed = false;
   bool has_threads = false;  ///< straight and tapered ones, G32
   bool has_lead_along_axis =

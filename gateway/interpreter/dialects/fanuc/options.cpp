@@ -241,6 +241,8 @@ constexpr std::array kSharedRows{
                               "what an arc without I, J, K and R is"),
     row<&C::short_radius_is_semicircle>("short_radius", "alarm|semicircle",
                                         "what R is that is too short to reach the end"),
+    row<&C::helix_feed_is_path>("helix_feed", "circle|path",
+                                "F of a helix is the speed along its circle, or along its path"),
     row<&C::leading_zero_print>("leading_zero_print", kFlag,
                                 "DPRNT prints blanks for leading zeros"),
     Row{{"print_newline", "LF|CRLF|LFCRCR",

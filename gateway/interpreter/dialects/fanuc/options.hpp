@@ -54,6 +54,7 @@ struct ControlOptions {
   AxisValues single_direction{};
   double arc_error = 0.01;  ///< 0: not checked
   bool arc_needs_center = false;
+  bool helix_feed_is_path = false;  ///< F of a helix: along it, not along its circle
   bool short_radius_is_semicircle = false;
   double scale_default = 1;
   double rotate_default = 0;

@@ -38,7 +38,7 @@ struct Run : BlockRun {
       : options(std::move(control_options)),
         source(program_source),
         sink(event_sink),
-        rotary(event_sink),
+        rotary(event_sink, options.helix_feed_is_path),
         compensator(policy_of(options), event_sink),
         blender(corner_policy(), compensator),
         text(program_source, options.comment_over_eob) {}

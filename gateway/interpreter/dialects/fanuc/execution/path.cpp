@@ -193,7 +193,13 @@ bool arc_to(Run& run, const Arc& arc) {
     pieces_of_arc(run, arc);
     return true;
   }
-  run.events().on_arc(arc);
+  if (run.last != &run.sink || run.options.helix_feed_is_path) {
+    run.events().on_arc(arc);
+  } else {
+    Arc own = arc;
+    own.feed = feed_along_circle(arc.feed, arc, run.state.position);
+    run.events().on_arc(own);
+  }
   arrive(run, arc.to);
   return true;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/core/path_feed.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -126,6 +127,7 @@ void RotaryPath::on_line(const Line& event) {
 void RotaryPath::on_arc(const Arc& event) {
   if (!is_on()) return out().on_arc(event);
   const Position from = state_.at;
+  const Feed feed = helix_feed_is_path_ ? event.feed : feed_along_circle(event.feed, event, from);
   const PlaneAxes axes = axes_of(event.plane);
   const double radius = std::hypot(from.raw(axes.first) - event.center_first.mm(),
                                    from.raw(axes.second) - event.center_second.mm());
@@ -133,7 +135,7 @@ void RotaryPath::on_arc(const Arc& event) {
   const double length = std::hypot(radius * event.sweep.radians(), height);
   int pieces = pieces_for(event.sweep.degrees(), piece_degrees(radius));
   if (state_.plane.kind == RotaryPlane::Kind::Polar) pieces *= 2;
-  deliver({event.origin, event.to, event.feed, event.rests}, length, pieces,
+  deliver({event.origin, event.to, feed, event.rests}, length, pieces,
           [&](double part) { return point_on_arc(event, from, event.sweep.degrees() * part); });
 }
 

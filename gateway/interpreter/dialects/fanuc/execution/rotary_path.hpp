@@ -29,7 +29,9 @@ struct RotaryPlane {
 
 class RotaryPath final : public EventFilter {
  public:
-  using EventFilter::EventFilter;
+  /// `helix_feed_is_path`: F of a helix is the speed along it, not along its circle.
+  RotaryPath(EventSink& out, bool helix_feed_is_path)
+      : EventFilter(out), helix_feed_is_path_(helix_feed_is_path) {}
 
   void begin(const RotaryPlane& plane, const Position& at);
   void end();
@@ -59,6 +61,7 @@ class RotaryPath final : public EventFilter {
   Position on_machine(const Position& flat);
   int pieces_of_line(const Position& to) const;
 
+  const bool helix_feed_is_path_;
   State state_;
 };
 

@@ -349,7 +349,10 @@ void TiltedPath::deliver_pieces_of_arc(const Arc& arc) {
   state_.flat = arc.to;
 }
 
-void TiltedPath::on_arc(const Arc& event) {
+void TiltedPath::on_arc(const Arc& programmed) {
+  Arc event = programmed;
+  const Position& from = is_on() ? state_.flat : state_.machine;
+  if (!options_.helix_feed_is_path) event.feed = feed_along_circle(event.feed, event, from);
   if (!is_on()) return deliver_checked(event, &EventSink::on_arc);
   if (fault_) return;
   // A length that came into force since the last move is compensated before the arc.

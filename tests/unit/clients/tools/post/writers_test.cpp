@@ -106,6 +106,15 @@ TEST(PlainLanguageWriter, WritesAHelixByItsAngle) {
   EXPECT_NE(converted.text.find("L X+0 Y+30 R0\r\n"), std::string::npos) << converted.text;
 }
 
+/// F of a helix is the speed along its circle there: 100 along a helix of 62.832 and 50.
+TEST(WordWriter, WritesTheFeedOfAFanucHelixAlongItsCircle) {
+  const std::string source =
+      "G21 G90 G94\nG0 X10 Y0 Z0\nG3 X10 Y0 Z-50 I-10 J0 F100\nG1 X0 F200\nM2\n";
+  const auto converted = convert({"rs274ngc", source}, "fanuc");
+  EXPECT_TRUE(converted.is_proved) << converted.reason() << converted.text;
+  EXPECT_NE(converted.text.find("Z-50. I-10. J0. F78.2\n"), std::string::npos) << converted.text;
+}
+
 TEST(WordWriter, WritesPlanesWhereTheyChange) {
   const std::string source =
       "G21 G90 G94\nG00 X0 Y0 Z0\nG18 G02 X10. Z10. I10. K0 F100.\nG19 G03 Y10. Z20. J0 K10.\n"
