@@ -104,6 +104,65 @@ Feed feed_on_arc(const Run& run, double radius) {
   return Feed::per_minute(Length::mm(run.state.inverse_feed * radius));
 }
 
+/// An arc of the machine's axes.
+Arc arc_about(const Run& run, const PlaneAxes& axes, PlaneVector middle, Turn turn,
+              const Position& end) {
+  const PlaneVector start = in_plane(run.state.position, axes);
+  const PlaneVector stop = in_plane(end, axes);
+  return {.origin = run.origin,
+          .to = end,
+          .center_first = Length::mm(middle.first),
+          .center_second = Length::mm(middle.second),
+          .plane = run.state.plane(),
+          .turn = turn,
+          .sweep = Angle::degrees(sweep_of(start, stop, middle, turn)),
+          .feed = feed_on_arc(run, length(middle - start)),
+          .rests = run.rests_at_end()};
+}
+
+Turn other(Turn turn) {
+  return turn == Turn::Clockwise ? Turn::Counterclockwise : Turn::Clockwise;
+}
+
+/// G51 has factors of different size along the axes of the plane.
+bool is_scaled_unevenly(const ModalState& state, const PlaneAxes& axes) {
+  const std::array<double, 3>& factor = state.scaling.factor;
+  return state.g[kScalingGroup] == 51 &&
+         std::fabs(factor[place(axes.first)]) != std::fabs(factor[place(axes.second)]);
+}
+
+/// Series 16 and what descends from it. The 15i makes I, J, K of R and scales those instead; of the
+/// other models it is not known.
+bool scales_radius(Model model) {
+  return model == Model::M16 || model == Model::I0 || model == Model::I16 || model == Model::I18 ||
+         model == Model::I21;
+}
+
+/// R with the larger of the factors, to the scaled end.
+bool move_on_scaled_radius(Run& run, ArcWords arc, const Position& end) {
+  const ModalState& state = run.state;
+  const double first = state.scaling.factor[place(arc.axes.first)];
+  const double second = state.scaling.factor[place(arc.axes.second)];
+  const std::uint32_t column = run.block.words.column(R);
+  if (!scales_radius(run.options.model)) {
+    return run.fail(ErrorCode::IllegalRadius, column,
+                    "R under unequal factors of G51, which differs between controls; I, J, K do "
+                    "not");
+  }
+  if (first < 0 || second < 0) {
+    return run.fail(ErrorCode::IllegalRadius, column,
+                    "R under unequal factors of G51 of which one is negative");
+  }
+  for (const Axis axis : {arc.axes.first, arc.axes.second}) {
+    arc.start[place(axis)] = state.position.raw(axis);
+    arc.end[place(axis)] = end.raw(axis);
+  }
+  if (is_plane_mirrored(state, state.plane())) arc.turn = other(arc.turn);
+  const double radius = run.length(run.block.words[R]) * std::fmax(first, second);
+  if (!center_by_radius(run, radius, arc)) return false;
+  return arc_to(run, arc_about(run, arc.axes, arc.center, arc.turn, end));
+}
+
 /// An end that unequal factors have put off the circle is reached straight.
 bool emit(Run& run, const ArcWords& words, const Position& end) {
   ModalState& state = run.state;
@@ -113,9 +172,7 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
   Turn turn = words.turn;
   if (state.is_transformed) {
     center = transform(state, center);
-    if (is_plane_mirrored(state, state.plane())) {
-      turn = turn == Turn::Clockwise ? Turn::Counterclockwise : Turn::Clockwise;
-    }
+    if (is_plane_mirrored(state, state.plane())) turn = other(turn);
   }
   const auto in_machine = [&](Axis axis) {
     return center[place(axis)] + state.origin[place(axis)];
@@ -123,15 +180,7 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
   const PlaneVector middle{in_machine(words.axes.first), in_machine(words.axes.second)};
   const PlaneVector start = in_plane(state.position, words.axes);
   const PlaneVector stop = in_plane(end, words.axes);
-  Arc arc{.origin = run.origin,
-          .to = end,
-          .center_first = Length::mm(middle.first),
-          .center_second = Length::mm(middle.second),
-          .plane = state.plane(),
-          .turn = turn,
-          .sweep = Angle::degrees(sweep_of(start, stop, middle, turn)),
-          .feed = feed_on_arc(run, length(middle - start)),
-          .rests = run.rests_at_end()};
+  Arc arc = arc_about(run, words.axes, middle, turn, end);
   if (!state.is_transformed) return arc_to(run, arc);
   const double radius = length(middle - start);
   const double reach = length(middle - stop);
@@ -142,6 +191,11 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
   arc.to.set_raw(words.axes.first, middle.first + (stop.first - middle.first) * radius / reach);
   arc.to.set_raw(words.axes.second, middle.second + (stop.second - middle.second) * radius / reach);
   return arc_to(run, arc) && line_to(run, end, arc.feed);
+}
+
+/// G45 to G48.
+bool offsets_end(const Block& block) {
+  return block.parts.one_shot >= 45 && block.parts.one_shot <= 48;
 }
 
 /// G45 to G48 on a quarter: the radius grows or shrinks with the end.
@@ -194,6 +248,8 @@ bool move_on_arc(Run& run) {
       run.warn(WarningCode::ArcWithoutMove, words.column(R));
       return line_to(run, end, run.active_feed());  // nothing, or the third axis alone
     }
+    if (is_scaled_unevenly(state, arc.axes) && !offsets_end(run.block))
+      return move_on_scaled_radius(run, arc, end);
     if (!center_by_radius(run, run.length(words[R]), arc)) return false;
   } else if (words.has_any(kCenterWords)) {
     if (!center_by_offsets(run, arc)) return false;
@@ -204,8 +260,7 @@ bool move_on_arc(Run& run) {
     run.warn(WarningCode::ArcAsLine, words.first_column(kAxisWords));
     return line_to(run, end, run.active_feed());
   }
-  const std::uint8_t one_shot = run.block.parts.one_shot;
-  if (one_shot >= 45 && one_shot <= 48 && !offset_arc(run, arc, end)) return false;
+  if (offsets_end(run.block) && !offset_arc(run, arc, end)) return false;
   return emit(run, arc, end);
 }
 
