@@ -34,6 +34,39 @@ bool refuse_transformed(Run& run, const DiagnosticRow& code) {
                   is_mirror ? std::string_view("G51.1 is in force") : std::string_view{});
 }
 
+/// U, V, W and H of G-code system A, which add to the zero offset of their axis.
+bool add_increments(Run& run, AxisValues& offset) {
+  struct IncrementWord {
+    Address increment, absolute;
+    Axis axis;
+    bool exists;
+  };
+  const std::array rows{IncrementWord{Address::U, Address::X, Axis::X, true},
+                        IncrementWord{Address::V, Address::Y, Axis::Y, run.options.has_y_axis},
+                        IncrementWord{Address::W, Address::Z, Axis::Z, true},
+                        IncrementWord{Address::H, Address::C, Axis::C, run.options.has_c_axis}};
+  const Words& words = run.block.words;
+  for (const IncrementWord& row : rows) {
+    if (!words.has(row.increment)) continue;
+    const std::uint32_t column = words.column(row.increment);
+    if (run.options.code_system != CodeSystem::A) {
+      return run.fail(ErrorCode::ImproperCommand, column,
+                      "zero offsets are written with X, Y, Z and C in this G-code system");
+    }
+    if (!row.exists) {
+      return run.fail(ErrorCode::ImproperCommand, column,
+                      fmt::format("{} is no axis of this lathe", letter(row.axis)));
+    }
+    if (words.has(row.absolute)) {
+      return run.fail(
+          ErrorCode::ImproperCommand, column,
+          fmt::format("{} and {} in one block", letter(row.absolute), letter(row.increment)));
+    }
+    offset[static_cast<std::size_t>(row.axis)] += run.coordinate(row.axis, words[row.increment]);
+  }
+  return true;
+}
+
 /// G10 L2 and L20: zero offsets.
 bool set_work_offset(Run& run, bool more) {
   const Words& words = run.block.words;
@@ -43,16 +76,16 @@ bool set_work_offset(Run& run, bool more) {
   if (!(number >= (more ? 1 : 0) && number <= most)) {
     return run.fail(ErrorCode::IllegalPInG10, words.column(P), fmt::format("P{}", number));
   }
-  constexpr AddressSet kIncrements = set_of(U, V, W, H);
-  if (run.options.is_lathe && words.has_any(kIncrements)) {
-    return run.fail(ErrorCode::ImproperCommand, words.first_column(kIncrements),
-                    "zero offsets are written with X, Y, Z and C");
-  }
   const auto system = static_cast<std::size_t>(number) + (more ? 6 : 0);
   AxisValues& offset = run.memory.coordinates.work[system];
+  AxisValues changed = offset;
+  if (run.options.is_lathe && !add_increments(run, changed)) return false;
   const bool adds = run.state.is_incremental();
-  each_axis_word(
-      run, [&](std::size_t i, double value) { offset[i] = adds ? offset[i] + value : value; });
+  each_axis_word(run, [&](std::size_t i, double value) {
+    if (run.options.is_lathe && kWordOfAxis[i] >= U && kWordOfAxis[i] <= W) return;
+    changed[i] = adds ? changed[i] + value : value;
+  });
+  offset = changed;
   interrupt_compensation(run);
   run.update_origin();
   resume_compensation(run);
