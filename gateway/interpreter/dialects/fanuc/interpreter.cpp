@@ -166,7 +166,7 @@ void FanucInterpreter::determine_name() {
 
 bool FanucInterpreter::finish_block() {
   if (run_.state.uses_compensator) [[unlikely]] {
-    if (!check_compensation(run_) || !leave_block(run_)) return false;
+    if (!check_compensation(run_) || !check_open_corner(run_) || !leave_block(run_)) return false;
     if (run_.is_recording()) {
       run_.sink.on_block_end(run_.origin);
     } else {

@@ -105,6 +105,11 @@ void CornerBlender::chamfer_corner(const Origin& origin, Length size, Chamfer me
   shape_waiting(kind_of(measure), origin, size, feed);
 }
 
+const Origin* CornerBlender::open_corner() const {
+  const bool is_open = state_.has_element && state_.waiting().announced.corner;
+  return is_open ? &state_.waiting().line.origin : nullptr;
+}
+
 void CornerBlender::drop_corner() {
   if (state_.has_element) state_.waiting().announced.corner.reset();
 }

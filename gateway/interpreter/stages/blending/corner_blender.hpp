@@ -39,6 +39,8 @@ class CornerBlender final
   void chamfer_corner(const Origin& origin, Length size, Chamfer measure = Chamfer::Leg,
                       std::optional<Feed> feed = {});
 
+  /// The block whose move waits for the one that its corner leads to; nullptr: there is none.
+  const Origin* open_corner() const;
   /// The waiting move ends in no corner after all.
   void drop_corner();
 

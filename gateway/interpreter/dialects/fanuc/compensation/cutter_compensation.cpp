@@ -202,6 +202,17 @@ bool announce_corner(Run& run) {
   return true;
 }
 
+bool check_open_corner(Run& run) {
+  if (!run.state.uses_blender || !reaches_machine(run.block)) return true;
+  const Origin* corner = run.blender.open_corner();
+  if (corner == nullptr || corner->block == run.origin.block) return true;
+  const bool moves = run.block.words.has_any(kAxisWords | kCenterWords);
+  const std::uint64_t line = run.origin.line;
+  run.origin.line = corner->line;
+  return run.fail(moves ? ErrorCode::MissingAfterCorner : ErrorCode::NotStraightCorner, 0,
+                  fmt::format("line {} follows, which does not move in the plane", line));
+}
+
 bool apply_compensation(Run& run) {
   ModalState& state = run.state;
   const Block& block = run.block;

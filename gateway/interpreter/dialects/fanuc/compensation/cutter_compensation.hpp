@@ -13,6 +13,8 @@ struct Run;
 blending::Policy corner_policy();
 /// The move of the block in hand ends in a corner that its word shapes. False: an alarm.
 bool announce_corner(Run& run);
+/// The block after that of a corner word is the move that the corner leads to. False: an alarm.
+bool check_open_corner(Run& run);
 /// No move waits for its successor any more. False: an alarm, of a corner that has none.
 bool end_waiting(Run& run);
 
