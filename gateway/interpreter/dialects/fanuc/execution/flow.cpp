@@ -87,6 +87,12 @@ bool return_from_call(Run& run, std::uint32_t number) {
   const std::uint32_t set = run.block.parts.passes_left;
   if (set != Block::kKeepPasses) frame.passes_left = set;
   if (frame.passes_left > 0) {
+    if (number != 0) {
+      return run.fail(ErrorCode::ImproperCommand, 0,
+                      fmt::format("M99 P{} with {} passes left: whether they are made differs "
+                                  "between controls; L0 beside P ends them",
+                                  number, frame.passes_left));
+    }
     --frame.passes_left;
     if (!count_jump_back(run)) return false;
     begin_pass(state);
