@@ -139,11 +139,14 @@ bool cut_pecks(Run& run, bool along_z) {
   const double width = to.raw(step_axis) - start.raw(step_axis);
   const double peck = words.has(peck_word) ? size_of(run, peck_word) : std::fabs(depth);
   const double step = words.has(step_word) ? size_of(run, step_word) : 0;
-  const double relief = words.has(R) ? size_of(run, R) : 0;
   const std::uint32_t column = run.block.parts.g_column;
+  if (words.has(R) && size_of(run, R) != 0) {
+    return refuse_cycle(run, words.column(R),
+                        "R, the relief at the bottom: whether the first cut, between two walls, "
+                        "has it differs between controls");
+  }
   if (depth == 0) return refuse_cycle(run, column, "the cycle has no depth");
-  if (!(peck > 0) || step < 0 || relief < 0)
-    return refuse_cycle(run, column, "P and Q are above 0");
+  if (!(peck > 0) || step < 0) return refuse_cycle(run, column, "P and Q are above 0");
   if (width != 0 && step == 0)
     return refuse_cycle(run, column, "the step between the cuts is missing");
   const double cuts = width == 0 ? 0 : std::ceil(std::fabs(width) / step - 1e-9);
@@ -171,10 +174,6 @@ bool cut_pecks(Run& run, bool along_z) {
       }
     }
     if (!line_to(run, at(peck_axis, to.raw(peck_axis)), feed)) return false;
-    if (relief > 0 && cut > 0 &&
-        !rapid_to(run, at(step_axis, along - std::copysign(relief, width)))) {
-      return false;
-    }
     if (!rapid_to(run, at(peck_axis, start.raw(peck_axis)))) return false;
   }
   return rapid_to(run, start);
