@@ -154,7 +154,10 @@ Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
     return dds::CommandResult{
         .machine = waiting.command.machine, .id = id, .accepted = true, .reason = {}};
   }
-  if (is_decided) return fail(Errc::Io, "the server is stopping");
+  if (is_decided)
+    return fail(Errc::Timeout,
+                "the server is stopping: whether machine {} has carried out {} is not known",
+                waiting.command.machine, dds::to_string(waiting.command.action));
   return fail(Errc::Timeout, "machine {} did not answer {} within {} s", waiting.command.machine,
               dds::to_string(waiting.command.action), std::chrono::duration<double>(wait).count());
 }

@@ -173,9 +173,14 @@ Result<void> HeldMachines::command(const CommandRequest& request) {
   using enum dds::CommandAction;
   std::string machine = request.machine;
   if (!request.run.empty()) {
-    const auto run = runs_.find(request.run);
-    if (!run) return fail(run.error());
-    machine = run->machine;
+    // A machine that reports the run needs no store: a stop reaches it while there is none.
+    if (auto reporting = inner_.machine_of_run(request.run)) {
+      machine = *std::move(reporting);
+    } else {
+      const auto run = runs_.find(request.run);
+      if (!run) return fail(run.error());
+      machine = run->machine;
+    }
   }
   if (request.action == Hold) return hold(request, machine);
   auto done = inner_.command(request);

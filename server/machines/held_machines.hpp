@@ -72,6 +72,9 @@ class HeldMachines final : public MachineControl {
 
   std::vector<MachineView> machines() const override;
   Result<MachineView> machine(const std::string& name) const override;
+  std::optional<std::string> machine_of_run(const std::string& run) const override {
+    return inner_.machine_of_run(run);
+  }
   Result<storage::Run> start(const StartRequest& request) override { return inner_.start(request); }
   Result<void> command(const CommandRequest& request) override;
   Result<std::string> values(const ValueQuery& query) override { return inner_.values(query); }

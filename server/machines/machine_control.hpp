@@ -164,7 +164,7 @@ class MachineControl {
   /// Errors: NotFound.
   virtual Result<MachineView> machine(const std::string& name) const = 0;
   /// Which machine reports this run as its own now; without the store, so that a stop needs none.
-  std::optional<std::string> machine_of_run(const std::string& run) const;
+  virtual std::optional<std::string> machine_of_run(const std::string& run) const;
   /// Returns the run when the gateway has accepted it. Errors: NotFound (machine, program,
   /// revision), Unsupported (the program is for another control; `head` for a gateway), Conflict
   /// (the rest of the program relies on what is not sent; nothing of it may run there), Busy (the

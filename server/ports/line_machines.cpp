@@ -83,6 +83,15 @@ Result<machines::MachineView> LineMachines::machine(const std::string& name) con
   return view_of(*line);
 }
 
+std::optional<std::string> LineMachines::machine_of_run(const std::string& run) const {
+  for (const auto& line : directory_.lines()) {
+    const auto progress = line->progress();
+    if (progress && progress->kind == JobKind::Run && progress->id == run)
+      return line->names().machine;
+  }
+  return std::nullopt;
+}
+
 Result<storage::Run> LineMachines::start(const machines::StartRequest& request) {
   auto promise = std::make_shared<std::promise<Result<storage::Run>>>();
   auto answer = promise->get_future();
@@ -144,36 +153,44 @@ Result<storage::Run> LineMachines::conclude(const storage::Run& run, const Resul
   return fail(begun.error());
 }
 
+/// A run that a line reports is active, and needs no store; else the store knows what became of it.
+Result<LineMachines::CommandTarget> LineMachines::target_of(const std::string& id) const {
+  if (auto machine = machine_of_run(id)) return CommandTarget{*std::move(machine), {}};
+  const auto run = store_.runs.find(id);
+  if (!run) return fail(run.error());
+  if (storage::is_finished(run->state))
+    return fail(Errc::Conflict, "run {} has ended: {}", run->id, storage::to_string(run->state));
+  return CommandTarget{run->machine, run->program};
+}
+
 Result<void> LineMachines::command(const machines::CommandRequest& request) {
   if (request.run.empty()) {
     return fail(Errc::Unsupported, "machine '{}' is on a serial line: its panel cannot be reached",
                 request.machine);
   }
-  const auto run = store_.runs.find(request.run);
-  if (!run) return fail(run.error());
-  if (run->state != storage::RunState::Ordered && run->state != storage::RunState::Active) {
-    return fail(Errc::Conflict, "run {} has ended: {}", run->id, storage::to_string(run->state));
-  }
-  const auto line = directory_.line_of(run->machine);
-  if (!line) return fail(Errc::NotFound, "machine '{}' has no port", run->machine);
+  const auto target = target_of(request.run);
+  if (!target) return fail(target.error());
+  const auto& [machine, program] = *target;
+  const auto line = directory_.line_of(machine);
+  if (!line) return fail(Errc::NotFound, "machine '{}' has no port", machine);
   auto promise = std::make_shared<std::promise<Result<void>>>();
   auto answer = promise->get_future();
   const auto answered = [promise](const Result<void>& result) { promise->set_value(result); };
   if (request.action == dds::CommandAction::Hold) {
-    line->hold(run->id, answered);
+    line->hold(request.run, answered);
   } else if (request.action == dds::CommandAction::Resume) {
-    line->resume(run->id, answered);
+    line->resume(request.run, answered);
   } else if (request.action == dds::CommandAction::Abort) {
-    line->abort(run->id, "aborted by command", answered);
+    line->abort(request.run, "aborted by command", answered);
   } else {
     return fail(Errc::Unsupported,
                 "machine '{}' is on a serial line: it takes hold, resume and abort, not {}",
-                run->machine, dds::to_string(request.action));
+                machine, dds::to_string(request.action));
   }
   process::log_info("command {} machine={} run={} program={}", dds::to_string(request.action),
-                    run->machine, run->id, run->program);
-  auto done = wait_for<void>(std::move(answer), "run " + run->id);
-  on_change(run->machine);
+                    machine, request.run, program);
+  auto done = wait_for<void>(std::move(answer), "run " + request.run);
+  on_change(machine);
   return done;
 }
 
@@ -278,14 +295,23 @@ Result<std::string> MachineRouter::values(const machines::ValueQuery& query) {
   return lines_.machine(query.machine) ? lines_.values(query) : gateways_.values(query);
 }
 
+std::optional<std::string> MachineRouter::machine_of_run(const std::string& run) const {
+  auto machine = gateways_.machine_of_run(run);
+  return machine ? machine : lines_.machine_of_run(run);
+}
+
 Result<void> MachineRouter::command(const machines::CommandRequest& request) {
   if (request.run.empty()) {
-    return lines_.machine(request.machine) ? lines_.command(request) : gateways_.command(request);
+    return lines_.has(request.machine) ? lines_.command(request) : gateways_.command(request);
   }
-  const auto run = runs_.find(request.run);
-  if (!run) return fail(run.error());
-  if (lines_.machine(run->machine)) return lines_.command(request);
-  return gateways_.command(request);
+  // What a machine reports needs no store: a stop reaches it while there is none.
+  auto machine = machine_of_run(request.run);
+  if (!machine) {
+    const auto run = runs_.find(request.run);
+    if (!run) return fail(run.error());
+    machine = run->machine;
+  }
+  return lines_.has(*machine) ? lines_.command(request) : gateways_.command(request);
 }
 
 }  // namespace dripline::ports

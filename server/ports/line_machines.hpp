@@ -26,6 +26,9 @@ class LineMachines final : public machines::MachineControl {
   std::vector<machines::MachineView> machines() const override;
   /// Errors: NotFound (no enabled port has it).
   Result<machines::MachineView> machine(const std::string& name) const override;
+  /// Needs no store.
+  std::optional<std::string> machine_of_run(const std::string& run) const override;
+  bool has(const std::string& machine) const { return directory_.line_of(machine) != nullptr; }
   Result<storage::Run> start(const machines::StartRequest& request) override;
   /// Hold, Resume and Abort; others are Unsupported.
   Result<void> command(const machines::CommandRequest& request) override;
@@ -50,6 +53,10 @@ class LineMachines final : public machines::MachineControl {
              const Started& started, const std::string& wire_name);
   Result<storage::Run> conclude(const storage::Run& run, const Result<void>& begun);
   machines::MachineView view_of(const PortLine& line) const;
+  struct CommandTarget {
+    std::string machine, program;  ///< program: for the log; empty where it is not known
+  };
+  Result<CommandTarget> target_of(const std::string& run) const;
 
   const storage::Store& store_;
   const Clock& clock_;
@@ -69,6 +76,8 @@ class MachineRouter final : public machines::MachineControl {
   /// In order of their names.
   std::vector<machines::MachineView> machines() const override;
   Result<machines::MachineView> machine(const std::string& name) const override;
+  /// Needs no store.
+  std::optional<std::string> machine_of_run(const std::string& run) const override;
   Result<storage::Run> start(const machines::StartRequest& request) override;
   Result<void> command(const machines::CommandRequest& request) override;
   Result<std::string> values(const machines::ValueQuery& query) override;

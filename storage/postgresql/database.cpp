@@ -73,9 +73,7 @@ bool is_answering(const ConnectOptions& options, const Place& place) {
 Error refused(PGconn* connection) {
   std::string words = text_of(PQerrorMessage(connection));
   std::erase(words, '\n');
-  const bool is_denied = words.find("authentication") != std::string::npos;
-  return {is_denied ? Errc::Denied : Errc::Io,
-          fmt::format("database {}: {}", label_of(connection), words)};
+  return {Errc::Io, fmt::format("database {}: {}", label_of(connection), words)};
 }
 
 }  // namespace

@@ -31,9 +31,8 @@ constexpr std::array kCodes{
     Row{"22021", Errc::Syntax},   // not UTF-8, or a NUL
     Row{"22P05", Errc::Syntax},   // cannot be converted
     Row{"54", Errc::LimitExceeded}, Row{"23", Errc::Conflict},
-    Row{"28", Errc::Denied},        Row{"XX001", Errc::Corrupt},
-    Row{"XX002", Errc::Corrupt},
-};
+    Row{"XX001", Errc::Corrupt},    Row{"XX002", Errc::Corrupt},
+};  // 28, a password that is refused, is Io: no token and no user of ours is denied
 
 }  // namespace
 

@@ -50,11 +50,11 @@ class DatabaseFailover : public testing::TestWithParam<Way> {
     text_ = written_out();
     ASSERT_GT(text_.size(), 2 * kMostHeld);
   }
-  void start_shop(const std::vector<std::string>& more = {}) {
+  void start_shop(const std::vector<std::string>& more = {}, const std::string& speed = "max") {
     std::vector<std::string> arguments{"--store", cluster_->url()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     system_.emplace(
-        System::Options{.speed = "max", .server_arguments = arguments, .gateway_arguments = {}});
+        System::Options{.speed = speed, .server_arguments = arguments, .gateway_arguments = {}});
     system_->start_server();
     system_->start_gateway();
     system_->wait_connected();
@@ -128,6 +128,27 @@ TEST_P(DatabaseFailover, WithoutACacheAMachineWaitsForTheDatabase) {
   come_back();
   expect_whole(id);
   EXPECT_FALSE(std::filesystem::exists(system_->server_state() / "cache"));
+}
+
+/// The machine is fed meanwhile, so it must be stopped too.
+TEST_P(DatabaseFailover, AStopReachesTheMachineMeanwhile) {
+  start_shop({}, "1000x");
+  const std::string id = system_->start_run("O0300");
+  const auto executed = [&] { return system_->execution_probe().blocks_done; };
+  ASSERT_TRUE(eventually([&] { return executed() > 1000; }));
+  leave();
+  const auto give = [&](const char* action) {
+    return system_->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
+  };
+  const auto held = give("hold");
+  EXPECT_EQ(held.status, 200) << held.body;
+  const std::uint64_t at = executed();
+  std::this_thread::sleep_for(seconds(1));
+  EXPECT_LE(executed(), at + 1) << "it rests";
+  const auto aborted = give("abort");
+  EXPECT_EQ(aborted.status, 200) << aborted.body;
+  come_back();
+  EXPECT_EQ(system_->wait_ended(id).value("state", ""), "aborted");
 }
 
 /// Whoever asks whether the server is ready waits for no database, and hears the truth.
