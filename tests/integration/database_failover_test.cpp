@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <thread>
 
@@ -140,11 +141,16 @@ TEST_P(DatabaseFailover, AStopReachesTheMachineMeanwhile) {
   const auto give = [&](const char* action) {
     return system_->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
   };
-  const auto held = give("hold");
-  EXPECT_EQ(held.status, 200) << held.body;
-  const std::uint64_t at = executed();
-  std::this_thread::sleep_for(seconds(1));
-  EXPECT_LE(executed(), at + 1) << "it rests";
+  // The answer waits for the database, the machine does not.
+  auto held = std::async(std::launch::async, give, "hold");
+  const auto rests = [&] {
+    const std::uint64_t before = executed();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    return executed() == before;
+  };
+  EXPECT_TRUE(eventually(rests, seconds(5)));
+  const auto answer = held.get();
+  EXPECT_EQ(answer.status, 200) << answer.body;
   const auto aborted = give("abort");
   EXPECT_EQ(aborted.status, 200) << aborted.body;
   come_back();
