@@ -130,7 +130,9 @@ TEST_P(KeptFile, HasAChainOfItsEntriesAndRuns) {
   ASSERT_EQ(entries->size(), 2u);
   EXPECT_EQ(entries->at(1).entry.action, "run.end");
   EXPECT_EQ(entries->at(1).run_fault, "");
-  EXPECT_EQ(store_->audit.run_without_end().value(), std::nullopt);
+  // The test run of version 21 was put beside the others by rows alone: nothing reported its end.
+  const auto without_end = version() >= 21 ? std::optional<std::string>("r3") : std::nullopt;
+  EXPECT_EQ(store_->audit.run_without_end().value(), without_end);
   audit::Verifier verifier(store_->identity().value(), {});
   for (const auto& chained : *entries) verifier.take(chained.entry, chained.digest);
   EXPECT_FALSE(verifier.first_fault()) << verifier.first_fault()->what;
@@ -196,7 +198,7 @@ TEST_P(KeptFile, HasHotFoldersJobsAndWebhooksSinceVersion14) {
   EXPECT_EQ(store_->folders.unfinished("cam")->at(0).target, "done/p.nc");
   EXPECT_EQ(store_->jobs.find(1)->completed, 1u);
   EXPECT_EQ(store_->jobs.hold_of("m1").value()->reason, "bore is wide");
-  EXPECT_EQ(store_->webhooks.find("erp")->waiting, 1u);
+  EXPECT_EQ(store_->webhooks.find("erp")->waiting, version() >= 21 ? 2u : 1u);
 }
 
 TEST_P(KeptFile, HasCallsOfRunsSinceVersion15) {
