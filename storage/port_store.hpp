@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::storage {
@@ -23,6 +27,28 @@ struct Port {
 inline constexpr std::size_t kMaxPortSettings = 64;
 inline constexpr std::size_t kMaxPortRules = 32 * 1024;
 
+enum class TransferDirection : std::uint8_t { Send, Receive };  ///< seen from the server
+enum class TransferState : std::uint8_t { Active, Completed, Aborted, Interrupted };
+std::string_view to_string(TransferDirection direction);
+std::string_view to_string(TransferState state);
+
+/// Programs that go to a control, or come from it, without a run.
+struct PortTransfer {
+  std::string port;
+  TransferDirection direction = TransferDirection::Send;
+  std::string id;
+  std::vector<std::string> programs;  ///< as people read them; none of what has no name yet
+  std::uint64_t size = 0;             ///< bytes; 0: not known
+  std::uint64_t passed = 0;           ///< bytes that have passed the line for certain
+  std::uint64_t at_most = 0;          ///< bytes that may have passed it
+  TransferState state = TransferState::Active;
+  std::string reason = {};  ///< why it was not completed, for people
+  UtcTime began;
+  std::optional<UtcTime> ended = {};  ///< when it is not Active any more
+
+  friend bool operator==(const PortTransfer&, const PortTransfer&) = default;
+};
+
 /// Promises of every store: storage/store.hpp.
 class PortStore {
  public:
@@ -33,8 +59,15 @@ class PortStore {
   virtual Result<void> save(const Port& port) = 0;
   /// In order of their names.
   virtual Result<std::vector<Port>> list() = 0;
-  /// Errors: NotFound.
+  /// With its transfers. Errors: NotFound.
   virtual Result<void> remove(const std::string& name) = 0;
+  /// Adds it, or replaces the port's one of that direction. Errors: NotFound (port), Syntax (the
+  /// end of one that is active, or none of one that is over).
+  virtual Result<void> save_transfer(const PortTransfer& transfer) = 0;
+  /// Of an active one: a later save_transfer is never overtaken, another id changes nothing.
+  virtual Result<void> note_progress(const PortTransfer& transfer) = 0;
+  /// The latest of each direction.
+  virtual Result<std::vector<PortTransfer>> transfers(const std::string& port) = 0;
 };
 
 }  // namespace dripline::storage

@@ -43,6 +43,9 @@ class PortRepository final : public PortStore {
   Result<void> save(const Port& port) override;
   Result<std::vector<Port>> list() override;
   Result<void> remove(const std::string& name) override;
+  Result<void> save_transfer(const PortTransfer& transfer) override;
+  Result<void> note_progress(const PortTransfer& transfer) override;
+  Result<std::vector<PortTransfer>> transfers(const std::string& port) override;
 
  private:
   Connections& connections_;

@@ -275,14 +275,26 @@ TEST_P(KeptFile, HasTheComputerOfAPortSinceVersion20) {
   EXPECT_EQ(ports->front().host, version() >= 20 ? "srv-1" : "");
 }
 
-INSTANTIATE_TEST_SUITE_P(, KeptFile,
-                         testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
-                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
-                                         "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql",
-                                         "v17.sql", "v18.sql", "v19.sql", "v20.sql", "v21.sql"),
-                         [](const auto& i) {
-                           return std::string(i.param, std::string_view(i.param).find('.'));
-                         });
+TEST_P(KeptFile, HasTransfersOfAPortSinceVersion22) {
+  reopen();
+  const auto ports = store_->ports.list();
+  ASSERT_TRUE(ports) << ports.error().what;
+  if (version() < 2) return;
+  const auto transfers = store_->ports.transfers(ports->front().name);
+  ASSERT_TRUE(transfers) << transfers.error().what;
+  ASSERT_EQ(transfers->size(), version() >= 22 ? 2u : 0u);
+  if (version() < 22) return;
+  EXPECT_EQ(transfers->front().state, TransferState::Active);
+  EXPECT_EQ(transfers->front().programs.size(), 2u);
+  EXPECT_EQ(transfers->back().reason, "the line is lost");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , KeptFile,
+    testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql", "v7.sql", "v8.sql",
+                    "v9.sql", "v10.sql", "v11.sql", "v12.sql", "v13.sql", "v14.sql", "v15.sql",
+                    "v16.sql", "v17.sql", "v18.sql", "v19.sql", "v20.sql", "v21.sql", "v22.sql"),
+    [](const auto& i) { return std::string(i.param, std::string_view(i.param).find('.')); });
 
 }  // namespace
 }  // namespace dripline::storage

@@ -70,6 +70,76 @@ TEST_P(PortTest, RemovedIsGoneWithItsSettings) {
   EXPECT_EQ(again.error().what, "port line-1 is not known");
 }
 
+PortTransfer make_transfer(UtcTime began) {
+  PortTransfer transfer;
+  transfer.port = "line-1";
+  transfer.id = "transfer-1";
+  transfer.programs = {"O1 revision 2", "clamp 3.nc revision 1"};
+  transfer.size = 640;
+  transfer.at_most = 128;
+  transfer.began = began;
+  return transfer;
+}
+
+TEST_P(PortTest, KeepsTheLatestTransferOfEachDirection) {
+  ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0")));
+  EXPECT_TRUE(store_->ports.transfers("line-1")->empty());
+  PortTransfer sent = make_transfer(clock_.now());
+  ASSERT_TRUE(store_->ports.save_transfer(sent));
+  PortTransfer received = sent;
+  received.direction = TransferDirection::Receive;
+  received.id = "reception-1";
+  received.programs = {};
+  received.size = 0;
+  ASSERT_TRUE(store_->ports.save_transfer(received));
+  reopen();
+  EXPECT_EQ(store_->ports.transfers("line-1").value(), (std::vector{sent, received}));
+  sent.state = TransferState::Aborted;
+  sent.reason = "stopped by cam";
+  sent.passed = 12;
+  sent.ended = clock_.now();
+  ASSERT_TRUE(store_->ports.save_transfer(sent));
+  EXPECT_EQ(store_->ports.transfers("line-1").value(), (std::vector{sent, received}));
+  PortTransfer next = make_transfer(clock_.now());
+  next.id = "transfer-2";
+  ASSERT_TRUE(store_->ports.save_transfer(next));
+  EXPECT_EQ(store_->ports.transfers("line-1").value(), (std::vector{next, received}));
+  ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS1")));
+  EXPECT_EQ(store_->ports.transfers("line-1")->size(), 2u) << "the port was changed";
+  ASSERT_TRUE(store_->ports.remove("line-1"));
+  EXPECT_TRUE(store_->ports.transfers("line-1")->empty());
+}
+
+TEST_P(PortTest, ProgressIsOfTheActiveTransferOnly) {
+  ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0")));
+  PortTransfer transfer = make_transfer(clock_.now());
+  ASSERT_TRUE(store_->ports.save_transfer(transfer));
+  transfer.passed = 100;
+  transfer.at_most = 300;
+  ASSERT_TRUE(store_->ports.note_progress(transfer));
+  EXPECT_EQ(store_->ports.transfers("line-1").value(), std::vector{transfer});
+  PortTransfer another = transfer;
+  another.id = "transfer-9";
+  another.passed = 101;
+  ASSERT_TRUE(store_->ports.note_progress(another));
+  EXPECT_EQ(store_->ports.transfers("line-1").value(), std::vector{transfer});
+  transfer.state = TransferState::Completed;
+  transfer.ended = clock_.now();
+  ASSERT_TRUE(store_->ports.save_transfer(transfer));
+  another.id = transfer.id;
+  ASSERT_TRUE(store_->ports.note_progress(another));
+  EXPECT_EQ(store_->ports.transfers("line-1").value(), std::vector{transfer});
+}
+
+TEST_P(PortTest, RefusesATransferThatCannotBe) {
+  PortTransfer transfer = make_transfer(clock_.now());
+  EXPECT_EQ(store_->ports.save_transfer(transfer).error().code, Errc::NotFound);
+  ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0")));
+  transfer.ended = clock_.now();
+  EXPECT_EQ(store_->ports.save_transfer(transfer).error().code, Errc::Syntax);
+  EXPECT_TRUE(store_->ports.transfers("line-1")->empty());
+}
+
 struct BadPort {
   const char* name;
   void (*spoil)(Port& port);

@@ -1,0 +1,18 @@
+-- Version 22: programs that go to a control, or come from it, without a run are known to the server that begins or takes over after a kill.
+
+-- The latest of each direction; what was before is in the audit trail.
+CREATE TABLE port_transfer (
+  port      TEXT NOT NULL REFERENCES port (name) ON DELETE CASCADE,
+  direction TEXT NOT NULL CHECK (direction IN ('send', 'receive')),
+  id        TEXT NOT NULL,
+  programs  TEXT NOT NULL,  -- one a line, as people read them; what is received may have no name yet
+  size      INTEGER NOT NULL CHECK (size >= 0),      -- bytes; 0 while it is not known
+  passed    INTEGER NOT NULL CHECK (passed >= 0),    -- bytes that have passed the line for certain
+  at_most   INTEGER NOT NULL CHECK (at_most >= 0),   -- bytes that may have passed it: stored before they leave
+  state     TEXT NOT NULL CHECK (state IN ('active', 'completed', 'aborted', 'interrupted')),
+  reason    TEXT NOT NULL,  -- why it was not completed, for people
+  began_us  INTEGER NOT NULL,
+  ended_us  INTEGER,        -- NULL while it is active
+  PRIMARY KEY (port, direction),
+  CHECK ((state = 'active') = (ended_us IS NULL))
+) STRICT, WITHOUT ROWID;
