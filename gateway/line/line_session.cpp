@@ -295,6 +295,8 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
     }
   } else if (const auto* request = std::get_if<wire::TransferRequest>(&event)) {
     host_.on_request(*request);
+  } else if (std::get_if<wire::ReleaseRefused>(&event) != nullptr) {
+    host_.on_release_refused();
   }
 }
 

@@ -79,6 +79,8 @@ class SessionHost {
   /// Answered with LineSession::kept once it is where it stays.
   virtual void on_incoming(Incoming incoming) = 0;
   virtual void on_request(const wire::TransferRequest& request) = 0;
+  /// The control knows that what it was in the middle of was broken off (wire::ReleaseRefused).
+  virtual void on_release_refused() {}
   virtual void on_fault(const Error& error) = 0;
   /// Of the job on the line: before more of it may leave, and when more was sent.
   virtual void on_progress(const SendProgress& /*progress*/) {}

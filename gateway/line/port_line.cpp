@@ -371,6 +371,10 @@ void PortLine::on_request(const wire::TransferRequest& request) {
   parts_.post([on_request = parts_.listener.on_request, request] { on_request(request); });
 }
 
+void PortLine::on_release_refused() {
+  if (parts_.listener.on_release_refused) parts_.post(parts_.listener.on_release_refused);
+}
+
 void PortLine::on_fault(const Error& error) {
   process::log_warning("port={} machine={}: {}", parts_.names.name, parts_.names.machine,
                        error.what);

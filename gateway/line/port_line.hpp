@@ -31,6 +31,8 @@ struct PortListener {
   /// On the line's thread, which waits: before more of a job may leave, and when more was sent. May
   /// be empty.
   std::function<void(const SendProgress&)> on_progress = {};
+  /// SessionHost::on_release_refused. May be empty.
+  std::function<void()> on_release_refused = {};
 };
 
 /// One port in use: its driver, its session on the driver's thread, its recorder, and the path from
@@ -130,6 +132,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   void on_sent(const SendEnd& end) override;
   void on_incoming(Incoming incoming) override;
   void on_request(const wire::TransferRequest& request) override;
+  void on_release_refused() override;
   void on_fault(const Error& error) override;
   void on_progress(const SendProgress& progress) override;
 

@@ -81,8 +81,11 @@ struct TransferFailed {
 struct LineError {
   Error error;
 };
+/// The other end released a program that was broken off (Discipline::expect_release), and was told
+/// that it is over.
+struct ReleaseRefused {};
 using Event = std::variant<TextReceived, TransferBegan, TransferEnded, FlowChanged, TextAccepted,
-                           TransferFailed, LineError, TransferRequest>;
+                           TransferFailed, LineError, TransferRequest, ReleaseRefused>;
 
 enum class Phase : std::uint8_t { Idle, Sending, Receiving, Requesting };
 

@@ -188,7 +188,8 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
             line_machines_.on_sent(name, end, [inbound] { inbound->on_run_stored(); });
           },
       .on_request = [inbound](const wire::TransferRequest& request) { inbound->answer(request); },
-      .on_change = [this, name] { line_machines_.on_change(name); }};
+      .on_change = [this, name] { line_machines_.on_change(name); },
+      .on_release_refused = [inbound] { inbound->on_release_refused(); }};
 }
 
 std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Strands& strands,

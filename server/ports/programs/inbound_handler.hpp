@@ -41,6 +41,7 @@ class InboundHandler final : private line::InboundSink {
   void on_transfer_completed() { calls_.on_transfer_completed(); }
   void on_run_completed() { calls_.on_run_completed(); }
   void on_run_stored() { calls_.on_run_stored(); }
+  void on_release_refused() { calls_.on_release_refused(); }
   /// What is printed from now on belongs to this run, until another one is on the line: a control
   /// prints while it executes, which continues after everything has been sent.
   void on_run(const std::string& run) {

@@ -64,6 +64,12 @@ class RemoteRequestHandler {
   }
   /// A run is on the line, or was.
   void on_run() { is_sent_since_ = false; }
+  /// The control knows by its protocol that what it was in the middle of was broken off.
+  void on_release_refused() {
+    if (!parts_.tells_aborts) return;
+    offers_.reset();  // it begins with the first one again
+    offered_.close("the control knows that it was broken off");
+  }
   /// The end of a run is stored, or may be.
   void on_run_stored() {
     // What was started meanwhile may have answered the request.

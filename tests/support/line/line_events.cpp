@@ -52,6 +52,7 @@ struct InWords {
                                                            : "wants the directory";
     return event.name.empty() ? std::string(what) : fmt::format("{} {}", what, event.name);
   }
+  std::string operator()(const ReleaseRefused&) const { return "refused the release"; }
 };
 
 }  // namespace

@@ -46,6 +46,8 @@ TEST(TncStandard, AHostThatWasReplacedInTheMiddleTakesNoReleaseForAStart) {
     }
     hear("\x11");
     EXPECT_EQ(say(), "\x04");
+    EXPECT_NE(test_support::event_lines(host->take_events()).find("refused the release\n"),
+              std::string::npos);
     EXPECT_FALSE(host->state().is_asked);
     EXPECT_EQ(host->state().awaits_start, is_begun_before);
     hear("\x11");

@@ -63,8 +63,9 @@ TEST_F(BrokenOffer, OfAnotherServerIsKnown) {
   ports_.reset();
   start_ports();
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
-  expect_told();  // by the protocol: it may have been a run
-  expect_told();
+  expect_told();  // by the protocol, and so it knows
+  ASSERT_TRUE(
+      wait([&] { return store_->audit.list({.limit = 1})->front().action == "port.offered"; }));
   expect_offered_again();
 }
 
