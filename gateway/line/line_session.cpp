@@ -80,7 +80,8 @@ Result<void> LineSession::start_over(wire::Discipline& line, wire::LineTime now)
 
 void LineSession::fetch_more() {
   if (!sending_ || sending_->is_fetched || sending_->is_fetching) return;
-  if (sending_->text.size() > kPrefetch / 2) return;
+  const std::uint64_t ahead = sending_->job.prefetch > 0 ? sending_->job.prefetch : kPrefetch;
+  if (sending_->text.size() > ahead / 2) return;
   sending_->is_fetching = true;
   host_.fetch(sending_->job, sending_->next_fetch);
 }

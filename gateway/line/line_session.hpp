@@ -28,6 +28,7 @@ struct SendJob {
   std::vector<std::string> programs;   ///< of a transfer, for people
   std::shared_ptr<TextSource> source;  ///< where pieces come from
   std::uint64_t size = 0;              ///< its bytes
+  std::uint64_t prefetch = 0;          ///< bytes ahead of the line; 0: LineSession::kPrefetch
   std::uint64_t first_byte = 0;        ///< where the run begins
   std::uint64_t first_line = 1;        ///< the same in blocks
   std::string head = {};               ///< sent before it, and not counted

@@ -164,6 +164,7 @@ LineView PortLine::view() const {
   view.transfer = transfer_;
   if (transfer_ && progress_ && progress_->id == transfer_->id) {
     view.transfer->sent = progress_->sent.bytes;
+    view.transfer->at_most = progress_->offered;
   }
   if (!driver_) return view;
   view.is_open = driver_->is_open();
@@ -330,6 +331,7 @@ void PortLine::end_transfer(const SendEnd& end) {
   const std::lock_guard lock(mutex_);
   if (!transfer_ || transfer_->id != end.progress.id) return;
   transfer_->sent = end.progress.sent.bytes;
+  transfer_->at_most = std::max(end.progress.offered, end.progress.sent.bytes);
   transfer_->state = state_of(end.outcome);
   transfer_->reason = end.reason;
 }

@@ -122,7 +122,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   struct Wanted {
     std::string id;
     std::shared_ptr<TextSource> source;
-    std::uint64_t offset = 0, size = 0;
+    std::uint64_t offset = 0, size = 0, piece = 0;
   };
   void post_read(Wanted wanted);
   void read_piece(const Wanted& wanted);

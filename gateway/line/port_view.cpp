@@ -12,6 +12,7 @@ struct Name {
 };
 constexpr std::array kTransferStates{
     Name<TransferState>{TransferState::Sending, "sending"},
+    Name<TransferState>{TransferState::Receiving, "receiving"},
     Name<TransferState>{TransferState::Completed, "completed"},
     Name<TransferState>{TransferState::Aborted, "aborted"},
     Name<TransferState>{TransferState::Interrupted, "interrupted"},

@@ -14,16 +14,19 @@
 /// What can be seen of a line in use.
 namespace dripline::line {
 
-enum class TransferState : std::uint8_t { Sending, Completed, Aborted, Interrupted };
+/// In the order in which they are sent; of a reception only Receiving is no end.
+enum class TransferState : std::uint8_t { Sending, Completed, Aborted, Interrupted, Receiving };
 std::string_view to_string(TransferState state);
 
 /// Programs sent as they are, without a run: the last such transfer of a port.
 struct PortTransfer {
   std::string id = {};
   std::vector<std::string> programs = {};  ///< names, in their order
-  std::uint64_t size = 0, sent = 0;        ///< bytes
+  std::uint64_t size = 0, sent = 0;        ///< bytes; what passed the line for certain
+  std::uint64_t at_most = 0;               ///< bytes that may have passed it
   TransferState state = TransferState::Sending;
-  std::string reason = {};  ///< why it was not completed, for people
+  std::string reason = {};                        ///< why it was not completed, for people
+  std::optional<UtcTime> began = {}, ended = {};  ///< where they are known
 };
 
 /// What the control asked for last, while no run waited for it.
@@ -47,7 +50,8 @@ struct LineView {
   wire::LineState line;
   std::string run;  ///< being sent, may be empty
   std::optional<PortTransfer> transfer;
-  std::uint64_t sent = 0;  ///< characters since the line was opened
+  std::optional<PortTransfer> reception;  ///< the last program that came, where it is known
+  std::uint64_t sent = 0;                 ///< characters since the line was opened
   std::uint64_t received = 0;
   std::optional<UtcTime> waiting_since;  ///< of a wait that the protocol does not limit
   std::optional<PortRequest> request;    ///< until it is taken back, or something is sent

@@ -1,6 +1,7 @@
 #include "server/ports/line_transfer.hpp"
 
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <future>
 
 #include "gateway/line/inbound/program_head.hpp"
@@ -19,6 +20,42 @@ using library::with_control_words;
 using line::has_numbered_programs;
 
 namespace {
+
+/// The text that is fetched ahead of a line may leave it before a kill: it is not much.
+constexpr double kFetchedSeconds = 5;
+constexpr std::uint64_t kLeastFetched = 2048;
+
+std::uint64_t fetched_ahead(const wire::LineSettings& settings) {
+  const double wanted = wire::characters_per_second(settings) * kFetchedSeconds;
+  return std::clamp<std::uint64_t>(static_cast<std::uint64_t>(wanted), kLeastFetched,
+                                   LineSession::kPrefetch);
+}
+
+/// On the line's strand. The store has it before anything leaves.
+void begin_transfer(const LineInUse& in_use, SendJob job, const PortLine::Answer& answer) {
+  if (auto ready = line::check_ready(*in_use.line); !ready) return answer(ready);
+  if (auto kept = in_use.log->begin_send(job); !kept) return answer(kept);
+  auto begun = [log = in_use.log, id = job.id, answer](const Result<void>& result) {
+    if (!result) log->take_back_send(id);
+    answer(result);
+  };
+  in_use.line->begin(std::move(job), std::move(begun));
+}
+
+void begin_reception(const LineInUse& in_use, const PortLine::Answer& answer) {
+  const auto& [line, log] = in_use;
+  const bool can_ask =
+      line->view().settings.flow == wire::Flow::Xmodem && line::check_ready(*line).has_value();
+  const bool is_new = can_ask && !log->is_receiving();
+  if (is_new) {
+    if (auto kept = log->begin_reception(); !kept) return answer(kept);
+  }
+  line::receive_program(*line, [log = log, is_new, answer](const Result<void>& begun) {
+    if (is_new && !begun)
+      log->end_reception(storage::TransferState::Aborted, "", begun.error().what);
+    answer(begun);
+  });
+}
 
 using Ask = std::function<void(PortLine::Answer)>;
 
@@ -133,13 +170,15 @@ Result<SendJob> make_transfer(const machines::RunSources& sources, const LineVie
   return job_of(store.programs, port, machine, *revisions);
 }
 
-Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
-                                   const machines::RunSources& sources,
+Result<PortTransfer> send_programs(const LineInUse& in_use, const machines::RunSources& sources,
                                    const std::vector<ProgramChoice>& programs) {
-  const auto job = make_transfer(sources, line->view(), programs);
+  const auto& line = in_use.line;
+  auto job = make_transfer(sources, line->view(), programs);
   if (!job) return fail(job.error());
-  const auto begun = ask_on_strand(line, [line, job = *job](const PortLine::Answer& answer) {
-    line::send_programs(*line, job, answer);
+  job->prefetch = fetched_ahead(line->view().settings);
+  job->source = guarded(job->source, in_use.log, job->id);
+  const auto begun = ask_on_strand(line, [in_use, job = *job](const PortLine::Answer& answer) {
+    begin_transfer(in_use, job, answer);
   });
   if (!begun) return fail(begun.error());
   process::log_info("programs sent without a run port={} id={} {}", line->names().name, job->id,
@@ -147,9 +186,9 @@ Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
   return PortTransfer{.id = job->id, .programs = job->programs, .size = job->size};
 }
 
-Result<void> receive_program(const std::shared_ptr<PortLine>& line) {
+Result<void> receive_program(const LineInUse& in_use) {
   return ask_on_strand(
-      line, [line](const PortLine::Answer& answer) { line::receive_program(*line, answer); });
+      in_use.line, [in_use](const PortLine::Answer& answer) { begin_reception(in_use, answer); });
 }
 
 Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::string& reason) {

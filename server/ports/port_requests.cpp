@@ -31,10 +31,10 @@ Result<PortTest> PortService::test(const std::string& name) {
   return test;
 }
 
-Result<std::shared_ptr<PortLine>> PortService::find_line(const std::string& name) const {
+Result<LineInUse> PortService::find_line(const std::string& name) const {
   const auto entry = find(name);
   if (!entry) return fail(entry.error());
-  if (entry->line) return entry->line;
+  if (entry->line) return LineInUse{entry->line, entry->transfers};
   return fail(Errc::Conflict, "port '{}' is {}", name,
               entry->fault.empty() ? "disabled" : "not open: " + entry->fault);
 }
@@ -52,7 +52,7 @@ Result<void> PortService::receive(const std::string& name) {
 
 Result<void> PortService::stop_transfer(const std::string& name, const std::string& reason) {
   const auto line = find_line(name);
-  return line ? ports::stop_transfer(*line, reason) : fail(line.error());
+  return line ? ports::stop_transfer(line->line, reason) : fail(line.error());
 }
 
 /// For monitors of the line, and the recording.

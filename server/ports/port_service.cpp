@@ -29,6 +29,19 @@ std::uint64_t next_epoch(const storage::Store& store, const Clock& clock) {
   return epoch;
 }
 
+/// The line knows how far the present one is, the log what was before, and when.
+void add_transfers(PortView& view, const TransferLog& log) {
+  if (const auto received = log.latest(storage::TransferDirection::Receive))
+    view.reception = transfer_view(*received);
+  const auto sent = log.latest(storage::TransferDirection::Send);
+  if (!sent) return;
+  const PortTransfer kept = transfer_view(*sent);
+  if (!view.transfer) view.transfer = kept;
+  if (view.transfer->id != kept.id) return;
+  view.transfer->began = kept.began;
+  view.transfer->ended = kept.ended;
+}
+
 }  // namespace
 
 PortService::PortService(const machines::RunSources& sources, library::Programs& programs,
@@ -203,13 +216,14 @@ void PortService::open_due() {
 
 PortView PortService::view_of(const Entry& entry) {
   PortView view;
-  view.port = entry.port;
   if (entry.line) {
     static_cast<LineView&>(view) = entry.line->view();
-    return view;
+  } else {
+    view.settings = entry.settings;
+    view.fault = entry.fault;
   }
-  view.settings = entry.settings;
-  view.fault = entry.fault;
+  view.port = entry.port;
+  if (entry.transfers) add_transfers(view, *entry.transfers);
   return view;
 }
 
@@ -243,8 +257,9 @@ Result<PortView> PortService::save_prepared(Entry entry) {
   if (auto free = check_free(port); !free) return fail(free.error());
   if (auto idle = check_idle(port.name); !idle) return fail(idle.error());
   if (auto saved = store_.ports.save(port); !saved) return fail(saved.error());
-  if (const auto before = find(port.name); before && before->line) {
-    before->line->close("the port was changed");
+  if (const auto before = find(port.name)) {
+    entry.transfers = before->transfers;
+    if (before->line) before->line->close("the port was changed");
   }
   open(entry);
   const PortView view = view_of(entry);

@@ -14,6 +14,7 @@
 #include "server/machines/worker_pool.hpp"
 #include "server/ports/line_machines.hpp"
 #include "server/ports/line_records.hpp"
+#include "server/ports/line_transfer.hpp"
 #include "server/ports/port_control.hpp"
 
 namespace dripline::ports {
@@ -79,7 +80,8 @@ class PortService final : public PortControl, private LineDirectory {
     storage::Port port;
     wire::LineSettings settings;
     std::shared_ptr<const line::RuleSet> rules = std::make_shared<line::RuleSet>();
-    std::shared_ptr<PortLine> line;  ///< null: disabled, or `fault`
+    std::shared_ptr<PortLine> line;          ///< null: disabled, or `fault`
+    std::shared_ptr<TransferLog> transfers;  ///< null: it has not been opened yet
     std::string fault;
     bool is_open_due = false;  ///< the store refused what has to be written first
   };
@@ -96,12 +98,13 @@ class PortService final : public PortControl, private LineDirectory {
   Result<void> check_free(const storage::Port& port) const;
   Result<PortView> save_prepared(Entry entry);
   Result<Entry> find(const std::string& name) const;
-  Result<std::shared_ptr<PortLine>> find_line(const std::string& name) const;
+  Result<LineInUse> find_line(const std::string& name) const;
   Result<std::uint64_t> enter_machine(const storage::Port& port);
   std::uint64_t epoch_of(const storage::Machine& machine) const;
   Machine machine_of(const std::string& name, std::uint64_t epoch);
   void put(Entry entry);
   void open(Entry& entry);
+  Result<void> open_transfers(Entry& entry) const;
   void note_host(storage::Port& port) const;
   /// Why the port's device is not this computer's; empty: it is, or it is no device.
   std::string host_fault(const storage::Port& port) const;
@@ -112,10 +115,12 @@ class PortService final : public PortControl, private LineDirectory {
   /// Of an open line, some times a second: it continues while the store is waited for.
   struct Ticking {
     std::weak_ptr<PortLine> line;
+    std::shared_ptr<TransferLog> transfers;
     Strands strands;
     std::shared_ptr<std::atomic<bool>> is_saving = std::make_shared<std::atomic<bool>>(false);
   };
   void tick(const Ticking& ticking, unsigned count);
+  void save_progress(const Ticking& ticking);
   void tell_traffic(const PortTraffic& traffic) const;
   void note_transfer(const std::string& machine, const SendEnd& end);
   void on_stored(const storage::RecordBatch& batch);

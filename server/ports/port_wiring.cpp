@@ -115,6 +115,15 @@ std::string PortService::host_fault(const storage::Port& port) const {
       port.address, port.host, options_.host);
 }
 
+Result<void> PortService::open_transfers(Entry& entry) const {
+  if (entry.transfers) return {};
+  auto log = std::make_shared<TransferLog>(TransferLog::Parts{
+      .ports = store_.ports, .audit = store_.audit, .clock = clock_, .port = entry.port.name});
+  auto opened = log->open();
+  if (opened) entry.transfers = std::move(log);
+  return opened;
+}
+
 /// A run of it that another server has begun has ended all the same.
 void PortService::open(Entry& entry) {
   if (!entry.port.is_enabled || !entry.fault.empty()) return;
@@ -122,6 +131,11 @@ void PortService::open(Entry& entry) {
   entry.is_open_due = !epoch;
   if (!epoch) {
     entry.fault = epoch.error().what;
+    return;
+  }
+  if (auto opened = open_transfers(entry); !opened) {
+    entry.fault = opened.error().what;
+    entry.is_open_due = true;
     return;
   }
   const Machine machine = machine_of(entry.port.machine, *epoch);
@@ -140,7 +154,7 @@ void PortService::open(Entry& entry) {
   const Strands strands{machine.strand, Strand(near_pool_)};
   entry.line = make_line(entry, strands, listener_for(entry, machine));
   entry.line->open();
-  const Ticking ticking{.line = entry.line, .strands = strands};
+  const Ticking ticking{.line = entry.line, .transfers = entry.transfers, .strands = strands};
   strands.near.post([this, ticking] { tick(ticking, 0); });
 }
 
@@ -153,6 +167,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
                                               static_cast<const LineDirectory&>(*this), name),
       .clock = clock_,
       .machine = name,
+      .port = entry.port.name,
       .reply = entry.rules->reply(),
       .offer = entry.settings.offer,
       .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc,
@@ -165,6 +180,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
       .programs = programs_,
       .directory = *this,
       .records = machine.records,
+      .transfers = entry.transfers,
       .machine = name,
       .port = entry.port.name,
       .rules = entry.rules,
@@ -176,8 +192,9 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
                          const Incoming& incoming,
                          std::function<void()> kept) { inbound->take(incoming, std::move(kept)); },
       .on_sent =
-          [this, inbound, name](const SendEnd& end) {
+          [this, inbound, name, transfers = entry.transfers](const SendEnd& end) {
             if (end.progress.kind == JobKind::Transfer) {
+              transfers->end_send(end);
               note_transfer(name, end);
               if (end.outcome == SendOutcome::Completed) inbound->on_transfer_completed();
             }
@@ -208,10 +225,12 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
        .is_program_broken = is_program_broken(entry)});
 }
 
-/// A control may be in the middle of a run, or of an offered program.
+/// A control may be in the middle of a run, of programs sent without one, or of an offered program.
 bool PortService::is_program_broken(const Entry& entry) const {
   const auto run = broken_run(store_.runs, entry.port.machine, true);
   if (run && run->has_value()) return true;
+  const auto sent = broken_transfer(store_, entry.port.name, entry.port.machine, true);
+  if (sent && sent->has_value()) return true;
   if (entry.settings.offer != wire::Offer::All) return false;
   const auto offer = broken_offer(store_.audit, entry.port.machine);
   return offer && offer->has_value();
@@ -222,12 +241,21 @@ void PortService::tick(const Ticking& ticking, unsigned count) {
   if (!line) return;
   line->tick();
   if (count % kTicksPerSave == 0 && !ticking.is_saving->exchange(true)) {
-    ticking.strands.store.post([this, weak = ticking.line, is_saving = ticking.is_saving] {
-      if (const auto saved = weak.lock()) line_machines_.save_progress(*saved);
-      *is_saving = false;
-    });
+    ticking.strands.store.post([this, ticking] { save_progress(ticking); });
   }
   ticking.strands.near.post_after(kTick, [this, ticking, count] { tick(ticking, count + 1); });
+}
+
+/// On the machine's strand. Text that had to wait for the store is asked for again.
+void PortService::save_progress(const Ticking& ticking) {
+  if (const auto line = ticking.line.lock()) {
+    line_machines_.save_progress(*line);
+    const auto progress = line->progress();
+    if (progress && progress->kind == JobKind::Transfer) ticking.transfers->note_sent(*progress);
+    ticking.transfers->save();
+    line->on_text();
+  }
+  *ticking.is_saving = false;
 }
 
 void PortService::tell_traffic(const PortTraffic& traffic) const {

@@ -65,6 +65,7 @@ std::vector<InboundSplitter::Item> InboundRouter::split(const Incoming& incoming
       if (splitter_.has_rest()) report(kRest);
       return incoming.is_cut ? splitter_.end_silent() : splitter_.end();
     case Incoming::What::Failed:
+      failure_ = incoming.text;
       return splitter_.fail();
   }
   return {};
@@ -82,7 +83,7 @@ void InboundRouter::handle(InboundSplitter::Item& item, std::vector<PrintedLine>
     case InboundSplitter::Item::What::ProgramEnded:
       return end_program(item.text);
     case InboundSplitter::Item::What::ProgramFailed:
-      if (std::exchange(has_program_, false)) sink_.drop_program();
+      if (std::exchange(has_program_, false)) sink_.cut_off_program(failure_);
       return report("a program was cut off and not stored");
   }
 }

@@ -36,6 +36,8 @@ class InboundSink {
   /// It is complete. `name` as a rule, the protocol or its own text has it; may be empty.
   virtual void store_program(const std::string& name) = 0;
   virtual void drop_program() = 0;
+  /// It is not complete, and dropped.
+  virtual void cut_off_program(const std::string& /*why*/) { drop_program(); }
 
   /// To monitors of the line.
   virtual void note(const std::string& words) = 0;
@@ -79,6 +81,7 @@ class InboundRouter {
   bool has_program_ = false;
   std::string program_name_;  ///< as the protocol carried it
   bool is_in_transfer_ = false;
+  std::string failure_;        ///< why the transfer that comes in has failed
   std::string early_damage_;   ///< since the last program began; the next may begin after it
   std::vector<Call> waiting_;  ///< for the end of the transfer they came in; at most kMaxWaiting
 };

@@ -33,6 +33,9 @@ PortTransfer transfer_of(const dds::LineTransfer& transfer) {
           .programs = lines_of(transfer.programs),
           .size = transfer.size,
           .sent = transfer.sent,
+          // A gateway reports what has passed for certain.
+          .at_most =
+              transfer.state == dds::LineTransferState::Completed ? transfer.sent : transfer.size,
           .state = static_cast<TransferState>(transfer.state),
           .reason = transfer.reason};
 }

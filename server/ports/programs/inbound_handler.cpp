@@ -53,12 +53,15 @@ std::string InboundHandler::machine_control() const {
   return machine ? machine->control : std::string();
 }
 
+/// What cannot be stored now is tried again.
 void InboundHandler::begin_program() {
+  static_cast<void>(parts_.transfers->begin_reception());
   program_.emplace(parts_.programs, UploadedProgram::Origin{.machine = parts_.machine,
                                                             .control = machine_control()});
 }
 
 void InboundHandler::add_text(const std::string& text) {
+  parts_.transfers->note_received(text.size());
   // Its error comes again with the end.
   if (program_) (void)program_->append(text).has_value();
 }
@@ -70,7 +73,10 @@ void InboundHandler::damage(const std::string& how) {
 void InboundHandler::store_program(const std::string& name) {
   const auto stored = program_->store(name);
   program_.reset();
+  using End = storage::TransferState;
   if (!stored) {
+    parts_.transfers->end_reception(End::Interrupted, "",
+                                    "it was not stored: " + stored.error().what);
     process::log_error("uploaded program not stored machine={}: {}", parts_.machine,
                        stored.error().what);
     const bool is_full = stored.error().code == Errc::Io;
@@ -81,8 +87,23 @@ void InboundHandler::store_program(const std::string& name) {
                               .what);
   }
   const auto& revision = stored->revision;
+  parts_.transfers->end_reception(
+      End::Completed, fmt::format("{} revision {}", revision.program, revision.number), "");
   router_.report(fmt::format("program {} is revision {}{}", revision.program, revision.number,
                              revision.is_held ? ", held for acceptance" : ""));
+}
+
+/// It was a request, or a rule leaves it out.
+void InboundHandler::drop_program() {
+  program_.reset();
+  parts_.transfers->end_reception(storage::TransferState::Completed, "", "");
+}
+
+void InboundHandler::cut_off_program(const std::string& why) {
+  program_.reset();
+  parts_.transfers->end_reception(
+      storage::TransferState::Interrupted, "",
+      fmt::format("it was cut off, and nothing of it is stored: {}", why));
 }
 
 void InboundHandler::note(const std::string& words) {

@@ -9,6 +9,7 @@
 #include "gateway/line/inbound/inbound_router.hpp"
 #include "server/library/programs.hpp"
 #include "server/ports/line_records.hpp"
+#include "server/ports/programs/transfer_log.hpp"
 #include "server/ports/programs/uploaded_program.hpp"
 #include "server/ports/requests/remote_request_handler.hpp"
 
@@ -24,6 +25,7 @@ class InboundHandler final : private line::InboundSink {
     library::Programs& programs;
     const LineDirectory& directory;
     std::shared_ptr<LineRecords> records;
+    std::shared_ptr<TransferLog> transfers;
     std::string machine, port;
     std::shared_ptr<const line::RuleSet> rules;
     bool extracts_programs = false;    ///< a text with several programs becomes several
@@ -58,7 +60,8 @@ class InboundHandler final : private line::InboundSink {
   void add_text(const std::string& text) override;
   void damage(const std::string& how) override;
   void store_program(const std::string& name) override;
-  void drop_program() override { program_.reset(); }
+  void drop_program() override;
+  void cut_off_program(const std::string& why) override;
   void note(const std::string& words) override;
   void carry_out(line::RuleAction action, const std::string& argument) override;
   void answer(const std::string& words) override { calls_.report({words}); }

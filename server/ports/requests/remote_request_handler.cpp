@@ -1,6 +1,7 @@
 #include "server/ports/requests/remote_request_handler.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 #include "server/machines/start_point.hpp"
 #include "server/ports/line_runs.hpp"
 #include "server/ports/programs/program_stream.hpp"
+#include "server/ports/programs/transfer_log.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::ports {
@@ -311,11 +313,22 @@ Result<void> RemoteRequestHandler::check_last_run() const {
   if (is_sent_since_) return {};
   const auto run = broken_run(parts_.store.runs, parts_.machine, parts_.tells_aborts);
   if (!run) return fail(run.error());
-  if (!*run) return {};
+  if (!*run) return check_last_transfer();
   return fail(Errc::Conflict,
               "run {} of program {} was broken off, and the control may be asking for its rest: "
               "nothing is offered until a run or dnc port send has gone through",
               (*run)->id, (*run)->program);
+}
+
+Result<void> RemoteRequestHandler::check_last_transfer() const {
+  if (parts_.port.empty()) return {};
+  const auto sent = broken_transfer(parts_.store, parts_.port, parts_.machine, parts_.tells_aborts);
+  if (!sent) return fail(sent.error());
+  if (!*sent) return {};
+  return fail(Errc::Conflict,
+              "{} was broken off, and the control may be asking for its rest: nothing is offered "
+              "until a run or dnc port send has gone through",
+              fmt::join((*sent)->programs, ", "));
 }
 
 Result<std::vector<storage::ProgramSummary>> RemoteRequestHandler::programs() const {

@@ -34,7 +34,8 @@ class RemoteRequestHandler {
     std::shared_ptr<RequestedLine> line;
     const Clock& clock;
     std::string machine;
-    std::string reply;  ///< the program that messages come in; empty: none do
+    std::string port = {};  ///< whose transfers the store has; empty: it has none
+    std::string reply;      ///< the program that messages come in; empty: none do
     wire::Offer offer = wire::Offer::None;
     bool refuses = false;  ///< a request that is not answered at once is worth nothing: blockwise
     bool tells_aborts =
@@ -89,6 +90,7 @@ class RemoteRequestHandler {
   void send_listing(bool is_request);
   void send_next();
   Result<void> check_last_run() const;
+  Result<void> check_last_transfer() const;
   Result<void> check_last_offer();
   /// The audit entry comes before the control gets anything.
   Result<void> note(std::string action, std::string subject, std::string detail) const;
