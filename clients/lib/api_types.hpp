@@ -259,8 +259,10 @@ struct Transfer {
   std::string id;
   std::vector<std::string> programs;
   std::uint64_t size = 0, sent = 0;
-  std::string state;  ///< sending, completed, aborted, interrupted
+  std::uint64_t at_most = 0;  ///< bytes that may have passed the line
+  std::string state;          ///< sending, receiving, completed, aborted, interrupted
   std::string reason;
+  std::string began, ended;
 };
 
 struct Port {
@@ -278,7 +280,8 @@ struct Port {
     bool without_limit = false;
   } line;
   std::string run;
-  std::optional<Transfer> transfer;  ///< the latest
+  std::optional<Transfer> transfer;   ///< the latest
+  std::optional<Transfer> reception;  ///< the latest program that came
   std::uint64_t sent = 0, received = 0;
   std::string waiting_since;
   /// The control's latest request that came while no run waited.

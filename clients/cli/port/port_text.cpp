@@ -36,7 +36,29 @@ std::string transfer_text(const std::optional<client::Transfer>& transfer) {
   if (!transfer) return {};
   std::string text = transfer->state + ":";
   for (const auto& program : transfer->programs) text += " " + program;
-  return text + fmt::format(", {} of {}", bytes_text(transfer->sent), bytes_text(transfer->size));
+  text += fmt::format(", {} of {}", bytes_text(transfer->sent), bytes_text(transfer->size));
+  const bool is_uncertain = transfer->state == "interrupted" && transfer->at_most > transfer->sent;
+  if (is_uncertain) text += fmt::format(", at most {}", bytes_text(transfer->at_most));
+  return transfer->reason.empty() ? text : text + ": " + transfer->reason;
+}
+
+std::string reception_text(const std::optional<client::Transfer>& reception) {
+  if (!reception) return {};
+  std::string text = reception->state + ":";
+  for (const auto& program : reception->programs) text += " " + program;
+  text +=
+      fmt::format("{}{}", reception->programs.empty() ? " " : ", ", bytes_text(reception->sent));
+  return reception->reason.empty() ? text : text + ": " + reception->reason;
+}
+
+/// The line's own fault, else what was broken off on it last.
+std::string listed_fault(const client::Port& port) {
+  if (!port.fault.empty()) return port.fault;
+  if (port.transfer && port.transfer->state == "interrupted")
+    return "transfer " + transfer_text(port.transfer);
+  if (port.reception && port.reception->state == "interrupted")
+    return "reception " + reception_text(port.reception);
+  return {};
 }
 
 std::string rules_text(const std::string& rules) {
@@ -121,6 +143,7 @@ Details port_details(const client::Port& port) {
   details.add("run", port.run);
   details.add("request", request_text(port.request));
   details.add("transfer", transfer_text(port.transfer));
+  details.add("reception", reception_text(port.reception));
   details.add("sent", bytes_text(port.sent));
   details.add("received", bytes_text(port.received));
   details.add("rules", rules_text(port.rules));
@@ -130,10 +153,11 @@ Details port_details(const client::Port& port) {
 namespace {
 
 void add_row(Table& table, const client::Port& port, const std::string& now) {
+  const std::string fault = listed_fault(port);
   table.add({port.name, port.machine, port.address, line_text(port.effective),
              Cell(short_state(port), style_of_state(port)), wait_text(port, now),
              short_id(port.run), bytes_text(port.sent), bytes_text(port.received),
-             Cell(port.fault, port.fault.empty() ? Style::Plain : Style::Bad)});
+             Cell(fault, fault.empty() ? Style::Plain : Style::Bad)});
 }
 
 void print_template(Context& context, const client::PortTemplates& all,

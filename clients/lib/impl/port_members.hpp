@@ -9,6 +9,9 @@ namespace dripline::client {
 template <class V>
 void members(V& v, Is<Transfer> auto& x) {
   DRIPLINE_MEMBERS(id, programs, size, sent, state, reason);
+  v.later("at_most", x.at_most);
+  v.later("began", x.began);
+  v.later("ended", x.ended);
 }
 
 template <class V>
@@ -28,6 +31,7 @@ void members(V& v, Is<Port> auto& x) {
   DRIPLINE_MEMBERS(settings, rules, enabled, effective, open, fault, line, run, transfer, sent,
                    received, waiting_since);
   v.later("request", x.request);
+  v.later("reception", x.reception);
 }
 
 template <class V>

@@ -60,8 +60,11 @@ json transfer_json(const ports::PortTransfer& transfer) {
           {"programs", transfer.programs},
           {"size", transfer.size},
           {"sent", transfer.sent},
+          {"at_most", transfer.at_most},
           {"state", to_string(transfer.state)},
-          {"reason", text_or_null(transfer.reason)}};
+          {"reason", text_or_null(transfer.reason)},
+          {"began", time_or_null(transfer.began)},
+          {"ended", time_or_null(transfer.ended)}};
 }
 
 json port_json(const ports::PortView& view) {
@@ -78,6 +81,7 @@ json port_json(const ports::PortView& view) {
           {"line", line_json(view.line)},
           {"run", text_or_null(view.run)},
           {"transfer", view.transfer ? transfer_json(*view.transfer) : json(nullptr)},
+          {"reception", view.reception ? transfer_json(*view.reception) : json(nullptr)},
           {"sent", view.sent},
           {"received", view.received},
           {"waiting_since", time_or_null(view.waiting_since)},

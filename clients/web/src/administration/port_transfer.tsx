@@ -10,9 +10,9 @@ import { bytesText, texts } from '../texts/texts';
 
 const kMaxListed = 1000;
 
-function TransferState({ transfer }: { transfer: NonNullable<Transfer> }) {
+export function TransferState({ transfer }: { transfer: NonNullable<Transfer> }) {
   const t = texts().ports;
-  const isOver = transfer.state !== 'sending';
+  const isOver = transfer.state !== 'sending' && transfer.state !== 'receiving';
   return (
     <div class={`notice ${isOver && transfer.state !== 'completed' ? 'bad' : ''}`} role="status">
       <p><b>{t.transferStates[transfer.state]}</b>: {transfer.programs.join(', ')} ({t.sentOf(bytesText(transfer.sent), bytesText(transfer.size))})</p>
@@ -49,6 +49,7 @@ export function PortTransfer({ port, onChanged }: { port: Port; onChanged: () =>
         <CommandFault command={command} />
       </Allowed>
       {port.transfer && <TransferState transfer={port.transfer} />}
+      {port.reception && <TransferState transfer={port.reception} />}
     </div>
   );
 }

@@ -11,7 +11,7 @@ import { download } from '../programs/download';
 import { bytesText, dateTimeText, texts } from '../texts/texts';
 import { LineMonitor } from './line_monitor';
 import { PortForm } from './port_form';
-import { PortTransfer, RulesTest } from './port_transfer';
+import { PortTransfer, RulesTest, TransferState } from './port_transfer';
 
 const kIntervalMs = 3000;
 
@@ -69,6 +69,7 @@ function PortCard({ port, onChanged }: { port: Port; onChanged: () => void }) {
       <CommandFault command={command} />
       {shown === 'monitor' && <LineMonitor port={port.name} />}
       {(shown === 'transfer' || port.transfer?.state === 'sending') && <PortTransfer port={port} onChanged={onChanged} />}
+      {shown !== 'transfer' && [port.transfer, port.reception].map((one) => one?.state === 'interrupted' && <TransferState key={one.id} transfer={one} />)}
       {shown === 'rules' && <RulesTest port={port.name} />}
       {shown === 'settings' && <Allowed to="administer"><PortForm port={port} onStored={() => { setShown(null); onChanged(); }} /></Allowed>}
     </li>

@@ -56,6 +56,7 @@ json port_json(const std::string& name) {
             {"without_limit", false}}},
           {"run", nullptr},
           {"transfer", nullptr},
+          {"reception", nullptr},
           {"sent", 0},
           {"received", 0},
           {"waiting_since", nullptr},

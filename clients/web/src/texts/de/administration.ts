@@ -167,7 +167,7 @@ export const administration: typeof Shape = {
     receive: 'Empfangen',
     receiveHint: 'Fordert von einer XMODEM-Steuerung etwa zwei Minuten lang ein Programm an',
     stop: 'Beenden',
-    transferStates: { sending: 'Sendet', completed: 'Gesendet', aborted: 'Abgebrochen', interrupted: 'Unterbrochen' },
+    transferStates: { sending: 'Sendet', receiving: 'Empfängt', completed: 'Gesendet', aborted: 'Abgebrochen', interrupted: 'Unterbrochen' },
     sentOf: (sent, size) => `${sent} von ${size}`,
     asked: (program, time) => `Die Steuerung hat ${program} angefordert, ${time}.`,
     anyProgram: 'ein Programm',

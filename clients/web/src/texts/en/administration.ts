@@ -165,7 +165,7 @@ export const administration = {
     receive: 'Receive',
     receiveHint: 'Asks an XMODEM control for a program for about two minutes',
     stop: 'Stop',
-    transferStates: { sending: 'Sending', completed: 'Sent', aborted: 'Aborted', interrupted: 'Interrupted' },
+    transferStates: { sending: 'Sending', receiving: 'Receiving', completed: 'Sent', aborted: 'Aborted', interrupted: 'Interrupted' },
     sentOf: (sent: string, size: string) => `${sent} of ${size}`,
     asked: (program: string, time: string) => `The control asked for ${program}, ${time}.`,
     anyProgram: 'a program',
