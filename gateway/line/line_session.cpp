@@ -46,11 +46,14 @@ LineSession::LineSession(const wire::LineSettings& settings, SessionHost& host)
       is_checked_(is_checked_flow(settings.flow)),
       ahead_(ahead_of(settings)),
       idle_end_(settings.flow == wire::Flow::DcCodes ? std::chrono::milliseconds(0)
-                                                     : settings.idle_end) {}
+                                                     : settings.idle_end),
+      rest_gap_(settings.flow == wire::Flow::DcCodes ? std::chrono::milliseconds(0)
+                                                     : settings.rest_gap) {}
 
 Result<void> LineSession::begin(SendJob job, wire::Discipline& line, wire::LineTime now) {
   if (sending_) return fail(Errc::Busy, "the line is sending {}", sending_->job.id);
   opened_.reset();  // what it prints from now on it prints for this
+  is_rest_due_ = false;
   Sending sending;
   sending.job = std::move(job);
   sending_ = std::move(sending);
@@ -192,6 +195,7 @@ Result<void> LineSession::begin_receive(wire::Discipline& line, wire::LineTime n
   if (is_receiving_) return fail(Errc::Busy, "the line is receiving");
   if (auto begun = line.begin_receive("", now); !begun) return begun;
   is_receiving_ = is_asking_ = true;
+  is_rest_due_ = false;
   host_.on_incoming({.what = Incoming::What::Began, .text = {}, .is_program = true});
   return {};
 }
@@ -272,10 +276,7 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
     if (!began->is_receiving) return;
     if (std::exchange(is_asking_, false)) return;  // reported when it was requested
     is_receiving_ = true;
-    const auto opened = std::exchange(opened_, std::nullopt);
-    host_.on_incoming({.what = Incoming::What::Began,
-                       .text = std::move(began->name),
-                       .may_be_rest = opened && now - *opened < idle_end_});
+    begin_receiving(std::move(began->name), now);
   } else if (const auto* ended = std::get_if<wire::TransferEnded>(&event)) {
     if (ended->is_receiving) {
       return end_receiving({.what = Incoming::What::Ended, .text = {}, .is_cut = ended->is_cut});
@@ -299,6 +300,17 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
   } else if (std::get_if<wire::ReleaseRefused>(&event) != nullptr) {
     host_.on_release_refused();
   }
+}
+
+/// A character that begins each text of itself (DC2) begins no rest.
+void LineSession::begin_receiving(std::string name, wire::LineTime now) {
+  const auto opened = std::exchange(opened_, std::nullopt);
+  const bool is_due = std::exchange(is_rest_due_, false) && opened && now - *opened < kRestLimit;
+  const bool is_first = opened && now - *opened < rest_gap_;
+  host_.on_incoming({.what = Incoming::What::Began,
+                     .text = std::move(name),
+                     .may_be_rest = is_due || (opened && now - *opened < idle_end_),
+                     .is_first = is_first});
 }
 
 /// Both directions may have been active; the one that the line still does has not failed.

@@ -66,6 +66,9 @@ struct Incoming {
   /// Began: just after the line was opened, before anything was sent, so that it may be the rest of
   /// what came before.
   bool may_be_rest = false;
+  /// Began: the first since the line was opened, not long after: it may be the rest of what the
+  /// control began before, though a silence was between.
+  bool is_first = false;
   /// Ended: by silence, so its last line may not be whole. Damaged: text is missing.
   bool is_cut = false;
 };
@@ -102,6 +105,8 @@ class LineSession {
   static constexpr std::size_t kMaxBacklog = 1024 * 1024;
   /// A run that waits for a lost line to come back is given up after this.
   static constexpr std::chrono::minutes kLineLimit{5};
+  /// How long the rest of a program that was cut off is expected.
+  static constexpr std::chrono::minutes kRestLimit{10};
 
   LineSession(const wire::LineSettings& settings, SessionHost& host);
 
@@ -130,6 +135,9 @@ class LineSession {
   /// characters sent may be lost, so only a run of which nothing was sent waits for the line.
   void on_lost(const Error& error, wire::Discipline& line);
   void on_open(wire::Discipline& line, wire::LineTime now);
+  /// A program that the control was sending was cut off before this object was created: what comes
+  /// first after the line is open is its rest, when it comes within kRestLimit.
+  void expect_rest() { is_rest_due_ = true; }
   /// Called some times a second.
   void poll(wire::Discipline& line, wire::LineTime now);
   /// The owner stops, and the line has stopped in that state: what is in progress ends, with all
@@ -161,6 +169,7 @@ class LineSession {
   void note_offer(std::size_t size);
   void finish(SendOutcome outcome, std::string reason);
   void on_failed(const Error& error, wire::Discipline& line);
+  void begin_receiving(std::string name, wire::LineTime now);
   void end_receiving(Incoming incoming);
   void lose_text();
   void take_text(std::string text, wire::Discipline& line, wire::LineTime now);
@@ -170,7 +179,10 @@ class LineSession {
   const std::size_t ahead_;
   /// Silence between two texts of a control; 0: a character begins each.
   const std::chrono::milliseconds idle_end_;
+  /// Silence since the line was opened after which a text is no rest; 0: there are none.
+  const std::chrono::milliseconds rest_gap_;
   std::optional<wire::LineTime> opened_;  ///< and nothing was sent or received since
+  bool is_rest_due_ = false;
   std::optional<Sending> sending_;
   bool is_receiving_ = false;
   bool is_asking_ = false;  ///< what begins next was requested, and reported, by the server

@@ -33,7 +33,9 @@ PortLine::PortLine(Parts parts)
     : parts_(std::move(parts)),
       recorder_(parts_.recording, parts_.clock, parts_.on_traffic),
       losses_(parts_.names.address),
-      session_(parts_.settings, *this) {}
+      session_(parts_.settings, *this) {
+  if (parts_.is_upload_broken) session_.expect_rest();
+}
 
 std::shared_ptr<PortLine> PortLine::make(Parts parts) {
   return std::shared_ptr<PortLine>(new PortLine(std::move(parts)));

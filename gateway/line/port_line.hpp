@@ -57,6 +57,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
     std::function<void(const PortTraffic&)> on_traffic;
     PortListener listener;
     bool is_program_broken = false;  ///< Discipline::expect_release
+    bool is_upload_broken = false;   ///< LineSession::expect_rest
   };
   /// Called as a task, once, with what came of it.
   using Answer = std::function<void(const Result<void>&)>;

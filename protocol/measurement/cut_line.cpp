@@ -14,4 +14,10 @@ std::string cut_line(std::string line) {
   return line += kCutLine;
 }
 
+/// Room is left for the other end.
+std::string rest_line(std::string line) {
+  line.resize(std::min(line.size(), kMaxText - kCutLine.size() - kRestLine.size()));
+  return line += kRestLine;
+}
+
 }  // namespace dripline::measurement

@@ -115,6 +115,9 @@ struct LineSettings {
   std::chrono::microseconds character_delay{0};  ///< pause after each character
   /// Silence that ends a text which a control punches without an end character.
   std::chrono::milliseconds idle_end{2000};
+  /// Silence after the line was opened, after which what a control prints is no rest of what it
+  /// began to send before.
+  std::chrono::milliseconds rest_gap{10000};
   /// As a host: how long a program waits for the control to begin (DC1, the first NAK, a heading,
   /// the reader's start); nullopt: no limit.
   std::optional<std::chrono::milliseconds> start_limit;

@@ -230,6 +230,9 @@ constexpr std::array kRows{
     duration<"char_delay_us", &S::character_delay>("pause after each character"),
     duration<"idle_end_ms", &S::idle_end>(
         "silence that ends a received program without an end_char"),
+    duration<"rest_gap_ms", &S::rest_gap>(
+        "silence after the line was opened (server started, taken over): what the control prints "
+        "sooner is marked, as it may be the rest of an earlier transmission"),
     limit<"start_limit_ms", &S::start_limit>("longest wait for the control to begin a program"),
     limit<"answer_limit_ms", &S::answer_limit>("longest wait for the other end's answer"),
     limit<"hold_limit_ms", &S::hold_limit>("longest wait for XON or CTS while held"),

@@ -10,7 +10,7 @@
 namespace dripline::integration {
 namespace {
 
-const std::vector<std::string> kSettings{"baud=115200", "idle_end_ms=300"};
+const std::vector<std::string> kSettings{"baud=115200", "idle_end_ms=300", "rest_gap_ms=300"};
 constexpr const char* kProgram = "O0077\nG20 G98\nP10=7\nPOPEN P1\nDPRNT [DONE]\nPCLOS\nM30\n";
 
 wire::LineSettings host_settings() {

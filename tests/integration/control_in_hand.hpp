@@ -20,8 +20,10 @@ class ControlInHand : public testing::Test {
  protected:
   void start(const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{
-        "--motion",  "line:" + cable_.host(), "--line-template", "centurion",    "--line-setting",
-        "115200e72", "--line-setting",        "idle_end_ms=300", "--unattended", "yes"};
+        "--motion",        "line:" + cable_.host(), "--line-template",
+        "centurion",       "--line-setting",        "115200e72",
+        "--line-setting",  "idle_end_ms=300",       "--line-setting",
+        "rest_gap_ms=300", "--unattended",          "yes"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     system_.emplace(System::Options{
         .speed = "1x", .server_arguments = {}, .gateway_arguments = std::move(arguments)});

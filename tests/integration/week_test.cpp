@@ -127,7 +127,7 @@ TEST_F(Week, OfACamGroup) {
   // Thursday: an operator lowers the feed at a control and punches the program.
   PunchingControl control;
   good(shop_.dnc("port add line-2 --machine lathe-2 --address " + control.address() +
-                     " --template centurion idle_end_ms=300",
+                     " --template centurion idle_end_ms=300 rest_gap_ms=300",
                  "token"));
   control.punch(kOnTheFloor);
   json waiting;

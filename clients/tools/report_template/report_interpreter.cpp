@@ -46,9 +46,10 @@ Taken ReportInterpreter::take(const ReportLine& line) {
     take_cut(line.text, taken);
     return taken;
   }
+  const std::string_view printed = measurement::printed_line(line.text);
   const std::string made =
-      line.kind == "probe" ? line_of_probe(line.text, template_->probe_axes) : std::string();
-  const std::string_view text = line.kind == "probe" ? std::string_view(made) : line.text;
+      line.kind == "probe" ? line_of_probe(printed, template_->probe_axes) : std::string();
+  const std::string_view text = line.kind == "probe" ? std::string_view(made) : printed;
   if (!state_.last_end.empty() && state_.last_end != kept_line(trimmed(text)))
     state_.last_end.clear();
   if (state_.partial && take_partial(text, taken)) return taken;

@@ -52,6 +52,7 @@ std::vector<InboundSplitter::Item> InboundRouter::split(const Incoming& incoming
       program_name_ = incoming.text;
       splitter_.take_programs_only(sink_.sends_programs_only());
       if (incoming.may_be_rest) splitter_.expect_rest();
+      if (incoming.may_be_rest || incoming.is_first) splitter_.mark_rest();
       splitter_.begin(incoming.text, incoming.is_program);
       break;
     case Incoming::What::Text:
@@ -94,6 +95,7 @@ void InboundRouter::handle_line(const InboundSplitter::Item& line,
   if (hit.action == RuleAction::Ignore) return;
   if (hit.action != RuleAction::Report) return call(hit.action, hit.argument);
   std::string text = printed_text(line.text);
+  if (line.may_be_rest) text = measurement::rest_line(std::move(text));
   if (line.is_cut) text = measurement::cut_line(std::move(text));
   lines.push_back({std::move(text), hit.is_probe});
 }

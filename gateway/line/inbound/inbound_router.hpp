@@ -13,7 +13,8 @@ namespace dripline::line {
 
 /// A line that a control printed.
 struct PrintedLine {
-  /// Control characters other than TAB are escaped; one that is not whole ends with kCutLine.
+  /// Control characters other than TAB are escaped; one that is not whole ends with kCutLine, one
+  /// that may be of an earlier transmission with kRestLine, before that.
   std::string text;
   bool is_probe = false;
 };

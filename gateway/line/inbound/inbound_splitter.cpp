@@ -46,8 +46,7 @@ std::vector<InboundSplitter::Item> InboundSplitter::take(std::string_view text) 
     if (is_program_) {
       add_to_program(std::exchange(line_, {}));
     } else {
-      items_.push_back(
-          {.what = Item::What::Line, .text = std::exchange(line_, {}), .is_cut = true});
+      add_line(std::exchange(line_, {}), true);
     }
   }
   if (is_program_) flush_program();
@@ -105,11 +104,18 @@ void InboundSplitter::take_line(const std::string& line, bool is_cut) {
   if (!is_program_line(line)) {
     is_printing_ = is_printing_ || std::exchange(is_after_percent_, false);
     has_rest_ = has_rest_ || takes_programs_only_;
-    items_.push_back({.what = Item::What::Line, .text = line, .is_cut = is_cut});
+    add_line(line, is_cut);
     return;
   }
   begin_program_with(line);
   add_to_program(line + "\n");
+}
+
+void InboundSplitter::add_line(std::string text, bool is_cut) {
+  items_.push_back({.what = Item::What::Line,
+                    .text = std::move(text),
+                    .is_cut = is_cut,
+                    .may_be_rest = is_marking_});
 }
 
 bool InboundSplitter::may_be_program() const {
@@ -126,6 +132,7 @@ void InboundSplitter::begin_program_with(const std::string& line) {
 
 void InboundSplitter::begin_program() {
   is_program_ = true;
+  is_marking_ = false;
   blocks_ = 0;
   programs_ = {};
   head_.clear();
@@ -159,6 +166,7 @@ std::vector<InboundSplitter::Item> InboundSplitter::end() {
   if (is_program_) end_program();
   name_.clear();
   is_after_percent_ = is_printing_ = may_be_rest_ = is_first_of_rest_ = has_rest_ = false;
+  is_marking_ = false;
   return taken();
 }
 

@@ -31,7 +31,8 @@ class InboundSplitter {
     };
     What what = What::Line;
     std::string text;
-    bool is_cut = false;  ///< Line: without its end of block, or text of it is missing
+    bool is_cut = false;       ///< Line: without its end of block, or text of it is missing
+    bool may_be_rest = false;  ///< Line: of what was begun before this transfer
   };
 
   explicit InboundSplitter(const RuleSet& rules, bool extracts = false)
@@ -43,6 +44,9 @@ class InboundSplitter {
   /// what begins as a program is one, also of such a control; not where that line is the end of
   /// a comment. Until the transfer is over.
   void expect_rest() { may_be_rest_ = is_first_of_rest_ = is_lost_ = true; }
+  /// Lines say that they may be the rest of an earlier transmission, until a program begins or the
+  /// transfer is over.
+  void mark_rest() { is_marking_ = true; }
   /// Text was printed that would have been a program otherwise.
   bool has_rest() const { return has_rest_; }
   /// A transfer begins; one with a name, or a requested one, is a program and nothing else.
@@ -61,6 +65,7 @@ class InboundSplitter {
 
  private:
   void end_line(bool is_cut = false);
+  void add_line(std::string text, bool is_cut);
   void take_line(const std::string& line, bool is_cut);
   bool is_program_line(const std::string& line) const;
   bool takes_any() const { return takes_programs_only_ && !may_be_rest_; }
@@ -76,6 +81,7 @@ class InboundSplitter {
   const bool extracts_;
   bool takes_programs_only_ = false;
   bool may_be_rest_ = false, is_first_of_rest_ = false, has_rest_ = false;
+  bool is_marking_ = false;
   interpreter::centurion::ProgramSplitter programs_;  ///< of the text in hand
   std::vector<Item> items_;
   std::string line_;   ///< not complete

@@ -25,7 +25,7 @@ struct Protocol {
 class LineProtocol : public testing::TestWithParam<Protocol> {};
 
 TEST_P(LineProtocol, FeedsRunsAndPrintsBack) {
-  std::vector<std::string> settings{"baud=38400", "idle_end_ms=300"};
+  std::vector<std::string> settings{"baud=38400", "idle_end_ms=300", "rest_gap_ms=300"};
   settings.insert(settings.end(), GetParam().settings.begin(), GetParam().settings.end());
   wire::LineSettings host_settings;
   for (const std::string& change : settings) {

@@ -23,7 +23,7 @@ using test_support::PtyCable;
 class ServedLine {
  public:
   explicit ServedLine(std::vector<std::string> settings, const std::string& request = "") {
-    settings.insert(settings.end(), {"line=115200n81", "idle_end_ms=300"});
+    settings.insert(settings.end(), {"line=115200n81", "idle_end_ms=300", "rest_gap_ms=300"});
     system.start_server();
     nlohmann::json changes = nlohmann::json::object();
     for (const std::string& setting : settings) {

@@ -22,8 +22,8 @@ using test_support::eventually;
 using test_support::HostLine;
 using test_support::PtyCable;
 
-const std::vector<std::string> kSettings{"baud=115200", "data_bits=7", "parity=even", "stop_bits=1",
-                                         "idle_end_ms=300"};
+const std::vector<std::string> kSettings{"baud=115200", "data_bits=7",     "parity=even",
+                                         "stop_bits=1", "idle_end_ms=300", "rest_gap_ms=300"};
 
 wire::LineSettings host_settings(const std::vector<std::string>& changes = kSettings) {
   wire::LineSettings settings = (*wire::find_template("centurion"))->settings;

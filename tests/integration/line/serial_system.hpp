@@ -27,7 +27,8 @@ class SerialSystem {
   };
   explicit SerialSystem(Options options) : options_(std::move(options)) {
     options_.settings.insert(options_.settings.end(),
-                             {"line=" + options_.line, "idle_end_ms=" + options_.idle_end_ms});
+                             {"line=" + options_.line, "idle_end_ms=" + options_.idle_end_ms,
+                              "rest_gap_ms=" + options_.idle_end_ms});
     std::vector<std::string> arguments{"--motion", "line:" + cable.host(), "--line-template",
                                        "centurion"};
     for (const std::string& setting : options_.settings)

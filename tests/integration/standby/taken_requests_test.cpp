@@ -89,8 +89,13 @@ TEST_F(TakenRequests, AProgramThatWasCutOffIsNotStoredByEither) {
   EXPECT_TRUE(held()["imports"].empty()) << held();
   EXPECT_EQ(shop_->rest(1).get("/api/v1/programs/O77").status, 404);
   EXPECT_TRUE(report().starts_with(text.substr(200, text.find('\n', 200) - 200) +
+                                   " \xe2\x80\xa6 (may be the rest of an earlier transmission)"
                                    " \xe2\x80\xa6 (line not ended)\n"))
       << report();
+  EXPECT_EQ(port(1)["reception"].value("state", ""), "interrupted") << port(1).dump();
+  EXPECT_NE(port(1)["reception"].value("reason", "").find("nothing of it is stored"),
+            std::string::npos)
+      << port(1).dump();
   device_.write(text);
   ASSERT_TRUE(eventually([&] { return held()["imports"].size() == 1; })) << port(1).dump();
   EXPECT_EQ(shop_->rest(1).get("/api/v1/programs/O77/content?revision=1").body, text);

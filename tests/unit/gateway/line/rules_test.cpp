@@ -241,6 +241,26 @@ TEST(InboundSplitter, TakesTheRestOfATextForNoProgram) {
   EXPECT_EQ(whole(splitter, "%\nO1\nM30\n%\n"), "P<:%\nO1\nM30\n%\n>");
 }
 
+TEST(InboundSplitter, MarksLinesUntilAProgramBeginsOrTheTransferIsOver) {
+  const RuleSet none;
+  InboundSplitter splitter(none);
+  const auto marked = [&](std::vector<InboundSplitter::Item> items) {
+    std::string words;
+    for (const auto& item : items)
+      if (item.what == InboundSplitter::Item::What::Line)
+        words += item.text + (item.may_be_rest ? "? " : "! ");
+    return words;
+  };
+  splitter.mark_rest();
+  EXPECT_EQ(marked(splitter.take("V 1\nV 2\n")), "V 1? V 2? ");
+  EXPECT_EQ(marked(splitter.take("O1\nM30\n")), "");
+  EXPECT_EQ(marked(splitter.end()), "");
+  EXPECT_EQ(marked(splitter.take("V 3\n")), "V 3! ");
+  splitter.mark_rest();
+  EXPECT_EQ(marked(splitter.end_silent()), "");
+  EXPECT_EQ(marked(splitter.take("V 4\n")), "V 4! ");
+}
+
 TEST(InboundSplitter, KnowsPrintedLinesFromWhatMayBeAProgram) {
   const RuleSet none;
   InboundSplitter splitter(none);

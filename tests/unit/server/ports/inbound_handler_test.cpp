@@ -1,3 +1,4 @@
+#include "protocol/measurement/cut_line.hpp"
 #include "tests/support/store_decorator.hpp"
 #include "tests/unit/server/ports/port_fixture.hpp"
 
@@ -57,6 +58,7 @@ TEST_F(PortServiceTest, PutsPrintedLinesIntoTheReportOfTheRun) {
 TEST_F(PortServiceTest, MarksALineThatSilenceEnds) {
   start_ports();
   add_port(mill(kCalls));
+  let_pass_idle_end();
   line().write("D40 40.0");
   ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 1; }));
   line().write("9\n");
@@ -64,6 +66,42 @@ TEST_F(PortServiceTest, MarksALineThatSilenceEnds) {
   const auto records = *store_->records.machine_report("mill", {}, 100);
   EXPECT_EQ(records[0].text, "D40 40.0 \xe2\x80\xa6 (line not ended)");
   EXPECT_EQ(records[1].text, "9");
+}
+
+/// A control that pauses longer than `idle_end_ms` continues what another server has begun to take.
+TEST_F(PortServiceTest, MarksWhatComesSoonAfterTheLineWasOpened) {
+  start_ports();
+  auto port = mill(kCalls);
+  for (auto& [key, value] : port.settings)
+    if (key == "rest_gap_ms") value = "10000";
+  add_port(port);
+  let_pass_idle_end();
+  line().write("D40 40.02\nPROBE Z-1.125\n");
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 2; }));
+  let_pass_idle_end();
+  line().write("D41 41.02\n");
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 3; }));
+  const auto records = *store_->records.machine_report("mill", {}, 100);
+  const std::string mark = " \xe2\x80\xa6 (may be the rest of an earlier transmission)";
+  EXPECT_EQ(records[0].text, "D40 40.02" + mark) << "whole, but of what?";
+  EXPECT_EQ(records[1].text, "PROBE Z-1.125" + mark);
+  EXPECT_EQ(records[2].text, "D41 41.02") << "after a silence it is another transmission";
+}
+
+TEST_F(PortServiceTest, AProgramSoonAfterTheLineWasOpenedIsNoRest) {
+  start_ports();
+  add_machine("mill");
+  auto port = mill();
+  for (auto& [key, value] : port.settings)
+    if (key == "rest_gap_ms") value = "10000";
+  add_port(port);
+  let_pass_idle_end();
+  line().write("N9 G0\n%\nO77\nM30\n%\n");
+  ASSERT_TRUE(wait([&] { return store_->programs.revision("O77", 1).has_value(); }));
+  const auto records = *store_->records.machine_report("mill", {}, 100);
+  ASSERT_EQ(records.size(), 1u);
+  EXPECT_TRUE(measurement::may_be_rest(records[0].text)) << records[0].text;
+  EXPECT_EQ(measurement::printed_line(records[0].text), "N9 G0");
 }
 
 std::vector<std::string> texts_of(const std::vector<storage::Record>& records) {

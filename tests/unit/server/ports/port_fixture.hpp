@@ -55,7 +55,8 @@ class PortServiceTest : public ServerTest {
     port.name = "com1";
     port.machine = "mill";
     port.address = "/dev/line1";
-    port.settings = {{"baud", "115200"}, {"idle_end_ms", "60"}, {"eob", "lf"}};
+    port.settings = {
+        {"baud", "115200"}, {"idle_end_ms", "60"}, {"rest_gap_ms", "60"}, {"eob", "lf"}};
     port.rules = rules;
     return port;
   }

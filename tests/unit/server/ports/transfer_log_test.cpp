@@ -210,5 +210,22 @@ TEST_F(TransferLogTest, OfWhatComesHasItsProgramWithItsEnd) {
   EXPECT_TRUE(wait([&] { return has_audited("port.received", "nothing of it is stored"); }));
 }
 
+/// However long the control pauses: its rest is no program.
+TEST_F(TransferLogTest, OfACutOffProgramKnowsItsRest) {
+  add_mill();
+  leave_active(TransferDirection::Receive, 100, 100);
+  start_again();
+  EXPECT_EQ(ports_->port("com1")->reception->state, line::TransferState::Interrupted);
+  EXPECT_TRUE(has_audited("port.received", "at least 100 bytes had come"));
+  let_pass_idle_end();
+  let_pass_idle_end();
+  line().write("0 X5\nN6 G1\n");
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 2; }));
+  const auto records = *store_->records.machine_report("mill", {}, 100);
+  const std::string rest = " \xe2\x80\xa6 (may be the rest of an earlier transmission)";
+  EXPECT_EQ(records[0].text, "0 X5" + rest + " \xe2\x80\xa6 (line not ended)");
+  EXPECT_EQ(records[1].text, "N6 G1" + rest);
+}
+
 }  // namespace
 }  // namespace dripline::server_test
