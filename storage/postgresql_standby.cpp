@@ -111,7 +111,9 @@ Result<void> PostgresqlStandby::note() {
   }
   const auto now = SteadyClock::now();
   if (noted && now - *noted < kNoteEvery) return {};
-  auto done = note_waiting(connection_->database, options_.holder, options_.described);
+  auto done = note_waiting(
+      connection_->database, options_.holder,
+      note_.empty() ? options_.described : fmt::format("{} ({})", options_.described, note_));
   if (done) noted = now;
   return done;
 }

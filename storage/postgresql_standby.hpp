@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "protocol/base/result.hpp"
 
@@ -44,6 +45,9 @@ class PostgresqlStandby {
   /// nothing is handed over to it. From the next look on.
   void set_able(bool is_able) { is_able_ = is_able; }
 
+  /// For people who look at the active server: what this one would lack. From the next look on.
+  void set_note(std::string note) { note_ = std::move(note); }
+
   /// Whether a token of this user and name is kept in the database, and is not this secret. Errors:
   /// Io.
   Result<bool> has_other_token(const std::string& user, const std::string& name,
@@ -59,6 +63,7 @@ class PostgresqlStandby {
 
   const Options options_;
   bool is_able_ = true;
+  std::string note_;
   std::unique_ptr<Connection> connection_;  ///< null: not connected
 };
 

@@ -1,7 +1,12 @@
 #include "server/api/http_address.hpp"
 
 #include <arpa/inet.h>
+#include <sys/socket.h>
+#include <cerrno>
 #include <charconv>
+#include <system_error>
+
+#include "protocol/base/descriptor.hpp"
 
 namespace dripline::api {
 namespace {
@@ -56,6 +61,36 @@ Result<HttpAddress> parse_http_address(std::string_view text) {
   address.port = *port;
   if (auto good = read_host(address); !good) return fail(good.error());
   return address;
+}
+
+Result<void> check_free(const HttpAddress& address) {
+  if (address.port == 0) return {};
+  const int family = address.is_ipv6 ? AF_INET6 : AF_INET;
+  const Descriptor socket(::socket(family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  const int yes = 1;
+  // As a server that listens does: connections that have ended keep no address occupied.
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  int failed = 0;
+  if (address.is_ipv6) {
+    sockaddr_in6 place{};
+    place.sin6_family = AF_INET6;
+    place.sin6_port = htons(address.port);
+    ::inet_pton(AF_INET6, address.host.c_str(), &place.sin6_addr);
+    failed = ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&place), sizeof place);
+  } else {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_port = htons(address.port);
+    ::inet_pton(AF_INET, address.host.c_str(), &place.sin_addr);
+    failed = ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&place), sizeof place);
+  }
+  if (failed == 0) failed = ::listen(socket.get(), 1);
+  if (failed == 0) return {};
+  const int error = errno;
+  if (error == EADDRINUSE) return fail(Errc::Busy, "{} is in use", address.text());
+  const Errc code = error == EACCES || error == EPERM ? Errc::Denied : Errc::Io;
+  return fail(code, "{} cannot be used: {}", address.text(),
+              std::generic_category().message(error));
 }
 
 Result<void> check_exposure(const HttpAddress& address, bool has_tls) {

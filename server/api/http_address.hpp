@@ -20,6 +20,10 @@ struct HttpAddress {
 /// Errors: Syntax.
 Result<HttpAddress> parse_http_address(std::string_view text);
 
+/// Whether a server could listen there now; port 0 always. Errors: Busy (in use), Denied (no
+/// permission), Io.
+Result<void> check_free(const HttpAddress& address);
+
 /// Errors: Denied (another machine can reach the address and there is no TLS: the token would cross
 /// the network unencrypted).
 Result<void> check_exposure(const HttpAddress& address, bool has_tls);

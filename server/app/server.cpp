@@ -142,7 +142,10 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
                                   .folder = parts.folder.path()});
   if (!*is_checked) parts.check_on();
   if (*agent) {
-    if (auto opened = parts.open_mtconnect(**agent); !opened) return fail(opened.error());
+    if (auto opened = parts.open_mtconnect(**agent); !opened) {
+      if (!settings.standby) return fail(opened.error());
+      parts.await_mtconnect(**agent, opened.error());
+    }
   }
   if (parts.publisher) parts.publisher->begin();
   if (parts.sparkplug) parts.sparkplug->begin();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "protocol/dds/configuration.hpp"
@@ -33,7 +34,6 @@ Result<dds::NetworkOptions> check_settings(const Settings& settings, const Clock
                 "standby: servers share a PostgreSQL database (store = \"postgresql://...\"); the "
                 "SQLite file of a state folder is one server's");
   }
-  if (auto agent = mtconnect_options(settings); !agent) return fail(agent.error());
   auto network = dds_network(settings, clock.now());
   if (!network) return fail(network.error());
   if (auto safe = mqtt::check_exposure(settings.mqtt); !safe) return fail(safe.error());
@@ -61,6 +61,7 @@ struct Standby::Parts {
   FileLock lock;
   std::string signing_key;  ///< public
   api::HttpOptions http;
+  std::optional<api::HttpOptions> agent;  ///< of MTConnect
   dds::NetworkOptions network;
   storage::PostgresqlStandby database;
   SteadyTime began;
@@ -79,6 +80,8 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   if (!network) return fail(network.error());
   const auto http = http_options(settings);
   if (!http) return fail(http.error());
+  auto agent = mtconnect_options(settings);
+  if (!agent) return fail(agent.error());
   auto folder = StateFolder::open(settings.state);
   if (!folder) return fail(folder.error());
   if (auto can = check_postgresql(*folder, settings); !can) return fail(can.error());
@@ -92,7 +95,7 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   if (!holder) return fail(holder.error());
   std::unique_ptr<Standby> standby(new Standby(std::unique_ptr<Parts>(
       new Parts{settings, clock, options, *folder, *std::move(lock), key->public_key().hex(), *http,
-                *std::move(network),
+                *std::move(agent), *std::move(network),
                 storage::PostgresqlStandby(
                     {.url = settings.store, .holder = *holder, .described = description(*folder)}),
                 clock.steady_now()})));
@@ -180,6 +183,7 @@ bool Standby::has_ports(bool is_due) {
   const SteadyTime now = parts_->clock.steady_now();
   if (!is_due && now - ports_seen_ < kPortsEvery) return port_fault_.empty();
   ports_seen_ = now;
+  look_at_agent();
   const auto free = check_ports();
   parts_->database.set_able(free.has_value());
   const std::lock_guard lock(mutex_);
@@ -188,6 +192,22 @@ bool Standby::has_ports(bool is_due) {
     process::log_warning("this server cannot take over: {}", port_fault_);
   if (free && !before.empty()) process::log_info("the UDP ports are free: it can take over again");
   return free.has_value();
+}
+
+/// That it would fail at a takeover is said now. The machines need no agent: it is none of what is
+/// waited for.
+void Standby::look_at_agent() {
+  if (!parts_->agent) return;
+  const auto free = api::check_free(parts_->agent->address);
+  const std::lock_guard lock(mutex_);
+  const std::string before = std::exchange(agent_fault_, free ? "" : free.error().what);
+  parts_->database.set_note(
+      free ? "" : "it would take over without its MTConnect agent: " + agent_fault_);
+  if (!free && before.empty()) {
+    process::log_warning("this server would take over without its MTConnect agent: {}",
+                         agent_fault_);
+  }
+  if (free && !before.empty()) process::log_info("the address of the MTConnect agent is free");
 }
 
 Result<void> Standby::listen() {
@@ -213,9 +233,10 @@ Result<void> Standby::listen() {
 
 std::string Standby::status() const {
   const std::lock_guard lock(mutex_);
-  return fmt::format("{}: standby for {}{}{}", url_, name_of(view_),
+  return fmt::format("{}: standby for {}{}{}{}", url_, name_of(view_),
                      fault_.empty() ? "" : ", the database cannot be reached",
-                     port_fault_.empty() ? "" : ", its UDP ports are in use");
+                     port_fault_.empty() ? "" : ", its UDP ports are in use",
+                     agent_fault_.empty() ? "" : ", its MTConnect address cannot be used");
 }
 
 std::string Standby::takeover() const {
@@ -237,7 +258,7 @@ std::string Standby::takeover() const {
 /// What anybody may know, and for everything else which server to ask.
 api::Response Standby::answer(const api::Request& request) const {
   const std::lock_guard lock(mutex_);
-  const bool is_well = fault_.empty() && port_fault_.empty();
+  const bool is_well = fault_.empty() && port_fault_.empty() && agent_fault_.empty();
   auto reasons = nlohmann::json::array();
   const auto add_reason = [&reasons](const char* subject, const char* message) {
     reasons.push_back({{"subject", subject}, {"status", "degraded"}, {"message", message}});
@@ -247,6 +268,10 @@ api::Response Standby::answer(const api::Request& request) const {
   if (!port_fault_.empty())
     add_reason("dds",
                "a UDP port that this server needs for gateways is in use: it cannot take over");
+  if (!agent_fault_.empty())
+    add_reason("mtconnect",
+               "the address of this server's MTConnect agent is in use or not allowed: it would "
+               "take over without the agent");
   nlohmann::json health{
       {"status", is_well ? "ok" : "degraded"}, {"role", "standby"}, {"reasons", reasons}};
   const std::string path = fmt::format("/{}", fmt::join(request.target.segments, "/"));
@@ -259,7 +284,7 @@ api::Response Standby::answer(const api::Request& request) const {
     api::MetricsText out;
     out.gauge("dripline_server_active", "1: this server has its library; 0: it stands by.", 0);
     out.gauge("dripline_server_standby_ok",
-              "1: a server that stands by sees its database and has its UDP ports.",
+              "1: a server that stands by sees its database and can use all its ports.",
               is_well ? 1 : 0);
     api::Response response;
     response.content_type = api::MetricsText::kContentType;
@@ -267,9 +292,12 @@ api::Response Standby::answer(const api::Request& request) const {
     return response;
   }
   if (wants_page(request)) {
-    api::Response page = standby_page(
-        {.active = view_.described, .url = view_.url, .is_database_lost = !fault_.empty()},
-        request);
+    api::Response page = standby_page({.active = view_.described,
+                                       .url = view_.url,
+                                       .is_database_lost = !fault_.empty(),
+                                       .is_blocked = !port_fault_.empty(),
+                                       .lacks_agent = !agent_fault_.empty()},
+                                      request);
     page.ends_connection = true;
     return page;
   }

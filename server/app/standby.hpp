@@ -38,8 +38,9 @@ class Standby {
   Standby& operator=(const Standby&) = delete;
 
   /// True: the place is free, try to take it. A database that cannot be reached is logged once, and
-  /// waited for, and so is a UDP port in use: the place is never taken without gateways. Errors:
-  /// Unsupported (a newer version's tables), Corrupt (another database).
+  /// waited for, and so is a UDP port in use: the place is never taken without gateways. Without
+  /// its MTConnect agent it is. Errors: Unsupported (a newer version's tables), Corrupt (another
+  /// database).
   Result<bool> look();
   /// At the start of the process: a port that another server on this computer has stays its own, so
   /// this one could take over only when that one has ended, and not when it hangs. Errors: Busy.
@@ -63,6 +64,7 @@ class Standby {
   Result<void> check_token(const std::string& token) const;
   bool is_for_others(const storage::PostgresqlStandby::View& view) const;
   bool has_ports(bool is_due);
+  void look_at_agent();
   api::Response answer(const api::Request& request) const;
 
   std::unique_ptr<Parts> parts_;
@@ -71,6 +73,7 @@ class Standby {
   storage::PostgresqlStandby::View view_;  ///< the last
   std::string fault_;                      ///< why the database cannot be looked at; empty: it can
   std::string port_fault_;                 ///< why it cannot take over; empty: it can
+  std::string agent_fault_;                ///< what it would lack then; empty: nothing
   SteadyTime ports_seen_{};
   std::unique_ptr<api::HttpServer> http_;  // last: its threads use the others
 };

@@ -17,7 +17,8 @@ constexpr int kUnavailable = 503;
 constexpr unsigned kReloadSeconds = 5;
 
 struct Words {
-  std::string_view language, waits, has_library, unknown, database_lost, reloads;
+  std::string_view language, waits, has_library, unknown, database_lost, blocked, lacks_agent,
+      reloads;
 };
 constexpr Words kEnglish{
     "en",
@@ -25,6 +26,9 @@ constexpr Words kEnglish{
     "The library is at",
     "Which server has the library is not known now.",
     "The database cannot be reached now, so this may have changed.",
+    "A UDP port that this server needs for gateways is in use: it cannot take over.",
+    "The address of its MTConnect agent is in use or not allowed: it would take over without the "
+    "agent.",
     "This page loads itself again, and becomes the usual one when this server has the library."};
 constexpr Words kGerman{
     "de",
@@ -32,6 +36,9 @@ constexpr Words kGerman{
     "Die Bibliothek ist bei",
     "Welcher Server die Bibliothek hat, ist gerade nicht bekannt.",
     "Die Datenbank ist gerade nicht erreichbar, deshalb kann sich das geändert haben.",
+    "Ein UDP-Port, den dieser Server für Gateways braucht, ist belegt: er kann nicht übernehmen.",
+    "Die Adresse seines MTConnect-Agenten ist belegt oder nicht erlaubt: er würde ohne den Agenten "
+    "übernehmen.",
     "Diese Seite lädt sich selbst neu und wird zur gewohnten, sobald dieser Server die Bibliothek "
     "hat."};
 
@@ -95,6 +102,8 @@ api::Response standby_page(const StandbyPageFacts& facts, const api::Request& re
       "<h1>Dripline</h1>\n<p>{}</p>\n<p>{}</p>\n",
       words.language, kReloadSeconds, words.waits, place_of(facts, words));
   if (facts.is_database_lost) response.body += fmt::format("<p>{}</p>\n", words.database_lost);
+  if (facts.is_blocked) response.body += fmt::format("<p>{}</p>\n", words.blocked);
+  if (facts.lacks_agent) response.body += fmt::format("<p>{}</p>\n", words.lacks_agent);
   response.body += fmt::format("<p>{}</p>\n</html>\n", words.reloads);
   response.headers.emplace_back("Cache-Control", "no-store");
   response.headers.emplace_back("Vary", "Accept, Accept-Language");

@@ -12,6 +12,8 @@ struct StandbyPageFacts {
   std::string active;             ///< for people: the server that has the library; empty: not known
   std::string url;                ///< of that server; empty: not known
   bool is_database_lost = false;  ///< so that the two above may be old
+  bool is_blocked = false;        ///< a UDP port of it is in use: it cannot take over
+  bool lacks_agent = false;       ///< it would take over without its MTConnect agent
 };
 
 /// A browser that was sent to this server: it asks for a page, and not for the API.

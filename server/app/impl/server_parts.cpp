@@ -8,13 +8,6 @@ namespace {
 
 constexpr std::chrono::seconds kWebhookTimeout{5};
 
-api::HttpHandlers mtconnect_handlers(mtconnect::Agent& agent) {
-  return {
-      .handle = [&agent](const api::Request& request) { return agent.handle(request); },
-      .judge = [&agent](api::Request& head) { return agent.judge(head); },
-  };
-}
-
 }  // namespace
 
 ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
@@ -272,6 +265,7 @@ Result<void> ServerParts::look() {
   if (!sound) return sound;
   if (!is_announced) announce();
   ports.open_due();
+  if (is_mtconnect_due) open_due_mtconnect();
   if (mtconnect) mtconnect->observer().reconcile(machines.machines());
   accounts.store_uses();
   (void)revoke_certificates();
@@ -297,27 +291,6 @@ Result<void> ServerParts::revoke_certificates() {
                      .detail = serials ? "" : serials.error().what});
   if (!serials) return fail(Errc::Denied, "tls-client-revoked: {}", serials.error().what);
   accounts.revoke_certificates(*std::move(serials));
-  return {};
-}
-
-Result<void> ServerParts::open_mtconnect(const api::HttpOptions& options) {
-  const auto views = machines.machines();
-  mtconnect->observer().reconcile(views);
-  setups.on_saved([this](const storage::SetupRevision& setup, const std::string& control) {
-    mtconnect->use_setup(setup, control, false);
-  });
-  for (const auto& view : views) {
-    const auto setup = setups.find(view.machine.name, std::nullopt);
-    if (setup) mtconnect->use_setup(*setup, view.machine.control, true);
-  }
-  auto opened = api::HttpServer::start(options, mtconnect_handlers(*mtconnect));
-  if (!opened) return fail(opened.error().code, "mtconnect: {}", opened.error().what);
-  mtconnect_http = *std::move(opened);
-  api::HttpAddress bound = options.address;
-  bound.port = mtconnect_http->port();
-  mtconnect_url = "http://" + bound.text();
-  if (!bound.is_loopback)
-    process::log_warning("MTConnect at {}: anybody who reaches it may read", bound.text());
   return {};
 }
 

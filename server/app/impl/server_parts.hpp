@@ -114,6 +114,12 @@ struct ServerParts {
   Result<void> revoke_certificates();
   /// The machines that are known and their tools, then the sockets.
   Result<void> open_mtconnect(const api::HttpOptions& options);
+  /// The socket alone. The URL.
+  Result<std::string> listen_mtconnect(const api::HttpOptions& options);
+  /// It is tried again until it can listen.
+  void await_mtconnect(const api::HttpOptions& options, const Error& why);
+  void open_due_mtconnect();
+  void report_mtconnect(const std::string& fault);
   std::vector<library::WatchedCertificate> watched_certificates() const;
   void check_on();
 
@@ -169,6 +175,8 @@ struct ServerParts {
   std::unique_ptr<api::HttpServer> http;
   std::unique_ptr<api::HttpServer> mtconnect_http;
   std::string url, mtconnect_url;
+  std::optional<api::HttpOptions> mtconnect_due;  ///< set before the next one
+  std::atomic<bool> is_mtconnect_due = false;
   StateFolder::Announcement announcement;
   std::atomic<bool> is_announced = true;  ///< or not yet tried
   std::string signing_key;                ///< public

@@ -124,6 +124,43 @@ TEST_F(WaitingServer, WaitsForAPortThatAnotherProgramHasTakenMeanwhile) {
   EXPECT_TRUE(shop_->wait_active(1)) << shop_->log(1);
 }
 
+/// Found at its start and not at the moment of need; the machines do not wait for readers.
+TEST_F(WaitingServer, SaysThatItWouldLackItsMTConnectAgentAndTakesOverWithoutIt) {
+  std::optional<Descriptor> other(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(::bind(other->get(), reinterpret_cast<sockaddr*>(&place), sizeof place), 0);
+  ASSERT_EQ(::listen(other->get(), 1), 0);
+  socklen_t size = sizeof place;
+  ASSERT_EQ(::getsockname(other->get(), reinterpret_cast<sockaddr*>(&place), &size), 0);
+  const std::string address = fmt::format("127.0.0.1:{}", ntohs(place.sin_port));
+  begin({"--mtconnect=" + address});  // on one computer one of two at most has it
+  EXPECT_EQ(shop_->role(0), "active");
+  const auto active = [&] { return shop_->rest(0).get("/api/v1/server").body; };
+  EXPECT_TRUE(test_support::eventually([&] {
+    return active().find("without its MTConnect agent: " + address + " is in use") !=
+           std::string::npos;
+  })) << active();
+  EXPECT_NE(shop_->log(1).find("would take over without its MTConnect agent: " + address),
+            std::string::npos)
+      << shop_->log(1);
+  const auto health = shop_->rest(1).get("/api/v1/health");
+  EXPECT_NE(health.body.find("\"mtconnect\""), std::string::npos) << health.body;
+  EXPECT_NE(shop_->rest(1).get("/api/v1/metrics").body.find("\ndripline_server_standby_ok 0\n"),
+            std::string::npos);
+  shop_->server(0).kill();
+  ASSERT_TRUE(shop_->wait_active(1)) << shop_->log(1);
+  const auto degraded = [&] { return shop_->rest(1).get("/api/v1/health").body; };
+  EXPECT_NE(degraded().find("the MTConnect agent cannot listen"), std::string::npos) << degraded();
+  other.reset();
+  EXPECT_TRUE(test_support::eventually([&] {
+    return degraded().find("the MTConnect agent cannot listen") == std::string::npos;
+  })) << degraded();
+  const test_support::RestClient agent("http://" + address, "");
+  EXPECT_EQ(agent.get("/probe").status, 200);
+}
+
 TEST_F(WaitingServer, AFolderWithoutTheKeysIsRefused) {
   shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
   shop_->start(0);

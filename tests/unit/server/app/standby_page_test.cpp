@@ -33,6 +33,16 @@ TEST(StandbyPage, IsForBrowsersAndNotForTheApi) {
   EXPECT_FALSE(wants_page(request));
 }
 
+TEST(StandbyPage, SaysWhatItCouldNotTakeOver) {
+  const auto well = standby_page({.active = "dncd 812"}, browser());
+  EXPECT_FALSE(holds(well, "MTConnect"));
+  EXPECT_FALSE(holds(well, "UDP"));
+  EXPECT_TRUE(holds(standby_page({.active = "dncd 812", .is_blocked = true}, browser()),
+                    "it cannot take over"));
+  EXPECT_TRUE(holds(standby_page({.active = "dncd 812", .lacks_agent = true}, browser("de")),
+                    "ohne den Agenten"));
+}
+
 TEST(StandbyPage, LinksToTheServerThatHasTheLibraryAndLoadsItselfAgain) {
   const auto page = standby_page(
       {.active = "dncd 812 on srv-1, /var/lib/dripline", .url = "https://srv-1:8430"}, browser());
