@@ -81,7 +81,7 @@ struct TransferFailed {
 struct LineError {
   Error error;
 };
-/// The other end released a program that was broken off (Discipline::expect_release), and was told
+/// The other end released a program that was broken off (Discipline::expect_release), and knows
 /// that it is over.
 struct ReleaseRefused {};
 using Event = std::variant<TextReceived, TransferBegan, TransferEnded, FlowChanged, TextAccepted,

@@ -194,7 +194,7 @@ bool Standby::has_ports(bool is_due) {
   return free.has_value();
 }
 
-/// That it would fail at a takeover is said now. The machines need no agent: it is none of what is
+/// What would fail at a takeover is reported now. The machines need no agent: it is none of what is
 /// waited for.
 void Standby::look_at_agent() {
   if (!parts_->agent) return;

@@ -27,8 +27,9 @@ class TransferLog {
   };
   explicit TransferLog(Parts parts) : parts_(std::move(parts)) {}
 
-  /// Before the line is used. What another server, or this one before it was killed, had under way
-  /// ends Interrupted: in the store, the audit trail and the log. Errors: those of the store.
+  /// Before the line is used. What was in progress when another server, or this one before, was
+  /// killed ends Interrupted: in the store, the audit trail and the log. Errors: those of the
+  /// store.
   Result<void> open();
   /// A program that the control sent was cut off by that. True once.
   bool take_broken_upload() { return std::exchange(is_upload_broken_, false); }
@@ -74,7 +75,7 @@ class TransferLog {
   const Parts parts_;
   Entry sent_, received_;
   bool is_upload_broken_ = false;
-  bool is_failing_ = false;  ///< and the log has said so
+  bool is_failing_ = false;  ///< and the log has it
   mutable std::mutex mutex_;
   std::optional<Transfer> shown_sent_, shown_received_;
 };
