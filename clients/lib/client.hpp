@@ -195,6 +195,8 @@ class Client {
   /// `programs`: NAME or NAME@REVISION, sent in this order.
   Reply<Transfer> send_programs(std::string_view port, const std::vector<std::string>& programs);
   Reply<void> receive_program(std::string_view port);
+  /// The control of this port was reset after a program had been broken off.
+  Reply<void> confirm_reset(std::string_view port);
   Reply<void> stop_transfer(std::string_view port);
   Reply<PortTest> test_port(std::string_view name);
   Reply<RuleVerdict> test_rules(std::string_view name, std::string_view text);

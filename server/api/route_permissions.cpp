@@ -163,6 +163,7 @@ constexpr std::array kRoutes{
     RoutePermission{"POST", "/api/v1/ports/{name}/test-rules", View},
     RoutePermission{"POST", "/api/v1/ports/{name}/transfers", Operate, Port},
     RoutePermission{"POST", "/api/v1/ports/{name}/receive", Operate, Port},
+    RoutePermission{"POST", "/api/v1/ports/{name}/confirm-reset", Operate, Port},
     RoutePermission{"DELETE", "/api/v1/ports/{name}/transfers", Operate, Port},
     RoutePermission{"GET", "/api/v1/ports/{name}/recording", View},
     RoutePermission{"GET", "/api/v1/ports/{name}/traffic", View},

@@ -248,6 +248,7 @@ Result<PortTransfer> GatewayLines::send(const std::string& name,
   const bool is_sending = view->transfer && view->transfer->state == TransferState::Sending;
   if (!view->run.empty() || is_sending)
     return fail(Errc::Busy, "port {} is busy: it is {}", name, line::what_it_does(*view));
+  if (auto ready = parts_.resets.check(*view, ""); !ready) return fail(ready.error());
   const auto job = make_transfer(
       {.store = parts_.store, .releases = parts_.releases, .clock = parts_.clock}, *view, programs);
   if (!job) return fail(job.error());
@@ -262,6 +263,11 @@ Result<PortTransfer> GatewayLines::send(const std::string& name,
   process::log_info("programs sent without a run by the gateway port={} id={} {}", name, job->id,
                     fmt::join(job->programs, ", "));
   return sent;
+}
+
+Result<std::string> GatewayLines::confirm_reset(const std::string& name) {
+  const auto view = port(name);
+  return view ? parts_.resets.confirm(*view, "") : fail(view.error());
 }
 
 Result<void> GatewayLines::receive(const std::string& name) {

@@ -13,6 +13,7 @@
 #include "server/machines/worker_pool.hpp"
 #include "server/ports/gateways/gateway_monitor.hpp"
 #include "server/ports/port_control.hpp"
+#include "server/ports/programs/broken_program.hpp"
 #include "server/ports/requests/gateway_at_control.hpp"
 #include "server/ports/strand.hpp"
 
@@ -32,6 +33,7 @@ class GatewayLines {
     const Clock& clock;
     AskLine ask;
     machines::MachineControl& machines;  ///< of the gateways
+    ResetGate& resets;
     unsigned workers = 2;
   };
   explicit GatewayLines(Parts parts);
@@ -47,6 +49,7 @@ class GatewayLines {
   // Promises of these: PortControl.
   Result<PortTest> test(const std::string& name);
   Result<PortTransfer> send(const std::string& name, const std::vector<ProgramChoice>& programs);
+  Result<std::string> confirm_reset(const std::string& name);
   Result<void> receive(const std::string& name);
   Result<void> stop_transfer(const std::string& name, const std::string& reason);
   Result<RuleVerdict> test_rules(const std::string& name, const std::string& text) const;

@@ -7,6 +7,7 @@
 #include "gateway/line/line_words.hpp"
 #include "gateway/line/port_transfer.hpp"
 #include "protocol/process/log.hpp"
+#include "server/ports/gateways/gateway_view.hpp"
 #include "server/ports/port_settings.hpp"
 
 namespace dripline::ports {
@@ -39,11 +40,12 @@ dds::Execution execution_of(line::LineActivity activity) {
 }  // namespace
 
 LineMachines::LineMachines(const machines::RunSources& sources, const LineDirectory& directory,
-                           const machines::MachineListener& listener)
+                           const machines::MachineListener& listener, const ResetGate& resets)
     : store_(sources.store),
       clock_(sources.clock),
       directory_(directory),
       listener_(listener),
+      resets_(resets),
       runs_(sources) {}
 
 machines::MachineView LineMachines::view_of(const PortLine& line) const {
@@ -95,22 +97,29 @@ std::optional<std::string> LineMachines::machine_of_run(const std::string& run) 
 Result<storage::Run> LineMachines::start(const machines::StartRequest& request) {
   auto promise = std::make_shared<std::promise<Result<storage::Run>>>();
   auto answer = promise->get_future();
-  start_later(request, [promise](const Result<storage::Run>& run) { promise->set_value(run); });
+  post_start({.request = request,
+              .started = [promise](const Result<storage::Run>& run) { promise->set_value(run); }});
   return wait_for<storage::Run>(std::move(answer), "start on machine '" + request.machine + "'");
 }
 
 void LineMachines::start_later(const machines::StartRequest& request, Started started,
                                const std::string& wire_name) {
-  const auto line = directory_.line_of(request.machine);
-  if (!line) return started(fail(Errc::NotFound, "machine '{}' has no port", request.machine));
-  line->post([this, line, request, started = std::move(started), wire_name] {
-    begin(line, request, started, wire_name);
-  });
+  post_start({.request = request,
+              .started = std::move(started),
+              .wire_name = wire_name,
+              .is_asked_for = true});
 }
 
-void LineMachines::begin(const std::shared_ptr<PortLine>& line,
-                         const machines::StartRequest& request, const Started& started,
-                         const std::string& wire_name) {
+void LineMachines::post_start(Start start) {
+  const auto line = directory_.line_of(start.request.machine);
+  if (!line) {
+    return start.started(fail(Errc::NotFound, "machine '{}' has no port", start.request.machine));
+  }
+  line->post([this, line, start = std::move(start)] { begin(line, start); });
+}
+
+void LineMachines::begin(const std::shared_ptr<PortLine>& line, const Start& start) {
+  const auto& [request, started, wire_name, is_asked_for] = start;
   const LineView port = line->view();
   if (!port.is_open) {
     return started(fail(Errc::Timeout, "machine '{}' is not connected: port {} is not open: {}",
@@ -121,6 +130,10 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line,
   if (line->is_busy()) {
     return started(
         fail(Errc::Busy, "port {} is busy: it is {}", port.names.name, what_it_does(port)));
+  }
+  if (!is_asked_for) {
+    if (auto ready = resets_.check(port, port.names.name); !ready)
+      return started(fail(ready.error()));
   }
   if (auto fits = check_protocol(store_.setups, request.machine, port.settings.flow); !fits) {
     return started(fail(fits.error()));
@@ -138,9 +151,8 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line,
   } else if (line::has_numbered_programs(port.settings.flow)) {
     job->name = line::program_number(run->program);
   }
-  line->begin(*std::move(job), [this, run = *run, started](const Result<void>& begun) {
-    started(conclude(run, begun));
-  });
+  line->begin(*std::move(job), [this, run = *run, started = start.started](
+                                   const Result<void>& begun) { started(conclude(run, begun)); });
 }
 
 Result<storage::Run> LineMachines::conclude(const storage::Run& run, const Result<void>& begun) {
@@ -245,6 +257,10 @@ Result<storage::Run> MachineRouter::start(const machines::StartRequest& request)
   if (!lines_.machine(request.machine)) {
     const auto gateway = gateways_.machine(request.machine);
     const bool has_line = gateway && gateway->has_gateway_line();
+    if (has_line) {
+      const PortView port = view_of(*gateway, *gateway->status->serial_line);
+      if (auto ready = lines_.resets().check(port, ""); !ready) return fail(ready.error());
+    }
     if (request.head == machines::StartHead::Ask || has_line) return gateways_.start(request);
     return fail(Errc::Unsupported,
                 "machine '{}' has a gateway, which looks through the program up to the beginning: "

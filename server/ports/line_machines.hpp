@@ -8,6 +8,7 @@
 #include "server/machines/machine_control.hpp"
 #include "server/ports/line_records.hpp"
 #include "server/ports/line_runs.hpp"
+#include "server/ports/programs/broken_program.hpp"
 
 namespace dripline::ports {
 
@@ -21,7 +22,7 @@ class LineMachines final : public machines::MachineControl {
   static constexpr std::chrono::seconds kAnswerLimit{10};
 
   LineMachines(const machines::RunSources& sources, const LineDirectory& directory,
-               const machines::MachineListener& listener);
+               const machines::MachineListener& listener, const ResetGate& resets);
 
   std::vector<machines::MachineView> machines() const override;
   /// Errors: NotFound (no enabled port has it).
@@ -29,6 +30,7 @@ class LineMachines final : public machines::MachineControl {
   /// Needs no store.
   std::optional<std::string> machine_of_run(const std::string& run) const override;
   bool has(const std::string& machine) const { return directory_.line_of(machine) != nullptr; }
+  /// Errors also: those of ResetGate::check.
   Result<storage::Run> start(const machines::StartRequest& request) override;
   /// Hold, Resume and Abort; others are Unsupported.
   Result<void> command(const machines::CommandRequest& request) override;
@@ -36,8 +38,9 @@ class LineMachines final : public machines::MachineControl {
   Result<machines::PositionAnswer> position(const machines::PositionRequest& request) override;
   Result<machines::JogAnswer> jog(const machines::JogRequest& request) override;
 
-  /// The same as `start` for callers that must not wait: `started` is called on the machine's
-  /// strand. `wire_name` is what the control calls the program; empty: as the library does.
+  /// The same as `start` for callers that must not wait, and for what is asked for at the control,
+  /// which is in no program then: `started` is called on the machine's strand. `wire_name` is what
+  /// the control calls the program; empty: as the library does.
   void start_later(const machines::StartRequest& request, Started started,
                    const std::string& wire_name = "");
   /// On the strand of that line. `stored`: the run's end is in the store.
@@ -45,12 +48,19 @@ class LineMachines final : public machines::MachineControl {
   void on_change(const std::string& machine);
   void save_progress(const PortLine& line);
   LineRuns& runs() { return runs_; }
+  const ResetGate& resets() const { return resets_; }
   /// Notifies the listener of the run as it is stored now.
   void announce(const std::string& run) const;
 
  private:
-  void begin(const std::shared_ptr<PortLine>& line, const machines::StartRequest& request,
-             const Started& started, const std::string& wire_name);
+  struct Start {
+    machines::StartRequest request;
+    Started started;
+    std::string wire_name = {};
+    bool is_asked_for = false;  ///< at the control
+  };
+  void post_start(Start start);
+  void begin(const std::shared_ptr<PortLine>& line, const Start& start);
   Result<storage::Run> conclude(const storage::Run& run, const Result<void>& begun);
   machines::MachineView view_of(const PortLine& line) const;
   struct CommandTarget {
@@ -62,6 +72,7 @@ class LineMachines final : public machines::MachineControl {
   const Clock& clock_;
   const LineDirectory& directory_;
   const machines::MachineListener& listener_;
+  const ResetGate& resets_;
   LineRuns runs_;
 };
 

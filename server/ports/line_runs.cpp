@@ -57,22 +57,6 @@ LineRecords::Entry ending_entry(const storage::RunEnding& ending,
 
 }  // namespace
 
-Result<std::optional<storage::Run>> broken_run(storage::RunStore& store, const std::string& machine,
-                                               bool are_aborts_told) {
-  using storage::RunState;
-  constexpr std::uint64_t kLook = 50;
-  const auto runs = store.list({.machine = machine, .program = {}, .state = {}}, {.limit = kLook});
-  if (!runs) return fail(runs.error());
-  for (const auto& run : *runs) {
-    if (run.state == RunState::Refused) continue;
-    const bool is_over =
-        run.state == RunState::Completed || (run.state == RunState::Aborted && are_aborts_told);
-    if (is_over) return std::nullopt;
-    return run;
-  }
-  return std::nullopt;
-}
-
 Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
                                       const storage::Machine& machine) {
   const auto admitted = sources_.releases.admit(request.wish());

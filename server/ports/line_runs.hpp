@@ -7,12 +7,6 @@
 
 namespace dripline::ports {
 
-/// The last run that began, when it ended in the middle of its program, or has not ended; the
-/// control may be in the middle of it. Only while no run is on the line. `are_aborts_told`: an
-/// aborted run is over at the control too.
-Result<std::optional<storage::Run>> broken_run(storage::RunStore& store, const std::string& machine,
-                                               bool are_aborts_told);
-
 /// The runs of machines on lines, as the store has them. What is counted: *sent* bytes that left
 /// the line (or were accepted, where the protocol checks), *accepted* blocks the control
 /// acknowledged (0 where it cannot), *executed* nothing: a line cannot report it. Any thread, one

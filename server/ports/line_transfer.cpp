@@ -34,6 +34,8 @@ std::uint64_t fetched_ahead(const wire::LineSettings& settings) {
 /// On the line's strand. The store has it before anything leaves.
 void begin_transfer(const LineInUse& in_use, SendJob job, const PortLine::Answer& answer) {
   if (auto ready = line::check_ready(*in_use.line); !ready) return answer(ready);
+  const LineView port = in_use.line->view();
+  if (auto ready = in_use.resets.check(port, port.names.name); !ready) return answer(ready);
   if (auto kept = in_use.log->begin_send(job); !kept) return answer(kept);
   auto begun = [log = in_use.log, id = job.id, answer](const Result<void>& result) {
     if (!result) log->take_back_send(id);
@@ -43,7 +45,7 @@ void begin_transfer(const LineInUse& in_use, SendJob job, const PortLine::Answer
 }
 
 void begin_reception(const LineInUse& in_use, const PortLine::Answer& answer) {
-  const auto& [line, log] = in_use;
+  const auto& [line, log, resets] = in_use;
   const bool can_ask =
       line->view().settings.flow == wire::Flow::Xmodem && line::check_ready(*line).has_value();
   const bool is_new = can_ask && !log->is_receiving();

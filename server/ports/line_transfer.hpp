@@ -7,6 +7,7 @@
 #include "server/machines/run_sources.hpp"
 #include "server/ports/line_types.hpp"
 #include "server/ports/port_control.hpp"
+#include "server/ports/programs/broken_program.hpp"
 #include "server/ports/programs/transfer_log.hpp"
 
 /// Programs to a control's memory and out of it, without a run. The functions wait for the line's
@@ -15,10 +16,11 @@ namespace dripline::ports {
 
 inline constexpr std::chrono::seconds kTransferAnswerLimit{10};
 
-/// A line, and where its transfers are kept.
+/// A line, where its transfers are kept, and whether its control is in no program.
 struct LineInUse {
   std::shared_ptr<PortLine> line;
   std::shared_ptr<TransferLog> log;
+  const ResetGate& resets;
 };
 
 /// What is sent for these programs over this line. Errors: those of PortControl::send that the line

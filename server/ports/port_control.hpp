@@ -59,9 +59,13 @@ class PortControl {
   /// as the line's settings say. Returns when the line has taken the job; `port` shows its
   /// progress. Errors: NotFound (port, program), Conflict (held, or may not run there), Unsupported
   /// (another control's; several on a line whose protocol names one; a protocol as of `save`),
-  /// Syntax (no number), LimitExceeded, Busy, Timeout.
+  /// Syntax (no number), LimitExceeded, Busy, Timeout; those of ResetGate::check.
   virtual Result<PortTransfer> send(const std::string& name,
                                     const std::vector<ProgramChoice>& programs) = 0;
+  /// A person has reset the control, which was in the middle of a program that was broken off:
+  /// the next one is sent to it. Returns what was broken off. Errors: NotFound, those of
+  /// ResetGate::confirm.
+  virtual Result<std::string> confirm_reset(const std::string& name) = 0;
   /// Asks the control for a program, over a protocol whose receiver begins (XMODEM), for about two
   /// minutes; what comes is a held revision. Errors: NotFound, Unsupported (others send unasked),
   /// Busy, Timeout.

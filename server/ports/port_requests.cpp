@@ -34,7 +34,7 @@ Result<PortTest> PortService::test(const std::string& name) {
 Result<LineInUse> PortService::find_line(const std::string& name) const {
   const auto entry = find(name);
   if (!entry) return fail(entry.error());
-  if (entry->line) return LineInUse{entry->line, entry->transfers};
+  if (entry->line) return LineInUse{entry->line, entry->transfers, resets_};
   return fail(Errc::Conflict, "port '{}' is {}", name,
               entry->fault.empty() ? "disabled" : "not open: " + entry->fault);
 }
@@ -43,6 +43,11 @@ Result<PortTransfer> PortService::send(const std::string& name,
                                        const std::vector<ProgramChoice>& programs) {
   const auto line = find_line(name);
   return line ? send_programs(*line, sources_, programs) : fail(line.error());
+}
+
+Result<std::string> PortService::confirm_reset(const std::string& name) {
+  const auto line = find_line(name);
+  return line ? resets_.confirm(line->line->view(), name) : fail(line.error());
 }
 
 Result<void> PortService::receive(const std::string& name) {

@@ -52,6 +52,10 @@ Result<PortTransfer> PortRouter::send(const std::string& name,
   return is_gateways(name) ? gateways_.send(name, programs) : own_.send(name, programs);
 }
 
+Result<std::string> PortRouter::confirm_reset(const std::string& name) {
+  return is_gateways(name) ? gateways_.confirm_reset(name) : own_.confirm_reset(name);
+}
+
 Result<void> PortRouter::receive(const std::string& name) {
   return is_gateways(name) ? gateways_.receive(name) : own_.receive(name);
 }

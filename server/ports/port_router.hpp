@@ -21,6 +21,7 @@ class PortRouter final : public PortControl {
   Result<PortTest> test(const std::string& name) override;
   Result<PortTransfer> send(const std::string& name,
                             const std::vector<ProgramChoice>& programs) override;
+  Result<std::string> confirm_reset(const std::string& name) override;
   Result<void> receive(const std::string& name) override;
   Result<void> stop_transfer(const std::string& name, const std::string& reason) override;
   Result<RuleVerdict> test_rules(const std::string& name, const std::string& text) const override;

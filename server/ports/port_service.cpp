@@ -53,7 +53,8 @@ PortService::PortService(const machines::RunSources& sources, library::Programs&
       options_(std::move(options)),
       listener_(std::move(listener)),
       epoch_(next_epoch(store_, clock_)),
-      line_machines_(sources, *this, listener_),
+      resets_(store_),
+      line_machines_(sources, *this, listener_, resets_),
       pool_(options_.workers),
       near_pool_(kNearWorkers) {}
 

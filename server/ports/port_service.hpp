@@ -16,6 +16,7 @@
 #include "server/ports/line_records.hpp"
 #include "server/ports/line_transfer.hpp"
 #include "server/ports/port_control.hpp"
+#include "server/ports/programs/broken_program.hpp"
 
 namespace dripline::ports {
 
@@ -56,6 +57,7 @@ class PortService final : public PortControl, private LineDirectory {
   /// Lines are closed, their runs end Interrupted, what has arrived is stored.
   void end();
   LineMachines& machines() { return line_machines_; }
+  ResetGate& resets() { return resets_; }
   /// Whether its line may be closed. Errors: Busy (a run, a transfer, or the control sends; named).
   Result<void> check_idle(const std::string& name) const;
   /// The same for a server that ends: also of a program that the control was offered and reads.
@@ -68,6 +70,7 @@ class PortService final : public PortControl, private LineDirectory {
   Result<PortTest> test(const std::string& name) override;
   Result<PortTransfer> send(const std::string& name,
                             const std::vector<ProgramChoice>& programs) override;
+  Result<std::string> confirm_reset(const std::string& name) override;
   Result<void> receive(const std::string& name) override;
   Result<void> stop_transfer(const std::string& name, const std::string& reason) override;
   Result<RuleVerdict> test_rules(const std::string& name, const std::string& text) const override;
@@ -134,6 +137,7 @@ class PortService final : public PortControl, private LineDirectory {
   const Options options_;
   const machines::MachineListener listener_;
   const std::uint64_t epoch_;  ///< of this process, as the clock has it: see epoch_of
+  ResetGate resets_;
   LineMachines line_machines_;
   std::mutex change_mutex_;  ///< held by save, remove and test: one at a time
   mutable std::mutex mutex_;

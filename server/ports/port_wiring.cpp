@@ -4,6 +4,7 @@
 #include "server/ports/line_runs.hpp"
 #include "server/ports/port_service.hpp"
 #include "server/ports/port_settings.hpp"
+#include "server/ports/programs/broken_program.hpp"
 #include "server/ports/programs/inbound_handler.hpp"
 
 /// The part of PortService that puts an open port together: its machine, its line and what they
@@ -228,9 +229,8 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
 
 /// A control may be in the middle of a run, of programs sent without one, or of an offered program.
 bool PortService::is_program_broken(const Entry& entry) const {
-  const auto run = broken_run(store_.runs, entry.port.machine, true);
-  if (run && run->has_value()) return true;
-  const auto sent = broken_transfer(store_, entry.port.name, entry.port.machine, true);
+  const auto sent = broken_program(
+      store_, {.machine = entry.port.machine, .port = entry.port.name, .are_aborts_told = true});
   if (sent && sent->has_value()) return true;
   if (entry.settings.offer != wire::Offer::All) return false;
   const auto offer = broken_offer(store_.audit, entry.port.machine);

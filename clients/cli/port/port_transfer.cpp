@@ -6,7 +6,8 @@
 #include "clients/cli/text/value_text.hpp"
 #include "clients/lib/api_json.hpp"
 
-/// `dnc port send`, `receive` and `stop`: programs into a control's memory and out of it.
+/// `dnc port send`, `receive`, `confirm-reset` and `stop`: programs into a control's memory and out
+/// of it.
 namespace dripline::cli {
 namespace {
 
@@ -124,6 +125,27 @@ int stop(Context& context, const std::string& port) {
   return kExitOk;
 }
 
+int confirm_reset(Context& context, const std::string& port) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  if (auto confirmed = client->confirm_reset(port); !confirmed) return complain(confirmed.error());
+  context.print(fmt::format("Confirmed: the control on {} was reset. It gets the next program.\n",
+                            printable(port)));
+  return kExitOk;
+}
+
+void add_confirm_reset(Command group, Context& context) {
+  auto command = group.add_subcommand("confirm-reset", "Confirm that the control was reset");
+  auto name = std::make_shared<std::string>();
+  command.add_option("PORT", *name, "The port").required();
+  command.footer(
+      "A control that does not ask for its programs may be in the middle of one that was broken "
+      "off (an\naborted run, a server or a line that was lost), and would read the next one as its "
+      "rest. Until this\nis confirmed no run begins there and no program is sent. Reset the "
+      "control first, so that no program\nis active in it.");
+  command.callback([&context, name] { context.status = confirm_reset(context, *name); });
+}
+
 void add_send(Command group, Context& context) {
   auto command = group.add_subcommand("send", "Send programs to the control's memory, as one text");
   auto options = std::make_shared<SendCommand>();
@@ -156,6 +178,7 @@ void add_receive(Command group, Context& context) {
 void add_port_transfer_commands(Command group, Context& context) {
   add_send(group, context);
   add_receive(group, context);
+  add_confirm_reset(group, context);
   auto command = group.add_subcommand("stop", "Abort a transfer of dnc port send or receive");
   auto name = std::make_shared<std::string>();
   command.add_option("PORT", *name, "The port").required();

@@ -42,6 +42,10 @@ Reply<void> Client::receive_program(std::string_view port) {
   return perform(with_method("POST", path_of("ports", port) + "/receive"));
 }
 
+Reply<void> Client::confirm_reset(std::string_view port) {
+  return perform(with_method("POST", path_of("ports", port) + "/confirm-reset"));
+}
+
 Reply<void> Client::stop_transfer(std::string_view port) {
   return perform(with_method("DELETE", path_of("ports", port) + "/transfers"));
 }

@@ -214,6 +214,13 @@ Response receive_program(Services& services, ports::PortControl& ports, const Re
   return no_content();
 }
 
+Response confirm_reset(Services& services, ports::PortControl& ports, const Request& request) {
+  const auto broken = ports.confirm_reset(request.parameter("name"));
+  if (!broken) return error_response(broken.error());
+  note(services, request, "port.confirm-reset", *broken + " was broken off");
+  return no_content();
+}
+
 Response stop_transfer(Services& services, ports::PortControl& ports, const Request& request) {
   const auto stopped =
       ports.stop_transfer(request.parameter("name"), "stopped by " + request.who.name);
@@ -281,6 +288,8 @@ void add_port_routes(Router& router, Services& services) {
   router.add("POST", port + "/test-rules", with_ports(services, test_rules), Waits::ForMachine);
   router.add("POST", port + "/transfers", with_ports(services, send_programs), Waits::ForMachine);
   router.add("POST", port + "/receive", with_ports(services, receive_program), Waits::ForMachine);
+  router.add("POST", port + "/confirm-reset", with_ports(services, confirm_reset),
+             Waits::ForMachine);
   router.add("DELETE", port + "/transfers", with_ports(services, stop_transfer), Waits::ForMachine);
   router.add("GET", port + "/recording", with_ports(services, send_recording), Waits::ForMachine);
   router.add("GET", port + "/traffic", with_ports(services, open_traffic));

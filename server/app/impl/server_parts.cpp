@@ -107,7 +107,8 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
                          [this](dds::LineRequest request, std::chrono::milliseconds limit) {
                            return machine_service.ask_line(std::move(request), limit);
                          },
-                     .machines = machine_service}),
+                     .machines = machine_service,
+                     .resets = ports.resets()}),
       port_router(ports, gateway_lines),
       all_machines(store->runs, machine_service, ports.machines()),
       machines(store->runs, all_machines, hold_reasons),

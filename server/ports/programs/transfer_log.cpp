@@ -302,29 +302,4 @@ line::PortTransfer transfer_view(const storage::PortTransfer& transfer) {
           .ended = transfer.ended};
 }
 
-Result<std::optional<storage::PortTransfer>> broken_transfer(const storage::Store& store,
-                                                             const std::string& port,
-                                                             const std::string& machine,
-                                                             bool are_aborts_told) {
-  const auto transfers = store.ports.transfers(port);
-  if (!transfers) return fail(transfers.error());
-  for (const auto& transfer : *transfers) {
-    if (transfer.direction != storage::TransferDirection::Send) continue;
-    const bool is_over =
-        transfer.state == End::Completed || (transfer.state == End::Aborted && are_aborts_told);
-    const bool has_begun = transfer.at_most > 0;
-    if (is_over || !has_begun) return std::nullopt;
-    constexpr std::uint64_t kLook = 50;
-    const auto runs =
-        store.runs.list({.machine = machine, .program = {}, .state = {}}, {.limit = kLook});
-    if (!runs) return fail(runs.error());
-    const auto is_later = [&](const storage::Run& run) {
-      return run.state != storage::RunState::Refused && run.created > transfer.began;
-    };
-    if (std::ranges::any_of(*runs, is_later)) return std::nullopt;
-    return transfer;
-  }
-  return std::nullopt;
-}
-
 }  // namespace dripline::ports

@@ -88,12 +88,4 @@ std::shared_ptr<line::TextSource> guarded(std::shared_ptr<line::TextSource> sour
 /// As a port's view has it.
 line::PortTransfer transfer_view(const storage::PortTransfer& transfer);
 
-/// The programs that were sent to the port's control without a run, when that was broken off, and
-/// no run has begun since: the control may be in the middle of them. `are_aborts_told`: a control
-/// knows of a transfer that a person ended. Errors: those of the store.
-Result<std::optional<storage::PortTransfer>> broken_transfer(const storage::Store& store,
-                                                             const std::string& port,
-                                                             const std::string& machine,
-                                                             bool are_aborts_told);
-
 }  // namespace dripline::ports

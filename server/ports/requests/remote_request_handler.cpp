@@ -16,9 +16,8 @@
 #include "server/library/control_catalog.hpp"
 #include "server/library/job_queue.hpp"
 #include "server/machines/start_point.hpp"
-#include "server/ports/line_runs.hpp"
+#include "server/ports/programs/broken_program.hpp"
 #include "server/ports/programs/program_stream.hpp"
-#include "server/ports/programs/transfer_log.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::ports {
@@ -262,7 +261,7 @@ void RemoteRequestHandler::send_listing(bool is_request) {
 /// A control that names none gets all that have a number, one a request, and then "no more": so it
 /// lists them, or takes those it wants. They are no runs.
 void RemoteRequestHandler::send_next() {
-  if (auto sound = check_last_run(); !sound) return refuse(sound.error().what, true);
+  if (auto sound = check_last_program(); !sound) return refuse(sound.error().what, true);
   if (auto sound = check_last_offer(); !sound) return refuse(sound.error().what, true);
   if (auto listed = list_offers(); !listed) return refuse(listed.error().what, true);
   if (next_offer_ >= offers_->size()) {
@@ -309,26 +308,17 @@ Result<void> RemoteRequestHandler::check_last_offer() {
 
 /// A control in the middle of a program that was broken off asks for the rest of it with the same
 /// words. Another program's text would be executed there.
-Result<void> RemoteRequestHandler::check_last_run() const {
+Result<void> RemoteRequestHandler::check_last_program() const {
   if (is_sent_since_) return {};
-  const auto run = broken_run(parts_.store.runs, parts_.machine, parts_.tells_aborts);
-  if (!run) return fail(run.error());
-  if (!*run) return check_last_transfer();
-  return fail(Errc::Conflict,
-              "run {} of program {} was broken off, and the control may be asking for its rest: "
-              "nothing is offered until a run or dnc port send has gone through",
-              (*run)->id, (*run)->program);
-}
-
-Result<void> RemoteRequestHandler::check_last_transfer() const {
-  if (parts_.port.empty()) return {};
-  const auto sent = broken_transfer(parts_.store, parts_.port, parts_.machine, parts_.tells_aborts);
-  if (!sent) return fail(sent.error());
-  if (!*sent) return {};
+  const auto broken = broken_program(
+      parts_.store,
+      {.machine = parts_.machine, .port = parts_.port, .are_aborts_told = parts_.tells_aborts});
+  if (!broken) return fail(broken.error());
+  if (!*broken) return {};
   return fail(Errc::Conflict,
               "{} was broken off, and the control may be asking for its rest: nothing is offered "
               "until a run or dnc port send has gone through",
-              fmt::join((*sent)->programs, ", "));
+              (*broken)->what);
 }
 
 Result<std::vector<storage::ProgramSummary>> RemoteRequestHandler::programs() const {

@@ -89,8 +89,7 @@ class RemoteRequestHandler {
   void start_next_job();
   void send_listing(bool is_request);
   void send_next();
-  Result<void> check_last_run() const;
-  Result<void> check_last_transfer() const;
+  Result<void> check_last_program() const;
   Result<void> check_last_offer();
   /// The audit entry comes before the control gets anything.
   Result<void> note(std::string action, std::string subject, std::string detail) const;

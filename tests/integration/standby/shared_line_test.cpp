@@ -43,6 +43,7 @@ TEST_F(SharedLine, IsNotHandedOverInTheMiddleOfATransfer) {
   ASSERT_LT(shop_->rest(0).post("/api/v1/runs/" + id_ + "/commands", {{"action", "abort"}}).status,
             300);
   ASSERT_TRUE(eventually([&] { return run(0, id_).value("state", "") == "aborted"; }));
+  ASSERT_EQ(shop_->rest(0).post("/api/v1/ports/line-1/confirm-reset", {}).status, 204);
   const auto sent = shop_->rest(0).post("/api/v1/ports/line-1/transfers",
                                         {{"programs", nlohmann::json::array({"O1"})}});
   ASSERT_LT(sent.status, 300) << sent.body;

@@ -49,6 +49,12 @@ TEST_F(TakenTransfers, ProgramsThatWereBeingSentAreKnownToTheOtherServer) {
   EXPECT_LT(transfer.value("at_most", 0u), text.size()) << transfer;
   EXPECT_TRUE(is_audited("port.sent", "interrupted: O1 revision 1: the server stopped"));
   EXPECT_NE(shop_->log(1).find("the control may have a part of it"), std::string::npos);
+  const auto refused =
+      shop_->rest(1).post("/api/v1/ports/line-1/transfers", {{"programs", {"O1"}}});
+  EXPECT_EQ(refused.status, 409) << refused.body;
+  EXPECT_NE(refused.body.find("reset the control"), std::string::npos) << refused.body;
+  EXPECT_TRUE(device_.stays_silent(milliseconds(300)));
+  ASSERT_EQ(shop_->rest(1).post("/api/v1/ports/line-1/confirm-reset", {}).status, 204);
   const auto again = shop_->rest(1).post("/api/v1/ports/line-1/transfers", {{"programs", {"O1"}}});
   ASSERT_EQ(again.status, 201) << again.body;
   EXPECT_TRUE(eventually([&] { return device_.received() > received + 500; }));

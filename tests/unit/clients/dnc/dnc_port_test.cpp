@@ -363,6 +363,9 @@ TEST_F(DncPort, AsksTheControlForAProgramAndSaysWhatCame) {
   const auto received = dnc({"port", "receive", "line-1"});
   EXPECT_EQ(received.status, 0) << received.err;
   EXPECT_NE(received.out.find("Asking the control on line-1"), std::string::npos);
+  server.set_answer("POST /api/v1/ports/line-1/confirm-reset", 204, "");
+  EXPECT_EQ(dnc({"port", "confirm-reset", "line-1"}).out,
+            "Confirmed: the control on line-1 was reset. It gets the next program.\n");
   server.set_answer("DELETE /api/v1/ports/line-1/transfers", 204, "");
   EXPECT_EQ(dnc({"port", "stop", "line-1"}).out, "The transfer on line-1 is ended.\n");
 }

@@ -149,6 +149,7 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
       {"POST", "/api/v1/runs/" + run + "/commands", hold},
       {"POST", "/api/v1/ports/line-1/transfers", R"({"programs":["O0100"]})"},
       {"POST", "/api/v1/ports/line-1/receive", ""},
+      {"POST", "/api/v1/ports/line-1/confirm-reset", ""},
       {"DELETE", "/api/v1/ports/line-1/transfers", ""},
       {"POST", "/api/v1/machines/lathe-1/offsets/1/approve", "{}"},
       {"POST", "/api/v1/machines/lathe-1/offsets/1/reject", "{}"},

@@ -122,6 +122,11 @@ class FakePorts final : public ports::PortControl {
     if (auto known = port(name); !known) return fail(known.error());
     return {};
   }
+  Result<std::string> confirm_reset(const std::string& name) override {
+    if (refusal) return fail(*refusal);
+    if (auto known = port(name); !known) return fail(known.error());
+    return "run r1 of program O1";
+  }
   Result<void> stop_transfer(const std::string& name, const std::string& reason) override {
     if (refusal) return fail(*refusal);
     if (auto known = port(name); !known) return fail(known.error());

@@ -27,6 +27,8 @@ class OpenApiAnswers : public ProgramAnswers {
                      call("DELETE", "/api/v1/ports/line-1/transfers"));
     expect_described("POST", "/api/v1/ports/{name}/receive",
                      call("POST", "/api/v1/ports/line-1/receive"));
+    expect_described("POST", "/api/v1/ports/{name}/confirm-reset",
+                     call("POST", "/api/v1/ports/line-1/confirm-reset"));
     expect_described("POST", "/api/v1/ports/{name}/test-rules",
                      post("/api/v1/ports/line-1/test-rules", {{"text", "O1"}}));
     expect_described("GET", "/api/v1/ports/{name}/recording",

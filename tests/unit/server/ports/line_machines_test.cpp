@@ -133,6 +133,8 @@ TEST_F(PortServiceTest, EndsAtAKnownBlockWhenTheCableIsPulled) {
   EXPECT_EQ(start("O1").error().code, Errc::Timeout);
   line().put_back();
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  EXPECT_EQ(start("O1").error().code, Errc::Conflict);
+  ASSERT_TRUE(ports_->confirm_reset("com1"));
   EXPECT_TRUE(start("O1"));
 }
 

@@ -245,6 +245,9 @@ TEST_F(PortRoutes, SendAndReceiveWithoutARunAndWriteItDown) {
   EXPECT_EQ(entries[0]["action"], "port.sending");
   EXPECT_EQ(entries[0]["detail"], "O0001 revision 1, O0002 revision 4: 100 bytes");
   EXPECT_EQ(call("POST", "/api/v1/ports/line-1/receive").status, 204);
+  EXPECT_EQ(call("POST", "/api/v1/ports/line-1/confirm-reset").status, 204);
+  EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["detail"],
+            "run r1 of program O1 was broken off");
   EXPECT_EQ(call("DELETE", "/api/v1/ports/line-1/transfers").status, 204);
   EXPECT_EQ(ports_.stop_reason, "stopped by admin");
   EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["action"], "port.stop");
