@@ -16,6 +16,7 @@ namespace dripline::storage {
 struct ServerFacts {
   std::string url;          ///< where clients reach it; empty: nowhere yet
   std::string signing_key;  ///< public, hexadecimal
+  std::string settings;     ///< what they are to have alike; whose text it is the server's matter
 };
 
 /// A server that waits to take over the store.

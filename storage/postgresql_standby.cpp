@@ -24,7 +24,8 @@ struct PostgresqlStandby::Connection {
   postgresql::Database database;
   SteadyClock::time_point since;
   std::optional<SteadyClock::time_point> noted{};
-  bool has_place = false;  ///< its schema has all that is looked at
+  bool has_place = false;     ///< its schema has terms, and servers that wait
+  bool has_settings = false;  ///< its schema has settings of the holder
 };
 
 PostgresqlStandby::PostgresqlStandby(Options options) : options_(std::move(options)) {}
@@ -68,16 +69,20 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
     }
     const auto has_terms = postgresql::has_column(database, "store_holder", "signing_key");
     if (!has_terms) return fail(has_terms.error());
+    const auto has_settings = postgresql::has_column(database, "store_holder", "settings");
+    if (!has_settings) return fail(has_settings.error());
     connection_->has_place = *has_terms;
+    connection_->has_settings = *has_settings;
   }
   View view;
   const auto settled = SteadyClock::now() - connection_->since >= kSettle;
   const std::string facts = connection_->has_place ? "url, signing_key, term" : "'', '', 0";
+  const std::string settings = connection_->has_settings ? "settings" : "''";
   const auto row = sql::first_row(
       database,
       fmt::format("SELECT holder IN ('', ?1), until <= clock_timestamp(), described, {}, "
-                  "holder = ?1 FROM store_holder WHERE id = 1",
-                  facts),
+                  "holder = ?1, {} FROM store_holder WHERE id = 1",
+                  facts, settings),
       [&](const sql::Statement& found) {
         view.is_lapsed = found.integer(0) == 0 && found.integer(1) != 0;
         view.is_free = found.integer(0) != 0 || (view.is_lapsed && settled);
@@ -86,10 +91,17 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
         view.signing_key = found.text(4);
         view.term = static_cast<std::uint64_t>(found.integer(5));
         view.is_own = found.integer(6) != 0;
+        view.settings = found.text(7);
         return true;
       },
       options_.holder);
   if (!row) return fail(row.error());
+  if (!*row) {
+    return fail(Errc::Corrupt,
+                "database {} has lost the row of its place (table store_holder): no server can "
+                "have it until there is one again (deploy/docs/operations.md)",
+                database.label());
+  }
   auto identity = database.text("SELECT id FROM identity");
   if (!identity) return fail(identity.error());
   view.identity = *std::move(identity);

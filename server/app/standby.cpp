@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -11,9 +12,11 @@
 #include "server/api/metrics_text.hpp"
 #include "server/app/networks.hpp"
 #include "server/app/open_store.hpp"
+#include "server/app/shared_settings.hpp"
 #include "server/app/standby_page.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/identity/revoked_certificates.hpp"
+#include "server/library/health.hpp"
 #include "server/library/release_policy.hpp"
 
 namespace dripline::app {
@@ -63,6 +66,7 @@ struct Standby::Parts {
   api::HttpOptions http;
   std::optional<api::HttpOptions> agent;  ///< of MTConnect
   dds::NetworkOptions network;
+  std::string told_settings;
   storage::PostgresqlStandby database;
   SteadyTime began;
 };
@@ -95,7 +99,7 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   if (!holder) return fail(holder.error());
   std::unique_ptr<Standby> standby(new Standby(std::unique_ptr<Parts>(
       new Parts{settings, clock, options, *folder, *std::move(lock), key->public_key().hex(), *http,
-                *std::move(agent), *std::move(network),
+                *std::move(agent), *std::move(network), shared_settings(settings),
                 storage::PostgresqlStandby(
                     {.url = settings.store, .holder = *holder, .described = description(*folder)}),
                 clock.steady_now()})));
@@ -104,6 +108,9 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   if (auto fits = standby->check(*view); !fits) return fail(fits.error());
   if (!view->is_free) {
     if (auto same = standby->check_token(*token); !same) return fail(same.error());
+    standby->look_at_settings(*view);
+    if (const auto& fault = standby->faults_.network; !fault.empty())
+      return fail(Errc::Conflict, "standby for {}: {}", name_of(*view), fault);
   }
   standby->view_ = *std::move(view);
   return standby;
@@ -151,19 +158,20 @@ Result<bool> Standby::look() {
   if (!view) {
     const bool is_final = view.error().code == Errc::Unsupported;
     const std::lock_guard lock(mutex_);
-    if (fault_.empty() && !is_final)
+    if (faults_.database.empty() && !is_final)
       process::log_warning("standing by, but the database cannot be looked at: {}",
                            view.error().what);
-    fault_ = view.error().what;
+    faults_.database = view.error().what;
     return is_final ? Result<bool>(fail(view.error())) : Result<bool>(false);
   }
   if (view->term != view_.term) {
     if (auto fits = check(*view); !fits) return fail(fits.error());
   }
-  const bool is_free = view->is_free && !is_for_others(*view);
+  look_at_settings(*view);
+  const bool is_free = view->is_free && !is_for_others(*view) && faults_.network.empty();
   const bool is_due = has_ports(is_free) && is_free;
   const std::lock_guard lock(mutex_);
-  if (!std::exchange(fault_, "").empty()) process::log_info("the database answers again");
+  if (!std::exchange(faults_.database, "").empty()) process::log_info("the database answers again");
   if (view->term != view_.term && view_.term != 0 && !view->is_free)
     process::log_info("standing by for {}", name_of(*view));
   view_ = *std::move(view);
@@ -178,19 +186,27 @@ Result<void> Standby::check_ports() const {
               free.error().what, 2 * parts_->network.cells);
 }
 
+/// Said when it begins and when it is over. One thread writes; the answers read.
+void Standby::set_fault(std::string StandbyFaults::*which, std::string now, const char* cleared) {
+  const std::lock_guard lock(mutex_);
+  const std::string before = std::exchange(faults_.*which, std::move(now));
+  if (!(faults_.*which).empty() && before.empty())
+    process::log_warning("this server stands by, but: {}", faults_.*which);
+  if ((faults_.*which).empty() && !before.empty()) process::log_info("{}", cleared);
+}
+
 /// Looked at when it matters, and each second for people and for a hand-over.
 bool Standby::has_ports(bool is_due) {
   const SteadyTime now = parts_->clock.steady_now();
-  if (!is_due && now - ports_seen_ < kPortsEvery) return port_fault_.empty();
+  if (!is_due && now - ports_seen_ < kPortsEvery) return faults_.ports.empty();
   ports_seen_ = now;
   look_at_agent();
+  look_at_disk();
   const auto free = check_ports();
-  parts_->database.set_able(free.has_value());
-  const std::lock_guard lock(mutex_);
-  const std::string before = std::exchange(port_fault_, free ? "" : free.error().what);
-  if (!free && before.empty())
-    process::log_warning("this server cannot take over: {}", port_fault_);
-  if (free && !before.empty()) process::log_info("the UDP ports are free: it can take over again");
+  set_fault(&StandbyFaults::ports, free ? "" : "it cannot take over: " + free.error().what,
+            "the UDP ports are free: it can take over again");
+  parts_->database.set_able(!faults_.is_unfit());
+  parts_->database.set_note(faults_.note());
   return free.has_value();
 }
 
@@ -199,15 +215,44 @@ bool Standby::has_ports(bool is_due) {
 void Standby::look_at_agent() {
   if (!parts_->agent) return;
   const auto free = api::check_free(parts_->agent->address);
-  const std::lock_guard lock(mutex_);
-  const std::string before = std::exchange(agent_fault_, free ? "" : free.error().what);
-  parts_->database.set_note(
-      free ? "" : "it would take over without its MTConnect agent: " + agent_fault_);
-  if (!free && before.empty()) {
-    process::log_warning("this server would take over without its MTConnect agent: {}",
-                         agent_fault_);
+  set_fault(&StandbyFaults::agent,
+            free ? "" : "it would take over without its MTConnect agent: " + free.error().what,
+            "the address of the MTConnect agent is free");
+}
+
+void Standby::look_at_disk() {
+  std::error_code ec;
+  const auto space = std::filesystem::space(parts_->folder.path(), ec);
+  if (ec) return;
+  const auto finding = library::judge_disk(space.capacity, space.available);
+  using Level = library::Health::Level;
+  const bool is_well = finding.level == Level::Ok;
+  {
+    const std::lock_guard lock(mutex_);
+    faults_.is_disk_full = finding.level == Level::Failed;
   }
-  if (free && !before.empty()) process::log_info("the address of the MTConnect agent is free");
+  set_fault(&StandbyFaults::disk,
+            is_well ? "" : fmt::format("{} ({})", finding.what, parts_->folder.path().string()),
+            "the disk has room again");
+}
+
+/// With those of the server that has the place, or was killed with it. A place that is given back
+/// stays that server's in this: its gateways are where they were.
+void Standby::look_at_settings(const View& view) {
+  const bool is_given_back = view.is_free && !view.is_lapsed;
+  if (view.is_own || is_given_back) return;
+  const auto difference = compare_settings(parts_->told_settings, view.settings);
+  set_fault(&StandbyFaults::network,
+            difference.forbids.empty()
+                ? ""
+                : fmt::format("it cannot take over, gateways would not find it: {}",
+                              fmt::join(difference.forbids, "; ")),
+            "the DDS settings are those of the active server: it can take over again");
+  set_fault(&StandbyFaults::settings,
+            difference.others.empty()
+                ? ""
+                : fmt::format("its settings differ: {}", fmt::join(difference.others, "; ")),
+            "the settings are those of the active server");
 }
 
 Result<void> Standby::listen() {
@@ -233,10 +278,7 @@ Result<void> Standby::listen() {
 
 std::string Standby::status() const {
   const std::lock_guard lock(mutex_);
-  return fmt::format("{}: standby for {}{}{}{}", url_, name_of(view_),
-                     fault_.empty() ? "" : ", the database cannot be reached",
-                     port_fault_.empty() ? "" : ", its UDP ports are in use",
-                     agent_fault_.empty() ? "" : ", its MTConnect address cannot be used");
+  return fmt::format("{}: standby for {}{}", url_, name_of(view_), faults_.summary());
 }
 
 std::string Standby::takeover() const {
@@ -258,22 +300,8 @@ std::string Standby::takeover() const {
 /// What anybody may know, and for everything else which server to ask.
 api::Response Standby::answer(const api::Request& request) const {
   const std::lock_guard lock(mutex_);
-  const bool is_well = fault_.empty() && port_fault_.empty() && agent_fault_.empty();
-  auto reasons = nlohmann::json::array();
-  const auto add_reason = [&reasons](const char* subject, const char* message) {
-    reasons.push_back({{"subject", subject}, {"status", "degraded"}, {"message", message}});
-  };
-  if (!fault_.empty())
-    add_reason("store", "the database that this server stands by for cannot be reached");
-  if (!port_fault_.empty())
-    add_reason("dds",
-               "a UDP port that this server needs for gateways is in use: it cannot take over");
-  if (!agent_fault_.empty())
-    add_reason("mtconnect",
-               "the address of this server's MTConnect agent is in use or not allowed: it would "
-               "take over without the agent");
-  nlohmann::json health{
-      {"status", is_well ? "ok" : "degraded"}, {"role", "standby"}, {"reasons", reasons}};
+  const bool is_well = faults_.is_well();
+  nlohmann::json health = faults_.health();
   const std::string path = fmt::format("/{}", fmt::join(request.target.segments, "/"));
   if (path == "/api/v1/health") return api::json_response(200, health);
   if (path == "/api/v1/ready") {
@@ -284,7 +312,7 @@ api::Response Standby::answer(const api::Request& request) const {
     api::MetricsText out;
     out.gauge("dripline_server_active", "1: this server has its library; 0: it stands by.", 0);
     out.gauge("dripline_server_standby_ok",
-              "1: a server that stands by sees its database and can use all its ports.",
+              "1: a server that stands by could take over, with the settings of the active one.",
               is_well ? 1 : 0);
     api::Response response;
     response.content_type = api::MetricsText::kContentType;
@@ -294,9 +322,12 @@ api::Response Standby::answer(const api::Request& request) const {
   if (wants_page(request)) {
     api::Response page = standby_page({.active = view_.described,
                                        .url = view_.url,
-                                       .is_database_lost = !fault_.empty(),
-                                       .is_blocked = !port_fault_.empty(),
-                                       .lacks_agent = !agent_fault_.empty()},
+                                       .is_database_lost = !faults_.database.empty(),
+                                       .is_blocked = !faults_.ports.empty(),
+                                       .lacks_agent = !faults_.agent.empty(),
+                                       .has_other_network = !faults_.network.empty(),
+                                       .has_other_settings = !faults_.settings.empty(),
+                                       .lacks_disk = !faults_.disk.empty()},
                                       request);
     page.ends_connection = true;
     return page;

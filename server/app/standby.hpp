@@ -11,6 +11,7 @@
 #include "protocol/base/descriptor.hpp"
 #include "server/api/http_server.hpp"
 #include "server/app/settings.hpp"
+#include "server/app/standby_faults.hpp"
 #include "server/app/state_folder.hpp"
 #include "storage/postgresql_standby.hpp"
 
@@ -65,15 +66,16 @@ class Standby {
   bool is_for_others(const storage::PostgresqlStandby::View& view) const;
   bool has_ports(bool is_due);
   void look_at_agent();
+  void look_at_settings(const storage::PostgresqlStandby::View& view);
+  void look_at_disk();
+  void set_fault(std::string StandbyFaults::*which, std::string now, const char* cleared);
   api::Response answer(const api::Request& request) const;
 
   std::unique_ptr<Parts> parts_;
   std::string address_, url_;
   mutable std::mutex mutex_;
   storage::PostgresqlStandby::View view_;  ///< the last
-  std::string fault_;                      ///< why the database cannot be looked at; empty: it can
-  std::string port_fault_;                 ///< why it cannot take over; empty: it can
-  std::string agent_fault_;                ///< what it would lack then; empty: nothing
+  StandbyFaults faults_;
   SteadyTime ports_seen_{};
   std::unique_ptr<api::HttpServer> http_;  // last: its threads use the others
 };

@@ -18,7 +18,7 @@ constexpr unsigned kReloadSeconds = 5;
 
 struct Words {
   std::string_view language, waits, has_library, unknown, database_lost, blocked, lacks_agent,
-      reloads;
+      other_network, other_settings, lacks_disk, reloads;
 };
 constexpr Words kEnglish{
     "en",
@@ -29,6 +29,9 @@ constexpr Words kEnglish{
     "A UDP port that this server needs for gateways is in use: it cannot take over.",
     "The address of its MTConnect agent is in use or not allowed: it would take over without the "
     "agent.",
+    "Its DDS settings are not those of the server that has the library: it cannot take over.",
+    "Its settings are not those of the server that has the library: see its log.",
+    "Its disk is full or nearly full.",
     "This page loads itself again, and becomes the usual one when this server has the library."};
 constexpr Words kGerman{
     "de",
@@ -39,6 +42,10 @@ constexpr Words kGerman{
     "Ein UDP-Port, den dieser Server für Gateways braucht, ist belegt: er kann nicht übernehmen.",
     "Die Adresse seines MTConnect-Agenten ist belegt oder nicht erlaubt: er würde ohne den Agenten "
     "übernehmen.",
+    "Seine DDS-Einstellungen sind andere als die des Servers mit der Bibliothek: er kann nicht "
+    "übernehmen.",
+    "Seine Einstellungen sind andere als die des Servers mit der Bibliothek: siehe sein Protokoll.",
+    "Sein Datenträger ist voll oder fast voll.",
     "Diese Seite lädt sich selbst neu und wird zur gewohnten, sobald dieser Server die Bibliothek "
     "hat."};
 
@@ -101,9 +108,15 @@ api::Response standby_page(const StandbyPageFacts& facts, const api::Request& re
       "<meta http-equiv=\"refresh\" content=\"{}\"><title>Dripline</title>\n"
       "<h1>Dripline</h1>\n<p>{}</p>\n<p>{}</p>\n",
       words.language, kReloadSeconds, words.waits, place_of(facts, words));
-  if (facts.is_database_lost) response.body += fmt::format("<p>{}</p>\n", words.database_lost);
-  if (facts.is_blocked) response.body += fmt::format("<p>{}</p>\n", words.blocked);
-  if (facts.lacks_agent) response.body += fmt::format("<p>{}</p>\n", words.lacks_agent);
+  const auto add_if = [&response](bool is_so, std::string_view text) {
+    if (is_so) response.body += fmt::format("<p>{}</p>\n", text);
+  };
+  add_if(facts.is_database_lost, words.database_lost);
+  add_if(facts.is_blocked, words.blocked);
+  add_if(facts.has_other_network, words.other_network);
+  add_if(facts.lacks_agent, words.lacks_agent);
+  add_if(facts.has_other_settings, words.other_settings);
+  add_if(facts.lacks_disk, words.lacks_disk);
   response.body += fmt::format("<p>{}</p>\n</html>\n", words.reloads);
   response.headers.emplace_back("Cache-Control", "no-store");
   response.headers.emplace_back("Vary", "Accept, Accept-Language");

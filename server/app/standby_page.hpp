@@ -14,6 +14,9 @@ struct StandbyPageFacts {
   bool is_database_lost = false;  ///< so that the two above may be old
   bool is_blocked = false;        ///< a UDP port of it is in use: it cannot take over
   bool lacks_agent = false;       ///< it would take over without its MTConnect agent
+  bool has_other_network = false;   ///< its gateways are others': it cannot take over
+  bool has_other_settings = false;  ///< than the server that has the library
+  bool lacks_disk = false;
 };
 
 /// A browser that was sent to this server: it asks for a page, and not for the API.

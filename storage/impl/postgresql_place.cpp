@@ -166,8 +166,9 @@ Result<void> PostgresqlPlace::renew(sql::Database& database) const {
 }
 
 Result<void> PostgresqlPlace::publish(sql::Database& database, const ServerFacts& facts) const {
-  return sql::run(database, "UPDATE store_holder SET url = ?1, signing_key = ?2 WHERE id = 1",
-                  facts.url, facts.signing_key);
+  return sql::run(database,
+                  "UPDATE store_holder SET url = ?1, signing_key = ?2, settings = ?3 WHERE id = 1",
+                  facts.url, facts.signing_key, facts.settings);
 }
 
 void PostgresqlPlace::give_back(sql::Database& database) const {

@@ -66,7 +66,8 @@ void ServerParts::publish() {
     const auto at = reached.find(any);
     if (at != std::string::npos) reached.replace(at, any.size(), "//" + host_name() + ":");
   }
-  const auto published = store->publish({.url = reached, .signing_key = signing_key});
+  const auto published =
+      store->publish({.url = reached, .signing_key = signing_key, .settings = told_settings});
   if (!published)
     process::log_warning("servers that wait do not know this one's address: {}",
                          published.error().what);

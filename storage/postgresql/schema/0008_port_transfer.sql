@@ -1,4 +1,5 @@
--- Version 8: programs that go to a control, or come from it, without a run are known to the server that begins or takes over after a kill.
+-- Version 8: programs that go to a control, or come from it, without a run are known to the server that begins or takes over after a kill;
+-- servers that wait see how the settings of the one that has the place differ from theirs.
 
 -- The latest of each direction; what was before is in the audit trail.
 CREATE TABLE port_transfer (
@@ -16,3 +17,6 @@ CREATE TABLE port_transfer (
   PRIMARY KEY (port, direction),
   CHECK ((state = 'active') = (ended_us IS NULL))
 );
+
+-- Of the server that had the place last: what those that wait are to have alike, as the server writes it.
+ALTER TABLE store_holder ADD COLUMN settings text COLLATE "C" NOT NULL DEFAULT '';

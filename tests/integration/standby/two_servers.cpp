@@ -65,6 +65,8 @@ void TwoServers::start(int server) {
                                    "--lease-ms",
                                    "1500"};
   command.insert(command.end(), options_.arguments.begin(), options_.arguments.end());
+  const auto& own = options_.second_arguments;
+  if (server == 1) command.insert(command.end(), own.begin(), own.end());
   servers_[number].emplace(command, folder() / (name(server) + ".out"));
   ASSERT_TRUE(eventually([&] { return !role(server).empty(); })) << output(server) << log(server);
   const std::string url = rest(server).url();

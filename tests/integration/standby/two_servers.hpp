@@ -22,7 +22,8 @@ class TwoServers {
   struct Options {
     std::array<std::string, 2> stores;  ///< URL of the database for each
     std::string speed = "20x";
-    std::vector<std::string> arguments = {};  ///< of both servers
+    std::vector<std::string> arguments = {};         ///< of both servers
+    std::vector<std::string> second_arguments = {};  ///< of the second one
   };
   explicit TwoServers(Options options);
 
@@ -52,6 +53,7 @@ class TwoServers {
   std::string gateway_log() const;
   std::uint16_t dds_port(int server) const;
   int domain() const { return domain_; }
+  const std::string& tag() const { return tag_; }  ///< of DDS
   const std::string& tag() const { return tag_; }
   std::filesystem::path gateway_state() const { return folder() / "gateway"; }
 

@@ -75,8 +75,8 @@ TEST_F(WaitingServer, IsRefusedWithThePortOfTheActiveOneOnThisComputer) {
   shop_->share_keys();
   const auto refused = test_support::run_to_end(
       {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
-       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain()), "--dds-port",
-       std::to_string(shop_->dds_port(0))},
+       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain()), "--dds-tag",
+       shop_->tag(), "--dds-port", std::to_string(shop_->dds_port(0))},
       shop_->folder() / "same.out");
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.output.find(fmt::format("UDP port {} is in use", shop_->dds_port(0))),
@@ -195,6 +195,55 @@ TEST_F(WaitingServer, ASqliteFileHasNoStandby) {
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.output.find("standby: servers share a PostgreSQL database"), std::string::npos)
       << refused.output;
+}
+
+/// Gateways look for their server in the active one's domain.
+TEST_F(WaitingServer, IsRefusedWithOtherDdsSettings) {
+  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')}});
+  shop_->start(0);
+  ASSERT_TRUE(shop_->wait_active(0));
+  shop_->share_keys();
+  const auto refused = test_support::run_to_end(
+      {program_path("dncd"), "--state", shop_->state(1), "--store", store('b'), "--standby", "yes",
+       "--http", "127.0.0.1:0", "--dds-domain", std::to_string(shop_->domain()), "--dds-tag",
+       "another", "--dds-port", std::to_string(shop_->dds_port(1))},
+      shop_->folder() / "other.out");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.output.find(
+                fmt::format("dds-tag is another, and {} at the active server", shop_->tag())),
+            std::string::npos)
+      << refused.output;
+  EXPECT_EQ(shop_->role(0), "active");
+}
+
+/// A takeover would let other programs run, and a shop's folders would not be read any more.
+TEST_F(WaitingServer, SaysThatItsSettingsAreNotThoseOfTheActiveOne) {
+  const test_support::TemporaryFolder folder;
+  const std::string policy = folder.path() / "policy.toml";
+  std::ofstream(policy) << "runs = \"release\"\n";
+  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')},
+                                    .speed = "10x",
+                                    .second_arguments = {"--policy", policy}});
+  start_both();
+  const auto active = [&] { return shop_->rest(0).get("/api/v1/server").body; };
+  EXPECT_TRUE(test_support::eventually([&] {
+    return active().find("its settings differ: policy is sha256 ") != std::string::npos;
+  })) << active();
+  const auto health = shop_->rest(1).get("/api/v1/health");
+  EXPECT_EQ(health.json().value("status", ""), "degraded") << health.body;
+  EXPECT_NE(health.body.find("\"settings\""), std::string::npos) << health.body;
+  EXPECT_EQ(health.body.find("sha256"), std::string::npos) << health.body;
+  EXPECT_NE(shop_->log(1).find("policy is sha256 "), std::string::npos) << shop_->log(1);
+}
+
+/// Nobody can have the place then: the one that waits says which row is missing.
+TEST_F(WaitingServer, NamesTheRowOfThePlaceThatIsGone) {
+  begin();
+  ASSERT_TRUE(connect().execute("DELETE FROM store_holder"));
+  EXPECT_TRUE(test_support::eventually([&] {
+    return shop_->log(1).find("has lost the row of its place (table store_holder)") !=
+           std::string::npos;
+  })) << shop_->log(1);
 }
 
 }  // namespace

@@ -1642,6 +1642,7 @@ CREATE TABLE public.store_holder (
     term bigint DEFAULT 0 NOT NULL,
     url text DEFAULT ''::text NOT NULL COLLATE pg_catalog."C",
     signing_key text DEFAULT ''::text NOT NULL COLLATE pg_catalog."C",
+    settings text DEFAULT ''::text NOT NULL COLLATE pg_catalog."C",
     CONSTRAINT store_holder_id_check CHECK ((id = 1)),
     CONSTRAINT store_holder_term_check CHECK ((term >= 0))
 );

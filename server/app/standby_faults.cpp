@@ -1,0 +1,76 @@
+#include "server/app/standby_faults.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace dripline::app {
+namespace {
+
+struct Row {
+  const char* subject;
+  std::string StandbyFaults::*fault;
+  const char* message;  ///< for any client
+  const char* summary;  ///< for the status line
+};
+
+constexpr std::array kRows{
+    Row{"store", &StandbyFaults::database,
+        "the database that this server stands by for cannot be reached",
+        "the database cannot be reached"},
+    Row{"dds", &StandbyFaults::ports,
+        "a UDP port that this server needs for gateways is in use: it cannot take over",
+        "its UDP ports are in use"},
+    Row{"dds", &StandbyFaults::network,
+        "the DDS settings of this server are not those of the active one, whose gateways would not "
+        "find it: it cannot take over",
+        "its DDS settings are not the active server's"},
+    Row{"mtconnect", &StandbyFaults::agent,
+        "the address of this server's MTConnect agent is in use or not allowed: it would take over "
+        "without the agent",
+        "its MTConnect address cannot be used"},
+    Row{"settings", &StandbyFaults::settings,
+        "this server's settings are not those of the active one: after a takeover it would work in "
+        "another way",
+        "its settings are not the active server's"},
+    Row{"disk", &StandbyFaults::disk, "the disk of this server is full or nearly full",
+        "its disk is full or nearly full"},
+};
+
+}  // namespace
+
+bool StandbyFaults::is_well() const {
+  for (const Row& row : kRows)
+    if (!(this->*row.fault).empty()) return false;
+  return true;
+}
+
+std::string StandbyFaults::note() const {
+  std::string note;
+  const auto add = [&note](const std::string& words) {
+    note += (note.empty() ? "" : "; ") + words;
+  };
+  if (!agent.empty()) add(agent);
+  if (!settings.empty()) add(settings);
+  if (!disk.empty()) add(disk);
+  return note;
+}
+
+std::string StandbyFaults::summary() const {
+  std::string text;
+  for (const Row& row : kRows)
+    if (!(this->*row.fault).empty()) text += fmt::format(", {}", row.summary);
+  return text;
+}
+
+nlohmann::json StandbyFaults::health() const {
+  auto reasons = nlohmann::json::array();
+  for (const Row& row : kRows) {
+    if ((this->*row.fault).empty()) continue;
+    reasons.push_back({{"subject", row.subject}, {"status", "degraded"}, {"message", row.message}});
+  }
+  return {{"status", is_well() ? "ok" : "degraded"}, {"role", "standby"}, {"reasons", reasons}};
+}
+
+}  // namespace dripline::app
