@@ -33,7 +33,7 @@ class PostgresqlStandby {
     std::string described;    ///< of the holder
     std::string url;          ///< of the holder; empty: not known
     std::string signing_key;  ///< of the last holder; empty: not known
-    std::string settings;     ///< likewise (ServerFacts); empty: it told nothing
+    std::string settings;     ///< likewise (ServerFacts); empty: an older version
     std::uint64_t term = 0;   ///< of the last holder
     bool has_others = false;  ///< other servers wait too
     std::string identity;     ///< of the database; empty: it has none

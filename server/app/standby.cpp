@@ -66,7 +66,7 @@ struct Standby::Parts {
   api::HttpOptions http;
   std::optional<api::HttpOptions> agent;  ///< of MTConnect
   dds::NetworkOptions network;
-  std::string told_settings;
+  std::string published_settings;
   storage::PostgresqlStandby database;
   SteadyTime began;
 };
@@ -191,7 +191,7 @@ void Standby::set_fault(std::string StandbyFaults::*which, std::string now, cons
   const std::lock_guard lock(mutex_);
   const std::string before = std::exchange(faults_.*which, std::move(now));
   if (!(faults_.*which).empty() && before.empty())
-    process::log_warning("this server stands by, but: {}", faults_.*which);
+    process::log_warning("this standby: {}", faults_.*which);
   if ((faults_.*which).empty() && !before.empty()) process::log_info("{}", cleared);
 }
 
@@ -241,7 +241,7 @@ void Standby::look_at_disk() {
 void Standby::look_at_settings(const View& view) {
   const bool is_given_back = view.is_free && !view.is_lapsed;
   if (view.is_own || is_given_back) return;
-  const auto difference = compare_settings(parts_->told_settings, view.settings);
+  const auto difference = compare_settings(parts_->published_settings, view.settings);
   set_fault(&StandbyFaults::network,
             difference.forbids.empty()
                 ? ""
@@ -312,7 +312,7 @@ api::Response Standby::answer(const api::Request& request) const {
     api::MetricsText out;
     out.gauge("dripline_server_active", "1: this server has its library; 0: it stands by.", 0);
     out.gauge("dripline_server_standby_ok",
-              "1: a server that stands by could take over, with the settings of the active one.",
+              "1: a standby could take over, with the settings of the active server.",
               is_well ? 1 : 0);
     api::Response response;
     response.content_type = api::MetricsText::kContentType;

@@ -17,7 +17,7 @@ struct Row {
 
 constexpr std::array kRows{
     Row{"store", &StandbyFaults::database,
-        "the database that this server stands by for cannot be reached",
+        "the database that this standby waits for cannot be reached",
         "the database cannot be reached"},
     Row{"dds", &StandbyFaults::ports,
         "a UDP port that this server needs for gateways is in use: it cannot take over",
@@ -31,8 +31,8 @@ constexpr std::array kRows{
         "without the agent",
         "its MTConnect address cannot be used"},
     Row{"settings", &StandbyFaults::settings,
-        "this server's settings are not those of the active one: after a takeover it would work in "
-        "another way",
+        "this server's settings are not those of the active one: after a takeover it would work "
+        "differently",
         "its settings are not the active server's"},
     Row{"disk", &StandbyFaults::disk, "the disk of this server is full or nearly full",
         "its disk is full or nearly full"},

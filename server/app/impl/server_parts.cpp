@@ -149,7 +149,7 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
            .shared = shared_library(),
            .has_tls = !settings.tls_key.empty()}),
       signing_key(loaded.key.public_key().hex()),
-      told_settings(shared_settings(settings)),
+      published_settings(shared_settings(settings)),
       tidied(clock.steady_now()) {}
 
 machines::MachineService::Options ServerParts::machine_options() {

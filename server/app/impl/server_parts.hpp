@@ -180,7 +180,7 @@ struct ServerParts {
   StateFolder::Announcement announcement;
   std::atomic<bool> is_announced = true;  ///< or not yet tried
   std::string signing_key;                ///< public
-  std::string told_settings;              ///< to servers that wait (shared_settings.hpp)
+  std::string published_settings;         ///< to servers that wait (shared_settings.hpp)
   std::function<void()> on_handed_over;
   SteadyTime tidied;
   std::jthread check;  ///< of a database too big to be looked through before the start

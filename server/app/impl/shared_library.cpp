@@ -67,7 +67,7 @@ void ServerParts::publish() {
     if (at != std::string::npos) reached.replace(at, any.size(), "//" + host_name() + ":");
   }
   const auto published =
-      store->publish({.url = reached, .signing_key = signing_key, .settings = told_settings});
+      store->publish({.url = reached, .signing_key = signing_key, .settings = published_settings});
   if (!published)
     process::log_warning("servers that wait do not know this one's address: {}",
                          published.error().what);

@@ -22,7 +22,7 @@ struct BrokenProgram {
 struct SentTo {
   std::string machine;
   std::string port;  ///< of this server; empty: a gateway's, whose transfers are not in the store
-  /// The protocol tells the control that a program was aborted.
+  /// The control knows of an aborted program by its protocol.
   bool are_aborts_told = false;
 };
 
