@@ -16,6 +16,8 @@ constexpr std::size_t kMaxGivenUp = 64;
 constexpr auto kRetry = 10ms;  ///< before a command is offered again to a full queue
 /// The machine shows the run: so long the answer to its start is awaited, which has the reason.
 constexpr auto kForReason = 1s;
+/// A server that ends waits so long for answers to what it has sent.
+constexpr auto kLastAnswer = 1s;
 
 /// These are sent at once, whatever is known of the gateway. Only the gateway knows whether an
 /// override is lowered.
@@ -145,6 +147,9 @@ Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
   const auto soon = std::chrono::steady_clock::now() + kForReason;
   const bool is_decided =
       changed_.wait_until(lock, waiting.is_seen ? std::min(soon, limit) : limit, is_resolved);
+  // Usually the answer is on its way: what a caller is told then is what has happened.
+  if (is_decided && !waiting.result && !waiting.is_seen)
+    changed_.wait_for(lock, kLastAnswer, [&] { return waiting.result.has_value(); });
   if (waiting.result) {
     if (waiting.result->accepted) return *waiting.result;
     return fail(Errc::Busy, "machine {} refused {}: {}", waiting.command.machine,

@@ -43,8 +43,8 @@ class CommandDispatcher {
                     std::function<void(const dds::Command&)> on_late_start);
 
   /// Gives the command an id and an expiry, sends it and waits. Any thread but DDS's. Errors: Busy
-  /// (refused: the gateway's reason), Timeout (nothing heard in time), NotFound (never announced),
-  /// Io (the server is stopping).
+  /// (refused: the gateway's reason), Timeout (nothing heard in time, or before the server ended),
+  /// NotFound (never announced).
   Result<void> carry_out(dds::Command command);
   /// Asks for values (CommandAction::Query): as carry_out; returns what the gateway answers.
   Result<std::string> ask(dds::Command query);
@@ -62,6 +62,7 @@ class CommandDispatcher {
   void on_run_seen(const std::string& machine, const std::string& run);
   /// Whether a caller waits for the start of this run.
   bool is_waiting_for(const std::string& run) const;
+  /// Answers to what has been sent are awaited for a second more.
   void stop();
 
  private:

@@ -76,6 +76,27 @@ TEST_F(MachineRuns, TellTheGatewayWhereToBegin) {  // CEN-163
   EXPECT_EQ(written_->commands.at(0).argument, "T12 pass=3 memory=begin");
 }
 
+/// A hand-over is ordered while a start is on its way: it is not left for the next server to find.
+TEST_F(MachineRuns, AreAnsweredWhileTheServerEnds) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  std::thread answering;
+  written_->on_command = [&](const dds::Command& command) {
+    if (answering.joinable()) return;  // sent again
+    answering = std::thread([this, command] {
+      service_->stop_waiting();
+      std::this_thread::sleep_for(50ms);
+      network_.on_command_result(
+          {.machine = command.machine, .id = command.id, .accepted = true, .reason = ""});
+    });
+  };
+  const auto run = start("O0100");
+  answering.join();
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(run->state, storage::RunState::Active);
+}
+
 TEST_F(MachineRuns, AreRefusedWithTheGatewaysReason) {
   push("O0100", "M30\n");
   start_service();
