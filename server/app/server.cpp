@@ -58,6 +58,7 @@ Server::~Server() {
   parts_->gateway_lines.end();
   parts_->ports.end();
   parts_->machine_service.end();
+  parts_->late_writer.end();
 }
 
 Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock,

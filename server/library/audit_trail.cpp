@@ -10,6 +10,18 @@ void AuditTrail::write(Change change) {
   }
 }
 
+void AuditTrail::write_late(const Change& change) {
+  if (late_ == nullptr) return write(change);
+  const storage::AuditEntry entry{.time = clock_.now(),
+                                  .who = change.who,
+                                  .action = change.action,
+                                  .subject = change.subject,
+                                  .detail = change.detail};
+  late_->write(fmt::format("audit entry who={} action={} subject={}", change.who.name,
+                           change.action, change.subject),
+               [&store = store_, entry] { return store.add(entry); });
+}
+
 Result<void> AuditTrail::write_before(Change change) {
   auto written = store_.add({.time = clock_.now(),
                              .who = std::move(change.who),

@@ -52,14 +52,11 @@ std::optional<storage::MachineHold> HoldReasons::expect(storage::MachineHold hol
 }
 
 void HoldReasons::keep(const std::string& machine) {
-  storage::MachineHold hold;
   {
     const std::lock_guard lock(mutex_);
-    const auto known = entries_.find(machine);
-    if (known == entries_.end()) return;  // it continues already
-    hold = known->second.hold;
+    if (!entries_.contains(machine)) return;  // it continues already
   }
-  log_failure(parts_.store.machines.hold(hold), machine);
+  save(machine);
   changed(machine);
 }
 
@@ -77,7 +74,7 @@ void HoldReasons::release(const std::string& machine) {
     const std::lock_guard lock(mutex_);
     if (entries_.erase(machine) == 0) return;
   }
-  drop_stored(machine);
+  save(machine);
   changed(machine);
 }
 
@@ -101,7 +98,7 @@ void HoldReasons::note(const storage::Run& run) {
     if (known == entries_.end() || known->second.hold.run != run.id) return;
     entries_.erase(known);
   }
-  drop_stored(run.machine);
+  save(run.machine);
   changed(run.machine);
 }
 
@@ -131,11 +128,22 @@ void HoldReasons::add_to(MachineView& view) {
     if (known != entries_.end() && (!view.status || shows(*view.status, known->second.hold)))
       view.held = known->second.hold;
   }
-  if (is_over) drop_stored(machine);
+  if (is_over) save(machine);
 }
 
-void HoldReasons::drop_stored(const std::string& machine) {
-  log_failure(parts_.store.machines.release(machine), machine);
+void HoldReasons::save(const std::string& machine) {
+  if (!parts_.late) return log_failure(save_now(machine), machine);
+  parts_.late("why machine=" + machine + " is held", [this, machine] { return save_now(machine); });
+}
+
+Result<void> HoldReasons::save_now(const std::string& machine) {
+  std::optional<storage::MachineHold> hold;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = entries_.find(machine); known != entries_.end())
+      hold = known->second.hold;
+  }
+  return hold ? parts_.store.machines.hold(*hold) : parts_.store.machines.release(machine);
 }
 
 void HoldReasons::changed(const std::string& machine) const {

@@ -22,6 +22,9 @@ class HoldReasons {
     const Clock& clock;
     /// What is known of the machine has changed. Called without a lock; must return soon.
     std::function<void(const std::string& machine)> on_change = {};
+    /// What is stored of a hold that has been given (library::LateWriter::write). Empty: at once,
+    /// in the caller's thread.
+    std::function<void(std::string what, std::function<Result<void>()> write)> late = {};
   };
   explicit HoldReasons(Parts parts) : parts_(std::move(parts)) {}
 
@@ -54,7 +57,9 @@ class HoldReasons {
   };
   /// True: the machine continues, and its entry is gone. Hold the mutex.
   bool drop_if_over(const MachineView& view);
-  void drop_stored(const std::string& machine);
+  /// The store gets what is known of the machine when it is written.
+  void save(const std::string& machine);
+  Result<void> save_now(const std::string& machine);
   void changed(const std::string& machine) const;
 
   const Parts parts_;

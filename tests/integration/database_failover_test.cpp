@@ -141,7 +141,7 @@ TEST_P(DatabaseFailover, AStopReachesTheMachineMeanwhile) {
   const auto give = [&](const char* action) {
     return system_->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
   };
-  // The answer waits for the database, the machine does not.
+  const auto given = std::chrono::steady_clock::now();
   auto held = std::async(std::launch::async, give, "hold");
   const auto rests = [&] {
     const std::uint64_t before = executed();
@@ -153,8 +153,13 @@ TEST_P(DatabaseFailover, AStopReachesTheMachineMeanwhile) {
   EXPECT_EQ(answer.status, 200) << answer.body;
   const auto aborted = give("abort");
   EXPECT_EQ(aborted.status, 200) << aborted.body;
+  EXPECT_LT(std::chrono::steady_clock::now() - given, seconds(8)) << "they wait for no database";
   come_back();
   EXPECT_EQ(system_->wait_ended(id).value("state", ""), "aborted");
+  // What was done meanwhile is written down then.
+  const auto entries = [&] { return system_->rest().get("/api/v1/audit?limit=50").body; };
+  for (const char* action : {"run.hold", "run.abort"})
+    EXPECT_TRUE(eventually([&] { return entries().find(action) != std::string::npos; })) << action;
 }
 
 /// Whoever asks whether the server is ready waits for no database, and hears the truth.

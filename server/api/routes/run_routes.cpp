@@ -162,13 +162,13 @@ Response carry_out(Services& services, const Request& request,
       return error_response(written.error());
   }
   const auto done = services.machines.command(command);
-  if (is_stop) services.audit.write(change);
+  if (is_stop) services.audit.write_late(change);
   if (done) return json_response(200, {{"accepted", true}});
   // The gateway may have carried out the command although its answer is missing.
   const bool is_unknown = done.error().code == Errc::Timeout;
   if (!change.detail.empty()) change.detail += ": ";
   change.detail += is_unknown ? "not answered" : "refused, " + done.error().what;
-  services.audit.write(std::move(change));
+  is_stop ? services.audit.write_late(change) : services.audit.write(std::move(change));
   return error_response(done.error());
 }
 

@@ -26,7 +26,7 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
       fetcher(make_fetcher()),
       health(clock),
       certificates(health, clock),
-      audit(store->audit, clock),
+      audit(store->audit, clock, &late_writer),
       chain(
           {.store = store->audit, .clock = clock, .key = loaded.key, .database = loaded.identity}),
       backups(make_backups(std::move(backup_folder), settings)),
@@ -40,7 +40,11 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
       runs(*store),
       hold_reasons({.store = *store,
                     .clock = clock,
-                    .on_change = [this](const std::string& machine) { show_machine(machine); }}),
+                    .on_change = [this](const std::string& machine) { show_machine(machine); },
+                    .late =
+                        [this](std::string what, std::function<Result<void>()> write) {
+                          late_writer.write(std::move(what), std::move(write));
+                        }}),
       jobs({.store = *store,
             .releases = releases,
             .clock = clock,

@@ -136,6 +136,7 @@ struct ServerParts {
   library::Health health;
   library::CertificateWatch certificates;
   library::DialectCatalog catalog;
+  library::LateWriter late_writer;
   library::AuditTrail audit;
   library::AuditChain chain;
   std::unique_ptr<library::Backups> backups;      ///< null: none are made
