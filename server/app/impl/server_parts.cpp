@@ -1,6 +1,7 @@
 #include "server/app/impl/server_parts.hpp"
 
 #include "protocol/process/log.hpp"
+#include "server/app/shared_settings.hpp"
 #include "server/identity/revoked_certificates.hpp"
 
 namespace dripline::app {

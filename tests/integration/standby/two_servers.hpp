@@ -53,7 +53,6 @@ class TwoServers {
   std::string gateway_log() const;
   std::uint16_t dds_port(int server) const;
   int domain() const { return domain_; }
-  const std::string& tag() const { return tag_; }  ///< of DDS
   const std::string& tag() const { return tag_; }
   std::filesystem::path gateway_state() const { return folder() / "gateway"; }
 

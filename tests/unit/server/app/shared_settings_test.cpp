@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "server/app/standby_faults.hpp"
 #include "tests/support/temporary_folder.hpp"
