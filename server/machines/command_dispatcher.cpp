@@ -147,7 +147,7 @@ Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
   const auto soon = std::chrono::steady_clock::now() + kForReason;
   const bool is_decided =
       changed_.wait_until(lock, waiting.is_seen ? std::min(soon, limit) : limit, is_resolved);
-  // Usually the answer is on its way: what its caller gets then is what has happened.
+  // The answer is usually coming: what its caller gets then is what has happened.
   if (is_decided && !waiting.result && !waiting.is_seen)
     changed_.wait_for(lock, kLastAnswer, [&] { return waiting.result.has_value(); });
   if (waiting.result) {
