@@ -13,7 +13,7 @@
 namespace dripline::app {
 namespace {
 
-constexpr int kUnavailable = 503;
+constexpr int kPageStatus = 503;
 constexpr unsigned kReloadSeconds = 5;
 
 struct Words {
@@ -99,7 +99,7 @@ bool wants_page(const api::Request& request) {
 api::Response standby_page(const StandbyPageFacts& facts, const api::Request& request) {
   const Words& words = words_for(request.header("accept-language"));
   api::Response response;
-  response.status = kUnavailable;
+  response.status = kPageStatus;
   response.content_type = "text/html; charset=utf-8";
   response.body = fmt::format(
       "<!doctype html><html lang=\"{}\"><meta charset=\"utf-8\">\n"

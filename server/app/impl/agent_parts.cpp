@@ -24,9 +24,9 @@ Result<void> ServerParts::open_mtconnect(const api::HttpOptions& options) {
     const auto setup = setups.find(view.machine.name, std::nullopt);
     if (setup) mtconnect->use_setup(*setup, view.machine.control, true);
   }
-  auto url = listen_mtconnect(options);
-  if (!url) return fail(url.error());
-  mtconnect_url = *std::move(url);
+  auto listening = listen_mtconnect(options);
+  if (!listening) return fail(listening.error());
+  mtconnect_url = *std::move(listening);
   return {};
 }
 
@@ -36,10 +36,10 @@ Result<std::string> ServerParts::listen_mtconnect(const api::HttpOptions& option
   mtconnect_http = *std::move(opened);
   api::HttpAddress bound = options.address;
   bound.port = mtconnect_http->port();
-  std::string url = "http://" + bound.text();
+  std::string at = "http://" + bound.text();
   if (!bound.is_loopback)
     process::log_warning("MTConnect at {}: anybody who reaches it may read", bound.text());
-  return url;
+  return at;
 }
 
 /// Of a server that took over: its machines do not wait for an agent.
@@ -52,11 +52,11 @@ void ServerParts::await_mtconnect(const api::HttpOptions& options, const Error& 
 }
 
 void ServerParts::open_due_mtconnect() {
-  const auto url = listen_mtconnect(*mtconnect_due);
-  report_mtconnect(url ? "" : url.error().what);
-  if (!url) return;
+  const auto listening = listen_mtconnect(*mtconnect_due);
+  report_mtconnect(listening ? "" : listening.error().what);
+  if (!listening) return;
   is_mtconnect_due = false;
-  process::log_info("MTConnect agent at {}", *url);
+  process::log_info("MTConnect agent at {}", *listening);
 }
 
 void ServerParts::report_mtconnect(const std::string& fault) {

@@ -177,7 +177,8 @@ TEST_F(PostgresqlPlaceTest, APlaceThatCannotBeRenewedMayBeAnothersByItsOwnClock)
 }
 
 TEST_F(PostgresqlPlaceTest, AStandbySeesWhoHasThePlaceAndIsSeen) {
-  ASSERT_TRUE(store_->publish({.url = "https://srv-1:8430", .signing_key = "abcd"}));
+  ASSERT_TRUE(store_->publish(
+      {.url = "https://srv-1:8430", .signing_key = "abcd", .settings = "dds-domain 0\n"}));
   {
     PostgresqlStandby standby(
         {.url = database_->url(), .holder = "srv-2", .described = "dncd 8 on srv-2"});
@@ -186,6 +187,7 @@ TEST_F(PostgresqlPlaceTest, AStandbySeesWhoHasThePlaceAndIsSeen) {
     EXPECT_FALSE(view->is_free);
     EXPECT_EQ(view->url, "https://srv-1:8430");
     EXPECT_EQ(view->signing_key, "abcd");
+    EXPECT_EQ(view->settings, "dds-domain 0\n");
     EXPECT_EQ(view->term, store_->term());
     EXPECT_EQ(view->identity, *store_->identity());
     const auto waiting = store_->waiting();

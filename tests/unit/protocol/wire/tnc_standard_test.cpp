@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/support/line/line_events.hpp"
 #include "tests/unit/protocol/wire/tnc_line.hpp"
 
 /// The standard protocol of the TNC: text between NUL and ETX, held by DC1 and DC3.
