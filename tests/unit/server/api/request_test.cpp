@@ -78,7 +78,8 @@ TEST(HttpAddress, KnowsWhatStaysOnThisMachine) {
 TEST(HttpAddress, IsFreeUntilAnotherProgramListensThere) {
   for (const std::string host : {"127.0.0.1", "[::1]"}) {
     EXPECT_TRUE(check_free(*parse_http_address(host + ":0")));
-    const auto server = HttpServer::start({.address = *parse_http_address(host + ":0")}, {});
+    const auto server = HttpServer::start(
+        {.address = *parse_http_address(host + ":0"), .tls = {}, .limits = {}}, {});
     if (!server && host == "[::1]") continue;  // a computer without IPv6
     ASSERT_TRUE(server) << server.error().what;
     const auto address = parse_http_address(fmt::format("{}:{}", host, (*server)->port()));

@@ -34,13 +34,23 @@ TEST(StandbyPage, IsForBrowsersAndNotForTheApi) {
 }
 
 TEST(StandbyPage, SaysWhatItCouldNotTakeOver) {
-  const auto well = standby_page({.active = "dncd 812"}, browser());
+  const auto well = standby_page({.active = "dncd 812", .url = ""}, browser());
   EXPECT_FALSE(holds(well, "MTConnect"));
   EXPECT_FALSE(holds(well, "UDP"));
-  EXPECT_TRUE(holds(standby_page({.active = "dncd 812", .is_blocked = true}, browser()),
+  EXPECT_TRUE(holds(standby_page({.active = "dncd 812", .url = "", .is_blocked = true}, browser()),
                     "it cannot take over"));
-  EXPECT_TRUE(holds(standby_page({.active = "dncd 812", .lacks_agent = true}, browser("de")),
-                    "ohne den Agenten"));
+  EXPECT_TRUE(
+      holds(standby_page({.active = "dncd 812", .url = "", .lacks_agent = true}, browser("de")),
+            "ohne den Agenten"));
+  const auto other = standby_page({.active = "dncd 812",
+                                   .url = "",
+                                   .has_other_network = true,
+                                   .has_other_settings = true,
+                                   .lacks_disk = true},
+                                  browser());
+  EXPECT_TRUE(holds(other, "Its DDS settings are not those"));
+  EXPECT_TRUE(holds(other, "see its log"));
+  EXPECT_TRUE(holds(other, "nearly full"));
 }
 
 TEST(StandbyPage, LinksToTheServerThatHasTheLibraryAndLoadsItselfAgain) {
