@@ -293,5 +293,20 @@ TEST(HttpServer, EndsAConnectionWhereTheAnswerSaysSo) {
   EXPECT_TRUE(peer.wait_for_end());
 }
 
+TEST(HttpAddress, IsFreeUntilAnotherProgramListensThere) {
+  for (const std::string host : {"127.0.0.1", "[::1]"}) {
+    EXPECT_TRUE(api::check_free(*api::parse_http_address(host + ":0")));
+    const auto server = api::HttpServer::start(
+        {.address = *api::parse_http_address(host + ":0"), .tls = {}, .limits = {}}, {});
+    if (!server && host == "[::1]") continue;  // a computer without IPv6
+    ASSERT_TRUE(server) << server.error().what;
+    const auto address = api::parse_http_address(fmt::format("{}:{}", host, (*server)->port()));
+    const auto taken = api::check_free(*address);
+    ASSERT_FALSE(taken);
+    EXPECT_EQ(taken.error().code, Errc::Busy);
+    EXPECT_EQ(taken.error().what, address->text() + " is in use");
+  }
+}
+
 }  // namespace
 }  // namespace dripline::server_test

@@ -4,7 +4,6 @@
 
 #include "server/api/api.hpp"
 #include "server/api/http_address.hpp"
-#include "server/api/http_server.hpp"
 
 namespace dripline::api {
 namespace {
@@ -72,21 +71,6 @@ TEST(HttpAddress, KnowsWhatStaysOnThisMachine) {
   EXPECT_EQ(parse_http_address("[::1]:80")->text(), "[::1]:80");
   for (const char* text : {"", "localhost", "localhost:x", "localhost:65536", "nohost:80", ":80"}) {
     EXPECT_FALSE(parse_http_address(text)) << text;
-  }
-}
-
-TEST(HttpAddress, IsFreeUntilAnotherProgramListensThere) {
-  for (const std::string host : {"127.0.0.1", "[::1]"}) {
-    EXPECT_TRUE(check_free(*parse_http_address(host + ":0")));
-    const auto server = HttpServer::start(
-        {.address = *parse_http_address(host + ":0"), .tls = {}, .limits = {}}, {});
-    if (!server && host == "[::1]") continue;  // a computer without IPv6
-    ASSERT_TRUE(server) << server.error().what;
-    const auto address = parse_http_address(fmt::format("{}:{}", host, (*server)->port()));
-    const auto taken = check_free(*address);
-    ASSERT_FALSE(taken);
-    EXPECT_EQ(taken.error().code, Errc::Busy);
-    EXPECT_EQ(taken.error().what, address->text() + " is in use");
   }
 }
 

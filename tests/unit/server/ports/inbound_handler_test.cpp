@@ -98,8 +98,8 @@ TEST_F(PortServiceTest, AProgramSoonAfterTheLineWasOpenedIsNoRest) {
   let_pass_idle_end();
   line().write("N9 G0\n%\nO77\nM30\n%\n");
   ASSERT_TRUE(wait([&] { return store_->programs.revision("O77", 1).has_value(); }));
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {}, 100)->size() == 1; }));
   const auto records = *store_->records.machine_report("mill", {}, 100);
-  ASSERT_EQ(records.size(), 1u);
   EXPECT_TRUE(measurement::may_be_rest(records[0].text)) << records[0].text;
   EXPECT_EQ(measurement::printed_line(records[0].text), "N9 G0");
 }

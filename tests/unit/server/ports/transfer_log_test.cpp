@@ -162,6 +162,8 @@ TEST_F(TransferLogTest, OfAServerThatWasKilledSaysWhatTheControlMayHave) {
   EXPECT_EQ(kept(TransferDirection::Send)->state, End::Interrupted);
   start_again();
   EXPECT_EQ(ports_->port("com1")->transfer->state, line::TransferState::Interrupted) << "still";
+  EXPECT_EQ(ports_->send("com1", {{.program = "O1", .revision = {}}}).error().code, Errc::Conflict);
+  ASSERT_TRUE(ports_->confirm_reset("com1"));
   ASSERT_TRUE(ports_->send("com1", {{.program = "O1", .revision = {}}}));
   line().read_until("N30 G1 X3.5 Y-3.25\n");
   EXPECT_TRUE(wait(
