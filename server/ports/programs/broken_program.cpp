@@ -10,13 +10,19 @@ namespace {
 using storage::RunState;
 using storage::TransferState;
 
-/// The latest of a machine that was not refused.
+/// Nothing of it has left. While a server or a gateway is lost only the least is known.
+bool is_unsent(const storage::Run& run) {
+  const bool is_counted = run.state == RunState::Aborted || run.state == RunState::Alarmed;
+  return run.state == RunState::Refused || (is_counted && run.counters.sent == 0);
+}
+
+/// The latest of a machine of which something may have left.
 Result<std::optional<storage::Run>> last_run(storage::RunStore& store, const std::string& machine) {
   constexpr std::uint64_t kLook = 50;
   const auto runs = store.list({.machine = machine, .program = {}, .state = {}}, {.limit = kLook});
   if (!runs) return fail(runs.error());
   for (const auto& run : *runs)
-    if (run.state != RunState::Refused) return run;
+    if (!is_unsent(run)) return run;
   return std::nullopt;
 }
 

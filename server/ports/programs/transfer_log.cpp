@@ -236,8 +236,9 @@ Result<void> TransferLog::begin_reception() {
   transfer.id = fmt::format("reception-{}", random_hex(4));
   transfer.began = parts_.clock.now();
   received_.latest = std::move(transfer);
+  auto stored = store(received_);
   show(Direction::Receive, received_.latest);
-  return store(received_);
+  return stored;
 }
 
 void TransferLog::note_received(std::size_t bytes) {

@@ -45,6 +45,12 @@ class LineTakeover : public TwoServersTest {
     EXPECT_EQ(begun.status, 201) << begun.body;
     return begun.json().value("id", "none");
   }
+  /// As a person at the control, which was in the middle of a program.
+  void confirm_reset(int server) const {
+    const auto confirmed =
+        shop_->rest(server).post("/api/v1/ports/line-1/confirm-reset", nlohmann::json::object());
+    EXPECT_EQ(confirmed.status, 204) << confirmed.body;
+  }
   bool wait_state(int server, const std::string& id, const std::string& state) const {
     return test_support::eventually([&] { return run(server, id).value("state", "") == state; });
   }

@@ -40,6 +40,7 @@ TEST_F(TakenRfc2217Line, IsSetUpAgainAndGetsNothingTwice) {
   const std::size_t before = device_.received();
   EXPECT_EQ(device_.text(), text.substr(0, before)) << "a part of it, once";
   EXPECT_LE(run(1, id).value("sent", 0u), before);
+  confirm_reset(1);
   start(1, "O1");
   ASSERT_TRUE(eventually([&] { return device_.received() > before + 500; }));
   EXPECT_TRUE(text.starts_with(device_.text(before))) << device_.text(before);

@@ -63,7 +63,7 @@ TEST_F(TakenTransfers, ProgramsThatWereBeingSentAreKnownToTheOtherServer) {
 
 /// The same server that is started again after a kill knows it as well.
 TEST_F(TakenTransfers, AProgramThatCameIsKnownAndNothingOfItIsKept) {
-  begin_with_port({{"template", "plain"}, {"settings", {{"eob", "lf"}, {"idle_end_ms", 500}}}});
+  begin_with_port({{"template", "plain"}, {"settings", {{"eob", "lf"}, {"idle_end_ms", 4000}}}});
   device_.write("%\nO77\n" + program("", 40).substr(0, 200));
   ASSERT_TRUE(eventually([&] {
     return port(0)["reception"].is_object() && port(0)["reception"].value("sent", 0u) > 0;
@@ -76,7 +76,7 @@ TEST_F(TakenTransfers, AProgramThatCameIsKnownAndNothingOfItIsKept) {
   EXPECT_EQ(shop_->rest(1).get("/api/v1/programs/O77").status, 404);
   EXPECT_TRUE(shop_->rest(1).get("/api/v1/imports").json()["imports"].empty());
   // The control pauses for longer than a silence that ends a text.
-  EXPECT_TRUE(device_.stays_silent(milliseconds(1200)));
+  EXPECT_TRUE(device_.stays_silent(milliseconds(4500)));
   device_.write("N30 G1 X30\nM30\n");
   const auto report = [&] { return shop_->rest(1).get("/api/v1/machines/mill-1/report").body; };
   ASSERT_TRUE(eventually([&] { return report().find("M30") != std::string::npos; })) << report();

@@ -94,6 +94,27 @@ TEST_F(BrokenProgramTest, OfATransferIsTheSame) {
   EXPECT_TRUE(start("O2"));
 }
 
+/// Such a run was looked through and refused at a gateway, or waited for a line; the one before
+/// counts.
+TEST_F(BrokenProgramTest, IsNoneWhereNothingHadLeft) {
+  add_port(mill());
+  const auto add = [&](const std::string& id, RunState state) {
+    Run run = run_of(store_->programs.revision("O1", {}).value(), id);
+    run.machine = "mill";
+    run.created = system_clock_.now();
+    ASSERT_TRUE(store_->runs.create(run));
+    ASSERT_TRUE(store_->runs.set_state(id, state, ""));
+  };
+  add("unsent", RunState::Aborted);
+  const auto run = start("O2");
+  ASSERT_TRUE(run) << run.error().what;
+  ASSERT_TRUE(wait_state(run->id, RunState::Completed));
+  line().read_until("M30\n%\n");
+  break_off_a_run();
+  add("unsent-2", RunState::Aborted);
+  EXPECT_EQ(start("O2").error().code, Errc::Conflict);
+}
+
 /// Who can ask is at the control, which has read his text, and is in no other.
 TEST_F(BrokenProgramTest, IsNoObstacleForWhatIsAskedForAtTheControl) {
   add_port(mill());

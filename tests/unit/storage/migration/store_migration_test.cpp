@@ -101,6 +101,10 @@ std::map<std::string, std::uint64_t> rows_by_table(const Report& report) {
 }
 
 TEST_F(StoreMigration, TakesEveryTableAndTheShopContinues) {
+  ASSERT_TRUE(SqliteStore::open({.file = file_}, clock_)) << "the tables of today";
+  change_file(
+      "INSERT INTO port_transfer VALUES ('zz', 'send', 't-1', 'O1', 9, 3, 6, 'interrupted', "
+      "'killed', 1, 2)");
   const auto report = enter();
   ASSERT_TRUE(report) << report.error().what;
   EXPECT_FALSE(report->was_resumed);
