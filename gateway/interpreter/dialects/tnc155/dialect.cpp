@@ -72,7 +72,7 @@ void place_at_start(const Setup& setup, State& state) {
   state.transformation.update();
   Transformation::Values at{};
   for (const Axis axis : kAllAxes) at[static_cast<std::size_t>(axis)] = state.machine.raw(axis);
-  state.nominal = state.transformation.to_program(at);
+  state.stand_at(state.transformation.to_program(at));
 }
 
 Result<std::unique_ptr<Interpreter>> make_with(Result<ControlOptions> options, const Setup& setup,

@@ -35,7 +35,7 @@ void visit(Archive& archive, State& state) {
           state.labels, state.programs, state.known_labels, state.jump, state.start,
           state.is_restart, state.has_positioned, state.program_name, state.cycle_words,
           state.tool_feed, state.pole_plane, state.has_rounded, state.has_plane_angles,
-          state.takes_shorter_path, state.is_rapid_next);
+          state.takes_shorter_path, state.is_rapid_next, state.beside, state.is_beside);
 }
 
 namespace {
@@ -43,7 +43,7 @@ namespace {
 std::string_view dialect_of(const Run& run) {
   return run.options.is_itnc ? "itnc" : "tnc155";
 }
-constexpr std::uint32_t kVersion = 10;
+constexpr std::uint32_t kVersion = 11;
 
 bool is_plausible(const MachiningCycle& cycle) {
   return std::ranges::all_of(

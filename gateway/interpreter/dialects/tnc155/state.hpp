@@ -180,6 +180,10 @@ struct State {
 
   Position machine;      ///< as events say, before radius compensation; marked: moved so far
   AxisValues nominal{};  ///< program coordinates
+  /// From there to the tool, program coordinates: what R+ and R- have added, until the axis is
+  /// positioned again.
+  AxisValues beside{};
+  bool is_beside = false;  ///< one of them is not 0
   Transformation transformation;
 
   Plane plane = Plane::XY;
@@ -233,7 +237,24 @@ struct State {
     return compensation == Compensation::Left || compensation == Compensation::Right;
   }
   double nominal_of(Axis axis) const { return nominal[static_cast<std::size_t>(axis)]; }
-  void set_nominal(Axis axis, double value) { nominal[static_cast<std::size_t>(axis)] = value; }
+  /// The nominal position; where the tool is beside it, that of the tool.
+  AxisValues tool_position() const {
+    AxisValues place = nominal;
+    for (std::size_t i = 0; is_beside && i < place.size(); ++i) place[i] += beside[i];
+    return place;
+  }
+  /// The tool is there and not beside it.
+  void stand_at(const AxisValues& place) {
+    nominal = place;
+    beside = {};
+    is_beside = false;
+  }
+  /// It is beside its nominal position along this axis.
+  void stand_beside(Axis axis, double value, double by) {
+    nominal[static_cast<std::size_t>(axis)] = value;
+    beside[static_cast<std::size_t>(axis)] = by;
+    is_beside = is_beside || by != 0;
+  }
 };
 
 }  // namespace dripline::interpreter::tnc155

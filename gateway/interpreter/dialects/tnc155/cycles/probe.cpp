@@ -69,7 +69,7 @@ bool finish_probing(Run& run, const ProbeResult& result) {
   run.events().on_probe(event);
   const AxisValues before = state.nominal;
   state.machine = result.at;
-  state.nominal = state.transformation.to_program(values_of(result.at));
+  state.stand_at(state.transformation.to_program(values_of(result.at)));
   if (!result.tripped) {
     return run.fail(ErrorCode::TouchPointInaccessible,
                     fmt::format("no contact within {}",

@@ -254,7 +254,8 @@ bool run_polar_line(Run& run, const Block& block) {
 bool run_arc(Run& run, const Block& block) {
   constexpr double kNoTravel = 1e-6;  // a full circle ends where it begins
   State& state = run.state;
-  if (!has_pole(run) || !check_circle_axes(run, block, false)) return false;
+  if (!has_pole(run)) return false;
+  if (!check_circle_axes(run, block, false)) return false;
   ArcTarget arc;
   arc.to = here(state);
   if (!read_arc_end(run, block, arc.to)) return false;
@@ -387,7 +388,7 @@ bool run_single_axis(Run& run, const Block& block) {
   target.at[static_cast<std::size_t>(axis)] = wanted + extra;
   state.polar.is_current = false;
   if (!go_straight(run, block, target)) return false;
-  state.set_nominal(axis, wanted);
+  state.stand_beside(axis, wanted, extra);
   state.last.exists = false;
   state.last.is_single_offset = is_offset;
   return true;

@@ -79,6 +79,21 @@ void carry_last_move(State& state, const Transformation& before, const AxisValue
 
 }  // namespace
 
+void arrive(State& state, const Target& target) {
+  if (!state.is_beside) [[likely]] {
+    state.nominal = target.at;
+    return;
+  }
+  state.is_beside = false;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    if ((target.named >> i & 1u) != 0) {
+      state.nominal[i] = target.at[i];
+      state.beside[i] = 0;
+    }
+    state.is_beside = state.is_beside || state.beside[i] != 0;
+  }
+}
+
 PlaneVector nominal_in_plane(const State& state) {
   const PlaneAxes axes = axes_of(state.plane);
   return {state.nominal_of(axes.first), state.nominal_of(axes.second)};
@@ -94,7 +109,7 @@ void line_to(Run& run, const Target& target, const Pace& pace) {
   State& state = run.state;
   Line move{run.origin, state.machine, {}};
   apply(state, move.to, target);
-  state.nominal = target.at;
+  arrive(state, target);
   move.feed = feed_to(run, target, move.to, pace);
   output(run, move, pace.is_rapid);
 }
@@ -124,7 +139,7 @@ void arc_to(Run& run, const ArcTarget& target, const Pace& pace) {
     run.events().on_arc(arc);
   }
   state.machine = arc.to;
-  state.nominal = target.to.at;
+  arrive(state, target.to);
 }
 
 void machine_line_to(Run& run, const Target& target, const Pace& pace) {
@@ -138,20 +153,28 @@ void machine_line_to(Run& run, const Target& target, const Pace& pace) {
   move.feed = feed_to(run, target, to, pace);
   output(run, move, pace.is_rapid);
   const AxisValues nominal = state.transformation.to_program(values_of(to));
+  if (state.transformation.is_special) return state.stand_at(nominal);
+  Target reached{state.nominal, target.named};
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    if (state.transformation.is_special || (target.named >> i & 1u) != 0) {
-      state.nominal[i] = nominal[i];
-    }
+    if ((target.named >> i & 1u) != 0) reached.at[i] = nominal[i];
   }
+  arrive(state, reached);
 }
 
 void change_transformation(Run& run, const Transformation& changed) {
   State& state = run.state;
   const Transformation before = state.transformation;
-  const AxisValues nominal = state.nominal;
+  const AxisValues nominal = state.nominal, tool = state.tool_position();
   state.transformation = changed;
   state.transformation.update();
   state.nominal = state.transformation.to_program(before.to_machine(nominal));
+  if (state.is_beside) {
+    const AxisValues now = state.transformation.to_program(before.to_machine(tool));
+    for (std::size_t i = 0; i < kAxisCount; ++i) {
+      const double by = now[i] - state.nominal[i];
+      state.beside[i] = std::fabs(by) > kSame ? by : 0;
+    }
+  }
   carry_last_move(state, before, nominal);
   state.polar.is_current = false;
   ++run.frame_changes;

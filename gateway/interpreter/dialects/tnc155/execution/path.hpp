@@ -40,10 +40,12 @@ struct ArcTarget {
   double sweep = 0;  ///< degrees, > 0
 };
 
-/// The nominal position, for moves that start from it.
+/// Where the tool is, for moves that start from there. What a move does not name stays.
 inline Target here(const State& state) {
-  return {state.nominal, 0};
+  return {state.tool_position(), 0};
 }
+/// After a move to `target`: the nominal position follows along the axes that it names.
+void arrive(State& state, const Target& target);
 
 /// A straight move; the nominal position follows. A move of no length gives no event.
 void line_to(Run& run, const Target& target, const Pace& pace);
@@ -52,7 +54,7 @@ void arc_to(Run& run, const ArcTarget& target, const Pace& pace);
 /// To a position in machine coordinates (M91): only the axes that are named.
 void machine_line_to(Run& run, const Target& target, const Pace& pace);
 
-/// The nominal position in the plane.
+/// The nominal position in the plane: that of the tool, except after R+ and R-.
 PlaneVector nominal_in_plane(const State& state);
 
 /// After State::transformation was changed: the tool does not move, and the nominal position

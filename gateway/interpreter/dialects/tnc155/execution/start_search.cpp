@@ -132,7 +132,7 @@ void stand_at_start(Run& run) {
   State& state = run.state;
   state.machine = state.start.actual;
   state.machine.unmark_all();
-  state.nominal = state.transformation.to_program(values_of(state.machine));
+  state.stand_at(state.transformation.to_program(values_of(state.machine)));
   state.last = LastMove{};
   state.polar = PolarData{};
   state.blend = Blend{};

@@ -96,7 +96,7 @@ PlaneMove plane_move(const State& state, const Target& target) {
   move.has_any = (target.named & both) != 0;
   move.has_both = (target.named & both) == both;
   move.has_third = (target.named & ~both) != 0;
-  move.from = {state.nominal_of(axes.first), state.nominal_of(axes.second)};
+  move.from = in_plane(state, here(state));
   move.to = in_plane(state, target);
   move.has_travel = !(move.from == move.to);
   return move;

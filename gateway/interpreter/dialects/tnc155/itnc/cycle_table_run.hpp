@@ -80,7 +80,7 @@ class Table {
     run_.loops.note_progress();
     run_.events().on_thread(event);
     state.machine = event.to;
-    state.nominal = target.at;
+    arrive(state, target);
   }
   /// In the working plane, at a feed.
   void shift(PlaneVector by, double feed) const {
@@ -124,12 +124,15 @@ template <class Moves>
 bool stays_within_limits(Run& run, const Moves& moves) {
   if (!run.limits.has_any()) return true;
   const Position machine = run.state.machine;
-  const AxisValues nominal = run.state.nominal;
+  const AxisValues nominal = run.state.nominal, beside = run.state.beside;
+  const bool is_beside = run.state.is_beside;
   run.is_measuring = true;
   moves();
   run.is_measuring = false;
   run.state.machine = machine;
   run.state.nominal = nominal;
+  run.state.beside = beside;
+  run.state.is_beside = is_beside;
   return !run.limits.reached();
 }
 /// The last definition was a pattern: its points, and the cycle at each of them.

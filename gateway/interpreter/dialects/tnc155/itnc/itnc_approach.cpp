@@ -281,7 +281,7 @@ bool approach_by_circle(Run& run, const Block& block, const Target& target, Plan
   PlaneVector to;
   double sweep = run.number(run.parts.itnc.center_angle);
   if (block.part == kLineAndCircle) {
-    const PlaneVector from = nominal_in_plane(state);
+    const PlaneVector from = in_plane(state, here(state));
     const auto touched = tangent_point(arc, from, true);
     if (!touched) return refuse_within(run, arc, from, "the start of APPR LCT");
     to = *touched;
@@ -303,7 +303,7 @@ bool approach_by_circle(Run& run, const Block& block, const Target& target, Plan
 bool depart_by_circle(Run& run, const Block& block, const Target& target, PlaneVector along,
                       const Pace& pace) {
   State& state = run.state;
-  const TangentArc arc = tangent_arc(run, state.compensation, nominal_in_plane(state), along);
+  const TangentArc arc = tangent_arc(run, state.compensation, in_plane(state, here(state)), along);
   double sweep = run.number(run.parts.itnc.center_angle);
   PlaneVector to = arc.center + rotated(arc.at - arc.center, arc.sign() * sweep);
   if (block.part == kLineAndCircle) {
@@ -375,7 +375,7 @@ bool depart(Run& run, const Block& block) {
   const PlaneVector along = end_direction(state.last);
   constexpr double kSamePlace = 1e-6;
   if (!state.last.exists || length(along) == 0 ||
-      length(state.last.to - nominal_in_plane(state)) > kSamePlace) {
+      length(state.last.to - in_plane(state, here(state))) > kSamePlace) {
     return refuse(run, "DEP without an element of the contour directly before it");
   }
   Pace pace;
@@ -384,7 +384,7 @@ bool depart(Run& run, const Block& block) {
     if (!depart_by_circle(run, block, target, along, pace)) return false;
   } else {
     const PlaneVector to =
-        nominal_in_plane(state) + offset(run, block, state.compensation, along, 1);
+        in_plane(state, here(state)) + offset(run, block, state.compensation, along, 1);
     if (!go(run, Compensation::Off, target_in_plane(state, to), pace)) return false;
   }
   return !has_height || move_height(run, target, pace);

@@ -210,7 +210,7 @@ void mill_bore(const Table& table) {
   Run& run = table.run();
   State& state = run.state;
   const PlaneAxes axes = axes_of(state.plane);
-  const PlaneVector center = nominal_in_plane(state);
+  const PlaneVector center = in_plane(state, here(state));
   const double tool = state.tool.data.radius / state.transformation.factor(state.plane);
   const double radius = table.mm(335) / 2 - tool;
   const Pace pace{false, table.feed(206), table.feed(206)};

@@ -158,7 +158,7 @@ bool retract(Run& run, const Block& block) {
   } else {
     const double distance = run.length(words.retract);
     if (distance < 0) return run.fail(ErrorCode::EntryOutOfRange, fmt::format("MB {}", distance));
-    target.set(axis, state.nominal_of(axis) + distance);
+    target.set(axis, target.at[index(axis)] + distance);
     line_to(run, target, pace);
   }
   state.last = LastMove{};
@@ -289,7 +289,7 @@ bool cycle_call_at(Run& run, const Block& block) {
   interrupt_contour(run);
   const double free = clearance_height(run);
   Target up = here(state);
-  up.set(state.tool.axis, std::max(free, state.nominal_of(state.tool.axis)));
+  up.set(state.tool.axis, std::max(free, up.at[index(state.tool.axis)]));
   line_to(run, up, pace);
   Target over = here(state);
   over.set(axes.first, target.at[index(axes.first)]);
