@@ -20,12 +20,13 @@ bool leaves_contour(const Run& run, CycleMotion::Direction direction) {
                                !state.transformation.keeps_circles(state.plane));
 }
 
-/// Where a contour has led the tool the cycle begins, not where its block pointed to.
+/// Where a contour has led the tool the cycle begins, not where its block pointed to; so it does
+/// after R+ and R-.
 void stand_where_the_tool_is(Run& run) {
   State& state = run.state;
   interrupt_contour(run);
   state.machine = run.compensator.sent();
-  state.nominal = state.transformation.to_program(values_of(state.machine));
+  state.stand_at(state.transformation.to_program(values_of(state.machine)));
 }
 
 }  // namespace
@@ -35,7 +36,10 @@ CycleMotion::CycleMotion(Run& run, Direction direction)
       leaves_contour_(leaves_contour(run, direction)),
       axes_(axes_of(run.state.plane)),
       machine_(run.state.machine),
-      nominal_(run.state.nominal) {
+      nominal_(run.state.nominal),
+      beside_(run.state.beside),
+      is_beside_(run.state.is_beside) {
+  run.state.stand_at(run.state.tool_position());
   if (leaves_contour_) stand_where_the_tool_is(run);
   start_ = nominal_in_plane(run.state);
   start_height_ = run.state.nominal_of(run.state.tool.axis);
@@ -44,6 +48,8 @@ CycleMotion::CycleMotion(Run& run, Direction direction)
 
 void CycleMotion::end() {
   run_.state.nominal = nominal_;
+  run_.state.beside = beside_;
+  run_.state.is_beside = is_beside_;
   if (leaves_contour_) {
     run_.state.machine = machine_;
     continue_contour(run_, machine_);

@@ -41,6 +41,8 @@ class CycleMotion {
   PlaneAxes axes_;
   Position machine_;    ///< before compensation
   AxisValues nominal_;  ///< as the program left it
+  AxisValues beside_;
+  bool is_beside_;
   PlaneVector start_;
   double start_height_ = 0;
   double tool_radius_ = 0;
