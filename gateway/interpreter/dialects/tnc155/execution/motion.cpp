@@ -254,7 +254,7 @@ bool run_polar_line(Run& run, const Block& block) {
 bool run_arc(Run& run, const Block& block) {
   constexpr double kNoTravel = 1e-6;  // a full circle ends where it begins
   State& state = run.state;
-  if (!has_pole(run)) return false;
+  if (!has_pole(run) || !check_arc_start(run)) return false;
   if (!check_circle_axes(run, block, false)) return false;
   ArcTarget arc;
   arc.to = here(state);
@@ -275,7 +275,7 @@ bool run_arc(Run& run, const Block& block) {
 bool run_polar_arc(Run& run, const Block& block) {
   State& state = run.state;
   if (!refuse_machine_block(run, block) || !has_pole(run)) return false;
-  if (!check_circle_axes(run, block, true)) return false;
+  if (!check_arc_start(run) || !check_circle_axes(run, block, true)) return false;
   ArcTarget arc;
   arc.to = here(state);
   read_coordinates(run, block, arc.to);
@@ -302,6 +302,7 @@ bool run_polar_arc(Run& run, const Block& block) {
 bool run_tangent_arc(Run& run, const Block& block) {
   State& state = run.state;
   const LastMove& last = state.last;
+  if (!check_arc_start(run)) return false;
   ArcTarget arc;
   arc.to = here(state);
   if (!read_arc_end(run, block, arc.to)) return false;
@@ -336,7 +337,7 @@ bool run_tangent_arc(Run& run, const Block& block) {
 /// R+: the arc of at most half a circle, R-: the other one. Source: TNC 426/430, User's Manual: CR.
 bool run_radius_arc(Run& run, const Block& block) {
   State& state = run.state;
-  if (!check_circle_axes(run, block, false)) return false;
+  if (!check_arc_start(run) || !check_circle_axes(run, block, false)) return false;
   ArcTarget arc;
   arc.to = here(state);
   if (!read_arc_end(run, block, arc.to)) return false;

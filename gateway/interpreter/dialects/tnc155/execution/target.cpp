@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/core/shown_length.hpp"
+
 namespace dripline::interpreter::tnc155 {
 namespace {
 
@@ -100,6 +102,23 @@ PlaneMove plane_move(const State& state, const Target& target) {
   move.to = in_plane(state, target);
   move.has_travel = !(move.from == move.to);
   return move;
+}
+
+bool check_arc_start(Run& run) {
+  const State& state = run.state;
+  if (!state.is_beside) [[likely]]
+    return true;
+  const PlaneAxes axes = axes_of(state.plane);
+  for (const Axis axis : {axes.first, axes.second}) {
+    const double by = state.beside[index(axis)];
+    if (by == 0) continue;
+    return run.fail(ErrorCode::PathOffsetWronglyStarted,
+                    fmt::format("R+ or R- left the tool {} beside the start of the arc along {}: "
+                                "position {} before it",
+                                shown_length(Length::mm(std::fabs(by)), state.units), letter(axis),
+                                letter(axis)));
+  }
+  return true;
 }
 
 bool check_circle_plane(Run& run) {

@@ -31,6 +31,9 @@ inline PlaneVector in_plane(const State& state, const Target& target) {
   return {target.at[static_cast<std::size_t>(axes.first)],
           target.at[static_cast<std::size_t>(axes.second)]};
 }
+/// PATH OFFSET WRONGLY STARTED after R+ and R-: the tool is beside the point that the program
+/// names, and which of the two an arc begins at is not stated.
+bool check_arc_start(Run& run);
 /// PLANE WRONGLY DEFINED where a circle in the plane in force would be none in the machine's.
 bool check_circle_plane(Run& run);
 void set_in_plane(const State& state, Target& target, PlaneVector to);
