@@ -152,6 +152,8 @@ struct ModalState {
   double last_arc_radius = 0;
   double dwell_seconds = 0;
   std::array<double, 2> feed{};  ///< per minute, per revolution
+  /// 98 or 99, in force when a cycle left its feed in P145; 0: the program has set it since.
+  std::uint8_t cycle_feed_code = 0;
   Modes modes;
   RetainedWords retained;
   SpindleModes spindle;

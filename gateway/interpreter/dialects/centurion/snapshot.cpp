@@ -28,13 +28,13 @@ void visit(Archive& archive, ModalState& state) {
           state.is_searching, state.searched_from, state.searched_to, state.searched_axes,
           state.wants_flood, state.outputs, state.open_device, state.random, state.calls,
           state.gosubs, state.loops, state.files, state.data_changes, state.jump, state.pattern,
-          state.before_pattern);
+          state.before_pattern, state.cycle_feed_code);
 }
 
 namespace {
 
 constexpr std::string_view kDialect = "centurion";
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 template <class Archive>
 void visit_parameters(Archive& archive, Parameters& parameters) {

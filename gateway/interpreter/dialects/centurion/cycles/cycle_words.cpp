@@ -51,13 +51,22 @@ bool cycle_dwell_word(Run& run, double& seconds) {
 }
 
 bool cycle_feed_word(Run& run, Feed& feed) {
+  constexpr std::uint8_t kPerMinute = 98, kPerRevolution = 99;
+  ModalState& state = run.state;
   double& stored = run.parameters[kCycleFeed];
+  const std::uint8_t code = state.modes.is_feed_per_revolution ? kPerRevolution : kPerMinute;
   if (run.block.words.has(Address::F) || !(stored > 0)) {
     if (!check_feed(run)) return false;
-    stored = run.state.active_feed();
+    stored = state.active_feed();
+  } else if (state.cycle_feed_code != 0 && state.cycle_feed_code != code) {
+    return run.fail(ErrorCode::FeedOutOfRange, 0,
+                    fmt::format("the feed of an earlier cycle, P145 = {}, is of G{} and G{} is in "
+                                "force: F in the block of the cycle",
+                                stored, state.cycle_feed_code, code));
   }
+  state.cycle_feed_code = code;
   const Length per = run.length(stored);
-  feed = run.state.modes.is_feed_per_revolution ? Feed::per_revolution(per) : Feed::per_minute(per);
+  feed = code == kPerRevolution ? Feed::per_revolution(per) : Feed::per_minute(per);
   return true;
 }
 

@@ -35,7 +35,8 @@ bool cycle_step_word(Run& run, Address address, int parameter, double& value);
 /// P: seconds to wait. Errors: 539.
 bool cycle_dwell_word(Run& run, double& seconds);
 
-/// F of this block, of an earlier cycle, or the feed in force. Errors: 519.
+/// F of this block, of an earlier cycle, or the feed in force. Errors: 519, also where the earlier
+/// cycle's was per minute and G99 is in force, or the reverse.
 bool cycle_feed_word(Run& run, Feed& feed);
 
 // The cycles of one block without threads. Every word is checked before anything moves.

@@ -70,6 +70,7 @@ void restore_modes(Run& run) {
   before.blocks = now.blocks;
   before.at = now.at;
   before.random = now.random;
+  before.cycle_feed_code = now.cycle_feed_code;
   before.open_device = now.open_device;
   before.has_header = now.has_header;
   before.uses_compensator = now.uses_compensator;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/output_text.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
@@ -255,6 +256,7 @@ bool store_parameter(Run& run, int number, double value, std::uint32_t column) {
   }
   run.start.note_set(number);
   run.parameters[number] = value;
+  if (number == kCycleFeed) state.cycle_feed_code = 0;
   const bool is_material = number == kMaterialLength || number == kMaterialDiameter;
   if (is_material && state.has_header) run.report_blank();
   return true;
