@@ -1,8 +1,59 @@
 #include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
 
+#include <algorithm>
+
 #include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
 
 namespace dripline::interpreter::centurion {
+namespace {
+
+constexpr int kFirstControlParameter = 100;
+constexpr int kLastControlParameter = 199;
+
+enum class Quantity : std::uint8_t { Length, Feed, Angle, Time, Factor, Number };
+struct ControlParameters {
+  int first;
+  int last;
+  Quantity quantity;
+};
+/// Those that are not here mean nothing to the control.
+constexpr std::array kControlParameters{
+    ControlParameters{100, 101, Quantity::Length},  // change of a lead, lead: per revolution
+    ControlParameters{102, 102, Quantity::Angle},   // start of a thread
+    ControlParameters{103, 103, Quantity::Length},  // chamfer of a thread
+    ControlParameters{104, 104, Quantity::Angle},
+    ControlParameters{105, 105, Quantity::Number},  // method
+    ControlParameters{106, 107, Quantity::Length},  // height, first cut
+    ControlParameters{108, 108, Quantity::Angle},   // nose angle
+    ControlParameters{110, 111, Quantity::Number},  // first and last block of a pattern
+    ControlParameters{112, 116, Quantity::Length},  // stocks, increment
+    ControlParameters{117, 117, Quantity::Number},  // kind of relief
+    ControlParameters{118, 119, Quantity::Length},  // relief, first depth
+    ControlParameters{121, 126, Quantity::Length},  // length, depth, end of a cut, tapers
+    ControlParameters{130, 130, Quantity::Length},  // least cut of a thread
+    ControlParameters{131, 131, Quantity::Number},  // finish passes
+    ControlParameters{136, 136, Quantity::Length},  // radius of the probe
+    ControlParameters{139, 144, Quantity::Length},  // clearances, depths, increment
+    ControlParameters{145, 145, Quantity::Feed},
+    ControlParameters{146, 147, Quantity::Length},  // peckup, clearance of a peck
+    ControlParameters{148, 149, Quantity::Time},
+    ControlParameters{156, 157, Quantity::Length},  // material
+    ControlParameters{172, 173, Quantity::Length},  // mirror
+    ControlParameters{180, 181, Quantity::Length},  // center of scaling
+    ControlParameters{188, 189, Quantity::Factor},
+    ControlParameters{196, 197, Quantity::Length},  // center of rotation
+    ControlParameters{198, 198, Quantity::Angle},
+    ControlParameters{199, 199, Quantity::Number},  // incremental data of cycles
+};
+
+}  // namespace
+
+bool is_length_parameter(int number) {
+  return std::ranges::any_of(kControlParameters, [number](const ControlParameters& row) {
+    return number >= row.first && number <= row.last &&
+           (row.quantity == Quantity::Length || row.quantity == Quantity::Feed);
+  });
+}
 
 Point Parameters::work_offset(int system) const {
   return point(kWorkOffsets + 2 * system);
@@ -28,13 +79,14 @@ double Parameters::tool(int offset, ToolField field) const {
 }
 
 void Parameters::convert_tables(double factor) {
-  // zeroes, axis parameters; then centers of mirror, scaling and rotation, and clearances
   for (int number = kWorkOffsets; number <= kLastAxisParameter; ++number) (*this)[number] *= factor;
   for (const MachineParameter& row : machine_parameters()) {
     if (!row.is_length) continue;
     for (int i = 0; i < row.count(); ++i) (*this)[row.number + i] *= factor;
   }
-  for (const int number : {139, 140, 172, 173, 180, 181, 196, 197}) (*this)[number] *= factor;
+  for (int number = kFirstControlParameter; number <= kLastControlParameter; ++number) {
+    if (is_length_parameter(number)) (*this)[number] *= factor;
+  }
   for (int offset = 1; offset <= kOffsetCount; ++offset) {
     for (const ToolField field : {ToolField::LengthZ, ToolField::LengthX, ToolField::Radius,
                                   ToolField::WearZ, ToolField::WearX, ToolField::WearRadius}) {

@@ -62,13 +62,18 @@ class Parameters {
   /// 0 for offset 00. Lengths and radius include the wear.
   double tool(int offset, ToolField field) const;
   static int tool_parameter(int offset, ToolField field);
-  /// G20/G21: the tables are lengths, the program's own parameters are not converted.
+  /// G20/G21: lengths and feeds of the tables, of the cycles' data and of the transformations are
+  /// converted, the program's own parameters are not.
   void convert_tables(double factor);
 
  private:
   std::array<double, kParameterCount> value_{};
   std::array<std::uint8_t, kByteCount> byte_{};
 };
+
+/// Whether P`number` from P100 to P199 (manual: CTRL parameters) is a length, or a length per
+/// minute or per revolution.
+bool is_length_parameter(int number);
 
 /// The value of status parameter `number` (200-370) as `state` implies it, or nullopt where nothing
 /// does and the stored value applies.
