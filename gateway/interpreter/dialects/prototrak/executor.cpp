@@ -18,6 +18,11 @@ compensation::Policy policy() {
   return policy;
 }
 
+/// One compensated path has one radius.
+bool has_same_offset(const ProgramEvent& event, const ProgramEvent& next) {
+  return event.side == ToolSide::Center || next.diameter == event.diameter;
+}
+
 }  // namespace
 
 Executor::Executor(const ControlOptions& options, const StoredProgram& program, EventSink& sink,
@@ -79,7 +84,7 @@ std::optional<ProgramEvent> Executor::previous_in_chain() const {
 
 bool Executor::is_connected(const ProgramEvent& event, std::optional<ProgramEvent> next) const {
   return event.is_connected && next && next->is_cut() && next->tool == event.tool &&
-         next->side == event.side &&
+         next->side == event.side && has_same_offset(event, *next) &&
          distance(event.end, next->begin) <= join_tolerance(event.is_metric);
 }
 
@@ -203,7 +208,13 @@ bool Executor::execute_cut(const ProgramEvent& event) {
   if (goes_on && (!check_arc(*next) || !join(element, element_of(*next), event, corner))) {
     return false;
   }
-  if (event.is_connected && next && !goes_on) warn(Fault::NotConnectable, "");
+  if (event.is_connected && next && !goes_on) {
+    const bool is_other_tool = next->is_cut() && !has_same_offset(event, *next);
+    warn(Fault::NotConnectable,
+         is_other_tool ? fmt::format("D{:.4f} and D{:.4f}", event.shown(event.diameter),
+                                     event.shown(next->diameter))
+                       : "");
+  }
   if (corner) element.to = corner->from;
   cut(element, event.feed);
   if (corner) cut(*corner, event.feed);
