@@ -206,6 +206,7 @@ bool Receiver::fill_arc_center(const BlockWords& block, ProgramEvent& event) {
     return fail(Fault::MissingWord,
                 block.has(R) ? "XC YC or I J: the control takes no R for an arc" : "XC YC or I J");
   }
+  if (has_center && !require(block, {XC, YC})) return false;
   if (has_center && has_distance) notice(Fault::Noticed, "XC and YC count, I and J do not");
   double i = 0, j = 0;
   if (!dimension(block, I, i) || !dimension(block, J, j)) return false;
