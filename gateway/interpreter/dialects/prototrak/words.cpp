@@ -5,6 +5,8 @@
 namespace dripline::interpreter::prototrak {
 namespace {
 
+constexpr std::uint8_t kMostDecimals = 22;  ///< powers of ten are exact up to there
+
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -68,8 +70,10 @@ class TokenReader {
         continue;
       }
       number.has_digits = true;
-      if (number.digits < 1e15) number.digits = number.digits * 10 + (peek() - '0');
-      if (number.has_point && number.decimals < 15) ++number.decimals;
+      // of decimals, those that a double does not hold; of the whole part none, for its size counts
+      if (number.has_point && (number.digits >= 1e15 || number.decimals == kMostDecimals)) continue;
+      number.digits = number.digits * 10 + (peek() - '0');
+      if (number.has_point) ++number.decimals;
     }
     // CR- alone says "not connected".
     const bool is_bare_minus = word.address == Address::CR && number.is_negative;
