@@ -1,5 +1,6 @@
 #include "gateway/interpreter/dialects/tektronix1704/motion.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 
 namespace dripline::interpreter::tektronix1704 {
@@ -59,6 +60,9 @@ bool peck(Run& run) {
   const double step = *feed / run.mm_per_count * run.options.peck_seconds / 60;
   constexpr double kMaxPecks = 10'000;
   const auto clearance = static_cast<double>(state.clearance);
+  if (bottom > clearance) {
+    return run.fail(Fault::PeckUpward, 0, fmt::format("Z{}, R{}", state.depth, state.clearance));
+  }
   if (step * kMaxPecks < clearance - bottom) {
     return run.fail(Fault::FeedOutOfRange, 0, "more than 10000 pecks");
   }

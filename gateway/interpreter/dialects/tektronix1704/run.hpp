@@ -42,6 +42,7 @@ struct Fault {
   static constexpr DiagnosticRow Quadrant{"TEK0214", "arc leaves its quadrant"};
   static constexpr DiagnosticRow NoClearance{"TEK0221", "fixed cycle without R"};
   static constexpr DiagnosticRow NoDepth{"TEK0222", "fixed cycle without Z"};
+  static constexpr DiagnosticRow PeckUpward{"TEK0223", "G83 with Z above R would cut nothing"};
   static constexpr DiagnosticRow NoFeed{"TEK0301", "no feedrate, or zero"};
   static constexpr DiagnosticRow FeedOutOfRange{"TEK0302", "feedrate out of range"};
   static constexpr DiagnosticRow DwellTooLong{"TEK0303", "dwell out of range"};
