@@ -107,6 +107,19 @@ bool check_arc(Run& run, const PlaneArc& arc, bool& is_bad) {
   return true;
 }
 
+/// G94 leaves the stored center as it is: counted from the new zero it is another place.
+void warn_of_old_center(Run& run, const PlaneArc& arc) {
+  std::string words;
+  for (const std::size_t axis : {arc.first, arc.second}) {
+    if (!run.state.is_center_old[axis]) continue;
+    run.state.is_center_old[axis] = false;
+    words += fmt::format("{}{}{}", words.empty() ? "" : " ",
+                         kLetters[static_cast<std::size_t>(center_address(axis))],
+                         run.state.center[axis]);
+  }
+  if (!words.empty()) run.warn(Fault::CenterBeforePreset, run.origin, 0, words);
+}
+
 double sweep_of(const PlaneArc& arc) {
   double sweep = arc.to.angle() - arc.from.angle();
   if (!arc.is_counterclockwise) sweep = -sweep;
@@ -165,6 +178,7 @@ void load_center(Run& run) {
     if (!words.has(address)) continue;
     run.state.center[axis] =
         (run.state.is_incremental ? run.state.program[axis] : 0) + words[address];
+    run.state.is_center_old[axis] = false;
     run.ledger.take(bit(address));
   }
 }
@@ -177,6 +191,7 @@ bool move_arc(Run& run) {
   arc.first = static_cast<std::size_t>(axes.first);
   arc.second = static_cast<std::size_t>(axes.second);
   arc.is_counterclockwise = state.motion == Motion::G03 || state.motion == Motion::G30;
+  warn_of_old_center(run, arc);
   arc.end = arc_end(run, arc);
   if (arc.end == state.program) {
     run.warn(Fault::NoArc, run.origin);

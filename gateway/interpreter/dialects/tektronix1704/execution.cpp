@@ -76,6 +76,7 @@ void preset(Run& run) {
       run.warn(Fault::PresetValue, run.origin, 0, fmt::format("{}", words[address]));
     }
     state.origin[axis] += run.options.mirror[axis] ? -state.program[axis] : state.program[axis];
+    state.is_center_old[axis] |= state.program[axis] != 0;
     state.program[axis] = 0;
   }
   run.ledger.take(kEndWords);

@@ -59,6 +59,8 @@ struct Fault {
   static constexpr DiagnosticRow MissingEnd{"TEK0411",
                                             "end coordinate of an arc is missing and taken as 0"};
   static constexpr DiagnosticRow NoArc{"TEK0412", "arc ends where it begins: no motion"};
+  static constexpr DiagnosticRow CenterBeforePreset{
+      "TEK0413", "arc on the center that was stored before G94 moved the zero"};
   static constexpr DiagnosticRow Point{"TEK0421", "decimal point has no meaning here"};
   static constexpr DiagnosticRow Repeated{"TEK0422", "word is repeated; the last one counts"};
   static constexpr DiagnosticRow PresetValue{"TEK0423", "G94 sets zero, whatever value is given"};
@@ -197,6 +199,7 @@ struct State {
   std::array<std::int64_t, kAxes> program{};  ///< counts
   std::array<std::int64_t, kAxes> origin{};   ///< machine counts of program zero
   std::array<std::int64_t, kAxes> center{};   ///< I, J, K stores, program counts
+  std::array<bool, kAxes> is_center_old{};    ///< G94 has moved the zero since it was stored
   std::array<bool, kAxes> has_moved{};
   Plane plane = Plane::XY;
   std::int32_t feed = -1;  ///< counts; -1: never set

@@ -15,16 +15,16 @@ void visit(Archive& archive, State& state) {
   archive(state.phase, state.reader, state.has_header, state.blocks, state.mdi_done, state.place,
           state.part, state.wanted, state.head, state.has_block, state.is_rewound,
           state.is_tape_over, state.reads_on, state.motion, state.cycle, state.is_incremental,
-          state.drills, state.program, state.origin, state.center, state.has_moved, state.plane,
-          state.feed, state.spindle_code, state.tool_code, state.has_clearance, state.has_depth,
-          state.clearance, state.depth, state.spindle, state.flood, state.mist, state.last,
-          state.block);
+          state.drills, state.program, state.origin, state.center, state.is_center_old,
+          state.has_moved, state.plane, state.feed, state.spindle_code, state.tool_code,
+          state.has_clearance, state.has_depth, state.clearance, state.depth, state.spindle,
+          state.flood, state.mist, state.last, state.block);
 }
 
 namespace {
 
 constexpr std::string_view kDialect = "tektronix-1704";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 bool is_plausible(const State& state) {
   const auto is_code = [](std::int32_t code) { return code >= 0 && code <= 99; };
