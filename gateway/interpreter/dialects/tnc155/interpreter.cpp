@@ -196,6 +196,8 @@ BlockOutcome TncInterpreter::read() {
   run_.state.at = run_.reader.place();
   run_.is_in_block = true;
   part_ = 0;
+  if (run_.parts.sorts_distances) [[unlikely]]
+    warn_of_distance(run_);
   if (is_start() && !arrive_at_start()) return BlockOutcome::Paused;
   return BlockOutcome::Finished;
 }

@@ -253,4 +253,12 @@ bool execute(Run& run, const Block& block) {
   return run.ledger.left() == 0 || refuse_left_words(run, block);
 }
 
+void warn_of_distance(Run& run) {
+  run.warn(
+      "TNC-DISTANCE-ORDER",
+      fmt::format("G{} is in force after the block, that of its last coordinate as the control "
+                  "sorts them",
+                  run.state.reading.iso.is_incremental ? 91 : 90));
+}
+
 }  // namespace dripline::interpreter::tnc155

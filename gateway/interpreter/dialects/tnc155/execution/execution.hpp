@@ -17,6 +17,9 @@ bool is_true(Run& run, const Block& block);
 // Positioning blocks, with their feed (motion.cpp); M functions of the block are execution.cpp's,
 // except those that state how it moves.
 
+/// G90 and G91 in one block, in another order than the control sorts its words.
+void warn_of_distance(Run& run);
+
 bool run_line(Run& run, const Block& block);
 bool run_polar_line(Run& run, const Block& block);
 bool run_arc(Run& run, const Block& block);

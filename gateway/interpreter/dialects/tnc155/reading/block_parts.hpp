@@ -10,7 +10,10 @@ namespace dripline::interpreter::tnc155 {
 struct BlockParts {
   static constexpr std::size_t kMax = 16;
 
-  void clear() { count = 0; }
+  void clear() {
+    count = 0;
+    sorts_distances = false;
+  }
   Block& add(BlockKind kind) {
     Block& block = blocks[count++];
     block.clear(kind);
@@ -20,6 +23,8 @@ struct BlockParts {
   const Block* end() const { return blocks.data() + count; }
 
   std::size_t count = 0;
+  /// Of G90 and G91 in the block another one stays in force than the last one of the text.
+  bool sorts_distances = false;
   std::array<Block, kMax> blocks;
   ItncWords itnc;  ///< of a later control's one block
 };

@@ -78,18 +78,19 @@ struct IsoBlock {
   std::int8_t function = kNone;  ///< D
   /// A G90 or G91 that no word of the block follows; AsBefore: none.
   Distance last_distance = Distance::AsBefore;
-  std::int32_t tool = kNone;                   ///< T
-  std::int32_t label = kNone;                  ///< L after G98 (set), else a call
-  std::int32_t repeats = kNone;                ///< L15.8
-  std::int32_t program = kNone;                ///< %
-  std::int32_t parameter = kNone;              ///< Q of a D function
-  std::int32_t called_program = kNone;         ///< P01 of G39
-  std::int32_t factor = kNone;                 ///< F of G72, millionths
-  Value length;                                ///< L after G99
-  Value feed;                                  ///< F; of G04 seconds
-  Value spindle;                               ///< S
-  std::array<std::uint8_t, kIsoGroups> codes;  ///< where `groups` has the bit
-  std::array<Distance, kIsoSlots> distances;   ///< where `slots` has the bit
+  Distance written_distance = Distance::AsBefore;  ///< the last G90 or G91 of the text
+  std::int32_t tool = kNone;                       ///< T
+  std::int32_t label = kNone;                      ///< L after G98 (set), else a call
+  std::int32_t repeats = kNone;                    ///< L15.8
+  std::int32_t program = kNone;                    ///< %
+  std::int32_t parameter = kNone;                  ///< Q of a D function
+  std::int32_t called_program = kNone;             ///< P01 of G39
+  std::int32_t factor = kNone;                     ///< F of G72, millionths
+  Value length;                                    ///< L after G99
+  Value feed;                                      ///< F; of G04 seconds
+  Value spindle;                                   ///< S
+  std::array<std::uint8_t, kIsoGroups> codes;      ///< where `groups` has the bit
+  std::array<Distance, kIsoSlots> distances;       ///< where `slots` has the bit
   std::array<Value, kIsoSlots> values;
   std::array<IsoParameter, 8> cycle;  ///< P01-P07, where `parameters` has the bit
 };

@@ -96,7 +96,7 @@ class IsoReader {
                            fmt::format("G{} directly after G90 or G91", code));
     }
     distance_ = code == 90 ? Distance::Absolute : Distance::Incremental;
-    block_.last_distance = distance_;
+    block_.last_distance = block_.written_distance = distance_;
     return true;
   }
 
@@ -360,7 +360,7 @@ void clear(IsoBlock& block) {
   block.groups = block.slots = 0;
   block.parameters = 0;
   block.m = block.function = IsoBlock::kNone;
-  block.last_distance = Distance::AsBefore;
+  block.last_distance = block.written_distance = Distance::AsBefore;
   block.length = block.feed = block.spindle = Value{};
 }
 

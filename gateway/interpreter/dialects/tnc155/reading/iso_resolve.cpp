@@ -81,6 +81,7 @@ class Resolver {
     if (last == Distance::AsBefore) return true;
     modes_.has_distance = true;
     modes_.is_incremental = last == Distance::Incremental;
+    parts_.sorts_distances = last != block_.written_distance;
     return true;
   }
   bool is_incremental(IsoSlot slot) const {
