@@ -209,8 +209,16 @@ bool rotate(Run& run, const Block& block) {
     }
     angle = std::fmod(angle, kMaxRotation);
   }
+  const Plane plane = block.axis ? plane_across(*block.axis) : run.state.plane;
+  if (changed.rotation != 0 && angle != 0 && plane != changed.rotation_plane) {
+    const PlaneAxes axes = axes_of(changed.rotation_plane);
+    run.warn("TNC-ROTATION-PLANE",
+             fmt::format("the rotation by {:.3f} degrees of {} and {} ends: one of another plane "
+                         "takes its place",
+                         changed.rotation, letter(axes.first), letter(axes.second)));
+  }
   changed.rotation = angle;
-  changed.rotation_plane = block.axis ? plane_across(*block.axis) : run.state.plane;
+  changed.rotation_plane = plane;
   return transform(run, changed);
 }
 
