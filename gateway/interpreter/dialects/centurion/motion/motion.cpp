@@ -45,6 +45,10 @@ bool read_polar_target(Run& run, Target& target) {
     state.retained.radius = words[Address::R];
     state.retained.has_radius = true;
   }
+  if (!state.retained.has_radius) {
+    return run.fail(ErrorCode::IllegalStatement, motion_column(run),
+                    "a polar line has no length: no R in the block or before it");
+  }
   if (words.has(Address::AB)) state.retained.end_angle = words[Address::AB];
   Point pole = state.position;
   if (words.has(Address::XC)) pole.x = state.origin.x + words[Address::XC] / 2;
