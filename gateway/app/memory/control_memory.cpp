@@ -149,11 +149,18 @@ std::optional<std::size_t> ControlMemory::place_of(const std::string& name) cons
 }
 
 std::shared_ptr<const ControlMemory::Saved> ControlMemory::save() const {
-  return std::make_shared<const Saved>(Saved{cells_, has_unstaged_, has_changed_});
+  return std::make_shared<const Saved>(
+      Saved{cells_, known_, places_, base_, named_, live_, tape_, has_unstaged_, has_changed_});
 }
 
 void ControlMemory::restore(const Saved& saved) {
   cells_ = saved.cells;
+  known_ = saved.known;
+  places_ = saved.places;
+  base_ = saved.base;
+  named_ = saved.named;
+  live_ = saved.live;
+  tape_ = saved.tape;
   has_unstaged_ = saved.has_unstaged;
   has_changed_ = saved.has_changed;
 }

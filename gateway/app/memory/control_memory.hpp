@@ -53,7 +53,7 @@ class ControlMemory {
 
   /// A cell of `begin` by its name; nothing: there is none.
   std::optional<std::size_t> place_of(const std::string& name) const;
-  /// For a change that cannot be kept: it is taken back.
+  /// For a change, or the beginning of a program, that cannot be kept: it is taken back.
   struct Saved;
   std::shared_ptr<const Saved> save() const;
   void restore(const Saved& saved);
@@ -107,6 +107,12 @@ class ControlMemory {
 
 struct ControlMemory::Saved {
   std::map<std::string, Cell> cells;
+  std::vector<interpreter::MemoryCell> known;
+  std::unordered_map<std::string, std::size_t> places;
+  std::vector<double> base;
+  std::map<std::string, bool> named;
+  std::vector<Value> live;
+  std::optional<Tape> tape;
   bool has_unstaged = false, has_changed = false;
 };
 

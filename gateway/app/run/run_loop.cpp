@@ -243,6 +243,7 @@ void RunLoop::try_to_finish(SteadyTime now) {
   }
   parts_.run.is_ending = false;
   parts_.run.session.reset();
+  tested_memory_.reset();
   parts_.on_over();
 }
 

@@ -151,6 +151,8 @@ class RunLoop {
     ToolInPosition tool;
   };
   std::optional<Locked> locked_at_;  ///< of this run: the axes end there
+  /// A test run begins with a copy, so that neither its setup nor its program changes the memory.
+  std::optional<ControlMemory> tested_memory_;
   SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_checkpoint_{};
   machine::MachineState last_state_{};
   std::uint64_t look_rounds_ = 0;

@@ -126,13 +126,14 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
     return done;
   auto check = check_of(axes, tests, is_restart);
   if (!check) return fail(check.error());
+  const auto kept = parts_.memory.save();
   auto session = RunSession::make(
       {.run = run,
        .feed = std::move(feed),
        .machine = parts_.machine,
        .recorder = parts_.recorder,
        .clock = parts_.clock,
-       .memory = parts_.memory,
+       .memory = tests ? tested_memory_.emplace(parts_.memory) : parts_.memory,
        .begins_with_former_memory = origin.from.memory == StartMemory::Begin,
        .checkpoints = parts_.keeps_checkpoints && !is_mdi && !tests ? &parts_.outbox : nullptr,
        .restart = *std::move(restart),
@@ -147,13 +148,17 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
        .dry_run = dry_run()},
       parts_.dialect, *setup);
   if (!session) {
+    parts_.memory.restore(*kept);
     const bool is_memory =
         session.error().code == Errc::Corrupt || session.error().code == Errc::NotFound;
     return fail(session.error().code, "{}{}", is_memory ? "" : "setup: ", session.error().what);
   }
   notice_ = is_mdi && modes == nullptr ? notice_of_mdi() : std::string();
   if (tests) notice_ = kTestRun;
-  if (auto done = stage_start(run, origin, std::move(conditions), **session); !done) return done;
+  if (auto done = stage_start(run, origin, std::move(conditions), **session); !done) {
+    parts_.memory.restore(*kept);
+    return done;
+  }
 
   parts_.journal.begin(run.run);
   parts_.on_begin(*setup);

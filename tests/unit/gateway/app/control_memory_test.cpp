@@ -150,6 +150,20 @@ TEST(CenturionMemory, GivesWayToASetupThatWasChanged) {
   EXPECT_EQ(fixture.reported(), R"({"part":1,"parts":1,"cells":{"P11":[8,0]}})");
 }
 
+TEST(CenturionMemory, IsLeftAsItIsByAStartThatIsRefused) {
+  MemoryFixture fixture(interpreter::kCenturionDialect);
+  const std::string setup = "[[variable]]\nname = \"P10\"\nvalue = 3\n";
+  fixture.run("O0001\nP10=7\nM30\n", setup);
+  fixture.push("P9", "O0009\nN40 M30\n");
+  dds::Command start = fixture.start_command("P9");
+  start.argument = "N40 memory=begin";
+  start.setup = "[[variable]]\nname = \"P10\"\nvalue = 4\n";
+  ASSERT_FALSE(fixture.send(start).accepted);
+  const Lines kept = fixture.printed("O0002\nPOPEN P0\nDPRNT[A#10]\nPCLOS\nM30\n", setup);
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_NE(kept[0].find('7'), std::string::npos) << kept[0];
+}
+
 TEST(CenturionMemory, IsClearedByASetupThatNamesIt) {
   MemoryFixture fixture(interpreter::kCenturionDialect);
   fixture.run("O0001\nP10=7\nM30\n");

@@ -115,6 +115,21 @@ TEST_F(TestRun, ProbesTheWorkpieceOfTheSetup) {
   EXPECT_EQ(shop.count(dds::RecordKind::Probe), 0U);
 }
 
+// A setup of the test gives a cell another number, and the control keeps its own all the same.
+TEST_F(TestRun, LeavesTheMemoryToTheSetupOfTheNextRun) {
+  Shop& shop = at(interpreter::kFanucDialect);
+  const auto datum = [](int x) { return fmt::format("[[offset]]\nname = \"G54\"\nX = {}.0\n", x); };
+  shop.server_setup = datum(10);
+  ASSERT_EQ(shop.run("O1\nG21 G90 G10 L2 P1 X50.\nM30\n"), "completed");
+  shop.server_setup = datum(33);
+  ASSERT_TRUE(turn(true).accepted);
+  EXPECT_THAT(test("O2\nG21 G90 G54 G1 X0. F600\nM30\n"), StartsWith("tested: "));
+  ASSERT_TRUE(turn(false).accepted);
+  shop.server_setup = datum(10);
+  ASSERT_EQ(shop.run("O2\nG21 G90 G54 G1 X0. F600\nM30\n"), "completed");
+  EXPECT_EQ(shop.at(0), 50);
+}
+
 TEST_F(TestRun, EndsWhereTheProgramAsksItsOperator) {
   (void)at(toy_control());
   ASSERT_TRUE(turn(true).accepted);
