@@ -55,8 +55,6 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
     setup.start = restart ? restart->conditions.begun_at : parts_.machine.status().axes();
     setup.start.unmark_all();
   }
-  if (is_test(origin) && !parts_.dialect.switches.test_mode.empty())
-    setup.control.set("mode", {std::string(parts_.dialect.switches.test_mode), 0});
   if (origin.from.is_mdi) {
     setup.is_mdi = true;
     return setup;

@@ -124,7 +124,7 @@ const Dialect kCenturionDialect{
     .units = Units::Inch,
     .machine = MachineKind::Lathe,
     .feed_override_switch = {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
-    .switches = {.dry_run_at_rest = true, .test_mode = "verify"},  // error 605: while running
+    .switches = {.dry_run_at_rest = true},  // error 605: while running
     .mdi_blocks = 1,
     .waits_at_tool_change = true,  // M6 prompts and waits (manual: M6)
     .panel_tables = &read_panel_tables,

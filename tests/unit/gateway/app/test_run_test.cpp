@@ -145,13 +145,20 @@ TEST_F(TestRun, PassesOverStops) {
   EXPECT_EQ(shop.count(dds::RecordKind::Stop), 0U);
 }
 
-// Centurion's VERIFY: no wait for the handwheel, no byte parameter is written.
-TEST_F(TestRun, IsTheControlsOwnMode) {
+// Other than a Centurion's VERIFY, in which no byte parameter is written: the copy of the memory
+// is.
+TEST_F(TestRun, WritesByteParametersAsARunDoesAndWaitsForNoHandwheel) {
   Shop& shop = at(interpreter::kCenturionDialect);
   const std::string text = "O1\nHDW(MOVE X)\nPB7=9\nG98 G1 X1 F100\nM30\n";
   ASSERT_TRUE(turn(true).accepted);
   EXPECT_THAT(test(text), StartsWith("tested: "));
+  EXPECT_THAT(test("O2\nPB7=0\nN10 PB7=PB7+1\nIF PB7 LT 3 GOTO 10\nM30\n"),
+              StartsWith("tested: test run: 9 blocks"));
+  EXPECT_THAT(test("O3\nPB7=300\nM30\n"),
+              AllOf(StartsWith("alarmed: CEN0517"), HasSubstr("(line 2, found by a test run)")));
   ASSERT_TRUE(turn(false).accepted);
+  ASSERT_EQ(shop.run("O4\nP3=PB7\nPOPEN P0\nDPRNT[A#3]\nPCLOS\nM30\n"), "completed");
+  EXPECT_THAT(shop.lines(), ElementsAre(HasSubstr("0"))) << "the test has kept nothing";
   shop.push("2", text);
   ASSERT_TRUE(shop.start("2").accepted);
   EXPECT_TRUE(shop.run_until([&] {
