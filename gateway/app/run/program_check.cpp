@@ -8,7 +8,7 @@ using interpreter::StepState;
 using machine::ToolLengths;
 
 void ProgramCheck::Refusals::on_alarm(const interpreter::Alarm& alarm) {
-  if (!first && (keeps_all_ || alarm.diagnostic.id.starts_with("MCH"))) first = alarm.diagnostic;
+  if (!first && (keeps_all_ || alarm.diagnostic.id.starts_with("MCH"))) first = alarm;
   out().on_alarm(alarm);
 }
 
@@ -25,10 +25,33 @@ ProgramCheck::ProgramCheck(Parts parts)
   filter_.begin(parts_.at, parts_.lengths);
 }
 
-std::optional<interpreter::Diagnostic> ProgramCheck::found() const {
+/// The machine does not say which program its refusal is of: that of the present block, or of a
+/// move that came out late, of the one before.
+std::optional<interpreter::Alarm> ProgramCheck::found() const {
   const auto& refused = parts_.machine->refusal();
-  if (refused && (!refusals_.first || refused->line <= refusals_.first->line)) return refused;
-  return refusals_.first;
+  const auto& first = refusals_.first;
+  if (!refused || (first && first->diagnostic.line < refused->line)) return first;
+  const bool is_present = interpreter_->origin().line == refused->line;
+  interpreter::Alarm alarm{is_present ? interpreter_->origin() : previous_, *refused};
+  alarm.origin.line = refused->line;
+  return alarm;
+}
+
+std::string ProgramCheck::place_of(const interpreter::Origin& origin) const {
+  const bool is_called = origin.program != interpreter::kMainProgram && parts_.name_of;
+  const std::string name = is_called ? parts_.name_of(origin.program) : std::string();
+  return fmt::format("line {}{}{}", origin.line, name.empty() ? "" : " of ", name);
+}
+
+ProgramCheck::State ProgramCheck::refuse(const interpreter::Alarm& alarm) {
+  interpreter::Origin place = alarm.origin;
+  place.line = alarm.diagnostic.line;
+  refusal_.origin.line = place.line;
+  refusal_.diagnostic = alarm.diagnostic;
+  refusal_.diagnostic.text =
+      fmt::format("{} ({}, {})", alarm.diagnostic.text, place_of(place),
+                  parts_.is_test ? "found by a test run" : "found before the first move");
+  return state_ = State::Refused;
 }
 
 ProgramCheck::State ProgramCheck::work(SteadyTime now) {
@@ -36,17 +59,11 @@ ProgramCheck::State ProgramCheck::work(SteadyTime now) {
   if (is_over()) return state_;
   if (!began_) began_ = now;
   if (!parts_.is_test && now - *began_ > kLimit) return state_ = State::Passed;
+  previous_ = interpreter_->origin();
   const StepState step = interpreter_->step(1);
   (void)filter_.note_block(interpreter_->origin());
   parts_.machine->pass_block();
-  if (const auto refusal = found()) {
-    refusal_.origin.line = refusal->line;
-    refusal_.diagnostic = *refusal;
-    refusal_.diagnostic.text =
-        fmt::format("{} (line {}, {})", refusal->text, refusal->line,
-                    parts_.is_test ? "found by a test run" : "found before the first move");
-    return state_ = State::Refused;
-  }
+  if (const auto refusal = found()) return refuse(*refusal);
   switch (step) {
     case StepState::Ran:
       return state_ = State::Working;

@@ -28,6 +28,8 @@ class ProgramCheck {
     bool is_test = false;
     /// What the control's clock shows; empty: it is not known beforehand.
     std::function<interpreter::LocalTime()> time = {};
+    /// Of a called program; empty: it is not known.
+    std::function<std::string(interpreter::ProgramIndex)> name_of = {};
   };
   explicit ProgramCheck(Parts parts);
   ProgramCheck(const ProgramCheck&) = delete;
@@ -52,6 +54,8 @@ class ProgramCheck {
   /// Looked through so far, for the operator.
   std::uint64_t block() const { return interpreter_->blocks(); }
   const interpreter::Origin& origin() const { return interpreter_->origin(); }
+  /// The same: "line 3", "line 3 of O9000".
+  std::string place() const { return place_of(origin()); }
   std::optional<machine::Seconds> motion_time() const { return parts_.machine->motion_time(); }
 
   static constexpr std::chrono::seconds kLimit{10};
@@ -63,7 +67,7 @@ class ProgramCheck {
     Refusals(interpreter::EventSink& out, bool keeps_all)
         : EventFilter(out), keeps_all_(keeps_all) {}
     void on_alarm(const interpreter::Alarm& alarm) override;
-    std::optional<interpreter::Diagnostic> first;
+    std::optional<interpreter::Alarm> first;
 
    private:
     const bool keeps_all_;
@@ -71,7 +75,9 @@ class ProgramCheck {
 
   bool answer();
   std::optional<interpreter::Answer> answer_to(const interpreter::Question& question);
-  std::optional<interpreter::Diagnostic> found() const;
+  std::optional<interpreter::Alarm> found() const;
+  State refuse(const interpreter::Alarm& alarm);
+  std::string place_of(const interpreter::Origin& origin) const;
 
   Parts parts_;
   std::unique_ptr<interpreter::Interpreter> interpreter_;
@@ -80,6 +86,7 @@ class ProgramCheck {
   State state_ = State::Working;
   std::optional<SteadyTime> began_;
   std::size_t next_answer_ = 0;
+  interpreter::Origin previous_;  ///< block
   interpreter::Alarm refusal_;
   std::string unanswered_;
 };

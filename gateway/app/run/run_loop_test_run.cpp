@@ -23,9 +23,9 @@ void RunLoop::end_test(const ProgramCheck& check) {
   if (!check.unanswered().empty()) {
     return end(
         dds::RunOutcome::Aborted,
-        fmt::format("test run: good as far as line {}, where the program {}: the answer is not "
-                    "known before it runs",
-                    check.origin().line, check.unanswered()));
+        fmt::format("test run: good as far as {}, where the program {}: the answer is not known "
+                    "before it runs",
+                    check.place(), check.unanswered()));
   }
   std::string time;
   if (const auto motion = check.motion_time())

@@ -86,7 +86,11 @@ Result<void> RunSession::begin_check(const Make& make, const interpreter::Setup&
       .answers = setup_.answers,
       .is_test = parts_.is_test,
       .time = parts_.is_test ? [this] { return interpreter::local_time_at(clock_ms()); }
-                             : std::function<interpreter::LocalTime()>()});
+                             : std::function<interpreter::LocalTime()>(),
+      .name_of = [this](interpreter::ProgramIndex program) {
+        const auto called = feed().called_programs();
+        return program <= called.size() ? called[program - 1].name : std::string();
+      }});
   auto made = make(setup, check->events());
   if (!made) return fail(made.error());
   if (retained_ != nullptr || parts_.modes != nullptr)

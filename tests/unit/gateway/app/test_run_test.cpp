@@ -115,6 +115,20 @@ TEST_F(TestRun, ProbesTheWorkpieceOfTheSetup) {
   EXPECT_EQ(shop.count(dds::RecordKind::Probe), 0U);
 }
 
+TEST_F(TestRun, NamesTheSubprogramOfAnAlarm) {
+  Shop& shop = at(interpreter::kFanucDialect);
+  interpreter::MachineData stated;
+  stated.axes[0] = {.min = -100, .max = 100, .max_rate = {}};
+  shop.motion = make_motion("simulated", interpreter::kFanucDialect, {.machine = stated}).value();
+  shop.restart_gateway();
+  shop.push("O9000", "O9000\nG1 X[50.*#1]\nG2 X60. R[5.*#1]\nM99\n");
+  ASSERT_TRUE(turn(true).accepted);
+  EXPECT_THAT(test("O1\nG21 G90 G94 F600.\nG65 P9000 A3.\nM30\n"),
+              AllOf(StartsWith("alarmed: MCH"), HasSubstr("(line 2 of O9000, found by a test")));
+  EXPECT_THAT(test("O1\nG21 G90 G94 F600.\nG65 P9000 A.1\nM30\n"),
+              AllOf(StartsWith("alarmed: PS023"), HasSubstr("(line 3 of O9000, found by a test")));
+}
+
 // A setup of the test gives a cell another number, and the control keeps its own all the same.
 TEST_F(TestRun, LeavesTheMemoryToTheSetupOfTheNextRun) {
   Shop& shop = at(interpreter::kFanucDialect);
