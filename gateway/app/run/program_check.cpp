@@ -70,7 +70,10 @@ ProgramCheck::State ProgramCheck::work(SteadyTime now) {
     case StepState::NeedsText:
       return state_ = State::NeedsText;
     case StepState::NeedsAnswer:
-      return state_ = answer() ? State::Working : State::Passed;
+      if (answer()) return state_ = State::Working;
+      // A probe move that the machine cannot make has no answer.
+      if (const auto refusal = found()) return refuse(*refusal);
+      return state_ = State::Passed;
     case StepState::Ended:
     case StepState::Alarmed:
       break;
@@ -93,6 +96,14 @@ std::string described(const interpreter::Question& question) {
 
 }  // namespace
 
+/// As a run finds it (RunSession). Only of a test run: other looks end here.
+bool ProgramCheck::takes(const interpreter::Probe& probe) {
+  if (!parts_.is_test) return true;
+  if (parts_.capabilities.probing) return filter_.takes_probe(probe);
+  filter_.refuse(probe.origin, "probe");
+  return false;
+}
+
 /// Nothing: it is not known before the program runs.
 std::optional<interpreter::Answer> ProgramCheck::answer_to(const interpreter::Question& question) {
   using namespace interpreter;
@@ -101,6 +112,7 @@ std::optional<interpreter::Answer> ProgramCheck::answer_to(const interpreter::Qu
     return PromptAnswer{parts_.answers[next_answer_++]};
   }
   if (const auto* probe = std::get_if<ProbeQuestion>(&question)) {
+    if (!takes(probe->probe)) return std::nullopt;
     auto result = parts_.machine->probe(probe->probe);
     if (!result) return std::nullopt;
     filter_.note_probed(result->at);

@@ -75,6 +75,7 @@ class ProgramCheck {
 
   bool answer();
   std::optional<interpreter::Answer> answer_to(const interpreter::Question& question);
+  bool takes(const interpreter::Probe& probe);
   std::optional<interpreter::Alarm> found() const;
   State refuse(const interpreter::Alarm& alarm);
   std::string place_of(const interpreter::Origin& origin) const;

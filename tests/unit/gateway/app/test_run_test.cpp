@@ -115,6 +115,18 @@ TEST_F(TestRun, ProbesTheWorkpieceOfTheSetup) {
   EXPECT_EQ(shop.count(dds::RecordKind::Probe), 0U);
 }
 
+TEST_F(TestRun, FindsAProbeMoveBeyondTheTravel) {
+  Shop& shop = at(interpreter::kRs274NgcDialect);
+  interpreter::MachineData stated;
+  stated.axes[2] = {.min = -10, .max = 100, .max_rate = {}};
+  shop.motion =
+      make_motion("simulated", interpreter::kRs274NgcDialect, {.machine = stated}).value();
+  shop.restart_gateway();
+  ASSERT_TRUE(turn(true).accepted);
+  EXPECT_THAT(test("G21 G90 F600\nG38.2 Z-11 F100\nM2\n"),
+              AllOf(StartsWith("alarmed: MCH0001"), HasSubstr("(line 2, found by a test run)")));
+}
+
 TEST_F(TestRun, NamesTheSubprogramOfAnAlarm) {
   Shop& shop = at(interpreter::kFanucDialect);
   interpreter::MachineData stated;
