@@ -207,6 +207,7 @@ void RunLoop::end(dds::RunOutcome outcome, const std::string& reason) {
   if (is_test) parts_.run.last_execution = dds::Execution::Ready;
   parts_.run.last_message = text.reason;
   if (is_completed) keep_tape();
+  if (is_test) state_tape();
   if (!is_test) report_memory();
   stage_ending(outcome);
   parts_.recorder.end(std::move(text));

@@ -108,6 +108,7 @@ class RunLoop {
   void take_modes();
   void note_left();
   void note_beginning(const StartOrigin& origin, bool has_modes);
+  void note_tape(const StartOrigin& origin, bool has_modes);
   std::string notice_of_mdi() const;
   Result<std::optional<RestartPlan>> plan_of(const report::ActiveRun& run,
                                              const StartOrigin& origin) const;

@@ -84,8 +84,9 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin,
 /// The tape is still in the reader: the start reads the program that comes next on it.
 StartOrigin RunLoop::read_on(const report::ActiveRun& run, StartOrigin origin) const {
   const std::uint32_t part = parts_.memory.tape_part(run.revision);
-  const bool is_plain = origin.argument.empty() && origin.from == StartArgument{};
-  if (!is_plain || run.revision.empty() || part == 1) return origin;
+  StartArgument plain;
+  plain.is_test = origin.from.is_test;  // which reads what a start would
+  if (origin.from != plain || run.revision.empty() || part == 1) return origin;
   origin.from.part = part;
   origin.argument = fmt::format("part={}", part);
   return origin;
@@ -161,6 +162,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   parts_.journal.begin(run.run);
   parts_.on_begin(*setup);
   if (tests) {
+    note_tape(origin, modes != nullptr);
     begin_test(*std::move(session));
     return {};
   }
@@ -270,8 +272,10 @@ void RunLoop::keep_tape() {
 
 void RunLoop::state_tape() {
   const std::uint32_t part = parts_.memory.next_part();
-  if (part > 1)
-    parts_.run.last_message = fmt::format("the next start reads program {} of the tape", part);
+  if (part == 1) return;
+  std::string& message = parts_.run.last_message;
+  message += fmt::format("{}the next start reads program {} of the tape",
+                         message.empty() ? "" : "; ", part);
 }
 
 /// Before the session is gone. What the program has ended itself was executed up to there.
@@ -307,12 +311,15 @@ void RunLoop::note_beginning(const StartOrigin& origin, bool has_modes) {
   const machine::OperatorPanel& panel = parts_.machine.panel();
   if (panel.machine_lock) parts_.recorder.note({}, "machine lock: the axes do not move");
   if (panel.dry_run && !panel.machine_lock) parts_.recorder.note({}, "dry run");
-  if (origin.from.part) {
-    parts_.recorder.note({}, fmt::format("the tape is before its program {}{}{}", *origin.from.part,
-                                         has_modes ? "" : ", read with the modes of power on: ",
-                                         has_modes ? "" : why_no_modes_));
-  }
+  note_tape(origin, has_modes);
   if (!notice_.empty()) parts_.recorder.note({}, notice_);
+}
+
+void RunLoop::note_tape(const StartOrigin& origin, bool has_modes) {
+  if (!origin.from.part) return;
+  parts_.recorder.note({}, fmt::format("the tape is before its program {}{}{}", *origin.from.part,
+                                       has_modes ? "" : ", read with the modes of power on: ",
+                                       has_modes ? "" : why_no_modes_));
 }
 
 /// And what the position becomes, which is without the length of a dropped tool.

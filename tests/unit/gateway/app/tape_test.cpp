@@ -43,6 +43,33 @@ TEST(TapeInTheReader, IsReadOnAtTheNextStart) {
   EXPECT_NEAR(shop.at(1), 0, 1e-6);
 }
 
+/// By its start and by the switch: the program that is next, and the reader stays before it.
+TEST(TapeInTheReader, IsTestedFromWhereTheNextStartReads) {
+  TapeShop shop;
+  shop.push("TK", "%\nN1F9000X10000\nN2M02\n%\nN1Y20000\nN2X30000\nN3M02\n");
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  for (const bool by_switch : {false, true}) {
+    dds::Command turned = shop.command(dds::CommandAction::Switch);
+    turned.run.clear();
+    turned.argument = "test_run";
+    turned.value = by_switch ? 1 : 0;
+    ASSERT_TRUE(shop.send(turned).accepted);
+    dds::Command start = shop.start_command("TK");
+    if (!by_switch) start.argument = "test=yes";
+    ASSERT_TRUE(shop.send(start).accepted);
+    const auto end = shop.ended();
+    EXPECT_EQ(end.outcome, RunOutcome::Tested) << end.reason;
+    EXPECT_EQ(end.accepted, 3U) << end.reason;
+    EXPECT_EQ(shop.gateway->status().message,
+              end.reason + "; the next start reads program 2 of the tape");
+    turned.value = 0;
+    turned.id += "-off";
+    ASSERT_TRUE(shop.send(turned).accepted);
+  }
+  EXPECT_EQ(shop.run().outcome, RunOutcome::Completed);
+  EXPECT_NEAR(shop.at(1), 50.8, 1e-6) << "a test has wound nothing on";
+}
+
 TEST(TapeInTheReader, IsAnotherTapeForAnotherProgram) {
   TapeShop shop;
   shop.push("TK", kTape);
