@@ -297,6 +297,8 @@ dds::WaitsFor StatusBuilder::waits_for(Execution execution) const {
       break;
   }
   if (execution != Execution::Waiting) return WaitsFor::Nothing;
+  if (const ProgramCheck* check = parts_.run.session->check())
+    return check->state() == ProgramCheck::State::NeedsText ? WaitsFor::Text : WaitsFor::Nothing;
   return parts_.run.session->waits() == RunSession::Waits::ForOperator ? WaitsFor::Answer
                                                                        : WaitsFor::Text;
 }

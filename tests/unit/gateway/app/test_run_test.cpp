@@ -219,6 +219,17 @@ TEST_F(TestRun, IsRefusedForARestartAndDuringARun) {
   EXPECT_THAT(shop.send(restart).reason, HasSubstr("a restart is not tested"));
 }
 
+TEST_F(TestRun, WaitsForNothingWhileItWorks) {
+  Shop& shop = at(interpreter::kFanucDialect);
+  ASSERT_TRUE(turn(true).accepted);
+  shop.push("1", "O1\nG21 G90 G94 F600.\nN10 G1 X1.\nX0.\nGOTO 10\nM30\n");
+  ASSERT_TRUE(shop.start("1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.gateway->status().accepted > 1000; }));
+  EXPECT_EQ(shop.gateway->status().execution, dds::Execution::Waiting);
+  EXPECT_EQ(shop.gateway->status().waits_for, dds::WaitsFor::Nothing);
+  ASSERT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
+}
+
 TEST_F(TestRun, IsAbortedByItsOperatorAndTheEmergencyStop) {
   Shop& shop = at(interpreter::kRs274NgcDialect);
   shop.serves_text = false;  // it waits for its text
