@@ -196,7 +196,7 @@ Reply Gateway::start(const dds::Command& command) {
 Reply Gateway::operate(const dds::Command& command) {
   switch (command.action) {
     case CommandAction::Hold:
-      if (loop_.is_testing()) return {true, std::string(kTestRun)};
+      if (loop_.is_testing()) return refuse(std::string(kNoHoldOfTest));
       machine_->hold();
       loop_.keep_hold();
       return {};

@@ -193,6 +193,7 @@ void RunLoop::check_end() {
 void RunLoop::end(dds::RunOutcome outcome, const std::string& reason) {
   dds::RunEndText text;
   text.outcome = outcome;
+  ended_as_ = outcome;
   text.reason = valid_text(reason, kMaxReason);
   const bool is_test = parts_.run.session->is_test();
   if (!is_test) text.motion_seconds = parts_.run.session->motion_seconds();
@@ -226,15 +227,16 @@ void RunLoop::try_to_finish(SteadyTime now) {
                        parts_.run.label());
     return;
   }
-  const bool is_completed = parts_.run.last_execution == dds::Execution::ProgramCompleted;
+  const bool is_completed = ended_as_ == dds::RunOutcome::Completed;
   const std::string& message = parts_.run.last_message;
-  const bool is_whole = is_completed || parts_.run.session->is_test();
-  process::log_info("run ended {}{}{} executed={} accepted={} sent={} {}",
-                    is_whole ? "completed" : "cut off", message.empty() ? "" : ": ", message,
-                    recorder.executed().executed, recorder.executed().accepted,
-                    recorder.executed().sent, parts_.run.label());
+  const bool is_test = parts_.run.session->is_test();
+  process::log_info("{} ended {}{}{} executed={} accepted={} sent={} {}",
+                    is_test ? "test run" : "run",
+                    is_completed || is_test ? dds::to_string(ended_as_) : "cut off",
+                    message.empty() ? "" : ": ", message, recorder.executed().executed,
+                    recorder.executed().accepted, recorder.executed().sent, parts_.run.label());
   recorder.finish();
-  if (!parts_.run.session->is_test()) {
+  if (!is_test) {
     note_left();
     take_modes();
   }

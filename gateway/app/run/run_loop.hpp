@@ -158,6 +158,7 @@ class RunLoop {
   machine::MachineState last_state_{};
   std::uint64_t look_rounds_ = 0;
   bool has_dropped_checkpoint_ = false;  ///< of this run, for the log
+  dds::RunOutcome ended_as_{};           ///< while its end is not on disk
 };
 
 inline constexpr std::string_view kIsRebuilding =
@@ -166,6 +167,8 @@ inline constexpr std::string_view kIsChecking =
     "the program is still looked through for what the machine cannot do: press cycle start again";
 inline constexpr std::string_view kTestOfRestart =
     "a restart is not tested: it finds its place by running (switch test_run off)";
+inline constexpr std::string_view kNoHoldOfTest =
+    "a test run moves nothing, so there is nothing to hold; an abort ends it";
 inline constexpr std::string_view kEmergencyStop =
     "the emergency stop is pressed: release it first (switch emergency_stop off)";
 

@@ -238,7 +238,10 @@ TEST_F(TestRun, IsAbortedByItsOperatorAndTheEmergencyStop) {
   ASSERT_TRUE(shop.start("1").accepted);
   ASSERT_TRUE(shop.run_until([&] { return !shop.gateway->status().run.empty(); }));
   EXPECT_EQ(shop.gateway->status().message, "test run: nothing moves, block 0");
-  ASSERT_TRUE(shop.send(shop.command(CommandAction::Hold)).accepted) << "there is nothing to hold";
+  EXPECT_EQ(shop.gateway->status().waits_for, dds::WaitsFor::Text);
+  const auto held = shop.send(shop.command(CommandAction::Hold));
+  EXPECT_FALSE(held.accepted);
+  EXPECT_EQ(held.reason, "a test run moves nothing, so there is nothing to hold; an abort ends it");
   ASSERT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
   EXPECT_EQ(shop.ended().reason, "test run: aborted by command");
   ASSERT_TRUE(shop.start("1").accepted);
