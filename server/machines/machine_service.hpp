@@ -98,6 +98,7 @@ class MachineService final : public MachineControl {
   static Result<void> check_knows(const MachineView& view, dds::CommandAction action);
   /// For a machine without a run, with the setup that a start would get.
   Result<dds::Command> command_at_rest(const std::string& machine, dds::CommandAction action);
+  static Result<void> check_test(const StartRequest& request, const MachineView& view);
   Result<void> check_restart(const StartRequest& request, const storage::Run& run);
   Result<storage::Run> conclude_start(const storage::Run& run, const Result<void>& outcome);
 

@@ -87,12 +87,26 @@ Result<void> MachineService::check_restart(const StartRequest& request, const st
               text(run.setup), original->id, text(original->setup));
 }
 
+/// A control at the end of a line executes what it gets, and so does one that is not known to be at
+/// none.
+Result<void> MachineService::check_test(const StartRequest& request, const MachineView& view) {
+  if (!request.is_test) return {};
+  if (!view.status)
+    return fail(Errc::Timeout, "machine '{}' has not reported its status yet", request.machine);
+  if (!view.has_gateway_line()) return {};
+  return fail(Errc::Unsupported,
+              "machine '{}' is a control at the end of its gateway's line, and would execute the "
+              "program: it has no test run (dnc check looks through a program without a machine)",
+              request.machine);
+}
+
 Result<storage::Run> MachineService::start(const StartRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
   const SteadyTime begun = clock_.steady_now();
   const auto view = machine_for_work(request.machine);
   if (!view) return fail(view.error());
+  if (auto fits = check_test(request, *view); !fits) return fail(fits.error());
   auto run = make_run(request, *view);
   if (!run) return run;
   if (auto fits = check_control_memory(sources_, *run); !fits) return fail(fits.error());

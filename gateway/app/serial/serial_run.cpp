@@ -91,6 +91,10 @@ Result<void> SerialRun::start(const dds::Command& command, SteadyTime now) {
     return fail(Errc::Unsupported, "over this line a restart is a start with from and head");
   if (argument->is_mdi)
     return fail(Errc::Unsupported, "MDI is the control's own: nothing is keyed in over this line");
+  if (argument->is_test)
+    return fail(Errc::Unsupported,
+                "this machine's control is at the end of a line and would execute the program: it "
+                "has no test run (dnc check looks through a program without a machine)");
   auto place = SerialStart::make(*argument, {command.control, command.size});
   if (!place) return fail(place.error());
   const report::ActiveRun run{command.run, command.program, command.revision, command.control,

@@ -82,5 +82,20 @@ TEST_F(NetworkCut, LastsAsLongAsWasSaidBeforehandAndThenTheLineWaits) {
   EXPECT_EQ(as_program(wire_.sent), program_);
 }
 
+/// A control behind a line would execute what is sent to it.
+TEST_F(SerialGatewayTest, RefusesATestRunAndSendsNothing) {
+  begin("line=9600n81\neob=lf\nflow=none");
+  for (const char* argument : {"test=yes", "N10 head=send test=yes"}) {
+    order("O0077\nN10 G1 X9.\nM30\n", argument);
+    ASSERT_TRUE(result_);
+    EXPECT_FALSE(result_->accepted);
+    EXPECT_NE(result_->reason.find("it has no test run"), std::string::npos) << result_->reason;
+  }
+  pass(5s);
+  EXPECT_EQ(wire_.sent, "");
+  EXPECT_TRUE(records_.empty());
+  EXPECT_TRUE(status().run.empty());
+}
+
 }  // namespace
 }  // namespace dripline::gateway

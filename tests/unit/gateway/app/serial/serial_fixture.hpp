@@ -84,6 +84,11 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
     return is_so();
   }
   void start(const std::string& text) {
+    order(text);
+    ASSERT_TRUE(result_ && result_->accepted) << (result_ ? result_->reason : "no answer");
+  }
+  /// A start with this argument.
+  void order(const std::string& text, const std::string& argument = "") {
     text_ = text;
     dds::Command start;
     start.machine = "mill-3";
@@ -99,9 +104,9 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
     start.revision = sha256(text).hex();
     start.size = text.size();
     start.control = "fanuc";
+    start.argument = argument;
     gateway_->receive(start, clock_.steady_now());
     pass(kStep);
-    ASSERT_TRUE(result_ && result_->accepted) << (result_ ? result_->reason : "no answer");
   }
   std::optional<dds::RunEndText> ended() const {
     for (const auto& record : records_)

@@ -1,0 +1,39 @@
+// Where a test run is refused, and what becomes of it.
+#include "tests/unit/server/machines/machine_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+TEST_F(MachineRuns, AreNoTestsOnAControlAtTheEndOfAGatewaysLine) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  const auto test = [&] {
+    return service_->start({.machine = "lathe-1",
+                            .program = "O0100",
+                            .revision = {},
+                            .author = "cam",
+                            .is_test = true});
+  };
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.session = kSession;
+  status.time = clock_.now();
+  status.steady = gateway_steady();
+  status.serial_line.emplace();
+  network_.on_status(status);
+  const auto refused = test();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Unsupported);
+  EXPECT_NE(refused.error().what.find("it has no test run"), std::string::npos);
+  EXPECT_TRUE(written_->commands.empty()) << "an older gateway would send the program";
+  EXPECT_TRUE(store_->runs.list({}, {})->empty());
+  heartbeat();
+  const auto run = test();
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(written_->commands.back().argument, "test=yes");
+}
+
+}  // namespace
+}  // namespace dripline::server_test
