@@ -82,7 +82,7 @@ TEST_F(NetworkCut, LastsAsLongAsWasSaidBeforehandAndThenTheLineWaits) {
   EXPECT_EQ(as_program(wire_.sent), program_);
 }
 
-/// A control behind a line would execute what is sent to it.
+/// A control at the end of a line would execute what is sent to it.
 TEST_F(SerialGatewayTest, RefusesATestRunAndSendsNothing) {
   begin("line=9600n81\neob=lf\nflow=none");
   for (const char* argument : {"test=yes", "N10 head=send test=yes"}) {
