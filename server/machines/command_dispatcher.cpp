@@ -30,6 +30,26 @@ bool is_jog(const dds::Command& command) {
   return command.action == dds::CommandAction::Jog;
 }
 
+bool is_question(const dds::Command& command) {
+  return command.action == dds::CommandAction::Query ||
+         command.action == dds::CommandAction::Playback;
+}
+
+/// One that may have begun to move, or was given to a machine whose switches were seen: the next
+/// gateway begins with others.
+bool is_for_one_gateway(const dds::Command& command) {
+  return !may_stop(command) && !is_question(command);
+}
+
+std::string text_of_replaced(const dds::Command& command) {
+  std::string_view outcome = "whether it was carried out is not known";
+  if (is_jog(command)) outcome = "whether the axis has moved is not known";
+  if (command.action == dds::CommandAction::Start)
+    outcome = "nothing has begun at the new one, whose switches (test run, machine lock) are off";
+  return fmt::format("machine {}: its gateway was replaced before it answered {}; {}",
+                     command.machine, dds::to_string(command.action), outcome);
+}
+
 }  // namespace
 
 CommandDispatcher::CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock& clock,
@@ -45,12 +65,17 @@ std::chrono::milliseconds CommandDispatcher::life_of(const dds::Command& command
   return is_jog(command) ? options_.jog_expiry : options_.expiry;
 }
 
+/// The gateway that it was given to is not the present one.
+bool CommandDispatcher::is_replaced(const dds::Command& command) const {
+  return options_.gateway_of && is_for_one_gateway(command) &&
+         options_.gateway_of(command.machine).session != command.session;
+}
+
 SteadyTime CommandDispatcher::stamp(dds::Command& command) {
   const auto life = life_of(command);
   command.id = make_command_id();
   command.expires = may_stop(command) ? UtcTime::max() : clock_.now() + life;
-  // One that has begun to move is not given to the next gateway, which would move again.
-  if (is_jog(command) && options_.gateway_of)
+  if (command.session == 0 && is_for_one_gateway(command) && options_.gateway_of)
     command.session = options_.gateway_of(command.machine).session;
   command.server = session_;
   const std::lock_guard lock(mutex_);
@@ -67,11 +92,8 @@ Result<void> CommandDispatcher::send(dds::Command command) {
 Result<void> CommandDispatcher::send_to_present(dds::Command command, SteadyTime deadline) {
   if (options_.gateway_of) {
     const auto gateway = options_.gateway_of(command.machine);
-    if (is_jog(command) && command.session != gateway.session) {
-      return fail(Errc::Conflict,
-                  "machine {}: its gateway was replaced; whether the axis has moved is not known",
-                  command.machine);
-    }
+    if (is_for_one_gateway(command) && command.session != gateway.session)
+      return fail(Errc::Conflict, "{}", text_of_replaced(command));
     command.session = gateway.session;
     if (gateway.steady_ahead) {
       command.deadline =
@@ -163,6 +185,8 @@ Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
     return fail(Errc::Timeout,
                 "the server is stopping: whether machine {} has carried out {} is not known",
                 waiting.command.machine, dds::to_string(waiting.command.action));
+  if (is_replaced(waiting.command))
+    return fail(Errc::Timeout, "{}", text_of_replaced(waiting.command));
   return fail(Errc::Timeout, "machine {} did not answer {} within {} s", waiting.command.machine,
               dds::to_string(waiting.command.action), std::chrono::duration<double>(wait).count());
 }

@@ -26,9 +26,9 @@ class CommandDispatcher {
     /// Of a jog, which moves an axis: it is begun at once or never, and answered at its end. The
     /// longest that a gateway takes has to end within the second.
     std::chrono::milliseconds jog_expiry{2000}, jog_end{17'000};
-    /// A command without an answer is sent again, with the same id, to the gateway present then:
-    /// the first may have been lost with a connection, or have gone to a gateway that was just
-    /// replaced.
+    /// A command without an answer is sent again, with the same id: the first may have been lost
+    /// with a connection. One that stops, or asks, goes to the gateway present then; all others
+    /// only to the one that they were given to, and are answered with Timeout when it was replaced.
     std::chrono::milliseconds repeat{250};
     struct Gateway {
       std::uint64_t session = 0;
@@ -73,6 +73,7 @@ class CommandDispatcher {
     bool is_seen = false;  ///< the machine shows the run that this starts
   };
   std::chrono::milliseconds life_of(const dds::Command& command) const;
+  bool is_replaced(const dds::Command& command) const;
   SteadyTime stamp(dds::Command& command);
   Result<void> send_to_present(dds::Command command, SteadyTime deadline);
   Result<void> write_in_time(const dds::Command& command, SteadyTime deadline);

@@ -135,6 +135,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   }
   dds::Command command;
   command.machine = run->machine;
+  command.session = view->session;  // whose switches were there when the start was asked for
   command.action = dds::CommandAction::Start;
   command.run = run->id;
   command.program = run->program;

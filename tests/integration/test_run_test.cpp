@@ -1,5 +1,6 @@
 // A test run with real processes: nothing moves, no part is counted, and a kill leaves nothing.
 #include <gtest/gtest.h>
+#include <future>
 
 #include "tests/integration/system.hpp"
 
@@ -76,6 +77,36 @@ TEST_F(TestRunSystem, NamesTheFirstAlarmWithItsLine) {
   EXPECT_EQ(run.value("state", ""), "alarmed") << run.dump();
   EXPECT_NE(run.value("reason", "").find("(line 3, found by a test run)"), std::string::npos)
       << run.dump();
+  EXPECT_EQ(x(), 0);
+}
+
+/// The switch was in the memory of the gateway that is gone: the next would run the program.
+TEST_F(TestRunSystem, OfTheSwitchIsNoRunAtTheGatewayThatComesNext) {
+  begin("1x");
+  system->push("O4", "O4\nG21 G90 G1 X50. F6000\nM30\n");
+  const auto turned =
+      system->rest().post("/api/v1/machines/lathe-1/commands",
+                          {{"action", "switch"}, {"name", "test_run"}, {"value", 1}});
+  ASSERT_EQ(turned.status / 100, 2) << turned.body;
+  ASSERT_TRUE(eventually([&] { return status()["switches"].value("test_run", "") == "on"; }));
+  ASSERT_EQ(system->wait_ended(system->start_run("O4")).value("state", ""), "tested");
+  system->gateway().kill();
+  auto started = std::async(std::launch::async, [&] {
+    return system->rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O4"}});
+  });
+  ASSERT_TRUE(eventually(
+      [&] { return system->rest().get("/api/v1/runs?state=ordered").json()["runs"].size() == 1; }));
+  system->start_gateway();
+  const auto reply = started.get();
+  EXPECT_GE(reply.status, 400);
+  EXPECT_NE(reply.body.find("nothing has begun at the new one"), std::string::npos) << reply.body;
+  system->wait_connected();
+  const json newest = system->rest().get("/api/v1/runs?limit=1").json()["runs"][0];
+  EXPECT_EQ(newest.value("state", ""), "refused") << newest.dump();
+  EXPECT_TRUE(eventually([&] {
+    const json machine = system->rest().get("/api/v1/machines/lathe-1").json();
+    return machine["notices"].dump().find("test_run, on before, is off") != std::string::npos;
+  }));
   EXPECT_EQ(x(), 0);
 }
 

@@ -236,27 +236,6 @@ TEST_F(MachineRuns, AreOneAtATimeOnAMachine) {
   EXPECT_EQ(start("O0100").error().code, Errc::Busy);
 }
 
-TEST_F(MachineRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
-  auto endpoint = test_support::FakeServerEndpoint(written_);
-  machines::CommandDispatcher::Options options;
-  options.repeat = std::chrono::milliseconds(5);
-  options.gateway_of = [](const std::string&) {
-    return machines::CommandDispatcher::Options::Gateway{2, std::chrono::microseconds{0}};
-  };
-  machines::CommandDispatcher dispatcher(endpoint, clock_, options, [](const dds::Command&) {});
-  written_->on_command = [&](const dds::Command& heard) {
-    if (heard.session != 2) return;  // the first is gone
-    dispatcher.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
-  };
-  dds::Command command;
-  command.machine = "lathe-1";
-  command.action = dds::CommandAction::Start;
-  command.session = 1;
-  EXPECT_TRUE(dispatcher.carry_out(command));
-  EXPECT_EQ(written_->commands.at(0).id, written_->commands.back().id)
-      << "the same command, sent again";
-}
-
 // HD-052, HD-053: only where the setup says that the control keeps its programs.
 TEST_F(MachineRuns, AreRefusedWhereTheControlCannotKeepWhatTheProgramCalls) {
   std::string called = "BEGIN PGM 8 MM\n";
