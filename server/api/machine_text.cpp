@@ -289,7 +289,9 @@ void write_positions(Writer& out, const machines::MachineView& view) {
 
 void write_notices(Writer& out, const machines::MachineView& view) {
   out.begin('[');
-  for (const auto& notice : machines::notices_of(view)) {
+  auto notices = machines::notices_of(view);
+  if (auto lost = machines::switch_notice(view); !lost.empty()) notices.push_back(std::move(lost));
+  for (const auto& notice : notices) {
     out.separate();
     out.value(notice);
   }

@@ -20,6 +20,9 @@ struct MachineView {
   bool is_connected = false;
   std::uint64_t session = 0;  ///< of the gateway heard last; commands go to this one
   bool is_contested = false;  ///< two gateways claim to be this machine
+  /// Switches that keep the machine from moving and were on at the gateway before this one, which
+  /// begins without them: "test_run"; empty: none, or something has run since.
+  std::string lost_switches = {};
   /// Null until one was received since the server started. Shared by all copies of a view: it has
   /// two dozen texts, and a thousand machines are looked at five times a second.
   Shared<dds::Status> status;

@@ -25,6 +25,25 @@ storage::RunProgress progress_of(const dds::Status& status) {
 
 }  // namespace
 
+/// Of the switches with which a program moves nothing those that are on: "test_run, machine_lock".
+std::string MachineRegistry::still_switches(const dds::Status& status) {
+  if (!status.switches) return {};
+  std::string names;
+  if (status.switches->test_run == dds::SwitchState::On) names = "test_run";
+  if (status.switches->machine_lock == dds::SwitchState::On)
+    names += names.empty() ? "machine_lock" : ", machine_lock";
+  return names;
+}
+
+/// They were in the memory of the gateway that is gone.
+void MachineRegistry::note_lost_switches(MachineView& view) {
+  if (!view.status) return;
+  std::string lost = still_switches(*view.status);
+  if (lost.empty()) return;
+  view.lost_switches = std::move(lost);
+  process::log_warning("{} machine={}", switch_notice(view), view.machine.name);
+}
+
 /// A status may come before the announcement.
 bool MachineRegistry::is_announced(const Entry& entry) {
   return !entry.view.machine.name.empty();
@@ -88,6 +107,7 @@ void MachineRegistry::on_status(dds::Status status) {
   compare_clocks(entry, status);
   entry.counters_are_dirty = entry.counters_are_dirty || !status.run.empty();
   const bool is_urgent = !entry.view.status || is_news(*entry.view.status, status);
+  if (!status.run.empty() || !still_switches(status).empty()) entry.view.lost_switches.clear();
   entry.view.status = std::move(status);
   if (!is_announced(entry)) return;
   if (is_urgent) {
@@ -108,6 +128,7 @@ void MachineRegistry::hear(Entry& entry, std::uint64_t session) {
   }
   if (entry.view.session != 0) earlier.push_back(entry.view.session);
   if (earlier.size() > kMaxSessions) earlier.pop_front();
+  if (entry.view.session != 0) note_lost_switches(entry.view);
   entry.view.session = session;
   entry.clocks.reset();
 }
@@ -344,6 +365,13 @@ std::string clock_notice(std::chrono::microseconds ahead) {
   return fmt::format("the gateway's clock is {:.1f} s {} the server's",
                      std::chrono::duration<double>(distance).count(),
                      ahead.count() > 0 ? "ahead of" : "after");
+}
+
+std::string switch_notice(const MachineView& view) {
+  if (view.lost_switches.empty()) return {};
+  return fmt::format(
+      "the gateway was restarted, and {}, on before, is off: a start moves the machine",
+      view.lost_switches);
 }
 
 std::vector<std::string> notices_of(const MachineView& view) {

@@ -114,6 +114,8 @@ class MachineRegistry {
   static bool is_shown(const Entry& entry);
   std::vector<MachineView> views_of(bool (*is_wanted)(const Entry&)) const;
   Result<MachineView> view_of(const std::string& name, bool (*is_wanted)(const Entry&)) const;
+  static std::string still_switches(const dds::Status& status);
+  static void note_lost_switches(MachineView& view);
   void hear(Entry& entry, std::uint64_t session);
   void contest(Entry& entry);
   void compare_clocks(Entry& entry, const dds::Status& status);
@@ -139,6 +141,10 @@ bool is_news(const dds::Status& before, const dds::Status& now);
 /// Faults between the server and this machine's gateway, in sentences for people; empty when there
 /// is none. Without what the machine itself reports.
 std::vector<std::string> notices_of(const MachineView& view);
+
+/// That a restart of its gateway has switched off what kept the machine from moving; empty:
+/// nothing.
+std::string switch_notice(const MachineView& view);
 
 /// Why a machine whose gateway has this protocol version takes no command but a stop; empty when
 /// the version is the server's.

@@ -104,5 +104,39 @@ TEST_F(MachineRuns, AreRefusedWhenTheirGatewayIsReplacedBeforeTheyAreSent) {
   EXPECT_TRUE(written_->commands.empty());
 }
 
+/// The switches are in the memory of the gateway that is gone.
+TEST_F(MachineRuns, AreNotBegunUnawaresAfterARestartHasSwitchedTheTestRunOff) {
+  start_service();
+  announce();
+  const auto report = [&](std::uint64_t session, bool tests, const std::string& run = "") {
+    dds::Status status;
+    status.machine = "lathe-1";
+    status.session = session;
+    status.time = clock_.now();
+    status.steady = gateway_steady();
+    status.run = run;
+    status.switches.emplace();
+    status.switches->test_run = tests ? dds::SwitchState::On : dds::SwitchState::Off;
+    status.switches->machine_lock = status.switches->test_run;
+    network_.on_status(status);
+  };
+  const auto notice = [&] { return machines::switch_notice(*service_->machine("lathe-1")); };
+  report(kSession, false);
+  report(kSession + 1, false);
+  EXPECT_EQ(notice(), "") << "nothing was on";
+  report(kSession + 1, true);
+  report(kSession + 2, false);
+  EXPECT_EQ(notice(),
+            "the gateway was restarted, and test_run, machine_lock, on before, is off: a start "
+            "moves the machine");
+  report(kSession + 3, false);
+  EXPECT_NE(notice(), "") << "restarted once more";
+  report(kSession + 3, true);
+  EXPECT_EQ(notice(), "") << "on again";
+  report(kSession + 4, false);
+  report(kSession + 4, false, "run-9");
+  EXPECT_EQ(notice(), "") << "someone has started since";
+}
+
 }  // namespace
 }  // namespace dripline::server_test
