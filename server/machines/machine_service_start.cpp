@@ -1,5 +1,6 @@
 // How a run is started: what is checked before it exists, and what becomes of it.
 #include "protocol/process/log.hpp"
+#include "server/library/history/test_runs.hpp"
 #include "server/machines/control_memory.hpp"
 #include "server/machines/identifiers.hpp"
 #include "server/machines/machine_service.hpp"
@@ -63,6 +64,8 @@ Result<void> MachineService::check_restart(const StartRequest& request, const st
   if (!request.restart) return {};
   const auto original = store_.runs.find(request.restart->run);
   if (!original) return fail(original.error());
+  if (library::is_test_run(*original))
+    return fail(Errc::Conflict, "run {} was a test run: nothing of it was executed", original->id);
   const std::string_view state = storage::to_string(original->state);
   const bool was_cut_off = original->state == storage::RunState::Aborted ||
                            original->state == storage::RunState::Alarmed ||

@@ -35,5 +35,27 @@ TEST_F(MachineRuns, AreNoTestsOnAControlAtTheEndOfAGatewaysLine) {
   EXPECT_EQ(written_->commands.back().argument, "test=yes");
 }
 
+TEST_F(MachineRuns, OfATestAreNotRestarted) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  for (const auto& [state, reason] :
+       {std::pair{storage::RunState::Tested, "test run: 3 blocks"},
+        std::pair{storage::RunState::Aborted, "test run: aborted by command"},
+        std::pair{storage::RunState::Alarmed, "MCH0001 X 101 (line 3, found by a test run)"}}) {
+    const auto run = start("O0100");
+    ASSERT_TRUE(run) << run.error().what;
+    ASSERT_TRUE(store_->runs.set_state(run->id, state, reason));
+    machines::StartRequest again{
+        .machine = "lathe-1", .program = "O0100", .revision = {}, .author = "cam"};
+    again.restart = {.run = run->id};
+    const auto refused = service_->start(again);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().what,
+              "run " + run->id + " was a test run: nothing of it was executed");
+  }
+}
+
 }  // namespace
 }  // namespace dripline::server_test
