@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "server/library/history/test_runs.hpp"
 #include "server/library/releases.hpp"
 
 namespace dripline::library {
@@ -38,9 +39,10 @@ void add_outcome(Facts& facts, const storage::Run& run) {
   facts.add("reason", run.reason);
   facts.add("executed_blocks", run.counters.executed);
   facts.add("last_line", run.line);
-  if (run.executed_content) facts.add("executed_sha256", *run.executed_content);
+  const std::string what = is_test_run(run) ? "tested" : "executed";
+  if (run.executed_content) facts.add(what + "_sha256", *run.executed_content);
   if (run.content_verified)
-    facts.add("executed_is_program", std::string(*run.content_verified ? "yes" : "no"));
+    facts.add(what + "_is_program", std::string(*run.content_verified ? "yes" : "no"));
 }
 
 Result<void> add_setup(Facts& facts, const storage::Store& store, const storage::Run& run) {

@@ -57,6 +57,28 @@ TEST_F(RunFacts, NameTheCalledProgramsAndTheSetupOfTheGateway) {
   EXPECT_EQ(read->value("setup_sha256"), "") << "the server had none for this machine";
 }
 
+TEST_F(RunFacts, OfATestRunAttestNothingAsExecuted) {
+  ASSERT_TRUE(store_->runs.create(run_of(push("P", "M2\n"), "r1")));
+  storage::RunEnding ending;
+  ending.run = "r1";
+  ending.state = RunState::Tested;
+  ending.reason = "test run: 1 blocks";
+  ending.executed_content = sha256("M2\n").hex();
+  ending.content_verified = true;
+  storage::RecordBatch batch;
+  batch.machine = "lathe-1";
+  batch.endings.push_back(ending);
+  ASSERT_TRUE(store_->records.store(batch));
+  const auto read = attested("r1");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->value("state"), "tested");
+  EXPECT_EQ(read->value("executed_blocks"), "0");
+  EXPECT_EQ(read->value("tested_sha256"), sha256("M2\n").hex());
+  EXPECT_EQ(read->value("tested_is_program"), "yes");
+  EXPECT_EQ(read->value("executed_sha256"), "");
+  EXPECT_EQ(read->value("executed_is_program"), "");
+}
+
 /// So that the answer to "what did it call" is never more than a client reads.
 TEST_F(RunFacts, OfTheMostCallsFitIntoAnAttestation) {
   const auto name = [](std::size_t i) { return fmt::format("{:0>120}", i); };
