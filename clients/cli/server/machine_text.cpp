@@ -265,7 +265,8 @@ std::string outcome_line(const client::Run& run) {
   if (run.content_verified) {
     line += *run.content_verified ? ", content verified" : ", CONTENT NOT WHAT WAS APPROVED";
   }
-  if (run.state != "completed" && run.line) line += fmt::format(", last line {}", *run.line);
+  const bool has_place = run.line.value_or(0) > 0;  // of the program, once a block was executed
+  if (run.state != "completed" && has_place) line += fmt::format(", last line {}", *run.line);
   if (!run.reason.empty()) line += "; " + printable(run.reason);
   return line;
 }

@@ -111,7 +111,7 @@ Details run_details(const client::ShownRun& shown, const client::Display& displa
   details.add("accepted", fmt::format("{} blocks", run.accepted));
   details.add("executed", fmt::format("{} blocks", run.executed));
   if (run.statistics) add_statistics(details, *run.statistics, display);
-  details.add("last line", run.line ? std::to_string(*run.line) : "");
+  details.add("last line", run.line.value_or(0) > 0 ? std::to_string(*run.line) : "");
   details.add("last N", run.sequence ? std::to_string(*run.sequence) : "");
   details.add("report lines", std::to_string(run.outputs));
   details.add("parts", parts_text(shown.parts));

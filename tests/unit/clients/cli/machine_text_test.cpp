@@ -296,6 +296,13 @@ TEST(OutcomeLine, SaysHowTheRunWent) {
   EXPECT_EQ(outcome_line(alarmed),
             "Run 0192aabb of O0200 on lathe-1 alarmed: 200000 blocks executed in 1:06, 12 report "
             "lines, last line 7; CEN0103 bad word");
+  client::Run tested = run();
+  tested.state = "tested";
+  tested.reason = "test run: 4 blocks";
+  tested.line = tested.executed = tested.outputs = 0;
+  EXPECT_EQ(outcome_line(tested),
+            "Run 0192aabb of O0200 on lathe-1 tested: 0 blocks executed in 1:06, content verified; "
+            "test run: 4 blocks");
 }
 
 TEST(FractionExecuted, FollowsTheTextAndEndsAtOne) {
