@@ -58,4 +58,13 @@ std::string start_argument(const StartRequest& request) {
   return text;
 }
 
+std::string audit_text(const MachineControl& machines, const storage::Run& run,
+                       bool asks_for_test) {
+  const auto view = machines.machine(run.machine);
+  const bool is_on = view && view->status && view->status->switches &&
+                     view->status->switches->test_run == dds::SwitchState::On;
+  return fmt::format("{}{} revision {} on {}", asks_for_test || is_on ? "test run of " : "",
+                     run.program, run.revision, run.machine);
+}
+
 }  // namespace dripline::machines

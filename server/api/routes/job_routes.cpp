@@ -5,6 +5,7 @@
 #include "server/api/bodies/run_bodies.hpp"
 #include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
+#include "server/machines/start_point.hpp"
 
 namespace dripline::api {
 
@@ -109,13 +110,13 @@ Response start_job(Services& services, const Request& request) {
   start.author = request.who.name;
   start.role = request.caller->role;
   start.job = job->id;
-  start.before = [&audit = services.audit, who = request.who,
-                  id = job->id](const storage::Run& run) {
-    return audit.write_before({.who = who,
-                               .action = "run.start",
-                               .subject = run.id,
-                               .detail = fmt::format("{} revision {} on {}, job {}", run.program,
-                                                     run.revision, run.machine, id)});
+  start.before = [&services, who = request.who, id = job->id](const storage::Run& run) {
+    return services.audit.write_before(
+        {.who = who,
+         .action = "run.start",
+         .subject = run.id,
+         .detail =
+             fmt::format("{}, job {}", machines::audit_text(services.machines, run, false), id)});
   };
   const auto run = services.machines.start(start);
   return value_response(201, run, run_json);

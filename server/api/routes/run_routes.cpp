@@ -5,6 +5,7 @@
 #include "server/api/api.hpp"
 #include "server/api/bodies/run_bodies.hpp"
 #include "server/api/views.hpp"
+#include "server/machines/start_point.hpp"
 
 namespace dripline::api {
 
@@ -15,12 +16,13 @@ Response start_run(Services& services, const Request& request) {
   if (!start) return error_response(start.error());
   start->author = request.who.name;
   start->role = request.caller->role;
-  start->before = [&audit = services.audit, who = request.who](const storage::Run& run) {
-    return audit.write_before(
+  start->before = [&services, who = request.who,
+                   is_test = start->is_test](const storage::Run& run) {
+    return services.audit.write_before(
         {.who = who,
          .action = "run.start",
          .subject = run.id,
-         .detail = fmt::format("{} revision {} on {}", run.program, run.revision, run.machine)});
+         .detail = machines::audit_text(services.machines, run, is_test)});
   };
   const auto run = services.machines.start(*start);
   if (!run) return error_response(run.error());
