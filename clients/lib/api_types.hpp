@@ -171,11 +171,12 @@ struct Run {
   std::optional<RunStatistics> statistics = {};  ///< absent: not ended, not known, an older server
 };
 
-/// A run of what was keyed in.
+/// A run that has just begun.
 struct KeyedInRun {
   Run run;
-  std::string
-      notice;  ///< that it has begun without the modes and the tool before; empty: with them
+  /// That it is a test run; of what was keyed in, that it has begun without the modes and the tool
+  /// before. Empty: nothing.
+  std::string notice;
 };
 
 /// A run that is asked for by itself.

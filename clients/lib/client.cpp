@@ -316,7 +316,7 @@ Reply<void> Client::drop_upload(std::string_view id) {
   return perform(with_method("DELETE", path_of("uploads", id)));
 }
 
-Reply<Run> Client::start_run(const RunRequest& request) {
+Reply<KeyedInRun> Client::start_run(const RunRequest& request) {
   Json json{{"machine", request.machine}, {"program", request.program}};
   if (request.revision) json["revision"] = *request.revision;
   if (!request.from.empty()) json["from"] = request.from;
@@ -324,7 +324,7 @@ Reply<Run> Client::start_run(const RunRequest& request) {
   if (!request.memory.empty()) json["memory"] = request.memory;
   if (request.pass) json["pass"] = *request.pass;
   if (request.is_test) json["test"] = true;
-  return fetch<Run>(with_method("POST", path_of("runs")), dumped(json));
+  return fetch<KeyedInRun>(with_method("POST", path_of("runs")), dumped(json));
 }
 
 Reply<Run> Client::restart_run(std::string_view run, std::string_view at) {

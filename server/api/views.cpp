@@ -113,6 +113,12 @@ json run_json(const storage::Run& run) {
           {"statistics", statistics_json(run)}};
 }
 
+json begun_json(const storage::Run& run, std::string_view notice) {
+  json view = run_json(run);
+  view["notice"] = text_or_null(notice);
+  return view;
+}
+
 json loaded_setup_json(const storage::LoadedSetup& loaded) {
   return {{"machine", loaded.machine},
           {"revision", number_or_null(loaded.number)},

@@ -22,6 +22,8 @@ nlohmann::json machine_json(const machines::MachineView& view);  ///< the same, 
 nlohmann::json hold_json(const std::optional<storage::MachineHold>& hold);
 nlohmann::json hold_json(const std::optional<storage::JobHold>& hold);
 nlohmann::json run_json(const storage::Run& run);
+/// With what its gateway says of its beginning; empty: nothing.
+nlohmann::json begun_json(const storage::Run& run, std::string_view notice);
 /// Without the text.
 nlohmann::json setup_json(const storage::SetupRevision& setup);
 nlohmann::json loaded_setup_json(const storage::LoadedSetup& loaded);

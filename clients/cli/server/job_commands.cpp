@@ -97,10 +97,13 @@ int remove_job(Context& context, client::Client& client, const JobChoice& comman
 }
 
 int start_job(Context& context, client::Client& client, const JobStart& command) {
-  const auto run = client.start_job(command.machine, command.job);
-  if (const auto status = finished(context, run)) return *status;
-  context.print(fmt::format("Run {} of {} revision {} started on {}, job {}.\n", run->id,
-                            run->program, run->revision, run->machine, run->job.value_or(0)));
+  const auto started = client.start_job(command.machine, command.job);
+  if (started && !started->notice.empty())
+    fmt::print(stderr, "dnc: {}\n", printable(started->notice));
+  if (const auto status = finished(context, started)) return *status;
+  const client::Run& run = started->run;
+  context.print(fmt::format("Run {} of {} revision {} started on {}, job {}.\n", run.id,
+                            run.program, run.revision, run.machine, run.job.value_or(0)));
   return kExitOk;
 }
 

@@ -25,21 +25,23 @@ struct ListCommand {
 };
 
 int start(Context& context, client::Client& client, const StartCommand& command) {
-  auto run = client.start_run(command.request);
-  if (!run) return complain(run.error());
+  const auto started = client.start_run(command.request);
+  if (!started) return complain(started.error());
+  const client::Run& run = started->run;
+  if (!started->notice.empty()) fmt::print(stderr, "dnc: {}\n", printable(started->notice));
   if (command.follows || command.waits) {
     if (!context.wants_json && command.follows) {
-      context.print(fmt::format("Run {} started.\n", short_id(run->id)));
+      context.print(fmt::format("Run {} started.\n", short_id(run.id)));
       std::fflush(stdout);
     }
     const auto style = command.follows ? WatchStyle::Live : WatchStyle::Silent;
-    return watch_run(context, client, *run, style);
+    return watch_run(context, client, run, style);
   }
   if (context.wants_json) {
-    context.print(json_text(*run));
+    context.print(json_text(*started));
   } else {
-    context.print(fmt::format("Run {} of {} revision {} started on {}.\n", run->id, run->program,
-                              run->revision, run->machine));
+    context.print(fmt::format("Run {} of {} revision {} started on {}.\n", run.id, run.program,
+                              run.revision, run.machine));
   }
   return kExitOk;
 }

@@ -118,8 +118,11 @@ Response start_job(Services& services, const Request& request) {
          .detail =
              fmt::format("{}, job {}", machines::audit_text(services.machines, run, false), id)});
   };
+  std::string notice;
+  start.on_notice = [&notice](const std::string& given) { notice = given; };
   const auto run = services.machines.start(start);
-  return value_response(201, run, run_json);
+  return value_response(201, run,
+                        [&](const storage::Run& begun) { return begun_json(begun, notice); });
 }
 
 }  // namespace

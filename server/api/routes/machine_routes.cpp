@@ -275,9 +275,7 @@ Response key_in(Services& services, const Request& request) {
   start.on_notice = [&notice](const std::string& given) { notice = given; };
   const auto run = services.machines.start(start);
   if (!run) return error_response(run.error());
-  json view_of_run = run_json(*run);
-  view_of_run["notice"] = text_or_null(notice);
-  return json_response(201, view_of_run);
+  return json_response(201, begun_json(*run, notice));
 }
 
 /// What was set, as the gateway gives it; an older one gives its text alone.

@@ -24,9 +24,11 @@ Response start_run(Services& services, const Request& request) {
          .subject = run.id,
          .detail = machines::audit_text(services.machines, run, is_test)});
   };
+  std::string notice;
+  start->on_notice = [&notice](const std::string& given) { notice = given; };
   const auto run = services.machines.start(*start);
   if (!run) return error_response(run.error());
-  return json_response(201, run_json(*run));
+  return json_response(201, begun_json(*run, notice));
 }
 
 Response restart_run(Services& services, const Request& request) {

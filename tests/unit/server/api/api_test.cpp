@@ -37,6 +37,25 @@ TEST_F(ApiHandlers, StartARunAndAuditIt) {
   EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["subject"], run);
 }
 
+TEST_F(ApiHandlers, SayOfATestRunThatItIsOne) {
+  stored_run(0);
+  machines_.notice = "test run: nothing moves";
+  const auto detail = [&](bool asks) {
+    Json body = {{"machine", "lathe-1"}, {"program", "O0100"}};
+    if (asks) body["test"] = true;
+    const auto response = post("/api/v1/runs", body);
+    EXPECT_EQ(response.status, 201) << response.body;
+    EXPECT_EQ(json(response)["notice"], "test run: nothing moves");
+    return json(get("/api/v1/audit"))["entries"][0].value("detail", "");
+  };
+  EXPECT_EQ(detail(true), "test run of O0100 revision 1 on lathe-1");
+  dds::Status status;
+  status.switches.emplace();
+  status.switches->test_run = dds::SwitchState::On;
+  machines_.views.at(0).status = status;
+  EXPECT_EQ(detail(false), "test run of O0100 revision 1 on lathe-1") << "by its switch";
+}
+
 TEST_F(ApiHandlers, SayWhyARunWasNotStarted) {
   stored_run(0);
   expect_error(post("/api/v1/runs", {{"machine", "lathe-9"}, {"program", "O0100"}}), 404,
