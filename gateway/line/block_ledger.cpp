@@ -61,6 +61,7 @@ void BlockLedger::end_block() {
 
 void BlockLedger::advance(std::uint64_t offered) {
   offered = std::min(offered, offered_);
+  left_ = std::max(left_, offered);
   while (!marks_.empty() && marks_.front().offered <= offered) {
     const Mark& mark = marks_.front();
     passed_offered_ = mark.offered;

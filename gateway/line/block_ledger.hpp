@@ -40,6 +40,8 @@ class BlockLedger {
   void advance_to_end() { advance(offered_); }
 
   const BlockPlace& place() const { return place_; }
+  /// Characters that were sent, with those of the head.
+  std::uint64_t left() const { return left_; }
   std::uint64_t offered() const { return offered_; }
 
  private:
@@ -54,6 +56,7 @@ class BlockLedger {
   std::uint64_t offered_ = 0, source_ = 0, next_line_ = 1;
   std::uint64_t block_begin_ = 0;  ///< in offered characters
   std::uint64_t passed_offered_ = 0, passed_source_ = 0;
+  std::uint64_t left_ = 0;
   BlockPlace place_;
 };
 

@@ -163,6 +163,8 @@ void LineSession::count(const wire::LineState& line) {
 
 void LineSession::finish(SendOutcome outcome, std::string reason) {
   SendEnd end{.progress = *progress(), .outcome = outcome, .reason = std::move(reason)};
+  const bool is_in_head = end.progress.sent.bytes == 0 && sending_->ledger.left() > 0;
+  if (outcome != SendOutcome::Completed && is_in_head) end.reason += fmt::format("; {}", kHeadLeft);
   sending_.reset();
   if (outcome != SendOutcome::Completed) end.reason += "; " + place_of(end.progress);
   host_.on_sent(end);
@@ -218,7 +220,7 @@ void LineSession::on_lost(const Error& error, wire::Discipline& line) {
   if (is_receiving_) end_receiving({.what = Incoming::What::Failed, .text = error.what});
   if (!sending_ || sending_->waits_for_line) return;
   count(line.state());
-  if (sending_->ledger.place().bytes > 0) {
+  if (sending_->ledger.left() > 0) {
     return finish(SendOutcome::Interrupted, fmt::format("the line is lost: {}", error.what));
   }
   sending_->waits_for_line = true;

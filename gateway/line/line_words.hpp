@@ -24,6 +24,8 @@ inline constexpr std::string_view kSentToItsEnd =
 /// What a control asked for in vain, for people.
 std::string request_words(const PortRequest& request);
 /// Of a busy port: "receiving", "sending run ..." or which programs it sends.
+/// In the reason of a run that ended in front of its program's first character.
+inline constexpr std::string_view kHeadLeft = "a part of what is sent before the program has left";
 std::string what_it_does(const LineView& port);
 
 }  // namespace dripline::line

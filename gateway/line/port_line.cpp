@@ -208,9 +208,18 @@ void PortLine::drop_answer() {
   abort(progress->id, "a run takes its place", [](const Result<void>&) {});
 }
 
-void PortLine::ask(std::function<Result<void>(wire::Discipline&, wire::LineTime)> work,
-                   Answer answer) {
-  const auto once = std::make_shared<OnceAnswer>(parts_.post, std::move(answer));
+void PortLine::ask(Ask work, Answer answer) {
+  ask_and_answer(std::move(work), std::move(answer), parts_.post);
+}
+
+/// A stop is answered while the store is away.
+void PortLine::ask_near(Ask work, Answer answer) {
+  ask_and_answer(std::move(work), std::move(answer),
+                 parts_.post_near ? parts_.post_near : parts_.post);
+}
+
+void PortLine::ask_and_answer(Ask work, Answer answer, const PostTask& post) {
+  const auto once = std::make_shared<OnceAnswer>(post, std::move(answer));
   with_line([this, work = std::move(work), once](wire::Discipline& line, wire::LineTime now) {
     auto result = work(line, now);
     refresh();
@@ -237,7 +246,7 @@ void PortLine::begin_receive(Answer answer) {
 }
 
 void PortLine::stop_receiving(const std::string& reason, Answer answer) {
-  ask(
+  ask_near(
       [this, reason](wire::Discipline& line, wire::LineTime now) -> Result<void> {
         if (session_.stop_receiving(reason, line, now)) return {};
         return fail(Errc::Conflict, "nothing comes in that could be stopped");
@@ -255,18 +264,21 @@ Result<void> unless_over(bool is_done, const std::string& id) {
 }  // namespace
 
 void PortLine::hold(const std::string& id, Answer answer) {
-  ask([this, id](wire::Discipline&, wire::LineTime) { return unless_over(session_.hold(id), id); },
+  ask_near(
+      [this, id](wire::Discipline&, wire::LineTime) { return unless_over(session_.hold(id), id); },
       std::move(answer));
 }
 
 void PortLine::resume(const std::string& id, Answer answer) {
-  ask([this, id](wire::Discipline& line,
-                 wire::LineTime now) { return unless_over(session_.resume(id, line, now), id); },
+  ask_near(
+      [this, id](wire::Discipline& line, wire::LineTime now) {
+        return unless_over(session_.resume(id, line, now), id);
+      },
       std::move(answer));
 }
 
 void PortLine::abort(const std::string& id, const std::string& reason, Answer answer) {
-  ask(
+  ask_near(
       [this, id, reason](wire::Discipline& line, wire::LineTime now) {
         return unless_over(session_.abort(id, reason, line, now), id);
       },

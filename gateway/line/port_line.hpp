@@ -59,7 +59,8 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
     bool is_program_broken = false;  ///< Discipline::expect_release
     bool is_upload_broken = false;   ///< LineSession::expect_rest
   };
-  /// Called as a task, once, with what came of it.
+  /// Called as a task, once, with what came of it; of hold, resume and abort as one of `post_near`:
+  /// it must not wait.
   using Answer = std::function<void(const Result<void>&)>;
 
   static std::shared_ptr<PortLine> make(Parts parts);
@@ -108,7 +109,10 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   explicit PortLine(Parts parts);
   serial::LineListener line_listener();
   bool with_line(Work work);
-  void ask(std::function<Result<void>(wire::Discipline&, wire::LineTime)> work, Answer answer);
+  using Ask = std::function<Result<void>(wire::Discipline&, wire::LineTime)>;
+  void ask(Ask work, Answer answer);
+  void ask_near(Ask work, Answer answer);
+  void ask_and_answer(Ask work, Answer answer, const PostTask& post);
   void on_channel(const Error* lost);
   void on_steady();
   void log_line(const std::optional<LossLog::Message>& message) const;

@@ -110,7 +110,10 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
     if (auto same = standby->check_token(*token); !same) return fail(same.error());
     standby->look_at_settings(*view);
     if (const auto& fault = standby->faults_.network; !fault.empty())
-      return fail(Errc::Conflict, "standby for {}: {}", name_of(*view), fault);
+      return fail(Errc::Conflict,
+                  "standby for {}: {}. Where that server is gone for good, start this one once "
+                  "with standby = \"no\"",
+                  name_of(*view), fault);
   }
   standby->view_ = *std::move(view);
   return standby;

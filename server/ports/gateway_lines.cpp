@@ -31,7 +31,7 @@ struct GatewayLines::Line {
   // Under the mutex of GatewayLines.
   std::string upload;  ///< being fetched, or fetched last
   std::uint64_t session = 0, call = 0;
-  std::optional<PortTransfer> sent;  ///< by this server, to this session
+  std::optional<PortTransfer> sent;  ///< by this server, to this session; its state as reported
   bool is_sent_shown = false;        ///< the gateway has reported it
   // On the strand.
   std::shared_ptr<GatewayAtControl> at_control;
@@ -71,13 +71,20 @@ void GatewayLines::on_status(const dds::Status& status) {
   {
     const std::lock_guard lock(mutex_);
     if (line->session != status.session) {
+      if (line->sent && line->sent->state != TransferState::Completed)
+        parts_.resets.note_lost(line->name,
+                                {.id = line->sent->id,
+                                 .what = fmt::format("{}", fmt::join(line->sent->programs, ", "))});
       line->session = status.session;
       line->upload.clear();
       line->call = 0;
       line->sent.reset();
     }
     const auto& transfer = status.serial_line->transfer;
-    if (transfer && line->sent && transfer->id == line->sent->id) line->is_sent_shown = true;
+    if (transfer && line->sent && transfer->id == line->sent->id) {
+      line->is_sent_shown = true;
+      line->sent->state = static_cast<TransferState>(transfer->state);
+    }
     has_upload = upload && line->upload.empty();
     if (has_upload) line->upload = upload->id;
     has_call = call && call->number > line->call;

@@ -126,6 +126,7 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line, const Start& sta
                         request.machine, port.names.name,
                         port.fault.empty() ? "not yet" : port.fault));
   }
+  if (auto whole = check_answer(*line); !whole) return started(fail(whole.error()));
   line->drop_answer();
   if (line->is_busy()) {
     return started(
@@ -202,7 +203,7 @@ Result<void> LineMachines::command(const machines::CommandRequest& request) {
   process::log_info("command {} machine={} run={} program={}", dds::to_string(request.action),
                     machine, request.run, program);
   auto done = wait_for<void>(std::move(answer), "run " + request.run);
-  on_change(machine);
+  line->post([this, name = machine] { on_change(name); });  // it reads the store
   return done;
 }
 

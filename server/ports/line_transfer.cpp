@@ -33,6 +33,7 @@ std::uint64_t fetched_ahead(const wire::LineSettings& settings) {
 
 /// On the line's strand. The store has it before anything leaves.
 void begin_transfer(const LineInUse& in_use, SendJob job, const PortLine::Answer& answer) {
+  if (auto whole = check_answer(*in_use.line); !whole) return answer(whole);
   if (auto ready = line::check_ready(*in_use.line); !ready) return answer(ready);
   const LineView port = in_use.line->view();
   if (auto ready = in_use.resets.check(port, port.names.name); !ready) return answer(ready);
@@ -61,17 +62,22 @@ void begin_reception(const LineInUse& in_use, const PortLine::Answer& answer) {
 
 using Ask = std::function<void(PortLine::Answer)>;
 
-/// On the line's strand, so that what was posted there before is done. The promise lives here too:
-/// an answer that comes too late has where to go, and one that never comes is a timeout.
-Result<void> ask_on_strand(const std::shared_ptr<PortLine>& line, const Ask& ask) {
+/// The promise lives here too: an answer that comes too late has where to go, and one that never
+/// comes is a timeout.
+Result<void> ask_line(const PortLine& line, const Ask& ask) {
   const auto promise = std::make_shared<std::promise<Result<void>>>();
   auto answer = promise->get_future();
-  line->post([ask, promise] {
-    ask([promise](const Result<void>& result) { promise->set_value(result); });
-  });
+  ask([promise](const Result<void>& result) { promise->set_value(result); });
   if (answer.wait_for(kTransferAnswerLimit) == std::future_status::ready) return answer.get();
   return fail(Errc::Timeout, "port {}: the line did not answer within {} s; the outcome is unknown",
-              line->names().name, kTransferAnswerLimit.count());
+              line.names().name, kTransferAnswerLimit.count());
+}
+
+/// On the line's strand, so that what was posted there before is done.
+Result<void> ask_on_strand(const std::shared_ptr<PortLine>& line, const Ask& ask) {
+  return ask_line(*line, [line, ask](const PortLine::Answer& answer) {
+    line->post([ask, answer] { ask(answer); });
+  });
 }
 
 /// What of the library is meant. Errors: as PortControl::send.
@@ -194,7 +200,8 @@ Result<void> receive_program(const LineInUse& in_use) {
 }
 
 Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::string& reason) {
-  return ask_on_strand(line, [line, reason](const PortLine::Answer& answer) {
+  // Not on the strand, which may wait for the store.
+  return ask_line(*line, [line, reason](const PortLine::Answer& answer) {
     line::stop_transfer(*line, reason, answer);
   });
 }

@@ -46,8 +46,8 @@ Result<PortTransfer> PortService::send(const std::string& name,
 }
 
 Result<std::string> PortService::confirm_reset(const std::string& name) {
-  const auto line = find_line(name);
-  return line ? resets_.confirm(line->line->view(), name) : fail(line.error());
+  const auto entry = find(name);
+  return entry ? resets_.confirm(reset_view(*entry), name) : fail(entry.error());
 }
 
 Result<void> PortService::receive(const std::string& name) {

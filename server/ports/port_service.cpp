@@ -257,8 +257,12 @@ Result<PortView> PortService::save_prepared(Entry entry) {
   const storage::Port& port = entry.port;
   if (auto free = check_free(port); !free) return fail(free.error());
   if (auto idle = check_idle(port.name); !idle) return fail(idle.error());
+  const auto before = find(port.name);
+  if (before && before->port.machine != port.machine) {
+    if (auto ready = check_reset(*before); !ready) return fail(ready.error());
+  }
   if (auto saved = store_.ports.save(port); !saved) return fail(saved.error());
-  if (const auto before = find(port.name)) {
+  if (before) {
     entry.transfers = before->transfers;
     if (before->line) before->line->close("the port was changed");
   }
@@ -268,11 +272,25 @@ Result<PortView> PortService::save_prepared(Entry entry) {
   return view;
 }
 
+/// What is known of its control goes with a port, and is not that of another machine.
+Result<void> PortService::check_reset(const Entry& entry) const {
+  return resets_.check(reset_view(entry), entry.port.name);
+}
+
+LineView PortService::reset_view(const Entry& entry) {
+  if (entry.line) return entry.line->view();
+  LineView view;
+  view.names = {entry.port.name, entry.port.machine, entry.port.address};
+  view.settings = entry.settings;
+  return view;
+}
+
 Result<void> PortService::remove(const std::string& name) {
   const std::lock_guard changing(change_mutex_);
   const auto entry = find(name);
   if (!entry) return fail(entry.error());
   if (auto idle = check_idle(name); !idle) return idle;
+  if (auto ready = check_reset(*entry); !ready) return ready;
   if (auto removed = store_.ports.remove(name); !removed) return removed;
   {
     const std::lock_guard lock(mutex_);

@@ -128,6 +128,8 @@ class PortService final : public PortControl, private LineDirectory {
   void note_transfer(const std::string& machine, const SendEnd& end);
   void on_stored(const storage::RecordBatch& batch);
   void on_store_fault(const std::string& machine, const std::string& fault);
+  Result<void> check_reset(const Entry& entry) const;
+  static LineView reset_view(const Entry& entry);
   static PortView view_of(const Entry& entry);
 
   const machines::RunSources sources_;

@@ -47,7 +47,9 @@ Result<bool> PostgresqlPlace::try_take(postgresql::Database& database, std::stri
       [&](const sql::Statement& row) -> Result<bool> {
         other = row.text(2);
         if (row.integer(0) != 0) return true;
-        return row.integer(1) != 0 ? is_gone(row.integer(3), database.label(), other) : false;
+        if (row.integer(1) != 0) return is_gone(row.integer(3), database.label(), other);
+        namesake_.reset();
+        return false;
       },
       owner_.holder);
   if (!free) return fail(free.error());
@@ -114,7 +116,9 @@ Result<void> PostgresqlPlace::take_within(postgresql::Database& database) {
       continue;
     }
     locked_since.reset();
-    if (SteadyClock::now() - begun >= owner_.wait) {
+    // Its own place of before is free at the latest when the lease is over.
+    const auto wait = namesake_ ? std::max(owner_.wait, owner_.lease) : owner_.wait;
+    if (SteadyClock::now() - begun >= wait) {
       return fail(
           Errc::Busy,
           "database {} is used by another server ({}), and still was after {} s of waiting: "

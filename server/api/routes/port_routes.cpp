@@ -225,7 +225,10 @@ Response stop_transfer(Services& services, ports::PortControl& ports, const Requ
   const auto stopped =
       ports.stop_transfer(request.parameter("name"), "stopped by " + request.who.name);
   if (!stopped) return error_response(stopped.error());
-  note(services, request, "port.stop", "");
+  services.audit.write_late({.who = request.who,
+                             .action = "port.stop",
+                             .subject = request.parameter("name"),
+                             .detail = ""});
   return no_content();
 }
 

@@ -12,8 +12,10 @@ using storage::TransferState;
 
 /// Nothing of it has left. While a server or a gateway is lost only the least is known.
 bool is_unsent(const storage::Run& run) {
+  if (run.state == RunState::Refused || run.state == RunState::Tested) return true;
   const bool is_counted = run.state == RunState::Aborted || run.state == RunState::Alarmed;
-  return run.state == RunState::Refused || (is_counted && run.counters.sent == 0);
+  const bool has_head_left = run.reason.find(line::kHeadLeft) != std::string::npos;
+  return is_counted && run.counters.sent == 0 && !has_head_left;
 }
 
 /// The latest of a machine of which something may have left.
@@ -39,7 +41,19 @@ Result<std::optional<storage::PortTransfer>> last_transfer(storage::PortStore& s
   return std::nullopt;
 }
 
-/// With DC1, a heading or an answer to every block the control itself begins each program.
+/// Of a port of the store, or of a gateway.
+template <class Transfer>
+BrokenProgram sent_program(const Transfer& transfer) {
+  return {.id = transfer.id, .what = fmt::format("{}", fmt::join(transfer.programs, ", "))};
+}
+
+bool is_sending(const LineView& port) {
+  return !port.run.empty() ||
+         (port.transfer && port.transfer->state == line::TransferState::Sending);
+}
+
+}  // namespace
+
 bool sends_at_once(const wire::LineSettings& settings) {
   switch (settings.flow) {
     case wire::Flow::None:
@@ -51,13 +65,6 @@ bool sends_at_once(const wire::LineSettings& settings) {
   }
 }
 
-bool is_sending(const LineView& port) {
-  return !port.run.empty() ||
-         (port.transfer && port.transfer->state == line::TransferState::Sending);
-}
-
-}  // namespace
-
 Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store, const SentTo& to) {
   const auto run = last_run(store.runs, to.machine);
   if (!run) return fail(run.error());
@@ -68,7 +75,7 @@ Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store,
     const bool is_over = transfer.state == TransferState::Completed ||
                          (transfer.state == TransferState::Aborted && to.are_aborts_told);
     if (is_over) return std::nullopt;
-    return BrokenProgram{transfer.id, fmt::format("{}", fmt::join(transfer.programs, ", "))};
+    return sent_program(transfer);
   }
   if (!*run) return std::nullopt;
   const RunState state = (*run)->state;
@@ -78,21 +85,49 @@ Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store,
                        fmt::format("run {} of program {}", (*run)->id, (*run)->program)};
 }
 
-bool ResetGate::is_confirmed(const std::string& machine, const std::string& id) const {
+Result<void> check_answer(const PortLine& line) {
+  const auto progress = line.progress();
+  const bool is_answering = progress && progress->kind == JobKind::Answer;
+  if (!is_answering || !sends_at_once(line.view().settings)) return {};
+  return fail(Errc::Busy, "port {} is busy: its control reads what it asked for",
+              line.view().names.name);
+}
+
+Result<std::vector<BrokenProgram>> ResetGate::open_of(const LineView& port,
+                                                      const std::string& stored_port) const {
+  const std::string& machine = port.names.machine;
+  std::vector<BrokenProgram> all;
+  auto stored = broken_program(store_, {.machine = machine, .port = stored_port});
+  if (!stored) return fail(stored.error());
+  if (*stored) all.push_back(**std::move(stored));
+  const bool is_of_gateway = stored_port.empty() && port.transfer;
+  if (is_of_gateway && port.transfer->at_most > 0 &&
+      (port.transfer->state == line::TransferState::Aborted ||
+       port.transfer->state == line::TransferState::Interrupted))
+    all.push_back(sent_program(*port.transfer));
   const std::lock_guard lock(mutex_);
-  const auto found = confirmed_.find(machine);
-  return found != confirmed_.end() && found->second == id;
+  if (const auto lost = lost_.find(machine); lost != lost_.end()) all.push_back(lost->second);
+  const auto known = confirmed_.find(machine);
+  if (known == confirmed_.end()) return all;
+  std::erase_if(all, [&](const BrokenProgram& one) { return known->second.contains(one.id); });
+  return all;
 }
 
 Result<void> ResetGate::check(const LineView& port, const std::string& stored_port) const {
   if (!sends_at_once(port.settings) || is_sending(port)) return {};  // a busy line refuses itself
-  const auto broken = broken_program(store_, {.machine = port.names.machine, .port = stored_port});
-  if (!broken) return fail(broken.error());
-  if (!*broken || is_confirmed(port.names.machine, (*broken)->id)) return {};
+  const auto open = open_of(port, stored_port);
+  if (!open) return fail(open.error());
+  if (open->empty()) return {};
+  const BrokenProgram& broken = open->front();
+  if (broken.is_active) {
+    return fail(Errc::Busy,
+                "machine '{}': the end of {} is not stored yet: start again in a moment",
+                port.names.machine, broken.what);
+  }
   return fail(Errc::Conflict,
               "{} was broken off, and the control of machine '{}' would read the next program as "
               "its rest: reset the control, then confirm that (dnc port confirm-reset {})",
-              (*broken)->what, port.names.machine, port.names.name);
+              broken.what, port.names.machine, port.names.name);
 }
 
 Result<std::string> ResetGate::confirm(const LineView& port, const std::string& stored_port) {
@@ -104,15 +139,30 @@ Result<std::string> ResetGate::confirm(const LineView& port, const std::string& 
   }
   if (is_sending(port))
     return fail(Errc::Busy, "port {} is busy: it is {}", name, line::what_it_does(port));
-  const auto broken = broken_program(store_, {.machine = port.names.machine, .port = stored_port});
-  if (!broken) return fail(broken.error());
-  if (!*broken) {
+  const auto open = open_of(port, stored_port);
+  if (!open) return fail(open.error());
+  if (open->empty()) {
     return fail(Errc::Conflict, "port {}: no program was broken off: no reset is to be confirmed",
                 name);
   }
+  std::vector<std::string> words;
+  for (const BrokenProgram& broken : *open) {
+    // A run that begins at this moment is none of what was seen at the control.
+    if (broken.is_active)
+      return fail(Errc::Busy, "port {}: {} has not ended, or its end is not stored yet", name,
+                  broken.what);
+    words.push_back(broken.what);
+  }
   const std::lock_guard lock(mutex_);
-  confirmed_[port.names.machine] = (*broken)->id;
-  return (*broken)->what;
+  auto& confirmed = confirmed_[port.names.machine];
+  lost_.erase(port.names.machine);
+  for (const BrokenProgram& broken : *open) confirmed.insert(broken.id);
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+void ResetGate::note_lost(const std::string& machine, BrokenProgram program) {
+  const std::lock_guard lock(mutex_);
+  lost_[machine] = std::move(program);
 }
 
 }  // namespace dripline::ports

@@ -3,7 +3,9 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "protocol/base/result.hpp"
 #include "server/ports/line_types.hpp"
@@ -15,8 +17,9 @@ namespace dripline::ports {
 
 /// What was sent to a control last, and did not go through.
 struct BrokenProgram {
-  std::string id;    ///< of the run or the transfer
-  std::string what;  ///< "run r-1 of program O1", "O1 revision 2": for people
+  std::string id;          ///< of the run or the transfer
+  std::string what;        ///< "run r-1 of program O1", "O1 revision 2": for people
+  bool is_active = false;  ///< its end is not stored
 };
 
 struct SentTo {
@@ -26,6 +29,13 @@ struct SentTo {
   bool are_aborts_told = false;
 };
 
+/// The control does not ask for its programs: what is sent is read at once. With DC1, a heading or
+/// an answer to every block the control itself begins each program.
+bool sends_at_once(const wire::LineSettings& settings);
+
+/// An answer that a control without requests is reading is not cut off by a program. Errors: Busy.
+Result<void> check_answer(const PortLine& line);
+
 /// A run that is still active counts: ask for an idle line. Errors: the store's.
 Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store, const SentTo& to);
 
@@ -34,19 +44,26 @@ Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store,
 class ResetGate {
  public:
   explicit ResetGate(const storage::Store& store) : store_(store) {}
-  /// Before a run or programs are sent. Errors: Conflict (a reset is to be confirmed), the store's.
+  /// Before a run or programs are sent. Errors: Conflict (a reset is to be confirmed), Busy (the
+  /// end of the last run is not stored yet), the store's.
   Result<void> check(const LineView& port, const std::string& stored_port) const;
   /// Returns what was broken off. Holds until the next program, and while this server has the
   /// library. Errors: Unsupported (the control asks for its programs), Busy, Conflict (nothing was
   /// broken off), the store's.
   Result<std::string> confirm(const LineView& port, const std::string& stored_port);
 
+  /// What a gateway was sending when it was lost: nothing else remembers it.
+  void note_lost(const std::string& machine, BrokenProgram program);
+
  private:
-  bool is_confirmed(const std::string& machine, const std::string& id) const;
+  /// What is not confirmed of this.
+  Result<std::vector<BrokenProgram>> open_of(const LineView& port,
+                                             const std::string& stored_port) const;
 
   const storage::Store& store_;
   mutable std::mutex mutex_;
-  std::map<std::string, std::string> confirmed_;  ///< of each machine, BrokenProgram::id
+  std::map<std::string, std::set<std::string>> confirmed_;  ///< of each machine, BrokenProgram::id
+  std::map<std::string, BrokenProgram> lost_;               ///< of each machine, the last
 };
 
 }  // namespace dripline::ports

@@ -145,6 +145,19 @@ TEST(BlockLedger, CountsWhatWasSentInBytesAndBlocks) {
   EXPECT_EQ(ledger.place(), (BlockPlace{.bytes = 20, .blocks = 3, .line = 7, .sequence = -1}));
 }
 
+TEST(BlockLedger, KnowsThatAHeadHasLeftThoughItCountsNoBytes) {
+  BlockLedger ledger;
+  EXPECT_EQ(ledger.add_head("G21\n"), "G21\n");
+  EXPECT_EQ(ledger.add("N1 G0\n", true), "N1 G0\n");
+  EXPECT_EQ(ledger.left(), 0u);
+  ledger.advance(2);
+  EXPECT_EQ(ledger.left(), 2u);
+  EXPECT_EQ(ledger.place(), BlockPlace{});
+  ledger.advance(6);
+  EXPECT_EQ(ledger.place().bytes, 2u);
+  EXPECT_EQ(ledger.left(), 6u);
+}
+
 TEST(BlockLedger, CountsTheSameHoweverTheTextIsCut) {
   const std::string text = "N1 G0\r\nN2 G1\r\n\r\nN3";
   for (std::size_t step = 1; step <= text.size(); ++step) {

@@ -1,5 +1,6 @@
 #include "server/ports/programs/broken_program.hpp"
 
+#include "gateway/line/line_words.hpp"
 #include "tests/unit/server/ports/port_fixture.hpp"
 
 namespace dripline::server_test {
@@ -20,6 +21,13 @@ class BrokenProgramTest : public PortServiceTest {
   /// Of all that waits in the line's driver too.
   void let_come_to_rest() {
     ASSERT_TRUE(wait([&] { return line().read_for(std::chrono::milliseconds(40)).empty(); }));
+  }
+  void add_run(const std::string& id, RunState state, const std::string& reason = "") {
+    Run run = run_of(store_->programs.revision("O1", {}).value(), id);
+    run.machine = "mill";
+    run.created = system_clock_.now();
+    ASSERT_TRUE(store_->runs.create(run));
+    ASSERT_TRUE(store_->runs.set_state(id, state, reason));
   }
   void break_off_a_run() {
     const auto run = start("O1");
@@ -94,25 +102,121 @@ TEST_F(BrokenProgramTest, OfATransferIsTheSame) {
   EXPECT_TRUE(start("O2"));
 }
 
-/// Such a run was looked through and refused at a gateway, or waited for a line; the one before
-/// counts.
+/// Such a run was looked through and refused at a gateway, or tested there; the one before counts.
 TEST_F(BrokenProgramTest, IsNoneWhereNothingHadLeft) {
   add_port(mill());
-  const auto add = [&](const std::string& id, RunState state) {
-    Run run = run_of(store_->programs.revision("O1", {}).value(), id);
-    run.machine = "mill";
-    run.created = system_clock_.now();
-    ASSERT_TRUE(store_->runs.create(run));
-    ASSERT_TRUE(store_->runs.set_state(id, state, ""));
-  };
-  add("unsent", RunState::Aborted);
+  add_run("unsent", RunState::Aborted);
+  add_run("tested", RunState::Tested);
   const auto run = start("O2");
   ASSERT_TRUE(run) << run.error().what;
   ASSERT_TRUE(wait_state(run->id, RunState::Completed));
   line().read_until("M30\n%\n");
   break_off_a_run();
-  add("unsent-2", RunState::Aborted);
+  add_run("unsent-2", RunState::Aborted);
   EXPECT_EQ(start("O2").error().code, Errc::Conflict);
+}
+
+/// Its first words are none of the program, and count no bytes of it.
+TEST_F(BrokenProgramTest, OfARunWhoseHeadHadBegunToLeave) {
+  add_port(mill());
+  add_run("in-head", RunState::Aborted,
+          fmt::format("aborted by command; {}; no whole block was sent", line::kHeadLeft));
+  EXPECT_EQ(start("O2").error().code, Errc::Conflict);
+  EXPECT_EQ(sent(), "");
+}
+
+/// Of a run from the middle; a pause after each block of the head.
+class BrokenHead : public BrokenProgramTest {
+ protected:
+  void begin() {
+    add_machine("mill", "fanuc");
+    auto port = mill();
+    port.settings.emplace_back("line_delay_ms", "500");
+    add_port(port);
+    push("O3", "O3\nN1 G21 G90 G17\nN2 T2 M6\nN3 S1000 M3\nN5 G1 X1. F200\nN6 Y2.\nM30\n", "fanuc");
+    machines::StartRequest request{
+        .machine = "mill", .program = "O3", .revision = {}, .author = "cam", .from = {}};
+    request.from.sequence = 6;
+    request.head = machines::StartHead::Send;
+    const auto run = ports_->machines().start(request);
+    ASSERT_TRUE(run) << run.error().what;
+    run_ = run->id;
+    EXPECT_EQ(line().read_until("\n"), "G21 G17 G90\n");
+  }
+  void expect_broken() {
+    const auto run = store_->runs.find(run_);
+    EXPECT_EQ(run->counters.sent, 0u);
+    EXPECT_NE(run->reason.find(line::kHeadLeft), std::string::npos) << run->reason;
+    EXPECT_EQ(start("O2").error().code, Errc::Conflict);
+  }
+};
+
+TEST_F(BrokenHead, IsTheBeginningOfARunThatWasAborted) {
+  begin();
+  ASSERT_TRUE(command(run_, dds::CommandAction::Abort));
+  ASSERT_TRUE(wait_state(run_, RunState::Aborted));
+  expect_broken();
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(700)), "");
+}
+
+TEST_F(BrokenHead, IsNotSentAgainWhenTheLineComesBack) {
+  begin();
+  line().pull();
+  ASSERT_TRUE(wait_state(run_, RunState::Interrupted));
+  line().put_back();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  expect_broken();
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(700)), "");
+}
+
+/// Two people, or a double click, while a run begins: nobody has seen that one broken off.
+TEST_F(BrokenProgramTest, IsNotConfirmedOfARunThatBegins) {
+  add_port(mill());
+  break_off_a_run();
+  add_run("begins", RunState::Active);
+  EXPECT_EQ(ports_->confirm_reset("com1").error().code, Errc::Busy);
+  EXPECT_EQ(start("O2").error().code, Errc::Busy) << "its end is not stored yet";
+  ASSERT_TRUE(store_->runs.set_state("begins", RunState::Interrupted, ""));
+  EXPECT_EQ(start("O2").error().code, Errc::Conflict);
+  EXPECT_EQ(sent(), "");
+}
+
+/// The control is the same one.
+TEST_F(BrokenProgramTest, IsNotForgottenWithThePort) {
+  add_port(mill());
+  ASSERT_TRUE(ports_->send("com1", {{"O1", {}}}));
+  line().read_until("N50 ");
+  ASSERT_TRUE(ports_->stop_transfer("com1", "stopped by cam"));
+  let_come_to_rest();
+  EXPECT_EQ(ports_->remove("com1").error().code, Errc::Conflict);
+  auto other = mill();
+  other.machine = "mill-2";
+  EXPECT_EQ(ports_->save(other).error().code, Errc::Conflict);
+  auto disabled = mill();
+  disabled.is_enabled = false;
+  ASSERT_TRUE(ports_->save(disabled));
+  EXPECT_EQ(ports_->remove("com1").error().code, Errc::Conflict);
+  ASSERT_TRUE(ports_->confirm_reset("com1"));
+  EXPECT_TRUE(ports_->remove("com1"));
+}
+
+/// A gateway remembers no transfer, and its server only while it works.
+TEST_F(BrokenProgramTest, OfAGatewaysLineIsWhatItReports) {
+  ports::ResetGate gate(*store_);
+  line::LineView view;
+  view.names = {"lathe", "lathe", ""};
+  EXPECT_TRUE(gate.check(view, ""));
+  view.transfer = line::PortTransfer{.id = "t-1", .programs = {"O7 revision 1"}, .size = 90};
+  view.transfer->state = line::TransferState::Aborted;
+  EXPECT_TRUE(gate.check(view, "")) << "nothing of it had left";
+  view.transfer->at_most = 90;
+  EXPECT_EQ(gate.check(view, "").error().code, Errc::Conflict);
+  EXPECT_EQ(gate.confirm(view, "").value(), "O7 revision 1");
+  EXPECT_TRUE(gate.check(view, ""));
+  gate.note_lost("lathe", {.id = "t-2", .what = "O8 revision 1"});
+  EXPECT_EQ(gate.check(view, "").error().code, Errc::Conflict);
+  EXPECT_EQ(gate.confirm(view, "").value(), "O8 revision 1");
+  EXPECT_TRUE(gate.check(view, ""));
 }
 
 /// Who can ask is at the control, which has read his text, and is in no other.
