@@ -81,8 +81,9 @@ Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store,
   const RunState state = (*run)->state;
   if (state == RunState::Completed || (state == RunState::Aborted && to.are_aborts_told))
     return std::nullopt;
-  return BrokenProgram{(*run)->id,
-                       fmt::format("run {} of program {}", (*run)->id, (*run)->program)};
+  return BrokenProgram{.id = (*run)->id,
+                       .what = fmt::format("run {} of program {}", (*run)->id, (*run)->program),
+                       .is_active = state == RunState::Active || state == RunState::Ordered};
 }
 
 Result<void> check_answer(const PortLine& line) {
