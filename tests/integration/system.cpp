@@ -133,10 +133,15 @@ ChildProcess System::second_gateway(const std::string& machine) const {
 }
 
 void System::wait_connected(const std::string& machine) {
-  // A machine is there before its first status, which is not acknowledged: it may be the next.
+  // A machine is there before its first status, which is not acknowledged: it may be the next. One
+  // whose gateway was killed is there until its lease ends: something has to be heard from now on.
+  std::optional<std::string> seen_before;
   const bool connected = eventually([&] {
     const auto shown = rest().get("/api/v1/machines/" + machine).json();
-    return shown.value("connected", false) && shown["status"].is_object();
+    if (!shown.value("connected", false) || !shown["status"].is_object()) return false;
+    const std::string seen = shown.value("last_seen", "");
+    if (!seen_before) seen_before = seen;
+    return seen != *seen_before;
   });
   ASSERT_TRUE(connected) << "the server does not see " << machine << "\n" << gateway_->output();
 }
