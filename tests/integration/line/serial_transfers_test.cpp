@@ -57,6 +57,11 @@ TEST_F(GatewaysPort, StopsATransferAndGivesTheLineBack) {
   EXPECT_TRUE(eventually([&] { return transfer().value("state", "") == "aborted"; }))
       << port().dump();
   EXPECT_NE(dnc({"port", "stop", "lathe-1"}).output.find("nothing comes in"), std::string::npos);
+  const auto unconfirmed = dnc({"port", "send", "lathe-1", "O0077"});
+  EXPECT_NE(unconfirmed.output.find("O0079 revision 1 was broken off"), std::string::npos)
+      << unconfirmed.output;
+  const auto confirmed = dnc({"port", "confirm-reset", "lathe-1"});
+  EXPECT_EQ(confirmed.status, 0) << confirmed.output;
   const auto sent = dnc({"port", "send", "lathe-1", "O0077"});
   EXPECT_EQ(sent.status, 0) << sent.output;
 }
