@@ -75,7 +75,7 @@ TEST(ControlLine, HoldsTheHostWhileItsMemoryIsFull) {
         released = delivered.text.size();
         return delivered.text.size() == text.size() && delivered.ended == 1;
       },
-      10s));
+      30s));
   EXPECT_GT(delivered.text.size(), held);
   EXPECT_EQ(delivered.text, text);
 }
