@@ -20,6 +20,15 @@ Form other(Form form) {
   return form == Form::Plain ? Form::Iso : Form::Plain;
 }
 
+/// Without the warning of an order of words that one form alone has.
+std::string motion_of(const std::string& text) {
+  constexpr std::string_view kOfIso = "\"code\":\"TNC-DISTANCE-ORDER\"\n";
+  std::string trace = tnc155_trace(text);
+  for (auto at = trace.find(kOfIso); at != std::string::npos; at = trace.find(kOfIso, at))
+    trace.erase(at, kOfIso.size());
+  return trace;
+}
+
 /// Converts there and back, and compares what the three do. False: it has no counterpart.
 bool does_the_same(const std::string& text) {
   const auto there = convert_program(text, other(detect_form(text)));
@@ -27,12 +36,12 @@ bool does_the_same(const std::string& text) {
     EXPECT_EQ(there.error().code, Errc::Unsupported) << there.error().what << "\n" << text;
     return false;
   }
-  const std::string trace = tnc155_trace(text);
-  EXPECT_EQ(tnc155_trace(*there), trace) << text << "\n" << *there;
+  const std::string trace = motion_of(text);
+  EXPECT_EQ(motion_of(*there), trace) << text << "\n" << *there;
   const auto back = convert_program(*there, detect_form(text));
   EXPECT_TRUE(back.has_value()) << (back ? "" : back.error().what) << "\n" << *there;
   if (back) {
-    EXPECT_EQ(tnc155_trace(*back), trace) << text << "\n" << *back;
+    EXPECT_EQ(motion_of(*back), trace) << text << "\n" << *back;
   }
   return true;
 }
