@@ -169,7 +169,7 @@ TEST_F(BrokenHead, IsNotSentAgainWhenTheLineComesBack) {
   EXPECT_EQ(line().read_for(std::chrono::milliseconds(700)), "");
 }
 
-/// Two people, or a double click, while a run begins: nobody has seen that one broken off.
+/// Two people, or a double click, while a run begins: that one is not broken off.
 TEST_F(BrokenProgramTest, IsNotConfirmedOfARunThatBegins) {
   add_port(mill());
   break_off_a_run();
