@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "protocol/base/digest.hpp"
+#include "protocol/base/lines.hpp"
 
 namespace dripline::app {
 namespace {
@@ -44,12 +45,10 @@ std::string folders_of(const std::vector<folders::FolderSettings>& folders) {
 
 std::map<std::string, std::string> values_of(const std::string& text) {
   std::map<std::string, std::string> values;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto end = std::min(text.find('\n', at), text.size());
-    const std::string line = text.substr(at, end - at);
+  for (const std::string_view line : lines_with_ends(text)) {
     const auto blank = line.find(' ');
-    if (blank != std::string::npos) values.emplace(line.substr(0, blank), line.substr(blank + 1));
-    at = end + 1;
+    if (blank == std::string_view::npos) continue;
+    values.emplace(line.substr(0, blank), trimmed(line.substr(blank + 1), "\n"));
   }
   return values;
 }
