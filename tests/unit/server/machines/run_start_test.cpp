@@ -76,7 +76,7 @@ TEST_F(MachineRuns, TellTheGatewayWhereToBegin) {  // CEN-163
   EXPECT_EQ(written_->commands.at(0).argument, "T12 pass=3 memory=begin");
 }
 
-/// A hand-over is ordered while a start is under way: it is not left for the next server to find.
+/// A hand-over is ordered while a start is in progress: it is not left for the next server to find.
 TEST_F(MachineRuns, AreAnsweredWhileTheServerEnds) {
   push("O0100", "M30\n");
   start_service();
