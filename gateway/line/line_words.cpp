@@ -47,4 +47,9 @@ std::string what_it_does(const LineView& port) {
   return "receiving";
 }
 
+std::vector<std::string> programs_of(const SendJob& job) {
+  if (job.kind != JobKind::Answer) return job.programs;
+  return {job.name.empty() ? "an answer to the control" : "the answer " + job.name};
+}
+
 }  // namespace dripline::line

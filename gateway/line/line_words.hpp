@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gateway/line/line_session.hpp"
 #include "gateway/line/port_view.hpp"
@@ -23,9 +24,11 @@ inline constexpr std::string_view kSentToItsEnd =
     "sent to its end; a line does not report what was executed";
 /// What a control asked for in vain, for people.
 std::string request_words(const PortRequest& request);
-/// Of a busy port: "receiving", "sending run ..." or which programs it sends.
 /// In the reason of a run that ended in front of its program's first character.
 inline constexpr std::string_view kHeadLeft = "a part of what is sent before the program has left";
+/// Of a busy port: "receiving", "sending run ..." or which programs it sends.
 std::string what_it_does(const LineView& port);
+/// What a job sends: the programs of a transfer; an answer is one of comments, or has no name.
+std::vector<std::string> programs_of(const SendJob& job);
 
 }  // namespace dripline::line

@@ -5,7 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "gateway/line/once_answer.hpp"
+#include "gateway/line/line_words.hpp"
+#include "gateway/line/port_transfer.hpp"
 #include "protocol/process/log.hpp"
 
 namespace dripline::line {
@@ -13,6 +14,12 @@ namespace {
 
 bool is_answer(const SendProgress& progress) {
   return progress.kind == JobKind::Answer;
+}
+
+/// An answer is remembered only if it was cut off.
+bool is_answer_over(const SendEnd& end) {
+  const bool has_left = end.progress.offered > 0 || end.progress.sent.bytes > 0;
+  return is_answer(end.progress) && (end.outcome == SendOutcome::Completed || !has_left);
 }
 
 TransferState state_of(SendOutcome outcome) {
@@ -202,107 +209,6 @@ void PortLine::note_store_fault(const std::string& words) {
   store_fault_ = words;
 }
 
-void PortLine::drop_answer() {
-  const auto progress = this->progress();
-  if (!progress || !is_answer(*progress)) return;
-  abort(progress->id, "a run takes its place", [](const Result<void>&) {});
-}
-
-void PortLine::ask(Ask work, Answer answer) {
-  ask_and_answer(std::move(work), std::move(answer), parts_.post);
-}
-
-/// A stop is answered while the store is away.
-void PortLine::ask_near(Ask work, Answer answer) {
-  ask_and_answer(std::move(work), std::move(answer),
-                 parts_.post_near ? parts_.post_near : parts_.post);
-}
-
-void PortLine::ask_and_answer(Ask work, Answer answer, const PostTask& post) {
-  const auto once = std::make_shared<OnceAnswer>(post, std::move(answer));
-  with_line([this, work = std::move(work), once](wire::Discipline& line, wire::LineTime now) {
-    auto result = work(line, now);
-    refresh();
-    once->give(std::move(result));
-  });
-}
-
-void PortLine::begin(SendJob job, Answer answer) {
-  const auto shared = std::make_shared<SendJob>(std::move(job));
-  ask(
-      [this, shared](wire::Discipline& line, wire::LineTime now) {
-        auto before = show_transfer(*shared);
-        auto begun = session_.begin(std::move(*shared), line, now);
-        begun ? answer_request() : take_back(std::move(before));
-        return begun;
-      },
-      std::move(answer));
-}
-
-void PortLine::begin_receive(Answer answer) {
-  ask([this](wire::Discipline& line,
-             wire::LineTime now) { return session_.begin_receive(line, now); },
-      std::move(answer));
-}
-
-void PortLine::stop_receiving(const std::string& reason, Answer answer) {
-  ask_near(
-      [this, reason](wire::Discipline& line, wire::LineTime now) -> Result<void> {
-        if (session_.stop_receiving(reason, line, now)) return {};
-        return fail(Errc::Conflict, "nothing comes in that could be stopped");
-      },
-      std::move(answer));
-}
-
-namespace {
-
-Result<void> unless_over(bool is_done, const std::string& id) {
-  if (is_done) return {};
-  return fail(Errc::Conflict, "{} is not on the line any more", id);
-}
-
-}  // namespace
-
-void PortLine::hold(const std::string& id, Answer answer) {
-  ask_near(
-      [this, id](wire::Discipline&, wire::LineTime) { return unless_over(session_.hold(id), id); },
-      std::move(answer));
-}
-
-void PortLine::resume(const std::string& id, Answer answer) {
-  ask_near(
-      [this, id](wire::Discipline& line, wire::LineTime now) {
-        return unless_over(session_.resume(id, line, now), id);
-      },
-      std::move(answer));
-}
-
-void PortLine::abort(const std::string& id, const std::string& reason, Answer answer) {
-  ask_near(
-      [this, id, reason](wire::Discipline& line, wire::LineTime now) {
-        return unless_over(session_.abort(id, reason, line, now), id);
-      },
-      std::move(answer));
-}
-
-void PortLine::refuse(const std::string& reason) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (request_) request_->answer = reason.empty() ? "no program is left" : reason;
-  }
-  with_line([reason](wire::Discipline& line, wire::LineTime now) {
-    if (auto refused = line.refuse(reason, now); !refused) {
-      process::log_warning("refusal not sent: {}", refused.error().what);
-    }
-  });
-}
-
-void PortLine::accept_receive(const std::string& name) {
-  with_line([this, name](wire::Discipline& line, wire::LineTime now) {
-    if (auto begun = line.begin_receive(name, now); !begun) on_fault(begun.error());
-  });
-}
-
 void PortLine::note(const std::string& text) {
   recorder_.add({.what = serial::LineTraffic::What::Note, .time = {}, .bytes = {}, .text = text});
 }
@@ -330,8 +236,10 @@ void PortLine::watch_wait() {
 std::optional<PortTransfer> PortLine::show_transfer(const SendJob& job) {
   const std::lock_guard lock(mutex_);
   auto before = transfer_;
-  if (job.kind == JobKind::Transfer) {
-    transfer_ = PortTransfer{.id = job.id, .programs = job.programs, .size = job.size};
+  const bool is_read_at_once = job.kind == JobKind::Answer && sends_at_once(parts_.settings);
+  if (job.kind == JobKind::Transfer || is_read_at_once) {
+    before_answer_ = before;
+    transfer_ = PortTransfer{.id = job.id, .programs = programs_of(job), .size = job.size};
   }
   return before;
 }
@@ -344,6 +252,10 @@ void PortLine::take_back(std::optional<PortTransfer> before) {
 void PortLine::end_transfer(const SendEnd& end) {
   const std::lock_guard lock(mutex_);
   if (!transfer_ || transfer_->id != end.progress.id) return;
+  if (is_answer_over(end)) {
+    transfer_ = std::exchange(before_answer_, std::nullopt);
+    return;
+  }
   transfer_->sent = end.progress.sent.bytes;
   transfer_->at_most = std::max(end.progress.offered, end.progress.sent.bytes);
   transfer_->state = state_of(end.outcome);

@@ -91,8 +91,9 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   void hold(const std::string& id, Answer answer);
   void resume(const std::string& id, Answer answer);
   void abort(const std::string& id, const std::string& reason, Answer answer);
-  /// A run replaces an answer that the control may never fetch.
-  void drop_answer();
+  /// A program replaces an answer that the control may never fetch. Errors: Busy (the control asks
+  /// for nothing: it is reading the answer, and would take the program for its rest).
+  Result<void> drop_answer();
   /// Answers to what the control asked for.
   void refuse(const std::string& reason);
   void accept_receive(const std::string& name);
@@ -150,7 +151,9 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   bool is_closed_ = false;
   std::string fault_;
   std::optional<SendProgress> progress_;
-  std::optional<PortTransfer> transfer_;  ///< the last one
+  /// The last one; or an answer that a control reads, or was cut off in, without asking for it.
+  std::optional<PortTransfer> transfer_;
+  std::optional<PortTransfer> before_answer_;  ///< what was shown before it
   bool is_receiving_ = false;
   bool may_be_program_ = true;  ///< what is being received
   std::string store_fault_;

@@ -6,13 +6,24 @@
 
 namespace dripline::line {
 
+bool sends_at_once(const wire::LineSettings& settings) {
+  switch (settings.flow) {
+    case wire::Flow::None:
+    case wire::Flow::XonXoff:
+    case wire::Flow::RtsCts:
+      return !settings.wait_for_xon;
+    default:
+      return false;
+  }
+}
+
 Result<void> check_ready(PortLine& line) {
   const LineView port = line.view();
   if (!port.is_open) {
     return fail(Errc::Timeout, "port {} is not open: {}", port.names.name,
                 port.fault.empty() ? "not yet" : port.fault);
   }
-  line.drop_answer();
+  if (auto free = line.drop_answer(); !free) return free;
   if (!line.is_busy()) return {};
   return fail(Errc::Busy, "port {} is busy: it is {}", port.names.name, what_it_does(port));
 }

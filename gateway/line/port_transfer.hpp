@@ -8,6 +8,10 @@
 /// and on a gateway. To be called as tasks of the line's owner, as which the answers come, too.
 namespace dripline::line {
 
+/// The control does not ask for its programs: what is sent is read at once. With DC1, a heading or
+/// an answer to every block the control itself begins each program.
+bool sends_at_once(const wire::LineSettings& settings);
+
 /// Nothing is on the line, or only an answer, which is dropped. Errors: Timeout (the line is not
 /// open), Busy.
 Result<void> check_ready(PortLine& line);

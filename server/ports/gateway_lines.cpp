@@ -31,8 +31,9 @@ struct GatewayLines::Line {
   // Under the mutex of GatewayLines.
   std::string upload;  ///< being fetched, or fetched last
   std::uint64_t session = 0, call = 0;
-  std::optional<PortTransfer> sent;  ///< by this server, to this session; its state as reported
-  bool is_sent_shown = false;        ///< the gateway has reported it
+  std::optional<PortTransfer> sent;     ///< by this server, to this session; its state as reported
+  bool is_sent_shown = false;           ///< the gateway has reported it
+  std::optional<BrokenProgram> answer;  ///< that its control is reading
   // On the strand.
   std::shared_ptr<GatewayAtControl> at_control;
   std::unique_ptr<RemoteRequestHandler> requests;
@@ -75,12 +76,17 @@ void GatewayLines::on_status(const dds::Status& status) {
         parts_.resets.note_lost(line->name,
                                 {.id = line->sent->id,
                                  .what = fmt::format("{}", fmt::join(line->sent->programs, ", "))});
+      if (line->answer) parts_.resets.note_lost(line->name, *std::exchange(line->answer, {}));
       line->session = status.session;
       line->upload.clear();
       line->call = 0;
       line->sent.reset();
     }
     const auto& transfer = status.serial_line->transfer;
+    const bool is_sending = transfer && transfer->state == dds::LineTransferState::Sending;
+    line->answer.reset();
+    if (is_sending && !(line->sent && line->sent->id == transfer->id))
+      line->answer = BrokenProgram{.id = transfer->id, .what = transfer->programs};
     if (transfer && line->sent && transfer->id == line->sent->id) {
       line->is_sent_shown = true;
       line->sent->state = static_cast<TransferState>(transfer->state);

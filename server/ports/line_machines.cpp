@@ -2,6 +2,7 @@
 
 #include <future>
 #include <map>
+#include <utility>
 
 #include "gateway/line/inbound/program_head.hpp"
 #include "gateway/line/line_words.hpp"
@@ -48,13 +49,33 @@ LineMachines::LineMachines(const machines::RunSources& sources, const LineDirect
       resets_(resets),
       runs_(sources) {}
 
+void LineMachines::enter(const storage::Machine& stored) {
+  const std::lock_guard lock(mutex_);
+  storage::Machine& machine = shown_[stored.name].machine;
+  machine = stored;
+  machine.gateway_version.clear();  // it may have had one before it had a port
+}
+
+LineMachines::Shown LineMachines::shown(const std::string& machine) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = shown_.find(machine);
+  return found == shown_.end() ? Shown{} : found->second;
+}
+
+void LineMachines::show_run(const storage::Run& run) {
+  const std::lock_guard lock(mutex_);
+  Shown& shown = shown_[run.machine];
+  shown.run = run.id;
+  shown.program = run.program;
+}
+
 machines::MachineView LineMachines::view_of(const PortLine& line) const {
   const LineView port = line.view();
   const auto progress = line.progress();
+  Shown known = shown(port.names.machine);
   machines::MachineView view;
+  view.machine = std::move(known.machine);
   view.machine.name = port.names.machine;
-  if (auto stored = store_.machines.find(port.names.machine)) view.machine = *std::move(stored);
-  view.machine.gateway_version.clear();  // it may have had one before it had a port
   view.is_connected = port.is_open;
   dds::Status status;
   status.machine = port.names.machine;
@@ -63,11 +84,11 @@ machines::MachineView LineMachines::view_of(const PortLine& line) const {
   status.message = line::message_of(port, progress);
   if (progress) {
     if (progress->kind == JobKind::Run) status.run = progress->id;
+    if (progress->id == known.run) status.program = std::move(known.program);
     status.sent = progress->sent.bytes;
     status.accepted = progress->is_checked ? progress->sent.blocks : 0;
     status.total_bytes = progress->size;
     status.offset = progress->sent.bytes;
-    if (const auto run = store_.runs.find(progress->id)) status.program = run->program;
   }
   view.status = std::move(status);
   return view;
@@ -126,8 +147,7 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line, const Start& sta
                         request.machine, port.names.name,
                         port.fault.empty() ? "not yet" : port.fault));
   }
-  if (auto whole = check_answer(*line); !whole) return started(fail(whole.error()));
-  line->drop_answer();
+  if (auto free = line->drop_answer(); !free) return started(fail(free.error()));
   if (line->is_busy()) {
     return started(
         fail(Errc::Busy, "port {} is busy: it is {}", port.names.name, what_it_does(port)));
@@ -143,6 +163,7 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line, const Start& sta
   if (!machine) return started(fail(machine.error()));
   const auto run = runs_.create(request, *machine);
   if (!run) return started(run);
+  show_run(*run);
   announce(run->id);
   auto job = runs_.job(*run, request);
   if (!job) return started(conclude(*run, fail(job.error())));
@@ -203,7 +224,7 @@ Result<void> LineMachines::command(const machines::CommandRequest& request) {
   process::log_info("command {} machine={} run={} program={}", dds::to_string(request.action),
                     machine, request.run, program);
   auto done = wait_for<void>(std::move(answer), "run " + request.run);
-  line->post([this, name = machine] { on_change(name); });  // it reads the store
+  line->post([this, name = machine] { on_change(name); });  // in the order of what it reports
   return done;
 }
 

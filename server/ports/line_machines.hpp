@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,7 @@ namespace dripline::ports {
 
 /// The machines at the ends of lines: a run is a program sent over its machine's line. `connected`
 /// means that the line is open; a line reports nothing of the machine itself, so its status is made
-/// of what the line does.
+/// of what the line does. What is shown needs no store: it is shown when a machine is stopped.
 class LineMachines final : public machines::MachineControl {
  public:
   using Started = std::function<void(const Result<storage::Run>&)>;
@@ -24,6 +26,8 @@ class LineMachines final : public machines::MachineControl {
   LineMachines(const machines::RunSources& sources, const LineDirectory& directory,
                const machines::MachineListener& listener, const ResetGate& resets);
 
+  /// The machine has a line from now on; `stored` is how the store has it.
+  void enter(const storage::Machine& stored);
   std::vector<machines::MachineView> machines() const override;
   /// Errors: NotFound (no enabled port has it).
   Result<machines::MachineView> machine(const std::string& name) const override;
@@ -63,6 +67,13 @@ class LineMachines final : public machines::MachineControl {
   void begin(const std::shared_ptr<PortLine>& line, const Start& start);
   Result<storage::Run> conclude(const storage::Run& run, const Result<void>& begun);
   machines::MachineView view_of(const PortLine& line) const;
+  /// What is shown of a machine that its line does not know.
+  struct Shown {
+    storage::Machine machine;
+    std::string run, program;  ///< the last run
+  };
+  Shown shown(const std::string& machine) const;
+  void show_run(const storage::Run& run);
   struct CommandTarget {
     std::string machine, program;  ///< program: for the log; empty where it is not known
   };
@@ -74,6 +85,8 @@ class LineMachines final : public machines::MachineControl {
   const machines::MachineListener& listener_;
   const ResetGate& resets_;
   LineRuns runs_;
+  mutable std::mutex mutex_;
+  std::map<std::string, Shown> shown_;
 };
 
 /// All machines of the server, however they are fed: those with an enabled port over their line,

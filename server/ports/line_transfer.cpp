@@ -33,7 +33,6 @@ std::uint64_t fetched_ahead(const wire::LineSettings& settings) {
 
 /// On the line's strand. The store has it before anything leaves.
 void begin_transfer(const LineInUse& in_use, SendJob job, const PortLine::Answer& answer) {
-  if (auto whole = check_answer(*in_use.line); !whole) return answer(whole);
   if (auto ready = line::check_ready(*in_use.line); !ready) return answer(ready);
   const LineView port = in_use.line->view();
   if (auto ready = in_use.resets.check(port, port.names.name); !ready) return answer(ready);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "gateway/line/port_transfer.hpp"
 #include "protocol/process/log.hpp"
 #include "server/ports/line_runs.hpp"
 #include "server/ports/port_service.hpp"
@@ -22,8 +23,12 @@ bool is_device(const std::string& address) {
 /// The port that the machine has at the time.
 class PortAtControl final : public RequestedLine {
  public:
-  PortAtControl(LineMachines& machines, const LineDirectory& directory, std::string machine)
-      : machines_(machines), directory_(directory), machine_(std::move(machine)) {}
+  PortAtControl(LineMachines& machines, const LineDirectory& directory, std::string machine,
+                std::shared_ptr<TransferLog> transfers)
+      : machines_(machines),
+        directory_(directory),
+        machine_(std::move(machine)),
+        transfers_(std::move(transfers)) {}
   void note(const std::string& words) override {
     if (const auto line = directory_.line_of(machine_)) line->note(words);
   }
@@ -40,9 +45,12 @@ class PortAtControl final : public RequestedLine {
   void send(SendJob job) override {
     const auto line = directory_.line_of(machine_);
     if (!line) return;
-    line->begin(std::move(job), [machine = machine_](const Result<void>& begun) {
-      if (!begun)
-        process::log_warning("answer not sent machine={}: {}", machine, begun.error().what);
+    if (line::sends_at_once(line->view().settings)) transfers_->begin_answer(job);
+    line->begin(std::move(job), [machine = machine_, transfers = transfers_,
+                                 id = job.id](const Result<void>& begun) {
+      if (begun) return;
+      transfers->take_back_send(id);
+      process::log_warning("answer not sent machine={}: {}", machine, begun.error().what);
     });
   }
   void start_later(const machines::StartRequest& request, Started started,
@@ -54,6 +62,7 @@ class PortAtControl final : public RequestedLine {
   LineMachines& machines_;
   const LineDirectory& directory_;
   const std::string machine_;
+  const std::shared_ptr<TransferLog> transfers_;
 };
 
 }  // namespace
@@ -77,6 +86,7 @@ Result<std::uint64_t> PortService::enter_machine(const storage::Port& port) {
   machine.epoch = epoch_of(machine);
   machine.last_seen = clock_.now();
   if (auto saved = store_.machines.save(machine); !saved) return fail(saved.error());
+  line_machines_.enter(machine);
   return machine.epoch;
 }
 
@@ -164,8 +174,8 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
   RemoteRequestHandler::Parts calls{
       .store = store_,
       .releases = sources_.releases,
-      .line = std::make_shared<PortAtControl>(line_machines_,
-                                              static_cast<const LineDirectory&>(*this), name),
+      .line = std::make_shared<PortAtControl>(
+          line_machines_, static_cast<const LineDirectory&>(*this), name, entry.transfers),
       .clock = clock_,
       .machine = name,
       .port = entry.port.name,
@@ -199,7 +209,10 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
               note_transfer(name, end);
               if (end.outcome == SendOutcome::Completed) inbound->on_transfer_completed();
             }
-            if (end.progress.kind == JobKind::Answer) inbound->on_answer_over(end);
+            if (end.progress.kind == JobKind::Answer) {
+              transfers->end_answer(end);
+              inbound->on_answer_over(end);
+            }
             if (end.progress.kind != JobKind::Run) return;
             inbound->on_run(end.progress.id);
             if (end.outcome == SendOutcome::Completed) inbound->on_run_completed();

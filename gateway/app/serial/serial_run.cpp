@@ -83,7 +83,7 @@ bool SerialRun::must_wait_for_panel() const {
 Result<void> SerialRun::start(const dds::Command& command, SteadyTime now) {
   if (!parts_.records.fault().empty())
     return fail(Errc::Busy, "reports cannot be kept: {}", parts_.records.fault());
-  port_->drop_answer();
+  if (auto free = port_->drop_answer(); !free) return free;
   if (auto ready = check_line(); !ready) return ready;
   const auto argument = parse_start_argument(command.argument);
   if (!argument) return fail(argument.error());

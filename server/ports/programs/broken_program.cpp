@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "gateway/line/line_words.hpp"
+#include "gateway/line/port_transfer.hpp"
 
 namespace dripline::ports {
 namespace {
@@ -54,17 +55,6 @@ bool is_sending(const LineView& port) {
 
 }  // namespace
 
-bool sends_at_once(const wire::LineSettings& settings) {
-  switch (settings.flow) {
-    case wire::Flow::None:
-    case wire::Flow::XonXoff:
-    case wire::Flow::RtsCts:
-      return !settings.wait_for_xon;
-    default:
-      return false;
-  }
-}
-
 Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store, const SentTo& to) {
   const auto run = last_run(store.runs, to.machine);
   if (!run) return fail(run.error());
@@ -75,7 +65,9 @@ Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store,
     const bool is_over = transfer.state == TransferState::Completed ||
                          (transfer.state == TransferState::Aborted && to.are_aborts_told);
     if (is_over) return std::nullopt;
-    return sent_program(transfer);
+    auto broken = sent_program(transfer);
+    broken.is_active = transfer.state == TransferState::Active;
+    return broken;
   }
   if (!*run) return std::nullopt;
   const RunState state = (*run)->state;
@@ -84,14 +76,6 @@ Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store,
   return BrokenProgram{.id = (*run)->id,
                        .what = fmt::format("run {} of program {}", (*run)->id, (*run)->program),
                        .is_active = state == RunState::Active || state == RunState::Ordered};
-}
-
-Result<void> check_answer(const PortLine& line) {
-  const auto progress = line.progress();
-  const bool is_answering = progress && progress->kind == JobKind::Answer;
-  if (!is_answering || !sends_at_once(line.view().settings)) return {};
-  return fail(Errc::Busy, "port {} is busy: its control reads what it asked for",
-              line.view().names.name);
 }
 
 Result<std::vector<BrokenProgram>> ResetGate::open_of(const LineView& port,
@@ -115,7 +99,8 @@ Result<std::vector<BrokenProgram>> ResetGate::open_of(const LineView& port,
 }
 
 Result<void> ResetGate::check(const LineView& port, const std::string& stored_port) const {
-  if (!sends_at_once(port.settings) || is_sending(port)) return {};  // a busy line refuses itself
+  if (!line::sends_at_once(port.settings) || is_sending(port))
+    return {};  // a busy line refuses itself
   const auto open = open_of(port, stored_port);
   if (!open) return fail(open.error());
   if (open->empty()) return {};
@@ -133,7 +118,7 @@ Result<void> ResetGate::check(const LineView& port, const std::string& stored_po
 
 Result<std::string> ResetGate::confirm(const LineView& port, const std::string& stored_port) {
   const std::string& name = port.names.name;
-  if (!sends_at_once(port.settings)) {
+  if (!line::sends_at_once(port.settings)) {
     return fail(Errc::Unsupported,
                 "port {}: its control asks for each program by itself: no reset is to be confirmed",
                 name);

@@ -12,12 +12,12 @@
 #include "storage/store.hpp"
 
 /// A control that reads a program from its line stays in the middle of it when the program is
-/// broken off there, and takes the next text for its rest.
+/// broken off there, and takes the next text for its rest. The same holds for an answer.
 namespace dripline::ports {
 
 /// What was sent to a control last, and did not go through.
 struct BrokenProgram {
-  std::string id;          ///< of the run or the transfer
+  std::string id;          ///< of the run, the transfer or the answer
   std::string what;        ///< "run r-1 of program O1", "O1 revision 2": for people
   bool is_active = false;  ///< its end is not stored
 };
@@ -28,13 +28,6 @@ struct SentTo {
   /// The control knows of an aborted program by its protocol.
   bool are_aborts_told = false;
 };
-
-/// The control does not ask for its programs: what is sent is read at once. With DC1, a heading or
-/// an answer to every block the control itself begins each program.
-bool sends_at_once(const wire::LineSettings& settings);
-
-/// An answer that a control without requests is reading is not cut off by a program. Errors: Busy.
-Result<void> check_answer(const PortLine& line);
 
 /// A run that is still active counts: ask for an idle line. Errors: the store's.
 Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store, const SentTo& to);

@@ -5,6 +5,7 @@
 
 #include <fmt/ranges.h>
 
+#include "gateway/line/line_words.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
 
@@ -131,15 +132,19 @@ Result<void> TransferLog::store(Entry& entry) {
   return saved;
 }
 
-Result<void> TransferLog::begin_send(const SendJob& job) {
+TransferLog::Transfer TransferLog::new_send(const SendJob& job) const {
   Transfer transfer;
   transfer.port = parts_.port;
   transfer.id = job.id;
-  transfer.programs = job.programs;
+  transfer.programs = line::programs_of(job);
   transfer.size = job.size;
   transfer.began = parts_.clock.now();
+  return transfer;
+}
+
+Result<void> TransferLog::begin_send(const SendJob& job) {
   const bool was_saved = sent_.is_saved;
-  sent_.before = std::exchange(sent_.latest, std::move(transfer));
+  sent_.before = std::exchange(sent_.latest, new_send(job));
   if (auto stored = store(sent_); !stored) {
     sent_.latest = std::exchange(sent_.before, std::nullopt);
     sent_.is_saved = was_saved;
@@ -149,12 +154,28 @@ Result<void> TransferLog::begin_send(const SendJob& job) {
   return {};
 }
 
+void TransferLog::begin_answer(const SendJob& job) {
+  if (active(Direction::Send) != nullptr) return;  // the line refuses it
+  Transfer answer = new_send(job);
+  answer.at_most = job.size;
+  sent_.before = std::exchange(sent_.latest, std::move(answer));
+  static_cast<void>(store(sent_));
+  show(Direction::Send, sent_.latest);
+}
+
+void TransferLog::end_answer(const SendEnd& end) {
+  const bool has_left = end.progress.offered > 0 || end.progress.sent.bytes > 0;
+  const bool is_over = end.outcome == SendOutcome::Completed || !has_left;
+  is_over&& sent_.before ? take_back_send(end.progress.id) : end_send(end);
+}
+
 void TransferLog::take_back_send(const std::string& id) {
   if (!sent_.latest || sent_.latest->id != id) return;
   if (sent_.before) {
     sent_.latest = std::exchange(sent_.before, std::nullopt);
   } else {
     sent_.latest->state = End::Aborted;
+    sent_.latest->at_most = 0;
     sent_.latest->reason = "it was not begun";
     sent_.latest->ended = parts_.clock.now();
   }

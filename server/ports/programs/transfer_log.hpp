@@ -38,6 +38,10 @@ class TransferLog {
 
   /// Before anything of it leaves. Errors: those of the store; it must not begin then.
   Result<void> begin_send(const SendJob& job);
+  /// What a control gets by a rule, and reads at once: it is stored while it is on the line, and
+  /// longer if it was cut off. It leaves also while the store is away.
+  void begin_answer(const SendJob& job);
+  void end_answer(const SendEnd& end);
   /// Before its text up to there may leave. Errors: those of the store; it must wait then.
   Result<void> allow(const std::string& id, std::uint64_t end);
   void note_sent(const SendProgress& progress);
@@ -66,6 +70,7 @@ class TransferLog {
   };
   Entry& entry(Direction direction) { return direction == Direction::Send ? sent_ : received_; }
   Transfer* active(Direction direction);
+  Transfer new_send(const SendJob& job) const;
   void show(Direction direction, const std::optional<Transfer>& transfer);
   Result<void> store(Entry& entry);
   void end(Direction direction, storage::TransferState state, const std::string& reason);

@@ -247,5 +247,76 @@ TEST_F(BrokenProgramTest, OfAControlThatAsksForItsProgramsIsLeftToItsProtocol) {
   EXPECT_EQ(sent(), "");
 }
 
+/// What a control gets for a text of its own is read like a program.
+class BrokenAnswer : public BrokenProgramTest {
+ protected:
+  void begin() {
+    add_port(mill("reply = \"O9998\"\n[[rule]]\ntrigger = \"DIR\"\naction = \"directory\"\n"));
+    for (int i = 100; i < 300; ++i) push(fmt::format("O{}", i), fmt::format("O{}\nM30\n", i));
+  }
+  void ask() { line().write("%\nO9999\n(DIR)\nM30\n%\n"); }
+  void cut_off() {
+    ask();
+    line().read_until("O9998");
+    line().write("\x13");
+    let_come_to_rest();
+    line().pull();
+    ASSERT_TRUE(wait([&] { return !ports_->port("com1")->is_open; }));
+    line().put_back();
+    ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  }
+};
+
+TEST_F(BrokenAnswer, IsFollowedByNothingUntilAPersonConfirmsTheReset) {
+  begin();
+  cut_off();
+  ASSERT_TRUE(wait([&] { return start("O2").error().code == Errc::Conflict; }));
+  EXPECT_NE(start("O2").error().what.find("the answer O9998 was broken off"), std::string::npos)
+      << start("O2").error().what;
+  EXPECT_EQ(ports_->send("com1", {{"O2", {}}}).error().code, Errc::Conflict);
+  EXPECT_EQ(sent(), "");
+  EXPECT_EQ(ports_->confirm_reset("com1").value(), "the answer O9998");
+  EXPECT_TRUE(start("O2"));
+}
+
+TEST_F(BrokenAnswer, IsKnownToTheNextServer) {
+  begin();
+  cut_off();
+  ASSERT_TRUE(wait([&] { return start("O2").error().code == Errc::Conflict; }));
+  ports_.reset();
+  start_ports();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  EXPECT_EQ(start("O2").error().code, Errc::Conflict);
+}
+
+TEST_F(BrokenAnswer, ThatWentThroughHidesNoProgramThatWasBrokenOff) {
+  begin();
+  const auto transfer = ports_->send("com1", {{"O1", {}}});
+  ASSERT_TRUE(transfer) << transfer.error().what;
+  line().read_until("N50 ");
+  ASSERT_TRUE(ports_->stop_transfer("com1", "stopped by cam"));
+  let_come_to_rest();
+  ask();
+  line().read_until("M30\n%\n");
+  const auto shown = [&] { return ports_->port("com1")->transfer; };
+  EXPECT_TRUE(wait([&] { return shown()->id == transfer->id; }));
+  ASSERT_TRUE(wait([&] { return start("O2").error().code == Errc::Conflict; }));
+  EXPECT_NE(start("O2").error().what.find("O1 revision 1 was broken off"), std::string::npos);
+  EXPECT_EQ(ports_->confirm_reset("com1").value(), "O1 revision 1");
+  EXPECT_TRUE(start("O2"));
+}
+
+TEST_F(BrokenAnswer, IsNotCutOffByAProgram) {
+  begin();
+  ask();
+  line().read_until("O9998");
+  line().write("\x13");
+  EXPECT_EQ(start("O2").error().code, Errc::Busy);
+  EXPECT_EQ(ports_->send("com1", {{"O2", {}}}).error().code, Errc::Busy);
+  line().write("\x11");
+  line().read_until("M30\n%\n");
+  EXPECT_TRUE(wait([&] { return start("O2").has_value(); }));
+}
+
 }  // namespace
 }  // namespace dripline::server_test

@@ -54,6 +54,19 @@ struct GatedRuns final : test_support::RunStoreDecorator {
     gate.pass();
     return RunStoreDecorator::update_counters(progress);
   }
+  Result<storage::Run> find(const std::string& id) override {
+    gate.pass();
+    return RunStoreDecorator::find(id);
+  }
+  Gate& gate;
+};
+
+struct GatedMachines final : test_support::MachineStoreDecorator {
+  GatedMachines(const storage::Store& inner, Gate& g) : MachineStoreDecorator(inner), gate(g) {}
+  Result<storage::Machine> find(const std::string& name) override {
+    gate.pass();
+    return MachineStoreDecorator::find(name);
+  }
   Gate& gate;
 };
 
@@ -75,6 +88,36 @@ TEST_F(PortServiceTest, IsFedWithTextThatIsNearWhileTheStoreAnswersNothing) {
   EXPECT_TRUE(gate.has_kept_waiting()) << "what needs the store waits for it";
   gate.open();
   EXPECT_TRUE(wait_state(run->id, storage::RunState::Completed));
+  ports_.reset();  // it uses the stores of this test
+}
+
+/// What is shown with a stop, too.
+TEST_F(PortServiceTest, IsHeldAndAbortedWhileTheStoreAnswersNothing) {
+  Gate gate;
+  GatedRuns runs(*store_, gate);
+  GatedMachines machines(*store_, gate);
+  const storage::Store with_runs = test_support::with(*store_, runs);
+  const storage::Store store = test_support::with(with_runs, machines);
+  start_ports(store);
+  add_port(mill());
+  push("O1", blocks(20000));
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  line().read_until("N100 ");
+  gate.close();
+  EXPECT_TRUE(command(run->id, dds::CommandAction::Hold));
+  auto shown = ports_->machines().machine("mill");
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->status->execution, dds::Execution::FeedHold);
+  EXPECT_EQ(shown->status->run, run->id);
+  EXPECT_EQ(shown->status->program, "O1");
+  EXPECT_EQ(shown->machine.name, "mill");
+  EXPECT_TRUE(command(run->id, dds::CommandAction::Abort));
+  shown = ports_->machines().machine("mill");
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->status->execution, dds::Execution::Ready);
+  gate.open();
+  EXPECT_TRUE(wait_state(run->id, storage::RunState::Aborted));
   ports_.reset();  // it uses the stores of this test
 }
 
