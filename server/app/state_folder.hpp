@@ -65,6 +65,8 @@ class StateFolder {
   static std::vector<std::string> files() { return {kToken, kIdentity, kSigningKey, kTerm}; }
   /// What passed over serial lines last.
   std::filesystem::path recordings() const { return path_ / "recordings"; }
+  /// Audit entries that the database does not have yet (library::WaitingEntries).
+  std::filesystem::path waiting_entries() const { return path_ / "audit-waiting"; }
   /// Program text of a database elsewhere; it may be removed at any time.
   std::filesystem::path cache() const { return path_ / "cache"; }
   std::filesystem::path token_file() const { return path_ / kToken; }

@@ -11,15 +11,37 @@ void AuditTrail::write(Change change) {
 }
 
 void AuditTrail::write_late(const Change& change) {
-  if (late_ == nullptr) return write(change);
+  if (!late_) return write(change);
   const storage::AuditEntry entry{.time = clock_.now(),
                                   .who = change.who,
                                   .action = change.action,
                                   .subject = change.subject,
                                   .detail = change.detail};
-  late_->write(fmt::format("audit entry who={} action={} subject={}", change.who.name,
-                           change.action, change.subject),
-               [&store = store_, entry] { return store.add(entry); });
+  const auto kept = late_->kept.keep(entry);
+  if (!kept)
+    process::log_warning("an audit entry that waits would not outlive the server: {}",
+                         kept.error().what);
+  write_late(entry, kept ? *kept : "");
+}
+
+void AuditTrail::write_late(const storage::AuditEntry& entry, const std::string& name) {
+  const auto add = [&store = store_, &kept = late_->kept, entry, name] {
+    auto added = store.add(entry);
+    if (added && !name.empty()) kept.drop(name);
+    return added;
+  };
+  late_->writer.write(fmt::format("audit entry who={} action={} subject={}", entry.who.name,
+                                  entry.action, entry.subject),
+                      add, name.empty() ? LateWriter::AtEnd::Lost : LateWriter::AtEnd::Kept);
+}
+
+void AuditTrail::write_kept() {
+  if (!late_) return;
+  for (const auto& [name, entry] : late_->kept.read()) {
+    process::log_info("audit entry of a former life of the server: who={} action={} subject={}",
+                      entry.who.name, entry.action, entry.subject);
+    write_late(entry, name);
+  }
 }
 
 Result<void> AuditTrail::write_before(Change change) {

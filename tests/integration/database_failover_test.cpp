@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "tests/integration/system.hpp"
+#include "tests/support/line/pty.hpp"
 #include "tests/support/postgresql/test_cluster.hpp"
 
 namespace dripline::integration {
@@ -160,6 +161,46 @@ TEST_P(DatabaseFailover, AStopReachesTheMachineMeanwhile) {
   const auto entries = [&] { return system_->rest().get("/api/v1/audit?limit=50").body; };
   for (const char* action : {"run.hold", "run.abort"})
     EXPECT_TRUE(eventually([&] { return entries().find(action) != std::string::npos; })) << action;
+}
+
+/// A control at a serial port of the server.
+TEST_P(DatabaseFailover, AStopReachesALineMeanwhile) {
+  test_support::PtyCable cable;
+  start_shop();
+  const nlohmann::json port{
+      {"machine", "old-lathe"}, {"address", cable.host()}, {"settings", {{"baud", "9600"}}}};
+  const auto added = system_->rest().put_bytes("/api/v1/ports/port-1", port.dump());
+  ASSERT_EQ(added.status / 100, 2) << added.body;
+  const auto shown = [&] { return system_->rest().get("/api/v1/ports/port-1").json(); };
+  ASSERT_TRUE(eventually([&] { return shown().value("open", false); })) << shown();
+  const std::string id = system_->start_run("O0300", "old-lathe");
+  ASSERT_TRUE(eventually([&] { return shown().value("sent", 0U) > 0; })) << shown();
+  leave();
+  for (const char* action : {"hold", "abort"}) {
+    const auto given = std::chrono::steady_clock::now();
+    const auto answer =
+        system_->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    EXPECT_LT(std::chrono::steady_clock::now() - given, seconds(3)) << action;
+  }
+  come_back();
+  EXPECT_EQ(system_->wait_ended(id).value("state", ""), "aborted");
+}
+
+/// What the database did not have when the server was killed.
+TEST_P(DatabaseFailover, AStopIsInTheAuditTrailThoughTheServerWasKilledMeanwhile) {
+  start_shop({}, "1000x");
+  const std::string id = system_->start_run("O0300");
+  leave();
+  EXPECT_EQ(system_->rest().post("/api/v1/runs/" + id + "/commands", {{"action", "abort"}}).status,
+            200);
+  system_->server().kill();
+  come_back();
+  system_->start_server();
+  const auto entries = [&] { return system_->rest().get("/api/v1/audit?limit=50").body; };
+  EXPECT_TRUE(eventually([&] { return entries().find("run.abort") != std::string::npos; }))
+      << entries();
+  EXPECT_TRUE(std::filesystem::is_empty(system_->server_state() / "audit-waiting"));
 }
 
 /// Whoever asks whether the server is ready waits for no database, and hears the truth.

@@ -137,6 +137,7 @@ struct ServerParts {
   library::CertificateWatch certificates;
   library::DialectCatalog catalog;
   library::LateWriter late_writer;
+  library::WaitingEntries waiting_entries;
   library::AuditTrail audit;
   library::AuditChain chain;
   std::unique_ptr<library::Backups> backups;      ///< null: none are made
