@@ -72,6 +72,7 @@ struct Run {
   /// unknown.
   std::optional<std::string> gateway_setup = {};
   std::optional<RunStatistics> statistics = {};  ///< absent: not ended, cut off, an older gateway
+  bool is_test = false;  ///< ordered as a test run, which moves nothing; false before version 23
 };
 
 /// A revision that a run's program called: its machine got text of it under this name.

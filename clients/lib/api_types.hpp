@@ -169,10 +169,11 @@ struct Run {
   std::optional<std::uint64_t> approval;         ///< the Decision that released its revision
   std::optional<std::uint64_t> job;              ///< of the machine's queue
   std::optional<RunStatistics> statistics = {};  ///< absent: not ended, not known, an older server
+  bool test = false;                             ///< nothing of it moves
 };
 
 /// A run that has just begun.
-struct KeyedInRun {
+struct BegunRun {
   Run run;
   /// That it is a test run; of what was keyed in, that it has begun without the modes and the tool
   /// before. Empty: nothing.
@@ -272,6 +273,7 @@ struct Port {
   std::string rules;
   bool enabled = true;
   Settings effective;
+  bool sends_at_once = false;  ///< the control does not ask for its programs
   bool open = false;
   std::string fault;
   struct Line {

@@ -184,7 +184,7 @@ template Reply<JogDone> Client::fetch(HttpRequest, std::string_view);
 template Reply<PlaybackBlock> Client::fetch(HttpRequest, std::string_view);
 template Reply<ControlValues> Client::fetch(HttpRequest, std::string_view);
 template Reply<Run> Client::fetch(HttpRequest, std::string_view);
-template Reply<KeyedInRun> Client::fetch(HttpRequest, std::string_view);
+template Reply<BegunRun> Client::fetch(HttpRequest, std::string_view);
 template Reply<ShownRun> Client::fetch(HttpRequest, std::string_view);
 template Reply<Webhook> Client::fetch(HttpRequest, std::string_view);
 template Reply<WebhookTest> Client::fetch(HttpRequest, std::string_view);
@@ -316,7 +316,7 @@ Reply<void> Client::drop_upload(std::string_view id) {
   return perform(with_method("DELETE", path_of("uploads", id)));
 }
 
-Reply<KeyedInRun> Client::start_run(const RunRequest& request) {
+Reply<BegunRun> Client::start_run(const RunRequest& request) {
   Json json{{"machine", request.machine}, {"program", request.program}};
   if (request.revision) json["revision"] = *request.revision;
   if (!request.from.empty()) json["from"] = request.from;
@@ -324,7 +324,7 @@ Reply<KeyedInRun> Client::start_run(const RunRequest& request) {
   if (!request.memory.empty()) json["memory"] = request.memory;
   if (request.pass) json["pass"] = *request.pass;
   if (request.is_test) json["test"] = true;
-  return fetch<KeyedInRun>(with_method("POST", path_of("runs")), dumped(json));
+  return fetch<BegunRun>(with_method("POST", path_of("runs")), dumped(json));
 }
 
 Reply<Run> Client::restart_run(std::string_view run, std::string_view at) {

@@ -117,7 +117,7 @@ class Client {
   Reply<Job> move_job(std::string_view machine, std::uint64_t job, std::uint64_t place);
   Reply<void> remove_job(std::string_view machine, std::uint64_t job);
   /// The next one unless one is named.
-  Reply<KeyedInRun> start_job(std::string_view machine, std::optional<std::uint64_t> job);
+  Reply<BegunRun> start_job(std::string_view machine, std::optional<std::uint64_t> job);
   Reply<void> hold_jobs(std::string_view machine, const std::string& reason);
   Reply<void> release_jobs(std::string_view machine);
 
@@ -165,11 +165,11 @@ class Client {
   Reply<ControlValues> control_values(std::string_view machine, std::string_view beginning,
                                       std::uint64_t offset);
 
-  Reply<KeyedInRun> start_run(const RunRequest& request);
+  Reply<BegunRun> start_run(const RunRequest& request);
   /// `at`: executed, block=1234, L7, N120, T3, time=2026-11-23T15:04:05Z.
   Reply<Run> restart_run(std::string_view run, std::string_view at);
   /// Blocks keyed in at an idle machine. Failures: Refused also while a run is active.
-  Reply<KeyedInRun> key_in(std::string_view machine, std::string_view text);
+  Reply<BegunRun> key_in(std::string_view machine, std::string_view text);
   /// A datum, or with a tool its length, from where the axes of a machine without a run are.
   Reply<PositionSet> set_position(std::string_view machine, const PositionToSet& setting);
   /// One step of an axis of a machine without a run; returns when the axis rests.

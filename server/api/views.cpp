@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/nullable_json.hpp"
+#include "server/library/history/test_runs.hpp"
 
 namespace dripline::api {
 
@@ -110,7 +111,8 @@ json run_json(const storage::Run& run) {
           {"allowed_as", storage::to_string(run.allowed_as)},
           {"approval", number_or_null(run.approval)},
           {"job", number_or_null(run.job)},
-          {"statistics", statistics_json(run)}};
+          {"statistics", statistics_json(run)},
+          {"test", library::is_test_run(run)}};
 }
 
 json begun_json(const storage::Run& run, std::string_view notice) {

@@ -39,6 +39,7 @@ Result<storage::Run> MachineService::make_run(const StartRequest& request,
   run.allowed_as = admitted->allowed_as;
   run.approval = admitted->approval;
   run.job = request.job;
+  run.is_test = request.is_test || is_testing(view);
   return run;
 }
 

@@ -58,11 +58,15 @@ std::string start_argument(const StartRequest& request) {
   return text;
 }
 
+bool is_testing(const MachineView& view) {
+  return view.status && view.status->switches &&
+         view.status->switches->test_run == dds::SwitchState::On;
+}
+
 std::string audit_text(const MachineControl& machines, const storage::Run& run,
                        bool asks_for_test) {
   const auto view = machines.machine(run.machine);
-  const bool is_on = view && view->status && view->status->switches &&
-                     view->status->switches->test_run == dds::SwitchState::On;
+  const bool is_on = view && is_testing(*view);
   return fmt::format("{}{} revision {} on {}", asks_for_test || is_on ? "test run of " : "",
                      run.program, run.revision, run.machine);
 }

@@ -14,6 +14,8 @@ std::string start_text(const StartPoint& point);
 /// The same, with the other options of the start: "N120 pass=3 memory=begin"; or "restart=RUN
 /// at=executed".
 std::string start_argument(const StartRequest& request);
+/// The switch of its test run is on.
+bool is_testing(const MachineView& view);
 /// "O0200 revision 3 on mill-3", for the audit trail; "test run of ..." where it asks for one, or
 /// the machine's switch is on.
 std::string audit_text(const MachineControl& machines, const storage::Run& run, bool asks_for_test);

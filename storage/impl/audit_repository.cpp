@@ -31,7 +31,7 @@ const std::string kFirstRunFacts =
 const std::string kRunFacts =
     kFirstRunFacts +
     "|| CASE WHEN run.gateway_setup IS NULL THEN '' ELSE ' setup ' || hex(run.gateway_setup) END "
-    "|| "
+    "|| CASE WHEN run.is_test = 1 THEN ' test' ELSE '' END || "
     "coalesce((SELECT group_concat("
     "' call ' || hex(name) || ' ' || program || ' ' || revision || ' ' || hex(sha256), '') FROM "
     "(SELECT * FROM run_call WHERE run_call.run = run.number ORDER BY name) AS calls), '') ";

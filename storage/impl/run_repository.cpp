@@ -17,7 +17,8 @@ const std::string kSelect =
     "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS NOT DISTINCT FROM "
     "revision.sha256, "
     "run.allowed_as, "
-    "run.approval, run.job, run.gateway_setup, run.motion_seconds, run.path_mm FROM run "
+    "run.approval, run.job, run.gateway_setup, run.motion_seconds, run.path_mm, run.is_test FROM "
+    "run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
     "LEFT JOIN content ON content.sha256 = run.sha256 ";
@@ -59,6 +60,7 @@ Run read_run(const sql::Statement& row) {
   run.gateway_setup = row.optional_text(26);
   const auto seconds = row.optional_real(27), path = row.optional_real(28);
   if (seconds && path) run.statistics = RunStatistics{*seconds, *path};
+  run.is_test = row.integer(29) != 0;
   return run;
 }
 
@@ -164,14 +166,15 @@ Result<void> insert_run(sql::Database& database, const Run& run, const RunPlace&
       database,
       "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
       "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
-      "ended_us, setup, sha256, allowed_as, approval, job, gateway_setup) VALUES (?1, ?2, ?3, ?4, "
+      "ended_us, setup, sha256, allowed_as, approval, job, gateway_setup, is_test) VALUES (?1, ?2, "
+      "?3, ?4, "
       "?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20, ?21, ?22, ?23, "
-      "?24)",
+      "?24, ?25)",
       run.id, place.machine, place.program, run.revision, run.control, to_string(run.state),
       run.counters.sent, run.counters.accepted, run.counters.executed, run.line, run.sequence,
       run.reason, run.executed_content, run.content_verified, run.author, run.created, run.started,
       run.ended, run.setup, std::span<const std::byte>(run.content.bytes),
-      to_string(run.allowed_as), run.approval, run.job, run.gateway_setup);
+      to_string(run.allowed_as), run.approval, run.job, run.gateway_setup, run.is_test ? 1 : 0);
 }
 
 }  // namespace

@@ -46,10 +46,16 @@ int start(Context& context, client::Client& client, const StartCommand& command)
   return kExitOk;
 }
 
+/// What was tested and cut off is not what was executed and cut off.
+std::string state_text(const client::Run& run) {
+  const bool says_so = !run.test || run.state == "tested" || run.state == "refused";
+  return says_so ? run.state : run.state + " (test run)";
+}
+
 void add_row(Table& table, const client::Run& run) {
   table.add(
       {short_id(run.id), run.machine, run.program, std::to_string(run.revision),
-       Cell(run.state, style_of_state(run.state)), std::to_string(run.executed),
+       Cell(state_text(run), style_of_state(run.state)), std::to_string(run.executed),
        std::to_string(run.outputs), time_text(run.started.empty() ? run.created : run.started),
        has_ended(run) ? duration_text(seconds_between(run.started, run.ended)) : "", run.reason});
 }

@@ -11,6 +11,8 @@ namespace dripline::cli {
 
 namespace {
 
+constexpr const char* kLatest = "latest";
+
 struct RunControlCommand {
   std::string run;
   std::string text, name, state;
@@ -32,16 +34,15 @@ bool is_stop(const client::CommandRequest& command) {
          (is_emergency && command.value.value_or(0) != 0);
 }
 
-/// The machine that reports the run as its own now, by the beginning of its id. The server knows it
-/// without its library, which may be away.
-std::optional<client::Machine> find_machine_of(client::Client& client,
-                                               const std::string& reference) {
-  if (reference.empty() || reference == "latest") return std::nullopt;
+/// The only machine that reports a run whose id begins so. The server knows it without its library,
+/// which may be away.
+std::optional<client::Machine> find_machine_of(client::Client& client, const std::string& prefix) {
   const auto machines = client.machines();
   if (!machines) return std::nullopt;
   std::optional<client::Machine> found;
   for (const auto& machine : *machines) {
-    if (!machine.status || !machine.status->run.starts_with(reference)) continue;
+    if (!machine.status || machine.status->run.empty()) continue;
+    if (!machine.status->run.starts_with(prefix)) continue;
     if (found) return std::nullopt;
     found = machine;
   }
@@ -55,19 +56,36 @@ int complain_of_stop(const client::Failure& failure) {
   return status;
 }
 
+int stop(client::Client& client, Context& context, const client::Machine& machine,
+         const client::CommandRequest& command) {
+  const auto& status = *machine.status;
+  if (auto given = client.command(status.run, command); !given)
+    return complain_of_stop(given.error());
+  context.print(fmt::format("{} took {} (run {} of {})\n", machine.name, command_text(command),
+                            short_id(status.run), status.program));
+  return kExitOk;
+}
+
 /// A stop is sent at once: what the library has to say comes afterward, or not at all.
 std::optional<int> stop_reported_run(client::Client& client, Context& context,
                                      const std::string& reference,
                                      const std::vector<client::CommandRequest>& commands) {
   if (commands.size() != 1 || !is_stop(commands.front())) return std::nullopt;
+  if (reference.empty() || reference == kLatest) return std::nullopt;
   const auto machine = find_machine_of(client, reference);
   if (!machine) return std::nullopt;
-  const auto& status = *machine->status;
-  if (auto given = client.command(status.run, commands.front()); !given)
-    return complain_of_stop(given.error());
-  context.print(fmt::format("{} took {} (run {} of {})\n", machine->name,
-                            command_text(commands.front()), short_id(status.run), status.program));
-  return kExitOk;
+  return stop(client, context, *machine, commands.front());
+}
+
+/// The library, which knows the latest run, is away: it is the only one there is.
+std::optional<int> stop_only_run(client::Client& client, Context& context,
+                                 const std::string& reference,
+                                 const std::vector<client::CommandRequest>& commands) {
+  if (commands.size() != 1 || !is_stop(commands.front()) || reference != kLatest)
+    return std::nullopt;
+  const auto machine = find_machine_of(client, "");
+  if (!machine) return std::nullopt;
+  return stop(client, context, *machine, commands.front());
 }
 
 /// Gives the orders one after the other, as long as the machine takes them.
@@ -78,6 +96,9 @@ int give(Context& context, const std::string& reference,
   if (auto stopped = stop_reported_run(*client, context, reference, commands)) return *stopped;
   const bool stops = !commands.empty() && is_stop(commands.front());
   auto run = find_run(*client, reference);
+  if (!run && run.error().kind != client::Failure::Kind::Refused) {
+    if (auto stopped = stop_only_run(*client, context, reference, commands)) return *stopped;
+  }
   if (!run) return stops ? complain_of_stop(run.error()) : complain(run.error());
   for (const auto& command : commands) {
     auto given = client->command(run->id, command);
@@ -254,7 +275,7 @@ client::Reply<Run> find_by_prefix(client::Client& client, const std::string& pre
 }  // namespace
 
 client::Reply<Run> find_run(client::Client& client, const std::string& reference) {
-  if (reference == "latest") return find_latest(client);
+  if (reference == kLatest) return find_latest(client);
   if (reference.empty()) return find_by_prefix(client, "(empty)");
   auto exact = client.run(reference);
   if (exact || exact.error().kind != Failure::Kind::Refused) return exact;

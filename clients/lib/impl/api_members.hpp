@@ -182,10 +182,11 @@ void members(V& v, Is<Run> auto& x) {
   v.later("approval", x.approval);
   v.later("job", x.job);
   v.later("statistics", x.statistics);
+  v.later("test", x.test);
 }
 
 template <class V>
-void members(V& v, Is<KeyedInRun> auto& x) {
+void members(V& v, Is<BegunRun> auto& x) {
   members(v, x.run);
   v.later("notice", x.notice);
 }

@@ -32,6 +32,7 @@ void members(V& v, Is<Port> auto& x) {
                    received, waiting_since);
   v.later("request", x.request);
   v.later("reception", x.reception);
+  v.later("sends_at_once", x.sends_at_once);
 }
 
 template <class V>

@@ -51,11 +51,11 @@ Reply<void> Client::remove_job(std::string_view machine, std::uint64_t job) {
   return perform(with_method("DELETE", job_path(machine, job)));
 }
 
-Reply<KeyedInRun> Client::start_job(std::string_view machine, std::optional<std::uint64_t> job) {
+Reply<BegunRun> Client::start_job(std::string_view machine, std::optional<std::uint64_t> job) {
   nlohmann::json body = nlohmann::json::object();
   if (job) body["job"] = *job;
-  return fetch<KeyedInRun>(with_method("POST", path_of("machines", machine) + "/start-job"),
-                           dumped(body));
+  return fetch<BegunRun>(with_method("POST", path_of("machines", machine) + "/start-job"),
+                         dumped(body));
 }
 
 Reply<void> Client::hold_jobs(std::string_view machine, const std::string& reason) {

@@ -49,9 +49,9 @@ Reply<PlaybackBlock> Client::play_back(std::string_view machine, std::string_vie
       get(with_query(path_of("machines", machine) + "/playback", "axes", axes)));
 }
 
-Reply<KeyedInRun> Client::key_in(std::string_view machine, std::string_view text) {
-  return fetch<KeyedInRun>(with_method("POST", path_of("machines", machine) + "/mdi"),
-                           dumped(Json{{"text", text}}));
+Reply<BegunRun> Client::key_in(std::string_view machine, std::string_view text) {
+  return fetch<BegunRun>(with_method("POST", path_of("machines", machine) + "/mdi"),
+                         dumped(Json{{"text", text}}));
 }
 
 Reply<void> Client::command_machine(std::string_view machine, const CommandRequest& request) {

@@ -4,8 +4,8 @@
 
 namespace dripline::library {
 
-/// Whether nothing of a run that has ended was executed, because it was a test run: its state or
-/// what its gateway says of its end. False also where that is not known (it was cut off).
+/// Whether nothing of a run is executed, because it is a test run: it was ordered as one, or its
+/// state or what its gateway says of its end says so.
 bool is_test_run(const storage::Run& run);
 
 }  // namespace dripline::library

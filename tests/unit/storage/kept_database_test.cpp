@@ -68,7 +68,8 @@ TEST_P(KeptDatabase, KeepsEverythingInItAndContinues) {
   EXPECT_EQ(push("gone.nc", "M2\n")->number, 2u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, KeptDatabase, testing::Values("v5.sql", "v6.sql", "v7.sql", "v8.sql"),
+INSTANTIATE_TEST_SUITE_P(, KeptDatabase,
+                         testing::Values("v5.sql", "v6.sql", "v7.sql", "v8.sql", "v9.sql"),
                          [](const auto& i) {
                            return std::string(i.param).substr(0, std::string(i.param).find('.'));
                          });

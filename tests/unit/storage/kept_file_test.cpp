@@ -198,7 +198,9 @@ TEST_P(KeptFile, HasHotFoldersJobsAndWebhooksSinceVersion14) {
   EXPECT_EQ(store_->folders.unfinished("cam")->at(0).target, "done/p.nc");
   EXPECT_EQ(store_->jobs.find(1)->completed, 1u);
   EXPECT_EQ(store_->jobs.hold_of("m1").value()->reason, "bore is wide");
-  EXPECT_EQ(store_->webhooks.find("erp")->waiting, version() >= 21 ? 2u : 1u);
+  EXPECT_EQ(store_->webhooks.find("erp")->waiting, version() >= 23   ? 3u
+                                                   : version() >= 21 ? 2u
+                                                                     : 1u);
 }
 
 TEST_P(KeptFile, HasCallsOfRunsSinceVersion15) {
@@ -289,12 +291,25 @@ TEST_P(KeptFile, HasTransfersOfAPortSinceVersion22) {
   EXPECT_EQ(transfers->back().reason, "the line is lost");
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , KeptFile,
-    testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql", "v7.sql", "v8.sql",
-                    "v9.sql", "v10.sql", "v11.sql", "v12.sql", "v13.sql", "v14.sql", "v15.sql",
-                    "v16.sql", "v17.sql", "v18.sql", "v19.sql", "v20.sql", "v21.sql", "v22.sql"),
-    [](const auto& i) { return std::string(i.param, std::string_view(i.param).find('.')); });
+TEST_P(KeptFile, KnowsATestRunThatWasCutOffSinceVersion23) {
+  reopen();
+  EXPECT_FALSE(store_->runs.find("r1")->is_test);
+  if (version() < 23) return;
+  const auto run = store_->runs.find("r4");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(run->state, RunState::Interrupted);
+  EXPECT_TRUE(run->is_test);
+}
+
+INSTANTIATE_TEST_SUITE_P(, KeptFile,
+                         testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql", "v6.sql",
+                                         "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
+                                         "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql",
+                                         "v17.sql", "v18.sql", "v19.sql", "v20.sql", "v21.sql",
+                                         "v22.sql", "v23.sql"),
+                         [](const auto& i) {
+                           return std::string(i.param, std::string_view(i.param).find('.'));
+                         });
 
 }  // namespace
 }  // namespace dripline::storage

@@ -1,5 +1,5 @@
 // The commands that the API has for a machine and for its run.
-import type { CommandRequest, DatumRequest, JogDone, JogRequest, KeyedInRun, PositionSet, Run, RunRequest } from '../../generated/api';
+import type { CommandRequest, DatumRequest, JogDone, JogRequest, BegunRun, PositionSet, Run, RunRequest } from '../../generated/api';
 import { pathOf, send } from '../api/request';
 
 /// The server answers in 6 s, or 16 s where its database hangs. No second command is sent before: a hold or an abort must not wait for a server that is frozen.
@@ -50,8 +50,8 @@ export function startRun(request: StartRequest): Promise<Run> {
 }
 
 /// Blocks keyed in at an idle machine (MDI), one a line.
-export function keyIn(machine: string, text: string): Promise<KeyedInRun> {
-  return send<KeyedInRun>('POST', pathOf('machines', machine, 'mdi'), { json: { text } });
+export function keyIn(machine: string, text: string): Promise<BegunRun> {
+  return send<BegunRun>('POST', pathOf('machines', machine, 'mdi'), { json: { text } });
 }
 
 /// `tool`: its length is set, else the datum.

@@ -55,11 +55,11 @@ export function MachineRuns({ machine }: { machine: string }) {
         {list.map((run) => (
           <li key={run.id} class="panel run">
             <div class="head"><h3>{run.program} <span class="muted">{t.revision(run.revision)}</span></h3><RunPill state={run.state} /></div>
-            <p class="muted">{dateTimeText(run.created)}{run.author && ` · ${run.author}`} · {t.executed(numberText(run.executed))} · {t.line(run.line)}</p>
+            <p class="muted">{dateTimeText(run.created)}{run.author && ` · ${run.author}`}{run.test && ` · ${t.testRun}`} · {t.executed(numberText(run.executed))} · {t.line(run.line)}</p>
             {run.reason && <p class="message">{run.reason}</p>}
             <div class="head">
               <a href={addressOf('reports', [run.id])}>{t.report(run.outputs)}</a>
-              {kCutOff.includes(run.state) && <Restart run={run} onStarted={runs.reload} />}
+              {kCutOff.includes(run.state) && !run.test && <Restart run={run} onStarted={runs.reload} />}
             </div>
           </li>
         ))}

@@ -22,7 +22,7 @@ export function run(changed: Partial<Run> = {}): Run {
   return {
     id: 'run-1', machine: 'lathe-1', program: 'O0100', revision: 1, sha256: '0'.repeat(64), size: 1000, control: 'centurion', state: 'active',
     sent: 0, accepted: 0, executed: 0, line: 0, sequence: null, reason: null, content_verified: null, author: 'admin',
-    created: '2026-11-23T12:00:00Z', started: '2026-11-23T12:00:00Z', ended: null, outputs: 0, setup: null, allowed_as: 'open', approval: null, job: null, statistics: null, ...changed,
+    created: '2026-11-23T12:00:00Z', started: '2026-11-23T12:00:00Z', ended: null, outputs: 0, setup: null, allowed_as: 'open', approval: null, job: null, statistics: null, test: false, ...changed,
   };
 }
 

@@ -33,6 +33,29 @@ TEST_F(MachineRuns, AreNoTestsOnAControlAtTheEndOfAGatewaysLine) {
   const auto run = test();
   ASSERT_TRUE(run) << run.error().what;
   EXPECT_EQ(written_->commands.back().argument, "test=yes");
+  EXPECT_TRUE(store_->runs.find(run->id)->is_test) << "however it ends";
+}
+
+/// A start under the switch is one too, and no other start is.
+TEST_F(MachineRuns, AreTestsWhileTheMachineTests) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  for (const auto state : {dds::SwitchState::On, dds::SwitchState::Off}) {
+    dds::Status status;
+    status.machine = "lathe-1";
+    status.session = kSession;
+    status.time = clock_.now();
+    status.steady = gateway_steady();
+    status.switches.emplace();
+    status.switches->test_run = state;
+    network_.on_status(status);
+    const auto run = start("O0100");
+    ASSERT_TRUE(run) << run.error().what;
+    EXPECT_EQ(store_->runs.find(run->id)->is_test, state == dds::SwitchState::On);
+    ASSERT_TRUE(store_->runs.set_state(run->id, storage::RunState::Aborted, ""));
+  }
 }
 
 TEST_F(MachineRuns, OfATestAreNotRestarted) {

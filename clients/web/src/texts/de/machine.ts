@@ -104,6 +104,7 @@ export const machine: typeof Shape = {
     runs: 'Läufe',
     noRuns: 'Auf dieser Maschine ist noch nichts gelaufen.',
     executed: (blocks) => `${blocks} Sätze ausgeführt`,
+    testRun: 'Testlauf',
     report: (lines) => (lines === 1 ? '1 Protokollzeile' : `${lines} Protokollzeilen`),
     restart: 'Wiederanlauf',
     restartAt: 'An (leer: nach dem zuletzt ausgeführten Satz)',

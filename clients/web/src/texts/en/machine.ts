@@ -102,6 +102,7 @@ export const machine = {
     runs: 'Runs',
     noRuns: 'Nothing has run on this machine yet.',
     executed: (blocks: string) => `${blocks} blocks executed`,
+    testRun: 'test run',
     report: (lines: number) => (lines === 1 ? '1 report line' : `${lines} report lines`),
     restart: 'Restart',
     restartAt: 'At (empty: after the block executed last)',
