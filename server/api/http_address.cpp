@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
+#include <asio/ip/tcp.hpp>
 #include <cerrno>
 #include <charconv>
 #include <system_error>
@@ -65,25 +66,13 @@ Result<HttpAddress> parse_http_address(std::string_view text) {
 
 Result<void> check_free(const HttpAddress& address) {
   if (address.port == 0) return {};
-  const int family = address.is_ipv6 ? AF_INET6 : AF_INET;
-  const Descriptor socket(::socket(family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  const Descriptor socket(
+      ::socket(address.is_ipv6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   const int yes = 1;
   // As a server that listens does: connections that have ended keep no address occupied.
   ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  int failed = 0;
-  if (address.is_ipv6) {
-    sockaddr_in6 place{};
-    place.sin6_family = AF_INET6;
-    place.sin6_port = htons(address.port);
-    ::inet_pton(AF_INET6, address.host.c_str(), &place.sin6_addr);
-    failed = ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&place), sizeof place);
-  } else {
-    sockaddr_in place{};
-    place.sin_family = AF_INET;
-    place.sin_port = htons(address.port);
-    ::inet_pton(AF_INET, address.host.c_str(), &place.sin_addr);
-    failed = ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&place), sizeof place);
-  }
+  const asio::ip::tcp::endpoint place(asio::ip::make_address(address.host), address.port);
+  int failed = ::bind(socket.get(), place.data(), static_cast<socklen_t>(place.size()));
   if (failed == 0) failed = ::listen(socket.get(), 1);
   if (failed == 0) return {};
   const int error = errno;

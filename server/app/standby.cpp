@@ -323,15 +323,8 @@ api::Response Standby::answer(const api::Request& request) const {
     return response;
   }
   if (wants_page(request)) {
-    api::Response page = standby_page({.active = view_.described,
-                                       .url = view_.url,
-                                       .is_database_lost = !faults_.database.empty(),
-                                       .is_blocked = !faults_.ports.empty(),
-                                       .lacks_agent = !faults_.agent.empty(),
-                                       .has_other_network = !faults_.network.empty(),
-                                       .has_other_settings = !faults_.settings.empty(),
-                                       .lacks_disk = !faults_.disk.empty()},
-                                      request);
+    api::Response page =
+        standby_page({.name = view_.described, .url = view_.url}, faults_, request);
     page.ends_connection = true;
     return page;
   }

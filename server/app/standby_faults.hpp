@@ -9,12 +9,13 @@ namespace dripline::app {
 /// What keeps a server that waits from taking over, and what it would lack then. Each is a text for
 /// the log, and empty while all is well.
 struct StandbyFaults {
-  std::string database;  ///< it cannot be looked at
-  std::string ports;     ///< UDP ports for gateways are in use: it cannot take over
-  std::string network;   ///< the active server's gateways would not find it: it cannot take over
-  std::string agent;     ///< without its MTConnect agent
-  std::string settings;  ///< differ from the active server's
-  std::string disk;      ///< full, or nearly
+  std::string database = {};  ///< it cannot be looked at
+  std::string ports = {};     ///< UDP ports for gateways are in use: it cannot take over
+  std::string network =
+      {};                  ///< the active server's gateways would not find it: it cannot take over
+  std::string agent = {};  ///< without its MTConnect agent
+  std::string settings = {};  ///< differ from the active server's
+  std::string disk = {};      ///< full, or nearly
   bool is_disk_full = false;
 
   bool is_well() const;

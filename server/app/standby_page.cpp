@@ -79,12 +79,12 @@ std::string link_to(const std::string& url) {
   return fmt::format("<a href=\"{0}/\">{0}</a>", text);
 }
 
-std::string place_of(const StandbyPageFacts& facts, const Words& words) {
-  const std::string name = escape_markup(facts.active);
-  if (facts.url.empty() && name.empty()) return std::string(words.unknown);
-  if (facts.url.empty()) return fmt::format("{} {}.", words.has_library, name);
-  if (name.empty()) return fmt::format("{} {}", words.has_library, link_to(facts.url));
-  return fmt::format("{} {} ({})", words.has_library, link_to(facts.url), name);
+std::string place_of(const ActiveServer& active, const Words& words) {
+  const std::string name = escape_markup(active.name);
+  if (active.url.empty() && name.empty()) return std::string(words.unknown);
+  if (active.url.empty()) return fmt::format("{} {}.", words.has_library, name);
+  if (name.empty()) return fmt::format("{} {}", words.has_library, link_to(active.url));
+  return fmt::format("{} {} ({})", words.has_library, link_to(active.url), name);
 }
 
 }  // namespace
@@ -96,7 +96,8 @@ bool wants_page(const api::Request& request) {
   return request.header("accept").find("text/html") != std::string::npos;
 }
 
-api::Response standby_page(const StandbyPageFacts& facts, const api::Request& request) {
+api::Response standby_page(const ActiveServer& active, const StandbyFaults& faults,
+                           const api::Request& request) {
   const Words& words = words_for(request.header("accept-language"));
   api::Response response;
   response.status = kPageStatus;
@@ -107,16 +108,16 @@ api::Response standby_page(const StandbyPageFacts& facts, const api::Request& re
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<meta http-equiv=\"refresh\" content=\"{}\"><title>Dripline</title>\n"
       "<h1>Dripline</h1>\n<p>{}</p>\n<p>{}</p>\n",
-      words.language, kReloadSeconds, words.waits, place_of(facts, words));
-  const auto add_if = [&response](bool is_so, std::string_view text) {
-    if (is_so) response.body += fmt::format("<p>{}</p>\n", text);
+      words.language, kReloadSeconds, words.waits, place_of(active, words));
+  const auto add = [&response](const std::string& fault, std::string_view text) {
+    if (!fault.empty()) response.body += fmt::format("<p>{}</p>\n", text);
   };
-  add_if(facts.is_database_lost, words.database_lost);
-  add_if(facts.is_blocked, words.blocked);
-  add_if(facts.has_other_network, words.other_network);
-  add_if(facts.lacks_agent, words.lacks_agent);
-  add_if(facts.has_other_settings, words.other_settings);
-  add_if(facts.lacks_disk, words.lacks_disk);
+  add(faults.database, words.database_lost);
+  add(faults.ports, words.blocked);
+  add(faults.network, words.other_network);
+  add(faults.agent, words.lacks_agent);
+  add(faults.settings, words.other_settings);
+  add(faults.disk, words.lacks_disk);
   response.body += fmt::format("<p>{}</p>\n</html>\n", words.reloads);
   response.headers.emplace_back("Cache-Control", "no-store");
   response.headers.emplace_back("Vary", "Accept, Accept-Language");

@@ -157,7 +157,7 @@ Reply PanelController::set_switch(const dds::Command& command) {
   if (name == "dry_run") return set_dry_run(is_on);
   if (name == "machine_lock" && parts_.dialect.switches.machine_lock)
     return set_machine_lock(is_on);
-  if (name == "test_run") return set_test_run(is_on);
+  if (name == "test_run") return set_between_runs("test run", &OperatorPanel::test_run, is_on);
   if (name == "handwheel" && machine.handwheel) {
     if (tables_.click_seconds.empty())
       return refuse(
@@ -230,21 +230,15 @@ Reply PanelController::set_dry_run(bool is_on) {
 Reply PanelController::set_machine_lock(bool is_on) {
   if (!parts_.machine.capabilities().places_axes)
     return refuse("no machine lock: the axes of this machine are moved by a device");
-  if (parts_.run.session)
-    return refuse(fmt::format("machine lock is changed only without a run: {} is active",
-                              parts_.run.session->run().run));
-  OperatorPanel panel = parts_.machine.panel();
-  panel.machine_lock = is_on;
-  parts_.machine.set_panel(panel);
-  return {};
+  return set_between_runs("machine lock", &OperatorPanel::machine_lock, is_on);
 }
 
-Reply PanelController::set_test_run(bool is_on) {
+Reply PanelController::set_between_runs(const char* what, bool OperatorPanel::*which, bool is_on) {
   if (parts_.run.session)
-    return refuse(fmt::format("test run is changed only without a run: {} is active",
+    return refuse(fmt::format("{} is changed only without a run: {} is active", what,
                               parts_.run.session->run().run));
   OperatorPanel panel = parts_.machine.panel();
-  panel.test_run = is_on;
+  panel.*which = is_on;
   parts_.machine.set_panel(panel);
   return {};
 }

@@ -49,7 +49,7 @@ class PanelController {
   Reply set_block_skip(int level, bool is_on);
   Reply set_dry_run(bool is_on);
   Reply set_machine_lock(bool is_on);
-  Reply set_test_run(bool is_on);
+  Reply set_between_runs(const char* what, bool machine::OperatorPanel::*which, bool is_on);
   Reply note(const std::string& name, bool is_on, const std::string& effect);
   std::uint16_t skip_levels() const;
   std::string known_switches() const;

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "gateway/line/port_transfer.hpp"
 #include "server/api/api.hpp"
 #include "server/api/bodies/port_bodies.hpp"
 #include "server/api/nullable_json.hpp"
@@ -76,6 +77,7 @@ json port_json(const ports::PortView& view) {
           {"rules", text_or_null(view.port.rules)},
           {"enabled", view.port.is_enabled},
           {"effective", settings_json(view.settings)},
+          {"sends_at_once", line::sends_at_once(view.settings)},
           {"open", view.is_open},
           {"fault", text_or_null(view.fault)},
           {"line", line_json(view.line)},

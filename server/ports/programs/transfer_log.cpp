@@ -48,6 +48,14 @@ std::string killed_words(const storage::PortTransfer& transfer) {
       transfer.passed, transfer.at_most, transfer.size);
 }
 
+std::string end_words(const storage::PortTransfer& transfer) {
+  const std::string numbers = transfer.direction == storage::TransferDirection::Send
+                                  ? fmt::format("{} of {} bytes", transfer.passed, transfer.size)
+                                  : fmt::format("{} bytes", transfer.passed);
+  return fmt::format("{}: {}, {}{}{}", to_string(transfer.state), transfer_names(transfer), numbers,
+                     transfer.reason.empty() ? "" : ": ", transfer.reason);
+}
+
 class GuardedText final : public line::TextSource {
  public:
   GuardedText(std::shared_ptr<line::TextSource> source, std::shared_ptr<TransferLog> log,
@@ -87,18 +95,13 @@ Result<void> TransferLog::give_up(Transfer transfer) {
   transfer.state = End::Interrupted;
   transfer.ended = parts_.clock.now();
   transfer.reason = killed_words(transfer);
-  const bool is_sent = transfer.direction == Direction::Send;
-  auto noted = parts_.audit.add(
-      {.time = *transfer.ended,
-       .who = {kServerAuthor, "", ""},
-       .action = is_sent ? "port.sent" : "port.received",
-       .subject = parts_.port,
-       .detail = fmt::format("interrupted: {}: {}", transfer_names(transfer), transfer.reason)});
+  auto noted = note_end(
+      transfer, fmt::format("interrupted: {}: {}", transfer_names(transfer), transfer.reason));
   if (!noted) return noted;
   if (auto saved = parts_.ports.save_transfer(transfer); !saved) return saved;
   process::log_warning("port={} id={} {}: {}", parts_.port, transfer.id, transfer_names(transfer),
                        transfer.reason);
-  is_upload_broken_ = is_upload_broken_ || !is_sent;
+  is_upload_broken_ = is_upload_broken_ || transfer.direction == Direction::Receive;
   entry(transfer.direction).latest = transfer;
   show(transfer.direction, transfer);
   return {};
@@ -226,27 +229,22 @@ void TransferLog::end(Direction direction, End state, const std::string& reason)
   entry.before.reset();
   show(direction, entry.latest);
   static_cast<void>(store(entry));
-  note_end(*entry.latest);
-}
-
-/// Of what has not gone through, and of all that was sent: a program that came has its own entry.
-void TransferLog::note_end(const Transfer& transfer) const {
-  const bool is_sent = transfer.direction == Direction::Send;
-  if (!is_sent && transfer.state == End::Completed) return;
-  const std::string numbers = is_sent
-                                  ? fmt::format("{} of {} bytes", transfer.passed, transfer.size)
-                                  : fmt::format("{} bytes", transfer.passed);
-  const auto noted = parts_.audit.add(
-      {.time = *transfer.ended,
-       .who = {kServerAuthor, "", ""},
-       .action = is_sent ? "port.sent" : "port.received",
-       .subject = parts_.port,
-       .detail = fmt::format("{}: {}, {}{}{}", to_string(transfer.state), transfer_names(transfer),
-                             numbers, transfer.reason.empty() ? "" : ": ", transfer.reason)});
-  if (!noted) {
+  const Transfer& transfer = *entry.latest;
+  // A program that came has its own entry.
+  if (direction == Direction::Receive && state == End::Completed) return;
+  if (auto noted = note_end(transfer, end_words(transfer)); !noted) {
     process::log_warning("port={} id={}: its end is not in the audit trail: {}", parts_.port,
                          transfer.id, noted.error().what);
   }
+}
+
+Result<void> TransferLog::note_end(const Transfer& transfer, const std::string& detail) const {
+  const bool is_sent = transfer.direction == Direction::Send;
+  return parts_.audit.add({.time = *transfer.ended,
+                           .who = {kServerAuthor, "", ""},
+                           .action = is_sent ? "port.sent" : "port.received",
+                           .subject = parts_.port,
+                           .detail = detail});
 }
 
 Result<void> TransferLog::begin_reception() {

@@ -74,7 +74,8 @@ class TransferLog {
   void show(Direction direction, const std::optional<Transfer>& transfer);
   Result<void> store(Entry& entry);
   void end(Direction direction, storage::TransferState state, const std::string& reason);
-  void note_end(const Transfer& transfer) const;
+  /// In the audit trail. Errors: those of the store.
+  Result<void> note_end(const Transfer& transfer, const std::string& detail) const;
   Result<void> give_up(Transfer transfer);
 
   const Parts parts_;

@@ -27,11 +27,6 @@ export function readNames(text: string): string[] {
   return text.split(/[\s,]+/).filter((name) => name !== '');
 }
 
-/** The control does not ask for its programs: the server sends at once. */
-function sendsAtOnce({ effective }: Port): boolean {
-  return ['none', 'xonxoff', 'rtscts'].includes(effective.flow ?? '') && effective.wait_for_xon !== 'yes';
-}
-
 export function PortTransfer({ port, onChanged }: { port: Port; onChanged: () => void }) {
   const t = texts().ports;
   const command = useCommand();
@@ -51,7 +46,7 @@ export function PortTransfer({ port, onChanged }: { port: Port; onChanged: () =>
           <button type="button" disabled={command.isBusy} title={t.receiveHint} onClick={() => void act(() => send('POST', pathOf('ports', port.name, 'receive')))}>{t.receive}</button>
           <button type="button" class="danger" disabled={command.isBusy} onClick={() => void act(() => send('DELETE', pathOf('ports', port.name, 'transfers')))}>{t.stop}</button>
         </p>
-        {sendsAtOnce(port) && (
+        {port.sends_at_once && (
           <p class="buttons">
             <SureButton label={t.confirmReset} question={t.confirmResetSure(port.machine)} disabled={command.isBusy}
               onSure={() => void act(() => send('POST', pathOf('ports', port.name, 'confirm-reset')))} />

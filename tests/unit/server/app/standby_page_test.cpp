@@ -34,20 +34,15 @@ TEST(StandbyPage, IsForBrowsersAndNotForTheApi) {
 }
 
 TEST(StandbyPage, SaysWhatItCouldNotTakeOver) {
-  const auto well = standby_page({.active = "dncd 812", .url = ""}, browser());
+  const auto well = standby_page({.name = "dncd 812"}, {}, browser());
   EXPECT_FALSE(holds(well, "MTConnect"));
   EXPECT_FALSE(holds(well, "UDP"));
-  EXPECT_TRUE(holds(standby_page({.active = "dncd 812", .url = "", .is_blocked = true}, browser()),
+  EXPECT_TRUE(holds(standby_page({.name = "dncd 812"}, {.ports = "used"}, browser()),
                     "it cannot take over"));
-  EXPECT_TRUE(
-      holds(standby_page({.active = "dncd 812", .url = "", .lacks_agent = true}, browser("de")),
-            "ohne den Agenten"));
-  const auto other = standby_page({.active = "dncd 812",
-                                   .url = "",
-                                   .has_other_network = true,
-                                   .has_other_settings = true,
-                                   .lacks_disk = true},
-                                  browser());
+  EXPECT_TRUE(holds(standby_page({.name = "dncd 812"}, {.agent = "used"}, browser("de")),
+                    "ohne den Agenten"));
+  const auto other = standby_page(
+      {.name = "dncd 812"}, {.network = "other", .settings = "other", .disk = "full"}, browser());
   EXPECT_TRUE(holds(other, "Its DDS settings are not those"));
   EXPECT_TRUE(holds(other, "see its log"));
   EXPECT_TRUE(holds(other, "nearly full"));
@@ -55,19 +50,19 @@ TEST(StandbyPage, SaysWhatItCouldNotTakeOver) {
 
 TEST(StandbyPage, LinksToTheServerThatHasTheLibraryAndLoadsItselfAgain) {
   const auto page = standby_page(
-      {.active = "dncd 812 on srv-1, /var/lib/dripline", .url = "https://srv-1:8430"}, browser());
+      {.name = "dncd 812 on srv-1, /var/lib/dripline", .url = "https://srv-1:8430"}, {}, browser());
   EXPECT_EQ(page.status, 503);
   EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
   EXPECT_TRUE(holds(page, "<a href=\"https://srv-1:8430/\">https://srv-1:8430</a> (dncd 812"));
   EXPECT_TRUE(holds(page, "http-equiv=\"refresh\""));
   EXPECT_TRUE(holds(page, "<html lang=\"en\">"));
   EXPECT_FALSE(holds(page, "database"));
-  EXPECT_TRUE(holds(standby_page({.active = "", .url = "", .is_database_lost = true}, browser()),
-                    "The database cannot be reached"));
+  EXPECT_TRUE(
+      holds(standby_page({}, {.database = "away"}, browser()), "The database cannot be reached"));
 }
 
 TEST(StandbyPage, IsProtectedAsTheOthersAreAndNotKept) {
-  const auto page = standby_page({}, browser());
+  const auto page = standby_page({}, {}, browser());
   const auto value = [&](std::string_view name) {
     const auto found = std::ranges::find_if(
         page.headers, [&](const auto& header) { return header.first == name; });
@@ -81,11 +76,11 @@ TEST(StandbyPage, IsProtectedAsTheOthersAreAndNotKept) {
 /// The database says what is in it.
 TEST(StandbyPage, TakesNoMarkupFromTheDatabase) {
   const auto page =
-      standby_page({.active = "<script>", .url = "javascript:alert(\"1\")"}, browser());
+      standby_page({.name = "<script>", .url = "javascript:alert(\"1\")"}, {}, browser());
   EXPECT_FALSE(holds(page, "<script>"));
   EXPECT_FALSE(holds(page, "href"));
   EXPECT_TRUE(holds(page, "&lt;script&gt;"));
-  EXPECT_FALSE(holds(standby_page({.active = "", .url = "http://a\"><b>"}, browser()), "<b>"));
+  EXPECT_FALSE(holds(standby_page({.url = "http://a\"><b>"}, {}, browser()), "<b>"));
 }
 
 struct LanguageCase {
@@ -96,7 +91,7 @@ struct LanguageCase {
 class StandbyPageLanguage : public testing::TestWithParam<LanguageCase> {};
 
 TEST_P(StandbyPageLanguage, IsTheOneThatTheBrowserPrefers) {
-  const auto page = standby_page({}, browser(GetParam().accepted));
+  const auto page = standby_page({}, {}, browser(GetParam().accepted));
   EXPECT_TRUE(holds(page, std::string("<html lang=\"") + GetParam().language)) << page.body;
 }
 
