@@ -5,7 +5,7 @@
 #include "clients/cli/measurements/export_formats.hpp"
 #include "clients/cli/measurements/measurement_text.hpp"
 #include "clients/cli/server/json_answer.hpp"
-#include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/runs/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
 namespace dripline::cli {

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "clients/cli/offline/mapped_file.hpp"
-#include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/runs/run_control.hpp"
 #include "clients/tools/measurement_files/aqdef.hpp"
 #include "clients/tools/measurement_files/text_files.hpp"
 

@@ -6,7 +6,7 @@
 #include "clients/cli/measurements/measurement_text.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
 #include "clients/cli/server/json_answer.hpp"
-#include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/runs/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/tools/report_template/report_interpreter.hpp"

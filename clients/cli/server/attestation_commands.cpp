@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "clients/cli/offline/mapped_file.hpp"
-#include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/runs/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "protocol/audit/attestation.hpp"

@@ -5,7 +5,7 @@
 #include "clients/cli/context.hpp"
 #include "clients/cli/server/kept_memory.hpp"
 #include "clients/cli/server/machine_text.hpp"
-#include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/runs/run_control.hpp"
 #include "clients/cli/setup/setup_changes.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"

@@ -7,7 +7,7 @@
 #include "clients/cli/measurements/archived_listing.hpp"
 #include "clients/cli/measurements/export_formats.hpp"
 #include "clients/cli/server/machine_text.hpp"
-#include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/runs/run_control.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"

@@ -1,4 +1,4 @@
-#include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/runs/run_control.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "clients/cli/server/run_restart.hpp"
+#include "clients/cli/server/runs/run_restart.hpp"
 
 #include <chrono>
 #include <memory>
@@ -6,9 +6,9 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/server/machine_text.hpp"
-#include "clients/cli/server/restart_text.hpp"
-#include "clients/cli/server/run_control.hpp"
-#include "clients/cli/server/run_follower.hpp"
+#include "clients/cli/server/runs/restart_text.hpp"
+#include "clients/cli/server/runs/run_control.hpp"
+#include "clients/cli/server/runs/run_follower.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 

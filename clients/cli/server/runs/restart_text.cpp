@@ -1,4 +1,4 @@
-#include "clients/cli/server/restart_text.hpp"
+#include "clients/cli/server/runs/restart_text.hpp"
 
 #include <fmt/format.h>
 

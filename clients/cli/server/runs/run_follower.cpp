@@ -1,4 +1,4 @@
-#include "clients/cli/server/run_follower.hpp"
+#include "clients/cli/server/runs/run_follower.hpp"
 
 #include <unistd.h>
 
