@@ -27,7 +27,8 @@ class LineAnswersTest : public SerialGatewayTest {
   }
   /// As the server does: the text in pieces, then the order.
   dds::LineData send(const std::string& text, const std::string& content,
-                     const std::string& id = "transfer-1", std::size_t piece = 1000) {
+                     const std::string& id = "transfer-1", std::size_t piece = 1000,
+                     LineAction action = LineAction::Send) {
     for (std::size_t at = 0; at < text.size(); at += piece) {
       auto part = request(LineAction::Text);
       part.name = id;
@@ -37,13 +38,17 @@ class LineAnswersTest : public SerialGatewayTest {
       part.bytes = {bytes.begin(), bytes.end()};
       if (const auto kept = ask(part); kept.status != LineResult::Done) return kept;
     }
-    auto order = request(LineAction::Send);
+    auto order = request(action);
     order.name = id;
     order.text = line::encode(
         line::TransferOrder{.content = content, .name = "O0077", .programs = {"O0077 revision 1"}});
     return ask(order);
   }
   dds::LineData send(const std::string& text) { return send(text, sha256(text).hex()); }
+  /// What the control asked for by a text of its own.
+  dds::LineData give(const std::string& text) {
+    return send(text, sha256(text).hex(), "answer-1", 1000, LineAction::Answer);
+  }
   dds::LineData stop(const std::string& reason) {
     auto stop = request(LineAction::Stop);
     stop.text = reason;
@@ -135,6 +140,34 @@ TEST_F(LineAnswersTest, StopsATransfer) {
   EXPECT_NE(transfer().reason.find("stopped by who"), std::string::npos);
   pass(2s);
   EXPECT_LT(wire_.sent.size(), program_.size());
+}
+
+/// It would take the next program for the answer's rest.
+TEST_F(LineAnswersTest, CutsOffNoAnswerThatTheControlIsReading) {
+  begin(kPlain);
+  ASSERT_EQ(give(program_).status, LineResult::Done);
+  pass(1s);
+  EXPECT_EQ(transfer().programs, "the answer O0077");
+  EXPECT_EQ(transfer().state, dds::LineTransferState::Sending);
+  order("G0 X1\n");
+  ASSERT_TRUE(result_);
+  EXPECT_FALSE(result_->accepted);
+  EXPECT_NE(result_->reason.find("its control reads what it asked for"), std::string::npos)
+      << result_->reason;
+  EXPECT_EQ(send(program_).status, LineResult::Refused);
+  ASSERT_TRUE(pass_until([&] { return !status().serial_line->transfer; }, 60s));
+  EXPECT_EQ(wire_.sent, program_);
+  EXPECT_EQ(send(program_).status, LineResult::Done);
+}
+
+TEST_F(LineAnswersTest, ShowsAnAnswerThatWasCutOff) {
+  begin(kPlain);
+  ASSERT_EQ(give(program_).status, LineResult::Done);
+  pass(1s);
+  EXPECT_EQ(stop("stopped by who").status, LineResult::Done);
+  ASSERT_TRUE(pass_until([&] { return transfer().state == dds::LineTransferState::Aborted; }, 5s));
+  EXPECT_EQ(transfer().programs, "the answer O0077");
+  EXPECT_GT(transfer().sent, 0u);
 }
 
 TEST_F(LineAnswersTest, SendsNoTextThatIsNotWhatTheServerHas) {
