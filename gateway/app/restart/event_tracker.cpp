@@ -53,6 +53,12 @@ void EventTracker::close(DeliveredState state, std::uint64_t last, OnOpen on_ope
   measured_block_ = 0;
 }
 
+void EventTracker::expect(Axis axis, double value) {
+  state_.position.set_raw(axis, value);
+  if (!state_.highest.has(axis) || value > state_.highest.raw(axis))
+    state_.highest.set_raw(axis, value);
+}
+
 void EventTracker::measure(std::uint64_t block, const Position& at) {
   measured_block_ = block;
   measured_from_ = at;

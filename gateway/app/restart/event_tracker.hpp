@@ -52,6 +52,8 @@ class EventTracker final : public interpreter::EventGate {
   void close(DeliveredState state, std::uint64_t last, OnOpen on_open);
   /// At once: nothing was executed before.
   void open_now();
+  /// The program relies on that axis being there, though it has not moved it.
+  void expect(interpreter::Axis axis, double value);
   bool is_closed() const { return is_closed_; }
 
   /// What is searched for while the gate is closed: the last block up to `until` that ends with

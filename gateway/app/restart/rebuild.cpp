@@ -47,6 +47,8 @@ Rebuild::State Rebuild::work() {
   switch (phase_) {
     case Phase::Programs:
       return state_ = find_programs();
+    case Phase::Tail:
+      return state_ = tail();
     case Phase::Search:
       return state_ = search();
     case Phase::Prove:
@@ -74,11 +76,28 @@ Rebuild::State Rebuild::find_programs() {
   if (!is_known) return State::NeedsText;
   if (const std::string changed = changed_program(); !changed.empty())
     return fail_with(fmt::format("changed since run {}: {}", parts_.plan.original.run, changed));
-  if (const auto target = parts_.plan.known_target()) {
-    target_ = *target;
-    return begin_proof();
-  }
-  return begin_search();
+  const auto target = parts_.plan.known_target();
+  target_ = target.value_or(0);
+  const bool is_earlier = !target || *target < parts_.plan.ending.executed.executed;
+  return is_earlier ? begin_tail() : begin_proof();
+}
+
+/// What is above the way back to an earlier place: clamps, and what else the program went over
+/// since. The newest checkpoint has it of all before.
+Rebuild::State Rebuild::begin_tail() {
+  if (!load(parts_.plan.checkpoints.back().block)) return State::Failed;
+  goal_ = parts_.plan.ending.executed.executed;
+  phase_ = Phase::Tail;
+  return State::Working;
+}
+
+Rebuild::State Rebuild::tail() {
+  const Step step = run_to(goal_, true);
+  if (step == Step::Failed) return State::Failed;
+  if (step == Step::NeedsText) return State::NeedsText;
+  if (step == Step::More) return State::Working;
+  highest_ = parts_.tracker.delivered().highest;
+  return parts_.plan.known_target() ? begin_proof() : begin_search();
 }
 
 /// Why the look-through comes to something else.
@@ -274,60 +293,6 @@ Rebuild::State Rebuild::advance() {
   if (step == Step::More && parts_.tracker.is_closed()) return State::Working;
   phase_ = Phase::Open;
   return State::Working;
-}
-
-/// From here on positions are those of the program, which leave its lengths out. Where the control
-/// has read ahead over another change of them, the approach is refused (AxisLengths).
-void Rebuild::take_lengths() {
-  if (!parts_.machine.capabilities().adds_lengths) return;
-  if (parts_.interpreter.origin().block <= target_)
-    lengths_ = machine::axis_lengths_of(parts_.interpreter.modes());
-  const machine::ToolLengths lengths = lengths_.value_or(parts_.machine.status().lengths);
-  report_.machine = machine::minus(report_.machine, lengths);
-  if (report_.stopped_at) report_.stopped_at = machine::minus(*report_.stopped_at, lengths);
-  parts_.begin_lengths(report_.machine, lengths);
-}
-
-void Rebuild::on_open(interpreter::EventSink& out) {
-  take_lengths();
-  report_.delivered = parts_.tracker.delivered();
-  report_.after = parts_.tracker.delivered().ended;
-  report_.has_ended = parts_.tracker.has_ended();
-  if (report_.has_ended) {
-    report_.delivered.spindle = {};
-    report_.delivered.flood = report_.delivered.mist = false;
-    return;
-  }
-  Approach approach;
-  approach.is_lathe = parts_.is_lathe;
-  approach.tool_axis = tool_axis_.value_or(interpreter::Axis::Z);
-  approach.from = report_.machine;
-  approach.to = report_.delivered.position;
-  approach.highest = report_.delivered.highest;
-  approach.feed = report_.delivered.feed;
-  approach.spindle_turns = report_.delivered.spindle.state != interpreter::SpindleState::Off;
-  report_.approach = approach.plan();
-  approach_fault_ = tilt_fault(approach);
-  if (!approach_fault_.empty()) return;
-  write_approach(report_.approach, report_.delivered, report_.after, out);
-  const auto& stopped_at = report_.stopped_at;
-  const bool is_end = report_.after.block == parts_.plan.ending.executed.executed;
-  parts_.tracker.measure(report_.after.block + 1,
-                         is_end && stopped_at ? *stopped_at : report_.machine);
-}
-
-/// The approach goes up and down along the tool axis. With a head that tilts the tool that is
-/// through the part.
-std::string Rebuild::tilt_fault(const Approach& approach) const {
-  const bool moves = !report_.approach.before.empty() || !report_.approach.after.empty();
-  const bool is_tilted_there = parts_.interpreter.tilts_tool(approach.to);
-  if (!moves || (!is_tilted_there && !parts_.interpreter.tilts_tool(approach.from))) return {};
-  return fmt::format(
-      "the tool is tilted {}, and an approach along {} would lead through the part: {}",
-      is_tilted_there ? "at the place" : "where the axes are",
-      interpreter::letter(approach.tool_axis),
-      is_tilted_there ? "restart at a block before the head tilts"
-                      : "retract it and bring the head back by MDI first");
 }
 
 /// Block by block over the place, until the end of its block has come through the look-ahead.

@@ -60,12 +60,13 @@ class Rebuild {
   static constexpr std::uint64_t kBlocksAtOnce = 4096;
 
  private:
-  enum class Phase { Programs, Search, Prove, Advance, Open, Preview };
+  enum class Phase { Programs, Tail, Search, Prove, Advance, Open, Preview };
   /// What a look-through has come to.
   enum class Step { Done, More, NeedsText, Ended, Failed };
 
   State fail_with(std::string fault);
   State find_programs();
+  State tail();
   std::string changed_program() const;
   std::string why_other() const;
   State search();
@@ -73,6 +74,7 @@ class Rebuild {
   State advance();
   State open();
   State preview();
+  State begin_tail();
   State begin_search();
   State begin_proof();
   State begin_advance();
@@ -81,7 +83,8 @@ class Rebuild {
   bool answer();
   void on_open(interpreter::EventSink& out);
   std::string tilt_fault(const Approach& approach) const;
-  void take_lengths();
+  machine::ToolLengths take_lengths();
+  void expect_unmoved(const machine::ToolLengths& lengths);
   Result<void> compare_ending() const;
 
   Parts parts_;
@@ -102,7 +105,8 @@ class Rebuild {
   std::optional<interpreter::Axis> tool_axis_;
   /// Of the last block that is not executed again.
   std::optional<machine::ToolLengths> lengths_;
-  std::string approach_fault_;  ///< why no approach was given to the machine
+  interpreter::Position highest_;  ///< up to the block executed last, for a place before it
+  std::string approach_fault_;     ///< why no approach was given to the machine
   std::size_t preview_steps_ = 0;
   RestartReport report_;
 };

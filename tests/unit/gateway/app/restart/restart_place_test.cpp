@@ -86,6 +86,44 @@ TEST_F(Restart, ContinuesWhereItWasExecutedLast) {
   }
 }
 
+/// A block that names where the axes are already moves none of them.
+TEST_F(Restart, BringsBackAnAxisThatTheProgramHadNotMovedYet) {
+  shop.push("P",
+            "O0541\nG21 G90 G00 Z50.\nN20 X0 Y0\nN30 G01 Z-2. F600\nN40 X20.\nN50 Y30.\nM00\n"
+            "N60 X40.\nG00 Z50.\nM30\n");
+  shop.restart_gateway();
+  abort_at_stop();  // at X20 Y30 Z-2
+  const auto report = restart("N40");
+  ASSERT_TRUE(report.is_object()) << shop.start_answer.reason;
+  EXPECT_EQ(report["position"], (nlohmann::json{{"X", 20}, {"Y", 30}, {"Z", -2}}));
+  EXPECT_EQ(report["continues_at"], (nlohmann::json{{"X", 0}, {"Y", 0}, {"Z", -2}}));
+  EXPECT_EQ(report["approach"][0]["to"], (nlohmann::json{{"Z", 50}}));
+  EXPECT_EQ(report["approach"][1]["to"], (nlohmann::json{{"X", 0}, {"Y", 0}}));
+  ASSERT_TRUE(shop.cycle_start());
+  ASSERT_TRUE(shop.run_until(
+      [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
+  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+  ASSERT_TRUE(shop.run_on());
+  run = shop.last_run();  // and again, after the place that it was brought to
+  const auto again = restart("N50");
+  ASSERT_TRUE(again.is_object()) << shop.start_answer.reason;
+  EXPECT_EQ(again["continues_at"], (nlohmann::json{{"X", 20}, {"Y", 0}, {"Z", -2}}));
+}
+
+TEST_F(Restart, GoesBackOverTheHighestPlaceSince) {
+  shop.push("P",
+            "O0542\nG21 G90 G00 Z5.\nN20 X20. Y5.\nN30 G01 Z-2. F600\nN40 X30.\nN50 G00 Z100.\n"
+            "N60 X200. Y10.\nN70 Z5.\nG01 Z-2.\nM00\nN80 X205.\nM30\n");
+  shop.restart_gateway();
+  for (const char* at : {"N40", "block=5"}) {
+    abort_at_stop();
+    const auto report = restart(at);
+    ASSERT_TRUE(report.is_object()) << shop.start_answer.reason;
+    EXPECT_EQ(report["approach"][0]["to"], (nlohmann::json{{"Z", 100}})) << report;
+    leave();
+  }
+}
+
 TEST_F(Restart, ContinuesAtAToolChange) {
   abort_at_stop();
   const auto report = restart("T2");

@@ -1,0 +1,84 @@
+// From where the axes are to the place: what is known of it when the gate opens.
+#include <cmath>
+
+#include "gateway/app/restart/rebuild.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+constexpr double kSame = 1e-9;  ///< millimeters or degrees
+
+}  // namespace
+
+/// From here on positions are those of the program, which leave its lengths out. Where the control
+/// has read ahead over another change of them, the approach is refused (AxisLengths).
+machine::ToolLengths Rebuild::take_lengths() {
+  if (!parts_.machine.capabilities().adds_lengths) return {};
+  if (parts_.interpreter.origin().block <= target_)
+    lengths_ = machine::axis_lengths_of(parts_.interpreter.modes());
+  const machine::ToolLengths lengths = lengths_.value_or(parts_.machine.status().lengths);
+  report_.machine = machine::minus(report_.machine, lengths);
+  if (report_.stopped_at) report_.stopped_at = machine::minus(*report_.stopped_at, lengths);
+  parts_.begin_lengths(report_.machine, lengths);
+  return lengths;
+}
+
+/// An axis that the program has not moved before the place is where it was when the run began: the
+/// first block may name only where it was already.
+void Rebuild::expect_unmoved(const machine::ToolLengths& lengths) {
+  const interpreter::Position begun = machine::minus(parts_.plan.conditions.begun_at, lengths);
+  for (const interpreter::Axis axis : interpreter::kAllAxes) {
+    const bool is_there = std::fabs(begun.raw(axis) - report_.machine.raw(axis)) <= kSame;
+    if (is_there || parts_.tracker.delivered().position.has(axis)) continue;
+    parts_.tracker.expect(axis, begun.raw(axis));
+  }
+}
+
+void Rebuild::on_open(interpreter::EventSink& out) {
+  const machine::ToolLengths lengths = take_lengths();
+  if (!parts_.tracker.has_ended()) expect_unmoved(lengths);
+  report_.delivered = parts_.tracker.delivered();
+  report_.after = parts_.tracker.delivered().ended;
+  report_.has_ended = parts_.tracker.has_ended();
+  if (report_.has_ended) {
+    report_.delivered.spindle = {};
+    report_.delivered.flood = report_.delivered.mist = false;
+    return;
+  }
+  Approach approach;
+  approach.is_lathe = parts_.is_lathe;
+  approach.tool_axis = tool_axis_.value_or(interpreter::Axis::Z);
+  approach.from = report_.machine;
+  approach.to = report_.delivered.position;
+  approach.highest = report_.delivered.highest;
+  const interpreter::Axis up = approach.tool_axis;
+  const bool is_higher = highest_.has(up) &&
+                         (!approach.highest.has(up) || highest_.raw(up) > approach.highest.raw(up));
+  if (is_higher) approach.highest.set_raw(up, highest_.raw(up));
+  approach.feed = report_.delivered.feed;
+  approach.spindle_turns = report_.delivered.spindle.state != interpreter::SpindleState::Off;
+  report_.approach = approach.plan();
+  approach_fault_ = tilt_fault(approach);
+  if (!approach_fault_.empty()) return;
+  write_approach(report_.approach, report_.delivered, report_.after, out);
+  const auto& stopped_at = report_.stopped_at;
+  const bool is_end = report_.after.block == parts_.plan.ending.executed.executed;
+  parts_.tracker.measure(report_.after.block + 1,
+                         is_end && stopped_at ? *stopped_at : report_.machine);
+}
+
+/// The approach goes up and down along the tool axis. With a head that tilts the tool that is
+/// through the part.
+std::string Rebuild::tilt_fault(const Approach& approach) const {
+  const bool moves = !report_.approach.before.empty() || !report_.approach.after.empty();
+  const bool is_tilted_there = parts_.interpreter.tilts_tool(approach.to);
+  if (!moves || (!is_tilted_there && !parts_.interpreter.tilts_tool(approach.from))) return {};
+  return fmt::format(
+      "the tool is tilted {}, and an approach along {} would lead through the part: {}",
+      is_tilted_there ? "at the place" : "where the axes are",
+      interpreter::letter(approach.tool_axis),
+      is_tilted_there ? "restart at a block before the head tilts"
+                      : "retract it and bring the head back by MDI first");
+}
+
+}  // namespace dripline::gateway
