@@ -30,6 +30,16 @@ Feed Approach::plunge_feed() const {
   return is_usable ? *feed : Feed::per_minute(Length::mm(kPlungeFeedPerMinute));
 }
 
+bool Approach::differs(Axis axis) const {
+  return to.has(axis) && std::fabs(to.raw(axis) - from.raw(axis)) > kSame;
+}
+
+bool Approach::is_only_x_elsewhere() const {
+  for (const Axis axis : kAllAxes)
+    if (axis != Axis::X && differs(axis)) return false;
+  return differs(Axis::X);
+}
+
 Approach::Plan Approach::plan() const {
   Plan plan;
   const bool has_tool_axis = to.has(tool_axis);
@@ -42,10 +52,14 @@ Approach::Plan Approach::plan() const {
   for (const Axis axis : kAllAxes) {
     if (axis == tool_axis || !to.has(axis)) continue;
     others.set_raw(axis, to.raw(axis));
-    is_elsewhere |= std::fabs(to.raw(axis) - from.raw(axis)) > kSame;
+    is_elsewhere |= differs(axis);
   }
   const bool is_there = !is_elsewhere && std::fabs(target - now) <= kSame;
   if (is_there) return plan;
+  if (is_lathe && is_only_x_elsewhere()) {
+    plan.after.push_back({along(Axis::X, to.raw(Axis::X)), plunge_feed()});
+    return plan;
+  }
   if (has_tool_axis && plan.clearance - now > kSame)
     plan.before.push_back({along(tool_axis, plan.clearance), {}});
   if (is_elsewhere) plan.before.push_back({others, {}});

@@ -19,7 +19,9 @@ struct ApproachMove {
 /// rapidly to kPlunge above the place, the rest at the feed of the program.
 ///
 /// A lathe's Z is its tool axis here, as it is for the Centurion's own search (manual: RUN and
-/// VERIFY): it retracts in front of the part, and its path back is a feed from the clearance on.
+/// VERIFY): it retracts in front of the part, and its path back is a feed from the clearance on. A
+/// tool that has only gone in or out along X goes straight back along it: in a groove, the way
+/// along Z is through its wall.
 struct Approach {
   bool is_lathe = false;
   interpreter::Axis tool_axis = interpreter::Axis::Z;
@@ -41,6 +43,8 @@ struct Approach {
 
  private:
   Feed plunge_feed() const;
+  bool differs(interpreter::Axis axis) const;
+  bool is_only_x_elsewhere() const;
 };
 
 /// What a restart gives to the machine before the program's own events: tool, the moves, spindle

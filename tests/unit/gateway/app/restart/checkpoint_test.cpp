@@ -272,6 +272,25 @@ TEST(Approach, FeedsAllTheWayOnALathe) {
   EXPECT_TRUE(approach.plan().after[0].feed);
 }
 
+/// Along Z the way is through the wall of the groove.
+TEST(Approach, GoesStraightBackOutOfAGrooveOnALathe) {
+  Approach approach = mill();
+  approach.is_lathe = true;
+  approach.to = at(30, 0, -20);
+  approach.from = at(19.2, 0, -20);
+  const auto plan = approach.plan();
+  EXPECT_TRUE(plan.before.empty());
+  ASSERT_EQ(plan.after.size(), 1u);
+  EXPECT_EQ(plan.after[0].to.raw(Axis::X), 30);
+  EXPECT_FALSE(plan.after[0].to.has(Axis::Z));
+  EXPECT_TRUE(plan.after[0].feed);
+  approach.from = at(19.2, 0, -21);
+  EXPECT_TRUE(approach.plan().before.front().to.has(Axis::Z)) << "else in front of the part first";
+  approach.is_lathe = false;
+  approach.from = at(19.2, 0, -20);
+  EXPECT_TRUE(approach.plan().before.front().to.has(Axis::Z)) << "a mill goes up";
+}
+
 // A two-axis mill: the quill is the operator's.
 TEST(Approach, LeavesAnAxisThatTheProgramHasNotMoved) {
   Approach approach = mill();
