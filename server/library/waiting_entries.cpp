@@ -102,7 +102,7 @@ std::vector<WaitingEntries::Kept> WaitingEntries::read() const {
   std::error_code ec;
   for (const auto& file : fs::directory_iterator(folder_, ec)) {
     std::string name = file.path().filename().string();
-    if (name.ends_with(kUnfinished)) drop(name);  // nobody was told that it is kept
+    if (name.ends_with(kUnfinished)) drop(name);  // it was cut off before its call returned
     if (name.ends_with(kEnding)) names.push_back(std::move(name));
   }
   std::ranges::sort(names);

@@ -20,7 +20,7 @@ struct ApproachMove {
 ///
 /// A lathe's Z is its tool axis here, as it is for the Centurion's own search (manual: RUN and
 /// VERIFY): it retracts in front of the part, and its path back is a feed from the clearance on. A
-/// tool that has only gone in or out along X goes straight back along it: in a groove, the way
+/// tool that has only gone in or out along X goes straight back along it: in a groove, the path
 /// along Z is through its wall.
 struct Approach {
   bool is_lathe = false;

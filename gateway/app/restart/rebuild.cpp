@@ -82,7 +82,7 @@ Rebuild::State Rebuild::find_programs() {
   return is_earlier ? begin_tail() : begin_proof();
 }
 
-/// What is above the way back to an earlier place: clamps, and what else the program went over
+/// What the path back to an earlier place goes over: clamps, and what else the program went over
 /// since. The newest checkpoint has it of all before.
 Rebuild::State Rebuild::begin_tail() {
   if (!load(parts_.plan.checkpoints.back().block)) return State::Failed;

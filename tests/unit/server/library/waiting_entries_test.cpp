@@ -53,7 +53,7 @@ class WaitingEntriesTest : public testing::Test {
     return {.who = {"olga", "phone", "10.0.0.7"},
             .action = "run.abort",
             .subject = run,
-            .detail = "smoke \"behind\" the door\n\xff"};
+            .detail = "smoke \"near\" the door\n\xff"};
   }
   std::filesystem::path path() const { return folder_.path() / "audit-waiting"; }
   std::size_t files() const {
@@ -93,7 +93,7 @@ TEST_F(WaitingEntriesTest, AreWrittenByTheNextLifeInTheirOrderAndOnce) {
   EXPECT_EQ(first.who.credential, "phone");
   EXPECT_EQ(first.who.address, "10.0.0.7");
   EXPECT_EQ(first.action, "run.abort");
-  EXPECT_EQ(first.detail, "smoke \"behind\" the door\n\xef\xbf\xbd") << "no text of ours is bytes";
+  EXPECT_EQ(first.detail, "smoke \"near\" the door\n\xef\xbf\xbd") << "no text of ours is bytes";
   EXPECT_LT(life.clock.now() - first.time, 60s);
   life.trail.write_kept();
   EXPECT_EQ(entries().size(), 5u);
@@ -133,7 +133,7 @@ TEST_F(WaitingEntriesTest, AreTheServersAloneAndSkipWhatIsNoEntry) {
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(read.front().entry.time, UtcTime(5us));
   EXPECT_EQ(read.front().entry.action, "run.hold");
-  EXPECT_TRUE(std::filesystem::exists(path() / "1-cut.json")) << "somebody may read it";
+  EXPECT_TRUE(std::filesystem::exists(path() / "1-cut.json")) << "a person may read it";
   EXPECT_FALSE(std::filesystem::exists(path() / "2.json.new"));
 }
 

@@ -272,7 +272,7 @@ TEST(Approach, FeedsAllTheWayOnALathe) {
   EXPECT_TRUE(approach.plan().after[0].feed);
 }
 
-/// Along Z the way is through the wall of the groove.
+/// Along Z it would go through the wall of the groove.
 TEST(Approach, GoesStraightBackOutOfAGrooveOnALathe) {
   Approach approach = mill();
   approach.is_lathe = true;
