@@ -20,6 +20,8 @@ constexpr std::uint32_t kFormat = 3;
 constexpr std::uint32_t kAnswerFormat = 4;
 /// Of conditions, which name changes of switches; kFormat: without.
 constexpr std::uint32_t kConditionsFormat = 5;
+/// Of endings, which say whether the tool stopped in a thread; kFormat: without.
+constexpr std::uint32_t kEndingFormat = 6;
 
 /// What bytes are, and of what.
 struct Label {
@@ -102,6 +104,16 @@ struct FormerConditions {
   std::string restart_of;
 };
 
+/// Of kFormat.
+struct FormerEnding {
+  report::Progress executed;
+  std::int64_t time_us = 0;
+  bool is_completed = false;
+  std::optional<interpreter::Position> stopped_at;
+  std::string memory;
+  InHand in_hand;
+};
+
 std::string numbered(std::string_view run, std::uint64_t number) {
   return fmt::format("{} {}", run, number);
 }
@@ -120,6 +132,9 @@ Bytes sealed_checkpoint(std::string_view run, Bytes content) {
 }
 Bytes sealed_conditions(std::string_view run, Bytes content) {
   return with_seal({kConditions, run}, std::move(content));
+}
+Bytes sealed_ending(std::string_view run, Bytes content) {
+  return with_seal({kEnding, run}, std::move(content));
 }
 Bytes sealed_answer(std::string_view run, std::uint64_t number, Bytes content) {
   return with_seal({kAnswer, numbered(run, number)}, std::move(content));
@@ -144,10 +159,19 @@ Result<Conditions> decode_conditions(std::string_view run, const Bytes& bytes) {
 }
 
 Bytes encode(std::string_view run, RunEnding ending) {
-  return sealed({kEnding, run}, ending);
+  return sealed({kEnding, run}, ending, kEndingFormat);
 }
 Result<RunEnding> decode_ending(std::string_view run, const Bytes& bytes) {
-  return opened<RunEnding>({kEnding, run}, bytes);
+  auto ending = opened<RunEnding>({kEnding, run}, bytes, kEndingFormat);
+  if (ending || ending.error().code != Errc::Unsupported) return ending;
+  auto former = opened<FormerEnding>({kEnding, run}, bytes);
+  if (!former) return ending;
+  return RunEnding{.executed = former->executed,
+                   .time_us = former->time_us,
+                   .is_completed = former->is_completed,
+                   .stopped_at = former->stopped_at,
+                   .memory = std::move(former->memory),
+                   .in_hand = std::move(former->in_hand)};
 }
 
 Bytes encode(std::string_view run, std::uint64_t number, interpreter::Answer answer) {

@@ -62,11 +62,15 @@ struct RunEnding {
   bool is_completed = false;
   /// Where the axes came to rest; absent after a kill, when it is not known.
   std::optional<interpreter::Position> stopped_at;
-  std::string memory;  ///< digest of what the control had kept
-  InHand in_hand;      ///< what may have been executed besides, or a part of it
+  std::string memory;         ///< digest of what the control had kept
+  InHand in_hand;             ///< what may have been executed besides, or a part of it
+  bool is_in_thread = false;  ///< it stopped in a thread or a tapped hole; false after a kill
 };
 report::Bytes encode(std::string_view run, RunEnding ending);
+/// Those that were kept without `is_in_thread` are read, too.
 Result<RunEnding> decode_ending(std::string_view run, const report::Bytes& bytes);
+/// For tests: any bytes with the seal of an ending.
+report::Bytes sealed_ending(std::string_view run, report::Bytes content);
 
 /// The `number`th answer that the interpreter of a run was given. Times that were kept without
 /// milliseconds are read, too.

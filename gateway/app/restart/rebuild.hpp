@@ -83,6 +83,8 @@ class Rebuild {
   bool answer();
   void on_open(interpreter::EventSink& out);
   std::string tilt_fault(const Approach& approach) const;
+  std::string thread_fault() const;
+  bool has_approach() const;
   machine::ToolLengths take_lengths();
   void expect_unmoved(const machine::ToolLengths& lengths);
   Result<void> compare_ending() const;

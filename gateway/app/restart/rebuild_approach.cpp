@@ -6,7 +6,8 @@
 namespace dripline::gateway {
 namespace {
 
-constexpr double kSame = 1e-9;  ///< millimeters or degrees
+constexpr double kSame = 1e-9;   ///< millimeters or degrees
+constexpr double kMoved = 0.05;  ///< more than axes settle after a stop
 
 }  // namespace
 
@@ -59,6 +60,7 @@ void Rebuild::on_open(interpreter::EventSink& out) {
   approach.spindle_turns = report_.delivered.spindle.state != interpreter::SpindleState::Off;
   report_.approach = approach.plan();
   approach_fault_ = tilt_fault(approach);
+  if (approach_fault_.empty()) approach_fault_ = thread_fault();
   if (!approach_fault_.empty()) return;
   write_approach(report_.approach, report_.delivered, report_.after, out);
   const auto& stopped_at = report_.stopped_at;
@@ -67,12 +69,27 @@ void Rebuild::on_open(interpreter::EventSink& out) {
                          is_end && stopped_at ? *stopped_at : report_.machine);
 }
 
+bool Rebuild::has_approach() const {
+  return !report_.approach.before.empty() || !report_.approach.after.empty();
+}
+
+/// A tap, or a tool in a thread, leaves it only along the thread and with the spindle.
+std::string Rebuild::thread_fault() const {
+  if (!parts_.plan.ending.is_in_thread || !report_.stopped_at || !has_approach()) return {};
+  for (const interpreter::Axis axis : interpreter::kAllAxes) {
+    const double moved = report_.machine.raw(axis) - report_.stopped_at->raw(axis);
+    if (std::fabs(moved) > kMoved) return {};  // it was retracted
+  }
+  return "the tool stopped in a thread, and the approach would pull it out: retract it at the "
+         "machine first, a tap with its spindle reversed";
+}
+
 /// The approach goes up and down along the tool axis. With a head that tilts the tool that is
 /// through the part.
 std::string Rebuild::tilt_fault(const Approach& approach) const {
-  const bool moves = !report_.approach.before.empty() || !report_.approach.after.empty();
   const bool is_tilted_there = parts_.interpreter.tilts_tool(approach.to);
-  if (!moves || (!is_tilted_there && !parts_.interpreter.tilts_tool(approach.from))) return {};
+  if (!has_approach() || (!is_tilted_there && !parts_.interpreter.tilts_tool(approach.from)))
+    return {};
   return fmt::format(
       "the tool is tilted {}, and an approach along {} would lead through the part: {}",
       is_tilted_there ? "at the place" : "where the axes are",

@@ -124,7 +124,10 @@ void RunLoop::stage_ending(dds::RunOutcome outcome) {
   ending.executed = parts_.recorder.reached();
   ending.time_us = parts_.clock.now().time_since_epoch().count();
   ending.is_completed = is_completed;
-  ending.stopped_at = parts_.machine.status().axes();
+  const machine::MachineStatus status = parts_.machine.status();
+  ending.stopped_at = status.axes();
+  ending.is_in_thread = !is_completed && status.motion == machine::MotionKind::Thread &&
+                        status.origin.block > ending.executed.executed;
   ending.memory = parts_.memory.digest();
   const std::string& run = session.run().run;
   if (!is_completed) ending.in_hand = in_hand(run, ending.executed.executed);

@@ -147,6 +147,37 @@ TEST(CheckpointStore, OutlivesItsProcessAndKeepsTheLastRuns) {
   EXPECT_EQ(report::CheckpointStore::answers(outbox.database(), "run-2", 0).value().size(), 1u);
 }
 
+/// As they were written before threads were among them.
+struct FormerEnding {
+  report::Progress executed;
+  std::int64_t time_us = 0;
+  bool is_completed = false;
+  std::optional<Position> stopped_at;
+  std::string memory;
+  InHand in_hand;
+};
+
+TEST(RunEnding, OfTheFormerFormatReadsBack) {
+  FormerEnding former;
+  former.executed.executed = 7;
+  former.time_us = 5;
+  former.stopped_at.emplace();
+  former.stopped_at->set(Axis::X, Length::mm(3));
+  former.memory = "m";
+  std::uint32_t format = 3;
+  interpreter::language::StateWriter writer;
+  writer(format, former);
+  const auto read = decode_ending("run-1", sealed_ending("run-1", writer.take()));
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->executed.executed, 7u);
+  EXPECT_EQ(read->stopped_at->raw(Axis::X), 3);
+  EXPECT_EQ(read->memory, "m");
+  EXPECT_FALSE(read->is_in_thread);
+  RunEnding now = *read;
+  now.is_in_thread = true;
+  EXPECT_TRUE(decode_ending("run-1", encode("run-1", now))->is_in_thread);
+}
+
 /// As they were written before changes of switches were among them.
 struct FormerConditions {
   std::string machine, server_setup, gateway_setup;

@@ -110,6 +110,23 @@ TEST_F(Restart, BringsBackAnAxisThatTheProgramHadNotMovedYet) {
   EXPECT_EQ(again["continues_at"], (nlohmann::json{{"X", 20}, {"Y", 0}, {"Z", -2}}));
 }
 
+/// A rapid up would tear the tap off.
+TEST_F(Restart, LeavesATapInItsHoleToTheOperator) {
+  shop.push("P",
+            "O0543\nG21 G90 G00 Z50. M03 S200\nN30 X10. Y5.\nN40 G84 Z-20. R5. F150\nN50 G80\n"
+            "M30\n");
+  shop.restart_gateway();
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  run = shop.last_run();
+  ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->position[2] < 0; }));
+  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+  ASSERT_TRUE(shop.run_on());
+  EXPECT_TRUE(restart().is_null());
+  EXPECT_THAT(shop.last_end().reason, HasSubstr("the tool stopped in a thread"));
+  shop.restart_gateway();  // its axes are elsewhere then: it was retracted
+  EXPECT_TRUE(restart().is_object()) << shop.last_end().reason;
+}
+
 TEST_F(Restart, GoesBackOverTheHighestPlaceSince) {
   shop.push("P",
             "O0542\nG21 G90 G00 Z5.\nN20 X20. Y5.\nN30 G01 Z-2. F600\nN40 X30.\nN50 G00 Z100.\n"
