@@ -42,6 +42,7 @@ struct MachineStatus {
   std::size_t queued = 0;              ///< actions waiting
   interpreter::StopKind stopped_at{};  ///< in ProgramStop
   MotionKind motion{};                 ///< of the present move, or the last one
+  bool is_tapping = false;             ///< that is one of a tapping cycle, to the bottom or back
   bool is_feed_limited = false;        ///< the move is slower than feed and override ask for
   Seconds dwell_left{0};
   std::optional<int> tool, next_tool, tool_offset;  ///< as far as programs have named them

@@ -126,8 +126,9 @@ void RunLoop::stage_ending(dds::RunOutcome outcome) {
   ending.is_completed = is_completed;
   const machine::MachineStatus status = parts_.machine.status();
   ending.stopped_at = status.axes();
-  ending.is_in_thread = !is_completed && status.motion == machine::MotionKind::Thread &&
-                        status.origin.block > ending.executed.executed;
+  const bool cuts_thread = status.motion == machine::MotionKind::Thread || status.is_tapping;
+  ending.is_in_thread =
+      !is_completed && cuts_thread && status.origin.block > ending.executed.executed;
   ending.memory = parts_.memory.digest();
   const std::string& run = session.run().run;
   if (!is_completed) ending.in_hand = in_hand(run, ending.executed.executed);

@@ -286,6 +286,7 @@ MachineStatus Executor::status() const {
   const double turn = spindle_.rpm(x, in_force.spindle_override);
   MachineStatus status = shown_;
   status.state = state();
+  status.is_tapping = lock_.is_tapping;
   status.position = to_position(now, axes_);
   status.target = to_position(motion_.is_active() ? motion_.move().path.to : at_, axes_);
   status.feed_per_minute = is_moving() ? speed() * 60 : 0;
