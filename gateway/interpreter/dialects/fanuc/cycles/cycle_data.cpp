@@ -14,11 +14,29 @@ namespace {
 /// Feeds of one block, so that a step never delivers without bound.
 constexpr double kMaxPecks = 100'000;
 
+bool calls_or_returns(const Block& block) {
+  return std::any_of(block.m.begin(), block.m.begin() + block.parts.m_count,
+                     [](int code) { return code == 98 || code == 99 || code == 198; });
+}
+
 /// Its P is that of G54.1, or of M98 and its like.
 bool has_other_p(const Block& block) {
-  return block.parts.p_is_work_system ||
-         std::any_of(block.m.begin(), block.m.begin() + block.parts.m_count,
-                     [](int code) { return code == 98 || code == 99 || code == 198; });
+  return block.parts.p_is_work_system || calls_or_returns(block);
+}
+
+/// K or L that is not the model's address of repeats, or comes beside it: a row of holes that
+/// becomes a single one, or of another length.
+bool check_other_repeats(Run& run, AddressSet taken) {
+  const Words& words = run.block.words;
+  AddressSet others = words.present() & run.ledger.left() & set_of(K, L) & ~taken;
+  if (calls_or_returns(run.block)) others &= ~set_of(L);
+  if (others == 0) return true;
+  const Address other = (others & set_of(L)) != 0 ? L : K;
+  const std::string by = taken != 0 ? fmt::format("beside {}", other == L ? 'K' : 'L')
+                                    : fmt::format("a cycle is repeated by {} here (repeat_address)",
+                                                  other == L ? 'K' : 'L');
+  return run.fail(ErrorCode::IllegalAddress, words.column(other),
+                  fmt::format("{}{:g}: {}", letter(other), run.whole(words[other]), by));
 }
 
 }  // namespace
@@ -43,6 +61,7 @@ bool read_repeats(Run& run, double& repeats) {
   const bool by_k = by != RepeatAddress::L && words.has(K);
   const bool by_l = by != RepeatAddress::K && words.has(L);
   repeats = 1;
+  if (!check_other_repeats(run, by_k ? set_of(K) : by_l ? set_of(L) : 0)) return false;
   if (!by_k && !by_l) return true;
   const Word& word = words[by_k ? K : L];
   run.ledger.take(set_of(by_k ? K : L));
