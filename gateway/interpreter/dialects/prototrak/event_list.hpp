@@ -98,6 +98,8 @@ struct Fault {
       "(.MX2, .MX3, .PT4): that form is not published; give the program in the maker's CAM text "
       "form"};
   static constexpr DiagnosticRow NoStartEvent{"PTK0113", "the program has no such event"};
+  static constexpr DiagnosticRow StartInChain{
+      "PTK0114", "a start here would lose how the events of its chain are joined"};
   static constexpr DiagnosticRow ArcRadii{"PTK0201", "radii at begin and end of the arc differ"};
   static constexpr DiagnosticRow RepeatRange{"PTK0202", "bad repeat range"};
   static constexpr DiagnosticRow Join{"PTK0203", "conrad or offset join is impossible"};

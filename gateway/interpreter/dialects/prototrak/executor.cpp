@@ -41,6 +41,17 @@ void Executor::begin() {
   state_.frames.push_back(whole);
 }
 
+std::uint16_t Executor::first_to_begin_with(std::uint16_t number) const {
+  for (; number > 1; --number) {
+    const ProgramEvent& previous = program_.events[number - 2U];
+    const ProgramEvent& event = program_.events[number - 1U];
+    if (!previous.is_cut() || !is_connected(previous, event)) break;
+    const bool is_beside = previous.side != ToolSide::Center && previous.diameter > 0;
+    if (!is_beside && previous.conrad <= 0) break;
+  }
+  return number;
+}
+
 Result<void> Executor::restore(ExecutionState state, const std::vector<std::byte>& path) {
   if (const auto done = path_.restore(path); !done) return done;
   state_ = std::move(state);

@@ -51,6 +51,9 @@ class Executor {
            const Position& start);
 
   void begin();
+  /// The event itself, or the nearest before it without which a run would cut another contour: a
+  /// join beside the edge and a conrad come from both of the events that they connect.
+  std::uint16_t first_to_begin_with(std::uint16_t number) const;
   /// One event. False: an alarm was made (see `alarm`), or the program is done (see `is_done`).
   bool step();
   bool is_done() const { return state_.frames.empty(); }

@@ -118,8 +118,7 @@ StepState ProtoTrakInterpreter::receive() {
     if (state == Receiver::State::Failed) return refuse_program();
     if (state == Receiver::State::Receiving) continue;
     deliver_header();
-    if (options_.start_event > program_.events.size() && options_.names_start)
-      return refuse_start();
+    if (options_.names_start && !can_begin()) return refuse_start();
     executor_.begin();
     if (options_.names_start) announce_start();
     phase_ = Phase::Running;
@@ -152,12 +151,28 @@ StepState ProtoTrakInterpreter::refuse_program() {
   return StepState::Alarmed;
 }
 
-/// The first that the program has not.
+/// At the event that the start names.
+bool ProtoTrakInterpreter::can_begin() const {
+  return options_.start_event <= program_.events.size() &&
+         executor_.first_to_begin_with(options_.start_event) == options_.start_event;
+}
+
 StepState ProtoTrakInterpreter::refuse_start() {
-  const std::string detail =
-      fmt::format("a start at event {}, it has {}", options_.start_event, program_.events.size());
-  sink_.on_alarm({received_at_, diagnostic(Fault::NoStartEvent, detail, 0, 0)});
+  const std::uint16_t number = options_.start_event;
   phase_ = Phase::Alarmed;
+  if (number > program_.events.size()) {
+    const std::string detail =
+        fmt::format("a start at event {}, it has {}", number, program_.events.size());
+    sink_.on_alarm({received_at_, diagnostic(Fault::NoStartEvent, detail, 0, 0)});
+    return StepState::Alarmed;
+  }
+  const ProgramEvent& event = program_.events[number - 1U];
+  received_at_ = {0, event.offset, event.line, event.sequence, kMainProgram};
+  const std::string detail = fmt::format(
+      "event {} is connected to event {} with a tool offset or a conrad; begin at "
+      "event {}",
+      number, number - 1, executor_.first_to_begin_with(number));
+  sink_.on_alarm({received_at_, diagnostic(Fault::StartInChain, detail, event.line)});
   return StepState::Alarmed;
 }
 

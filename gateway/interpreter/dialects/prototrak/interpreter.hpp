@@ -30,6 +30,7 @@ class ProtoTrakInterpreter final : public Interpreter {
   StepState run(std::uint64_t max_blocks);
   void deliver_header();
   StepState refuse_program();
+  bool can_begin() const;
   StepState refuse_start();
   void announce_start();
   StepState end();

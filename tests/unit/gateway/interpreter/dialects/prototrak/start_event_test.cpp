@@ -9,6 +9,7 @@
 namespace dripline::interpreter {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -50,6 +51,45 @@ TEST(StartEvent, IsRefusedWhereThereIsNone) {
     const auto setup = parse_setup(std::string("[control]\nstart_at = \"") + place + "\"\n");
     EXPECT_FALSE((*find_dialect("prototrak-plus"))->make(*setup, source, sink)) << place;
   }
+}
+
+/// A square of connected cuts from the left, and a cut on the centerline that follows.
+constexpr std::string_view kChain =
+    "PN1 G21 ;\nG100 X10.A Y10.A T1 ;\n"
+    "G101 XB10.A YB10.A XE30.A YE10.A TC2 D2.0 F100 CR0 ;\n"
+    "G101 XB30.A YB10.A XE30.A YE40.A CR0 ;\n"
+    "G101 XB30.A YB40.A XE10.A YE40.A CR- ;\n"
+    "G101 XB10.A YB40.A XE10.A YE10.A TC0 CR- ;\n%\n";
+
+// The join of two cuts comes from both: without the first the tool would be in its edge.
+TEST(StartEvent, IsRefusedWithinAChainBesideAnEdge) {
+  for (const char* event : {"3", "4"}) {
+    const std::string setup = std::string("[control]\nstart_at = \"") + event + "\"\n";
+    EXPECT_THAT(events_of(std::string(kChain), setup),
+                ElementsAre(AllOf(HasSubstr("PTK0114"), HasSubstr("begin at event 2"))))
+        << event;
+  }
+}
+
+// The first of a chain, and a cut after one.
+TEST(StartEvent, IsWhereNoJoinIsLost) {
+  EXPECT_THAT(events_of(std::string(kChain), "[control]\nwaits = false\nstart_at = \"2\"\n"),
+              ElementsAre(HasSubstr("start at event 2"), StartsWith("stop "), StartsWith("tool "),
+                          HasSubstr("X10 Y11"), HasSubstr("X29 Y11"), HasSubstr("X29 Y39"),
+                          HasSubstr("X10 Y39"), HasSubstr("X10 Y40"), HasSubstr("X10 Y10"),
+                          StartsWith("end ")));
+  EXPECT_THAT(events_of(std::string(kChain), "[control]\nwaits = false\nstart_at = \"5\"\n"),
+              ElementsAre(HasSubstr("start at event 5"), StartsWith("stop "), StartsWith("tool "),
+                          HasSubstr("X10 Y40"), HasSubstr("X10 Y10"), StartsWith("end ")));
+}
+
+// Cuts on the centerline without a conrad between them end where they are programmed.
+TEST(StartEvent, IsAnyOfAChainOnTheCenterline) {
+  EXPECT_THAT(events_of("PN1 G21 ;\nG101 XB10.A YB10.A XE30.A YE10.A TC0 D2.0 F100 T1 CR0 ;\n"
+                        "G101 XB30.A YB10.A XE30.A YE40.A CR- ;\n%\n",
+                        "[control]\nwaits = false\nstart_at = \"2\"\n"),
+              ElementsAre(HasSubstr("start at event 2"), StartsWith("stop "), StartsWith("tool "),
+                          HasSubstr("X30 Y10"), HasSubstr("X30 Y40"), StartsWith("end ")));
 }
 
 // CAM systems write the % alone in its line; the header with the units must not pass for a title.
