@@ -1,6 +1,6 @@
 #include <fmt/core.h>
 #include <cmath>
-#include <optional>
+#include <string>
 
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
@@ -103,12 +103,9 @@ TangentArc tangent_arc(Run& run, Compensation side, PlaneVector from, PlaneVecto
 }
 
 /// Where the straight line from `point` (`is_before`), or to it, touches the circle.
-std::optional<PlaneVector> tangent_point(const TangentArc& arc, PlaneVector point, bool is_before) {
-  constexpr double kSamePlace = 1e-6;
+PlaneVector tangent_point(const TangentArc& arc, PlaneVector point, bool is_before) {
   const PlaneVector out = point - arc.center;
-  const double distance = length(out);
-  if (distance < arc.radius - kSamePlace) return std::nullopt;
-  const double ratio = std::fmin(1, arc.radius / distance);
+  const double ratio = std::fmin(1, arc.radius / length(out));
   const double angle = std::acos(ratio) * (180 / Angle::kPi);
   return arc.center + ratio * rotated(out, (is_before ? 1 : -1) * arc.sign() * angle);
 }
@@ -230,10 +227,17 @@ bool read_point(Run& run, const Block& block, Target& target) {
   return true;
 }
 
-bool refuse_within(Run& run, const TangentArc& arc, PlaneVector point, std::string_view what) {
-  return run.fail(ErrorCode::EntryOutOfRange,
-                  fmt::format("{} is {:.3f} from the center of the arc, within its R {:.3f}", what,
-                              length(point - arc.center), arc.radius));
+/// Of LCT. From the contour's other side the tool would cross it, and go nearly all around.
+bool check_far_point(Run& run, const TangentArc& arc, PlaneVector point, std::string_view what) {
+  constexpr double kSamePlace = 1e-6;
+  const double away = length(point - arc.center);
+  const double beyond = dot(point - arc.at, arc.at - arc.center) / arc.radius;
+  if (away >= arc.radius - kSamePlace && beyond <= kSamePlace) return true;
+  const std::string where =
+      beyond > kSamePlace
+          ? fmt::format("{:.3f} beyond the contour, whose other side the arc is on", beyond)
+          : fmt::format("{:.3f} from the center of the arc, within its R {:.3f}", away, arc.radius);
+  return run.fail(ErrorCode::EntryOutOfRange, fmt::format("{} is {}", what, where));
 }
 
 Pace pace_before(const State& state) {
@@ -282,9 +286,8 @@ bool approach_by_circle(Run& run, const Block& block, const Target& target, Plan
   double sweep = run.number(run.parts.itnc.center_angle);
   if (block.part == kLineAndCircle) {
     const PlaneVector from = in_plane(state, here(state));
-    const auto touched = tangent_point(arc, from, true);
-    if (!touched) return refuse_within(run, arc, from, "the start of APPR LCT");
-    to = *touched;
+    if (!check_far_point(run, arc, from, "the start of APPR LCT")) return false;
+    to = tangent_point(arc, from, true);
     sweep = sweep_between(arc, to, arc.at);
     if (!use_feed(run, block, pace)) return false;
     if (!go(run, Compensation::Off, target_in_plane(state, to), pace)) return false;
@@ -308,9 +311,8 @@ bool depart_by_circle(Run& run, const Block& block, const Target& target, PlaneV
   PlaneVector to = arc.center + rotated(arc.at - arc.center, arc.sign() * sweep);
   if (block.part == kLineAndCircle) {
     const PlaneVector end = in_plane(state, target);
-    const auto touched = tangent_point(arc, end, false);
-    if (!touched) return refuse_within(run, arc, end, "the end of DEP LCT");
-    to = *touched;
+    if (!check_far_point(run, arc, end, "the end of DEP LCT")) return false;
+    to = tangent_point(arc, end, false);
     sweep = sweep_between(arc, arc.at, to);
   }
   // The contour ends beside its point without a move.
