@@ -118,6 +118,7 @@ std::optional<Reply> Gateway::begin_jog(const dds::Command& command) {
     return refuse(*std::move(refusal));
   if (auto refusal = panel_.refusal_without_consent(command)) return refusal;
   if (auto refusal = refusal_of_fault()) return refusal;
+  if (!jogger_.is_active()) loop_.begin_jog();
   return jogger_.begin(command);
 }
 
@@ -131,6 +132,7 @@ bool Gateway::stop_jog(std::string_view why) {
 void Gateway::answer_jog() {
   const auto answer = jogger_.take_answer();
   if (!answer) return;
+  loop_.end_jog(answer->reply.is_accepted);
   process::log_info("jog {} ended: {} {}", answer->command, answer->reply.reason, run_.label());
   give_answer(answer->command, answer->reply);
   server_.want_status();

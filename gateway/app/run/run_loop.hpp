@@ -74,6 +74,10 @@ class RunLoop {
   bool is_looking_through() const;
   /// A hold is the operator's from here on: records on disk again do not end it.
   void keep_hold() { is_held_by_fault_ = false; }
+  /// The gateway itself moves an axis by a jog, from now until `end_jog`.
+  void begin_jog();
+  /// `is_certain`: where it is now is known.
+  void end_jog(bool is_certain);
   /// What the operator has to know of how the run has begun; empty: nothing.
   const std::string& notice() const { return notice_; }
   /// Ends the run, if any, as interrupted. Errors: those of the outbox; then the next start does
@@ -110,6 +114,9 @@ class RunLoop {
   void note_beginning(const StartOrigin& origin, bool has_modes);
   void note_tape(const StartOrigin& origin, bool has_modes);
   std::string notice_of_mdi() const;
+  std::string notice_of_modes(const StartOrigin& origin, bool has_modes) const;
+  void begin_modes(const StartOrigin& origin, bool has_modes);
+  void keep_modes_of_part();
   Result<std::optional<RestartPlan>> plan_of(const report::ActiveRun& run,
                                              const StartOrigin& origin) const;
   Result<void> stage_start(const report::ActiveRun& run, const StartOrigin& origin,
@@ -136,14 +143,21 @@ class RunLoop {
 
   Parts parts_;
   bool is_held_by_fault_ = false;
-  /// What the control has in force after its last text, for an MDI that follows.
+  /// What the control has in force after its last text, for an MDI or a program of a tape that
+  /// follows.
   struct Modes {
     interpreter::Snapshot snapshot;
     interpreter::Position at;
     interpreter::SpindleState spindle{};
     std::string setup, memory;  ///< digests
+    bool keeps_zero = false;    ///< RunSession::keeps_zero_when_moved
+    bool is_of_part = false;    ///< with which a program of the tape began, and was cut off
+    bool is_keyed_in = false;   ///< left by an MDI that began with those of power on
   };
   std::optional<Modes> modes_;
+  std::optional<Modes> modes_of_part_;  ///< those that the program of the tape has begun with
+  bool is_jogging_ = false;             ///< from where `modes_` were
+  bool is_keyed_in_ = false;            ///< of this run: Modes::is_keyed_in
   std::string why_no_modes_ = "nothing has run since the gateway was started";
   std::string notice_;
   std::string setup_given_;  ///< digest of the server's setup of this run

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "gateway/app/run/run_loop.hpp"
@@ -18,13 +17,6 @@ bool begins_in_middle(const interpreter::Dialect& dialect) {
   if (dialect.options == nullptr) return true;  // its own make() decides
   const auto options = dialect.options();
   return std::ranges::any_of(options, [](const auto& one) { return one.key.key == "start_at"; });
-}
-
-bool is_there(const interpreter::Position& a, const interpreter::Position& b) {
-  constexpr double kSamePlace = 1e-6;
-  for (const interpreter::Axis axis : interpreter::kAllAxes)
-    if (std::fabs(a.raw(axis) - b.raw(axis)) > kSamePlace) return false;
-  return true;
 }
 
 }  // namespace
@@ -103,6 +95,14 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   auto setup = setup_of(origin, *restart);
   if (!setup) return fail(setup.error());
   const interpreter::Snapshot* const modes = modes_for(origin);
+  const bool is_read_on = origin.from.part && !given.from.part;
+  if (is_read_on && modes == nullptr)
+    return fail(
+        Errc::Busy,
+        "program {} of the tape continues with the zero (G94), the feed and the registers that "
+        "the one before it left, and these are lost: {}. Rewind the tape at the panel, or "
+        "set them by MDI first",
+        *origin.from.part, why_no_modes_);
   const bool is_mdi = origin.from.is_mdi, goes_on = is_mdi || modes != nullptr;
   // A program that begins with its tool, or in its middle, moves from where the last one has left.
   const bool stays = is_restart || goes_on || !origin.from.place.empty();
@@ -152,7 +152,8 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
         session.error().code == Errc::Corrupt || session.error().code == Errc::NotFound;
     return fail(session.error().code, "{}{}", is_memory ? "" : "setup: ", session.error().what);
   }
-  notice_ = is_mdi && modes == nullptr ? notice_of_mdi() : std::string();
+  notice_ =
+      is_mdi && modes == nullptr ? notice_of_mdi() : notice_of_modes(origin, modes != nullptr);
   if (tests) notice_ = kTestRun;
   if (auto done = stage_start(run, origin, std::move(conditions), **session); !done) {
     parts_.memory.restore(*kept);
@@ -171,8 +172,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
     locked_at_ = Locked{is_mdi ? at : parts_.machine.status().position, tool};
   note_beginning(origin, modes != nullptr);
   setup_given_ = sha256(origin.setup).hex();
-  modes_.reset();
-  why_no_modes_ = "the last run was cut off";
+  begin_modes(origin, modes != nullptr);
   goes_on ? parts_.machine.begin_next(axes) : parts_.machine.begin(axes);
   parts_.machine.begin_lengths(lengths);
   parts_.run.session = std::move(*session);
@@ -245,20 +245,6 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
   return fail(done.error().code, "the start cannot be kept: {}", done.error().what);
 }
 
-/// Modes that do not fit the machine any more would move it to a place that no one meant.
-const interpreter::Snapshot* RunLoop::modes_for(const StartOrigin& origin) {
-  if ((!origin.from.is_mdi && !origin.from.part) || !modes_) return nullptr;
-  const machine::MachineStatus now = parts_.machine.status();
-  std::string changed;
-  if (!is_there(modes_->at, now.position)) changed = "the axes were moved since";
-  if (modes_->spindle != now.spindle.state) changed = "the spindle was switched since";
-  if (modes_->setup != sha256(origin.setup).hex()) changed = "the setup was changed since";
-  if (modes_->memory != parts_.memory.digest()) changed = "the control's memory was changed since";
-  if (changed.empty()) return &modes_->snapshot;
-  why_no_modes_ = std::move(changed);
-  return nullptr;
-}
-
 /// A program that has ended leaves the reader where the next start reads on.
 void RunLoop::keep_tape() {
   RunSession& session = *parts_.run.session;
@@ -292,19 +278,6 @@ void RunLoop::note_left() {
   // Such a machine knows where its axes are, wherever it was cut off.
   parts_.run.tool.left_out = parts_.machine.status().lengths;
   parts_.run.tool.unknown.reset();
-}
-
-/// Before the session is gone.
-void RunLoop::take_modes() {
-  if (parts_.run.last_execution != dds::Execution::ProgramCompleted) return;
-  auto snapshot = parts_.run.session->take_modes();
-  if (!snapshot) {
-    why_no_modes_ = snapshot.error().what;
-    return;
-  }
-  const machine::MachineStatus now = parts_.machine.status();
-  modes_ = Modes{*std::move(snapshot), now.position, now.spindle.state, setup_given_,
-                 parts_.memory.digest()};
 }
 
 void RunLoop::note_beginning(const StartOrigin& origin, bool has_modes) {

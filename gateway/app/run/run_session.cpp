@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "gateway/interpreter/core/moved_axes.hpp"
+
 namespace dripline::gateway {
 
 using interpreter::StepState;
@@ -32,6 +34,8 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   if (const auto* modes = session->parts_.modes) {
     if (auto restored = session->interpreter_->restore(*modes); !restored)
       return fail(restored.error());
+    auto* const moved = dynamic_cast<interpreter::MovedAxes*>(session->interpreter_.get());
+    if (moved != nullptr) moved->find_axes(session->parts_.at);
   }
   session->begin_live();
   session->tool_history_.begin(session->parts_.tool, session->interpreter_->modes());
@@ -257,6 +261,10 @@ const std::optional<interpreter::CoordinateFrame>& RunSession::frame_at(std::uin
   std::size_t last = frames_.size() - 1;
   while (last > 0 && frames_[last].block > block) --last;
   return frames_[last].frame;
+}
+
+bool RunSession::keeps_zero_when_moved() const {
+  return dynamic_cast<const interpreter::MovedAxes*>(interpreter_.get()) != nullptr;
 }
 
 Result<interpreter::Snapshot> RunSession::take_modes() {

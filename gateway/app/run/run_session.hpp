@@ -75,6 +75,8 @@ class RunSession {
   /// After the run was completed: the control as its end leaves it, for an MDI. The session is of
   /// no other use then. Errors: those of Interpreter::begin_next_text.
   Result<interpreter::Snapshot> take_modes();
+  /// Those modes fit another place of the axes too, interpreter::MovedAxes.
+  bool keeps_zero_when_moved() const;
   /// After the run was completed: Interpreter::next_part.
   std::uint32_t next_part() { return interpreter_->next_part(); }
   feed::ProgramFeed& feed() { return *parts_.feed; }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "gateway/interpreter/dialects/tektronix1704/block_reader.hpp"
@@ -329,6 +330,19 @@ Result<void> TektronixInterpreter::begin_next_text() {
   run_.origin = {};
   read_from_place();
   return {};
+}
+
+/// A jog moves the position in the program with that in the machine (README, "Decided here").
+void TektronixInterpreter::find_axes(const Position& at) {
+  constexpr double kSamePlace = 1e-6;  // mm
+  State& state = run_.state;
+  for (std::size_t i = 0; i < run_.options.axes; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    if (std::fabs(at.raw(axis) - run_.position.raw(axis)) <= kSamePlace) continue;
+    const std::int64_t from_zero = std::llround(at.raw(axis) / run_.mm_per_count) - state.origin[i];
+    state.program[i] = run_.options.mirror[i] ? -from_zero : from_zero;
+    run_.position.set(axis, at.linear(axis));
+  }
 }
 
 ActiveModes TektronixInterpreter::modes() const {

@@ -2,16 +2,18 @@
 
 #include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/language/line_reader.hpp"
+#include "gateway/interpreter/core/moved_axes.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/run.hpp"
 
 namespace dripline::interpreter::tektronix1704 {
 
 /// The Tektronix 1704 contouring control: a tape's characters to events, one block at a time.
-class TektronixInterpreter final : public BlockInterpreter<TektronixInterpreter> {
+class TektronixInterpreter final : public BlockInterpreter<TektronixInterpreter>, public MovedAxes {
  public:
   TektronixInterpreter(ControlOptions options, ProgramSource& source, EventSink& sink);
 
   Result<void> begin_next_text() override;
+  void find_axes(const Position& at) override;
   ActiveModes modes() const override;
   std::uint32_t next_part() override;
   bool read_on() override;
