@@ -25,7 +25,9 @@ constexpr int kExitUsage = 2;
 Result<std::string> read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
+  // Of an empty file nothing is inserted, which the stream takes for a failure.
+  const bool is_empty = file.is_open() && file.peek() == std::ifstream::traits_type::eof();
+  if (!file.is_open() || file.bad() || (!is_empty && !(text << file.rdbuf())))
     return fail(Errc::NotFound, "cannot read {}", path.string());
   return std::move(text).str();
 }

@@ -217,6 +217,20 @@ TEST(OpenFiles, TooFewAreRefusedWithAMessage) {
   }
 }
 
+/// The gateway comes to what it needs next, a folder for its state.
+TEST(EmptySetupFile, IsOneOfDefaults) {
+  const test_support::TemporaryFolder folder;
+  const auto setup = folder.path() / "empty.toml", state = folder.path() / "no_folder";
+  std::ofstream(setup).close();
+  std::ofstream(state) << "a file";
+  const auto refused = run_to_end({program_path("dncgw"), "--machine", "m", "--control", "fanuc",
+                                   "--setup", setup, "--state", state},
+                                  folder.path() / "out", std::chrono::seconds(20));
+  EXPECT_EQ(refused.status, 1) << refused.output;
+  EXPECT_EQ(refused.output.find("cannot read"), std::string::npos) << refused.output;
+  EXPECT_NE(refused.output.find("no_folder"), std::string::npos) << refused.output;
+}
+
 TEST(OpenNetwork, NeedsToBeConfirmed) {
   const test_support::TemporaryFolder folder;
   for (const std::vector<std::string>& command :
