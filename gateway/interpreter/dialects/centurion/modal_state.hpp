@@ -143,9 +143,12 @@ struct ModalState {
 
   Point position;
   Point previous;
-  Point origin;         ///< of the active coordinates: work system + floating zero + local zero
-  Point floating_zero;  ///< G50
-  Point local_zero;     ///< G52
+  /// Of the tool, as the last move took it in: 0 in an axis that machine coordinates have placed.
+  Point length_taken;
+  Point previous_machine;  ///< the machine before the last move, with that length
+  Point origin;            ///< of the active coordinates: work system + floating zero + local zero
+  Point floating_zero;     ///< G50
+  Point local_zero;        ///< G52
   Transformation transformation;
   ReferenceVia reference_via;
   Point last_arc_center;

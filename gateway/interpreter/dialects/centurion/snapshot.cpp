@@ -21,20 +21,21 @@ void visit(Archive& archive, PatternCycle& cycle) {
 template <class Archive>
 void visit(Archive& archive, ModalState& state) {
   archive(state.phase, state.has_header, state.moved_axes, state.units, state.blocks, state.at,
-          state.position, state.previous, state.origin, state.floating_zero, state.local_zero,
-          state.transformation, state.reference_via, state.last_arc_center, state.last_arc_radius,
-          state.dwell_seconds, state.feed, state.modes, state.retained, state.spindle,
-          state.coolant, state.tool, state.nose, state.nose_is_stale, state.uses_compensator,
-          state.is_searching, state.searched_from, state.searched_to, state.searched_axes,
-          state.wants_flood, state.outputs, state.open_device, state.random, state.calls,
-          state.gosubs, state.loops, state.files, state.data_changes, state.jump, state.pattern,
-          state.before_pattern, state.cycle_feed_code);
+          state.position, state.previous, state.length_taken, state.previous_machine, state.origin,
+          state.floating_zero, state.local_zero, state.transformation, state.reference_via,
+          state.last_arc_center, state.last_arc_radius, state.dwell_seconds, state.feed,
+          state.modes, state.retained, state.spindle, state.coolant, state.tool, state.nose,
+          state.nose_is_stale, state.uses_compensator, state.is_searching, state.searched_from,
+          state.searched_to, state.searched_axes, state.wants_flood, state.outputs,
+          state.open_device, state.random, state.calls, state.gosubs, state.loops, state.files,
+          state.data_changes, state.jump, state.pattern, state.before_pattern,
+          state.cycle_feed_code);
 }
 
 namespace {
 
 constexpr std::string_view kDialect = "centurion";
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 template <class Archive>
 void visit_parameters(Archive& archive, Parameters& parameters) {

@@ -17,9 +17,10 @@ void change_units(Run& run, Units units) {
   const double factor =
       units == Units::Millimeter ? Length::kMillimetersPerInch : 1 / Length::kMillimetersPerInch;
   Transformation& how = state.transformation;
-  for (Point* point : {&state.position, &state.previous, &state.origin, &state.floating_zero,
-                       &state.local_zero, &state.last_arc_center, &state.reference_via.at,
-                       &how.mirror, &how.scale_center, &how.rotation_center}) {
+  for (Point* point :
+       {&state.position, &state.previous, &state.length_taken, &state.previous_machine,
+        &state.origin, &state.floating_zero, &state.local_zero, &state.last_arc_center,
+        &state.reference_via.at, &how.mirror, &how.scale_center, &how.rotation_center}) {
     point->x *= factor;
     point->z *= factor;
   }

@@ -95,7 +95,7 @@ bool go_to_reference(Run& run) {
   if (!check_target(run, last)) return false;
   cancel_compensation(run);
   run.state.reference_via = {via.to, via.named.x, via.named.z};
-  machine_rapid_to(run, via.to, via.named);
+  rapid_untransformed(run, via.to, via.named);
   machine_rapid_to(run, in_axes(run, last, via.named), via.named);
   resume_compensation(run);
   return true;
@@ -107,9 +107,9 @@ bool return_from_reference(Run& run) {
   const AxesNamed axes{via.x, via.z};
   Target target;
   cancel_compensation(run);
-  machine_rapid_to(run, in_axes(run, via.at, axes), axes);
+  rapid_untransformed(run, in_axes(run, via.at, axes), axes);
   const bool is_read = read_via(run, target);
-  if (is_read) machine_rapid_to(run, target.to, target.named);
+  if (is_read) rapid_untransformed(run, target.to, target.named);
   resume_compensation(run);
   return is_read;
 }

@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/roughing.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -138,6 +139,7 @@ bool end_reading(Run& run) {
 void end_passes(Run& run) {
   run.flush_path();  // a refusal is reported at the end of the pass
   run.state.position = run.state.pattern.home;
+  take_length(run, kBothAxes);
   run.state.pattern = PatternCycle{};
   run.connect_stages();
 }

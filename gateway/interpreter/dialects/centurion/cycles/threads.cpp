@@ -188,7 +188,7 @@ bool thread_to(Run& run, const Target& target, const std::optional<PathArc>& arc
   if (arc) run.state.moved_axes = 3;
   announce_back(run);
   run.events().on_thread(event);
-  arrive(run, target.to);
+  arrive(run, target.to, target.named);
   return true;
 }
 
@@ -253,7 +253,7 @@ void thread_to_point(Run& run, const Point& to, const Lead& lead, bool is_start)
   Thread event{run.origin, event_position(run, to, kBothAxes), run.length(lead.length), {}};
   if (is_start && lead.shift) event.start_angle = Angle::degrees(*lead.shift);
   run.events().on_thread(event);
-  arrive(run, to);
+  arrive(run, to, kBothAxes);
 }
 
 bool refuse_lead(Run& run, Address address) {

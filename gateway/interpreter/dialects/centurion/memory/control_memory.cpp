@@ -177,7 +177,7 @@ Result<void> load_memory(const Setup& setup, ModalState& state, Parameters& para
   if (auto checked = load_axes(setup.start, "start"); !checked) return checked;
   state.position = {in_units(setup.start.linear(Axis::X), state.units),
                     in_units(setup.start.linear(Axis::Z), state.units)};
-  state.previous = state.position;
+  state.previous = state.previous_machine = state.position;
   const Position& machine = setup.position.value_or(setup.start);
   if (auto checked = load_axes(machine, "position"); !checked) return checked;
   state.searched_from = {machine.linear(Axis::X).mm(), machine.linear(Axis::Z).mm()};

@@ -95,6 +95,17 @@ void Parameters::convert_tables(double factor) {
   }
 }
 
+Point tool_length(const ModalState& state, const Parameters& parameters) {
+  if (state.tool.has_no_length) return {};
+  const int offset = state.tool.offset;
+  return {parameters.tool(offset, ToolField::LengthX), parameters.tool(offset, ToolField::LengthZ)};
+}
+
+Point machine_position(const ModalState& state) {
+  const Point at = machine_of(state, state.position);
+  return {at.x + state.length_taken.x, at.z + state.length_taken.z};
+}
+
 namespace {
 
 /// Parameters that hold one value for each axis, Z first then X (manual: axes).
@@ -103,23 +114,19 @@ std::optional<double> axis_status(const ModalState& state, const Parameters& par
   const bool is_x = (number & 7) == 1;
   if ((number & 7) > 1 || number > 255) return std::nullopt;
   const auto of = [is_x](const Point& point) { return is_x ? point.x : point.z; };
-  const double length =
-      state.tool.has_no_length
-          ? 0
-          : parameters.tool(state.tool.offset, is_x ? ToolField::LengthX : ToolField::LengthZ);
   switch (number & ~7) {
     case 200:
       return of(state.previous) - of(state.origin);
     case 208:
       return of(state.position) - of(state.origin);
     case 216:
-      return of(state.previous) + length;
+      return of(state.previous_machine);
     case 224:
-      return of(state.position) + length;
+      return of(machine_position(state));
     case 232:
       return of(state.origin);
     case 240:
-      return length;
+      return of(tool_length(state, parameters));
     default:
       return std::nullopt;
   }

@@ -75,6 +75,11 @@ class Parameters {
 /// minute or per revolution.
 bool is_length_parameter(int number);
 
+/// Of the tool in force; none under G49.
+Point tool_length(const ModalState& state, const Parameters& parameters);
+/// Where the machine is, with the length that its last moves took in.
+Point machine_position(const ModalState& state);
+
 /// The value of status parameter `number` (200-370) as `state` implies it, or nullopt where nothing
 /// does and the stored value applies.
 std::optional<double> status_parameter(const ModalState& state, const Parameters& parameters,

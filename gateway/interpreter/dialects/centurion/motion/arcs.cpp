@@ -148,7 +148,7 @@ bool emit_arc(Run& run, const ArcCenter& arc, const Target& target) {
   if (run.block.parts.probe) return probe_arc(run, event);
   announce_arc(run, arc.is_known ? std::optional(arc.radius) : std::nullopt);
   run.events().on_arc(event);
-  arrive(run, target.to);
+  arrive(run, target.to, kBothAxes);
   return true;
 }
 

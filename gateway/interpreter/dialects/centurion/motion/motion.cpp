@@ -20,6 +20,7 @@ constexpr double kMaxMillimeters = 99999.999;
 /// the axes at this place.
 void stay(Run& run, AxesNamed named) {
   ModalState& state = run.state;
+  take_length(run, named);
   if (!state.is_searching) return;
   const Point at = machine_of(run, state.position);
   const std::uint8_t axes = static_cast<std::uint8_t>((named.x ? 1 : 0) | (named.z ? 2 : 0));
@@ -27,6 +28,12 @@ void stay(Run& run, AxesNamed named) {
   if ((fresh & 1) != 0) state.searched_to.x = run.length(at.x).mm();
   if ((fresh & 2) != 0) state.searched_to.z = run.length(at.z).mm();
   state.searched_axes |= axes;
+}
+
+/// After a move in machine coordinates, which are without a tool.
+void leave_length(Run& run, AxesNamed named) {
+  if (named.x) run.state.length_taken.x = 0;
+  if (named.z) run.state.length_taken.z = 0;
 }
 
 /// R and AB from a pole, which is the current point unless the block names one (manual: polar
@@ -76,7 +83,7 @@ void position_to(Run& run, const Target& target) {
   if (to.x != from.x) beyond.x += overrun.x;
   if (to.z != from.z) beyond.z += overrun.z;
   if (beyond == to) return rapid_to(run, target.to, target.named);
-  machine_rapid_to(run, beyond, target.named);
+  rapid_untransformed(run, beyond, target.named);
   rapid_to(run, target.to, target.named);
 }
 
@@ -151,36 +158,45 @@ bool move(Run& run) {
   announce_line(run);
   run.events().on_line(
       {run.origin, event_position(run, target.to, target.named), run.active_feed(), run.rests()});
-  arrive(run, target.to);
+  arrive(run, target.to, target.named);
   return true;
 }
 
 void rapid_to(Run& run, const Point& to, AxesNamed named) {
   if (to == run.state.position) return stay(run, named);
   run.events().on_rapid({run.origin, event_position(run, to, named)});
-  arrive(run, to);
+  arrive(run, to, named);
 }
 
 void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed) {
   if (to == run.state.position) return stay(run, named);
   run.events().on_line({run.origin, event_position(run, to, named), feed, run.rests()});
-  arrive(run, to);
+  arrive(run, to, named);
 }
 
-void machine_rapid_to(Run& run, const Point& machine, AxesNamed named) {
+void rapid_untransformed(Run& run, const Point& machine, AxesNamed named) {
   const Point from = machine_of(run, run.state.position);
   if (machine == from) return stay(run, named);
   const Position at = marked_position(run, from, machine, named);
   run.machine_events().on_rapid({run.origin, at});
-  arrive(run, programmed_of(run, machine));
+  arrive(run, programmed_of(run, machine), named);
+}
+
+void machine_rapid_to(Run& run, const Point& machine, AxesNamed named) {
+  rapid_untransformed(run, machine, named);
+  leave_length(run, named);
 }
 
 void machine_feed_to(Run& run, const Point& machine, AxesNamed named) {
   const Point from = machine_of(run, run.state.position);
-  if (machine == from) return stay(run, named);
-  const Position at = marked_position(run, from, machine, named);
-  run.machine_events().on_line({run.origin, at, run.active_feed(), run.rests()});
-  arrive(run, programmed_of(run, machine));
+  if (machine == from) {
+    stay(run, named);
+  } else {
+    const Position at = marked_position(run, from, machine, named);
+    run.machine_events().on_line({run.origin, at, run.active_feed(), run.rests()});
+    arrive(run, programmed_of(run, machine), named);
+  }
+  leave_length(run, named);
 }
 
 bool check_target(Run& run, const Point& to) {
@@ -215,10 +231,23 @@ Position marked_position(Run& run, const Point& from, const Point& point, AxesNa
   return position;
 }
 
-void arrive(Run& run, const Point& at) {
+void arrive(Run& run, const Point& at, AxesNamed named) {
+  ModalState& state = run.state;
   run.loops.note_progress();
-  run.state.previous = run.state.position;
-  run.state.position = at;
+  const Point from = machine_of(run, state.position);
+  state.previous_machine = machine_position(state);
+  state.previous = state.position;
+  state.position = at;
+  const Point to = machine_of(run, at);
+  constexpr double kRounding = 1e-9;
+  take_length(run, {named.x || std::fabs(to.x - from.x) > kRounding,
+                    named.z || std::fabs(to.z - from.z) > kRounding});
+}
+
+void take_length(Run& run, AxesNamed named) {
+  const Point length = tool_length(run.state, run.parameters);
+  if (named.x) run.state.length_taken.x = length.x;
+  if (named.z) run.state.length_taken.z = length.z;
 }
 
 std::uint32_t motion_column(const Run& run) {

@@ -32,7 +32,9 @@ bool read_end_words(Run& run, const EndFrame& frame, Target& target);
 void rapid_to(Run& run, const Point& to, AxesNamed named);
 /// A straight feed to `to`; nothing when already there.
 void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed);
-/// To a place in machine coordinates: nothing is transformed.
+/// To a place of the program that is transformed already, or never is.
+void rapid_untransformed(Run& run, const Point& machine, AxesNamed named);
+/// To a place in machine coordinates: nothing is transformed, and no tool has a length.
 void machine_rapid_to(Run& run, const Point& machine, AxesNamed named);
 void machine_feed_to(Run& run, const Point& machine, AxesNamed named);
 
@@ -47,7 +49,10 @@ bool check_feed(Run& run);
 Position event_position(Run& run, const Point& point, AxesNamed named);
 /// The same, with another start point.
 Position marked_position(Run& run, const Point& from, const Point& point, AxesNamed named);
-void arrive(Run& run, const Point& at);
+/// The machine has moved to `at`, in the axes named or changed with the length of the tool.
+void arrive(Run& run, const Point& at, AxesNamed named);
+/// The axes are where the program's coordinates and the length of the tool place them.
+void take_length(Run& run, AxesNamed named);
 std::uint32_t motion_column(const Run& run);
 
 }  // namespace dripline::interpreter::centurion

@@ -89,7 +89,7 @@ void finish_probe(Run& run, const ProbeResult& result) {
   const Point from = machine_of(run, run.state.position);
   probe.result->at = marked_position(run, from, at, {probe.to.has(Axis::X), probe.to.has(Axis::Z)});
   run.machine_events().on_probe(probe);
-  arrive(run, programmed_of(run, at));
+  arrive(run, programmed_of(run, at), {probe.to.has(Axis::X), probe.to.has(Axis::Z)});
 }
 
 }  // namespace dripline::interpreter::centurion

@@ -9,7 +9,10 @@
 namespace dripline::interpreter::centurion {
 
 Point machine_of(const Run& run, const Point& programmed) {
-  const ModalState& state = run.state;
+  return machine_of(run.state, programmed);
+}
+
+Point machine_of(const ModalState& state, const Point& programmed) {
   if (!state.transformation.is_on()) return programmed;
   const Point& zero = state.origin;
   const Point moved = state.transformation.apply({programmed.x - zero.x, programmed.z - zero.z});

@@ -33,9 +33,11 @@ struct Transformation {
 };
 
 struct Run;
+struct ModalState;
 
 /// Machine coordinates of a point of the program's coordinates, both in program units; the same
 /// while nothing is transformed.
+Point machine_of(const ModalState& state, const Point& programmed);
 Point machine_of(const Run& run, const Point& programmed);
 Point programmed_of(const Run& run, const Point& machine);
 
