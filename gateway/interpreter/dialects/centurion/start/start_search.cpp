@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
@@ -117,6 +118,14 @@ std::string StartSearch::refusal(const Run& run) const {
   };
   if (run.state.pattern.phase != PatternPhase::None)
     add("it is in the pattern of a cycle: start at the cycle's block");
+  if (const NoseUse& nose = run.state.nose; nose.code != 0 && nose.radius_mm != 0)
+    add(
+        fmt::format("it is within G{}, whose contour depends on the move before it: start before "
+                    "that code",
+                    40 + nose.code));
+  if (const Origin* corner = run.blender.open_corner())
+    add(fmt::format("the corner of line {} leads to it: start at that line or before it",
+                    corner->line));
   if (needs_jump_back(run)) {
     std::string flow = open_flow_text(run);
     if (jump_back_) {
@@ -139,9 +148,14 @@ bool StartSearch::begin_here(Run& run) {
   ModalState& state = run.state;
   if (const std::string why = refusal(run); !why.empty())
     return run.fail(ErrorCode::StartUndefined, 0, fmt::format("{}: {}", start_.text, why));
+  if (!run.flush_path()) return false;  // moves that wait belong to the part before
+  if (!is_at_program(run)) {
+    return run.fail(ErrorCode::StartUndefined, 0,
+                    fmt::format("{}: nose compensation has left the tool beside the program's "
+                                "point: start after the next move of both axes",
+                                start_.text));
+  }
   run.start.end();
-  run.flush_path();  // moves that wait belong to the part before; the block's end reports
-                     // faults
   state.is_searching = false;
   (void)run.events();  // the header comes before what the start itself does
   const std::string withheld = withheld_text(run.start);

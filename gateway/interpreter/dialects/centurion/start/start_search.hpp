@@ -35,8 +35,9 @@ Result<StartAt> parse_start_at(std::string_view text);
 /// search). A program that has no such place begins at its first block, with a message, after the
 /// operator has agreed. It is an alarm, before anything moves, when the block is in a loop, a
 /// subroutine or a called program, or the program may jump back over it, and `start_pass` does not
-/// name the pass; when it is in a pattern; and when the part before it changes parameters that it
-/// has read, and `start_memory` does not name the memory (start_notes.hpp).
+/// name the pass; when it is in a pattern, in nose compensation or after a corner that it ends; and
+/// when the part before it changes parameters that it has read, and `start_memory` does not name
+/// the memory (start_notes.hpp).
 class StartSearch final : public EventGate {
  public:
   StartSearch(EventSink& out, StartAt start) : EventGate(out), start_(std::move(start)) {}
