@@ -85,6 +85,9 @@ BlockOutcome CenturionInterpreter::next_block() {
   if (is_looking_back_) [[unlikely]] {
     if (const BlockOutcome back = find_way_back(); back != BlockOutcome::Finished) return back;
   }
+  if (start_ && start_->needs_place()) [[unlikely]] {
+    if (const BlockOutcome place = find_place(); place != BlockOutcome::Finished) return place;
+  }
   const TextCursor::State loaded = run_.text.load(run_.state.at);
   if (loaded != TextCursor::State::Ready) [[unlikely]]
     return meet_line_state(loaded);
@@ -177,25 +180,38 @@ BlockOutcome CenturionInterpreter::look_back() {
   return BlockOutcome::NoBlock;
 }
 
-/// Finished: it is known now.
+/// Finished: the search has ended, and has found it or not.
+BlockOutcome CenturionInterpreter::outcome_of_search(TextSearch::Outcome outcome) {
+  const bool is_known =
+      outcome == TextSearch::Outcome::Found || outcome == TextSearch::Outcome::Missing;
+  return is_known ? BlockOutcome::Finished : refuse_search(run_, outcome);
+}
+
+BlockOutcome CenturionInterpreter::find_place() {
+  std::uint64_t offset = 0;
+  const TextSearch::Outcome outcome = search_.find_block(start_->wanted_place(), offset);
+  const BlockOutcome result = outcome_of_search(outcome);
+  if (result != BlockOutcome::Finished) return result;
+  const bool is_found = outcome == TextSearch::Outcome::Found;
+  start_->note_place(is_found ? std::optional(offset) : std::nullopt);
+  return result;
+}
+
 BlockOutcome CenturionInterpreter::find_way_back() {
   std::uint64_t line = 0;
   const TextSearch::Outcome outcome = search_.find_jump_back(run_.state.at, line);
-  if (outcome == TextSearch::Outcome::More) return BlockOutcome::MoreFollows;
-  if (outcome == TextSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
-  if (outcome != TextSearch::Outcome::Found && outcome != TextSearch::Outcome::Missing) {
-    return refuse_search(run_, outcome);
-  }
+  const BlockOutcome result = outcome_of_search(outcome);
+  if (result != BlockOutcome::Finished) return result;
   const bool is_found = outcome == TextSearch::Outcome::Found;
   start_->note_jump_back(is_found ? std::optional(line) : std::nullopt);
   is_way_back_known_ = true;
   is_looking_back_ = false;
-  return BlockOutcome::Finished;
+  return result;
 }
 
-/// The start that was asked for is not in the program.
+/// The program has ended before the start that was asked for.
 bool CenturionInterpreter::begin_at_first() {
-  if (run_.start.arrivals > 0) {
+  if (run_.start.arrivals > 0 || start_->is_in_text()) {
     run_.state.phase = RunPhase::Running;
     return start_->begin_at_first(run_);
   }

@@ -48,6 +48,8 @@ class CenturionInterpreter final : public BlockInterpreter<CenturionInterpreter>
   bool starts_here() const;
   bool may_start_here();
   BlockOutcome look_back();
+  BlockOutcome outcome_of_search(TextSearch::Outcome outcome);
+  BlockOutcome find_place();
   BlockOutcome find_way_back();
   bool begin_at_first();
 

@@ -191,6 +191,19 @@ TextSearch::Outcome TextSearch::find_program(std::uint32_t number, TextPosition&
   return Outcome::More;
 }
 
+TextSearch::Outcome TextSearch::find_block(const BlockPlace& place, std::uint64_t& offset) {
+  for (unsigned blocks = 0; blocks < kBlocksPerCall; ++blocks) {
+    const Outcome loaded = load(place_next_);
+    if (loaded != Outcome::Found) return loaded;
+    offset = cursor_.offset();
+    const bool is_there = (place.is_line ? place_next_.line : offset) >= place.number;
+    if (is_there && read_head(cursor_.begin()).kind != BlockHead::Kind::Empty)
+      return Outcome::Found;
+    cursor_.advance(place_next_);
+  }
+  return Outcome::More;
+}
+
 TextSearch::Outcome TextSearch::find_jump_back(const TextPosition& from, std::uint64_t& line) {
   if (back_blocks_ == 0 || !same_place(back_from_, from)) {
     back_from_ = back_next_ = from;

@@ -24,6 +24,12 @@ BlockHead read_head(const char* begin);
 /// `depth` until it is 0. True when it got there.
 bool count_loops(const char* begin, int& depth);
 
+/// A place in the text: the first block from a line, or from a byte on.
+struct BlockPlace {
+  bool is_line = false;
+  std::uint64_t number = 0;
+};
+
 /// Places it has found are kept in bounded tables, which only save searching again. A search that
 /// was interrupted resumes where it stopped. Moves the cursor.
 class TextSearch {
@@ -36,6 +42,9 @@ class TextSearch {
   Outcome find_label(const TextPosition& from, std::uint32_t label, TextPosition& found);
   /// The program O `number` in the text that was started: a file may hold several.
   Outcome find_program(std::uint32_t number, TextPosition& found);
+  /// The first block from `place` on, in the text that was started, that has content; `offset`: of
+  /// its first byte. For one place only.
+  Outcome find_block(const BlockPlace& place, std::uint64_t& offset);
   /// The first block from `from` on that may jump back over it: a GOTO to a label of its program
   /// that is at `from` or before it, or one whose label is computed. Missing: none in the next
   /// kBlocksLookedAt blocks. `line`: of that block.
@@ -73,6 +82,7 @@ class TextSearch {
   bool programs_complete_ = false;
   std::array<LoopFrame, kKnownLoops> known_loops_{};
   std::size_t next_known_loop_ = 0;
+  TextPosition place_next_;             ///< of find_block
   TextPosition back_from_, back_next_;  ///< of the search that was interrupted
   std::uint64_t back_blocks_ = 0;
   std::optional<std::uint32_t> back_label_;  ///< of the last GOTO, while its label is searched

@@ -77,9 +77,8 @@ bool StartSearch::is_here(const Run& run, std::optional<std::uint32_t> sequence)
     case StartAt::Kind::Block:
       return sequence && *sequence == start_.number;
     case StartAt::Kind::Line:
-      return is_main && run.origin.line >= start_.number;
     case StartAt::Kind::Byte:
-      return is_main && run.origin.offset >= start_.number;
+      return is_main && place_ && run.origin.offset == *place_;
     case StartAt::Kind::Count:
       return run.state.blocks >= start_.number;
     case StartAt::Kind::Tool:
@@ -199,15 +198,29 @@ void StartSearch::approach(Run& run, const Point& from, const Point& to) {
   out().on_line({run.origin, place(to), approach_feed(run)});
 }
 
+bool StartSearch::needs_place() const {
+  const bool is_place = start_.kind == StartAt::Kind::Line || start_.kind == StartAt::Kind::Byte;
+  return is_place && !is_place_known_ && is_searching();
+}
+
 bool StartSearch::begin_at_first(Run& run) {
   if (run.start.arrivals > 0) {
     return run.fail(ErrorCode::StartUndefined, 0,
                     fmt::format("{}: the program reaches it {} times, not {}", start_.text,
                                 run.start.arrivals, run.options.start_pass.value_or(1)));
   }
+  if (place_) {
+    return run.fail(
+        ErrorCode::StartUndefined, 0,
+        fmt::format(
+            "{}: the program never comes to that block: it jumps over it, or ends before it",
+            start_.text));
+  }
   run.start.end();
   run.state.is_searching = false;
-  run.scratch = fmt::format("{} is not in the program: it begins at its first block", start_.text);
+  run.scratch = fmt::format(
+      "{} is not in the program, or the program never comes to it: it begins at its first block",
+      start_.text);
   out().on_message({run.origin, run.scratch});
   out().on_stop({run.origin, StopKind::Operator});  // the operator asked for another start
   return true;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "gateway/interpreter/dialects/centurion/modal_state.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 #include "gateway/interpreter/stages/dry_run.hpp"
 #include "gateway/interpreter/stages/event_filter.hpp"
 #include "protocol/base/result.hpp"
@@ -17,8 +18,9 @@ struct Run;
 struct StartNotes;
 
 /// Where a run begins, if not at its first block: `N120` the first block with this number, `T3` the
-/// first with this tool, `L40` the line, `B4096` the first block at or after the byte (where an
-/// interrupted run resumes), `+25` after this number of blocks.
+/// first with this tool, `L40` the first block in the text from the line on that has content,
+/// `B4096` that from the byte on (where an interrupted run resumes), `+25` after this number of
+/// blocks, as they are executed.
 struct StartAt {
   enum class Kind : std::uint8_t { Block, Tool, Line, Byte, Count };
   Kind kind = Kind::Block;
@@ -37,7 +39,7 @@ Result<StartAt> parse_start_at(std::string_view text);
 /// subroutine or a called program, or the program may jump back over it, and `start_pass` does not
 /// name the pass; when it is in a pattern, in nose compensation or after a corner that it ends; and
 /// when the part before it changes parameters that it has read, and `start_memory` does not name
-/// the memory (start_notes.hpp).
+/// the memory (start_notes.hpp); and when the program never comes to the block of a line or a byte.
 class StartSearch final : public EventGate {
  public:
   StartSearch(EventSink& out, StartAt start) : EventGate(out), start_(std::move(start)) {}
@@ -48,6 +50,16 @@ class StartSearch final : public EventGate {
   }
 
   bool is_searching() const { return state_->is_searching; }
+  /// The block of a line or a byte has been found there, whether the program comes to it or not.
+  bool is_in_text() const { return place_.has_value(); }
+  /// Whether the block of a line or a byte has still to be found in the text (find_block).
+  bool needs_place() const;
+  BlockPlace wanted_place() const { return {start_.kind == StartAt::Kind::Line, start_.number}; }
+  /// The byte it begins at; none: the text ends before it.
+  void note_place(std::optional<std::uint64_t> offset) {
+    place_ = offset;
+    is_place_known_ = true;
+  }
   /// Asked before a block is read, and again with its tool after that.
   bool is_here(const Run& run, std::optional<std::uint32_t> sequence) const;
   bool is_tool(const Run& run, int tool) const;
@@ -84,6 +96,8 @@ class StartSearch final : public EventGate {
   ModalState* state_ = nullptr;
   StartNotes* notes_ = nullptr;
   std::optional<std::uint64_t> jump_back_;
+  std::optional<std::uint64_t> place_;  ///< of a line or a byte: where its block begins
+  bool is_place_known_ = false;
 };
 
 }  // namespace dripline::interpreter::centurion
