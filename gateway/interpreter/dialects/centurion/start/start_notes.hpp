@@ -67,6 +67,9 @@ struct StartNotes {
   void note_byte_set(int number) {
     if (is_noting()) set_cell(kParameterCount + number);
   }
+  bool has_set(int parameter) const {
+    return is_noting() && uses[static_cast<std::size_t>(parameter)] >= Use::Set;
+  }
   void withhold(std::uint16_t code, bool state, std::uint64_t line);
 
  private:

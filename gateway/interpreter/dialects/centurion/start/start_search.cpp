@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gateway/interpreter/core/shown_length.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 #include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
@@ -21,6 +22,15 @@ std::optional<StartAt::Kind> kind_of_letter(char letter) {
   const std::size_t kind = kLetters.find(letter);
   if (kind == std::string_view::npos) return std::nullopt;
   return static_cast<StartAt::Kind>(kind);
+}
+
+/// The clearance plane, machine millimeters. None where P140 has not been set: its 0 is then a
+/// place that may be within the part.
+std::optional<double> clearance_of(const Run& run) {
+  const double given = run.parameters[kClearanceZ];
+  const bool is_set = given != 0 || run.start.has_set(kClearanceZ);
+  if (!is_set) return std::nullopt;
+  return run.length(run.state.origin.z + given).mm();
 }
 
 Position place(const Point& millimeters) {
@@ -154,6 +164,8 @@ bool StartSearch::begin_here(Run& run) {
                                 "point: start after the next move of both axes",
                                 start_.text));
   }
+  const Approach approach = approach_of(run);
+  if (!may_cross(run, approach)) return false;
   run.start.end();
   state.is_searching = false;
   (void)run.events();  // the header comes before what the start itself does
@@ -163,36 +175,54 @@ bool StartSearch::begin_here(Run& run) {
     out().on_message({run.origin, run.scratch});
   }
   show_machine_state(run);
-  const Point from = state.searched_from;
-  Point to = state.searched_to;
-  if ((state.searched_axes & kHasX) == 0) to.x = from.x;
-  if ((state.searched_axes & kHasZ) == 0) to.z = from.z;
-  if (!(to == from)) {
-    approach(run, from, to);
+  if (!(approach.to == approach.from)) {
+    make_approach(run, approach);
   } else if (!withheld.empty()) {
     out().on_stop({run.origin, StopKind::Operator});
   }
   return true;
 }
 
-/// Below the clearance Z retracts first; above it X moves first. The last move is a feed, after the
-/// operator has agreed.
-void StartSearch::approach(Run& run, const Point& from, const Point& to) {
+StartSearch::Approach StartSearch::approach_of(const Run& run) const {
   const ModalState& state = run.state;
-  const double clearance = run.length(state.origin.z + run.parameters[kClearanceZ]).mm();
+  Approach approach{state.searched_from, state.searched_to, clearance_of(run)};
+  if ((state.searched_axes & kHasX) == 0) approach.to.x = approach.from.x;
+  if ((state.searched_axes & kHasZ) == 0) approach.to.z = approach.from.z;
+  return approach;
+}
+
+/// Without a clearance X moves only where the tool is before the place and the program's zero, or
+/// where the program itself has moved it: no Z has come yet.
+bool StartSearch::may_cross(Run& run, const Approach& approach) const {
+  const Point &from = approach.from, &to = approach.to;
+  const double zero = run.length(run.state.origin.z).mm();
+  const bool is_in_front = from.z > to.z && from.z >= zero;
+  const bool has_z = (run.state.searched_axes & kHasZ) != 0;
+  if (approach.clearance || from.x == to.x || is_in_front || !has_z) return true;
+  const auto z_of = [&run](double mm) { return shown_length(Length::mm(mm), run.state.units); };
+  return run.fail(
+      ErrorCode::StartUndefined, 0,
+      fmt::format(
+          "{}: no clearance (P140) is set, and X cannot move at Z {}: the program is at Z {} "
+          "and its zero at Z {} (machine coordinates). Set P140, or move the tool in front "
+          "of the part",
+          start_.text, z_of(from.z), z_of(to.z), z_of(zero)));
+}
+
+/// Below the clearance Z retracts first; above it X moves first, and Z goes to the clearance if
+/// that is before the place. The last move is a feed, after the operator has agreed.
+void StartSearch::make_approach(Run& run, const Approach& approach) {
+  const Point &from = approach.from, &to = approach.to;
   Point at = from;
   const auto rapid = [&](const Point& next) {
     if (next == at) return;
     at = next;
     out().on_rapid({run.origin, place(at)});
   };
-  if (from.z < clearance) {
-    rapid({from.x, clearance});
-    rapid({to.x, clearance});
-  } else {
-    rapid({to.x, from.z});
-    rapid({to.x, clearance});
-  }
+  const double clearance = approach.clearance.value_or(from.z);
+  if (from.z < clearance) rapid({from.x, clearance});
+  rapid({to.x, at.z});
+  if (at.z > clearance && clearance >= to.z) rapid({to.x, clearance});
   out().on_stop({run.origin, StopKind::Operator});
   if (at == to) return;
   out().on_line({run.origin, place(to), approach_feed(run)});

@@ -39,7 +39,8 @@ Result<StartAt> parse_start_at(std::string_view text);
 /// subroutine or a called program, or the program may jump back over it, and `start_pass` does not
 /// name the pass; when it is in a pattern, in nose compensation or after a corner that it ends; and
 /// when the part before it changes parameters that it has read, and `start_memory` does not name
-/// the memory (start_notes.hpp); and when the program never comes to the block of a line or a byte.
+/// the memory (start_notes.hpp); when the program never comes to the block of a line or a byte; and
+/// where X would have to cross beside the part, as no clearance (P140) is set.
 class StartSearch final : public EventGate {
  public:
   StartSearch(EventSink& out, StartAt start) : EventGate(out), start_(std::move(start)) {}
@@ -84,13 +85,20 @@ class StartSearch final : public EventGate {
   void on_pin(const PinChange& event) override;
 
  private:
+  /// From the machine's place to the program's, machine millimeters.
+  struct Approach {
+    Point from, to;
+    std::optional<double> clearance;  ///< of Z
+  };
   bool is_open() const override { return !state_->is_searching; }
   template <class Event>
   void move(void (EventSink::*deliver)(const Event&), const Event& event);
   static bool is_same_place(const Run& run);
   bool begin_here(Run& run);
   std::string refusal(const Run& run) const;
-  void approach(Run& run, const Point& from, const Point& to);
+  Approach approach_of(const Run& run) const;
+  bool may_cross(Run& run, const Approach& approach) const;
+  void make_approach(Run& run, const Approach& approach);
 
   const StartAt start_;
   ModalState* state_ = nullptr;
