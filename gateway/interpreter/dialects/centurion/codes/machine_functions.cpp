@@ -81,8 +81,7 @@ bool change_tool(Run& run) {
   take_pending_tool(run);
   show_comment(run);
   run.loops.note_progress();
-  const bool has_changer = run.options.has_tool_changer || run.parameters[kAtcPockets] > 0;
-  if (!has_changer) run.events().on_stop({run.origin, StopKind::ToolChange});
+  if (!has_tool_changer(run)) run.events().on_stop({run.origin, StopKind::ToolChange});
   return true;
 }
 
@@ -265,11 +264,11 @@ void all_off(Run& run) {
   }
 }
 
+bool has_tool_changer(const Run& run) {
+  return run.options.has_tool_changer || run.parameters[kAtcPockets] > 0;
+}
+
 void show_machine_state(Run& run) {
-  const ToolModes& tool = run.state.tool;
-  if (tool.active != 0) {
-    run.events().on_tool({run.origin, tool.active, false, tool.offset});
-  }
   if (run.state.spindle.state != SpindleState::Off) emit_spindle(run);
   if (run.state.coolant.flood) emit_coolant(run);
   if (run.state.modes.path == PathMode::Tapping)

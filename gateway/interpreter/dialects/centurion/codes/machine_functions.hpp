@@ -42,7 +42,9 @@ void apply_spindle_range(Run& run);
 double max_revolutions(const Run& run);
 void spindle_to(Run& run, SpindleState state);
 void all_off(Run& run);
-/// Reports tool, spindle, coolant and inhibits, to a machine that has seen nothing of the program.
+/// Else the operator changes the tool at M6.
+bool has_tool_changer(const Run& run);
+/// Reports spindle, coolant and inhibits, to a machine that has seen nothing of the program.
 void show_machine_state(Run& run);
 
 /// The switches that the path mode inhibits (G63).

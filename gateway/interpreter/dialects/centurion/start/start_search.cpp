@@ -174,6 +174,7 @@ bool StartSearch::begin_here(Run& run) {
     run.scratch = fmt::format("{}: withheld before it: {}", start_.text, withheld);
     out().on_message({run.origin, run.scratch});
   }
+  show_tool(run, approach.to);
   show_machine_state(run);
   if (!(approach.to == approach.from)) {
     make_approach(run, approach);
@@ -181,6 +182,22 @@ bool StartSearch::begin_here(Run& run) {
     out().on_stop({run.origin, StopKind::Operator});
   }
   return true;
+}
+
+/// Without a changer the operator is asked for the tool as at its M6, before anything moves.
+void StartSearch::show_tool(Run& run, const Point& to) {
+  const ToolModes& tool = run.state.tool;
+  if (tool.active == 0) return;
+  out().on_tool({run.origin, tool.active, false, tool.offset});
+  if (has_tool_changer(run)) return;
+  const LengthDisplay display{.units = run.state.units, .x_is_diameter = true};
+  run.scratch = fmt::format(
+      "{} (line {}): tool {} with offset {} has to be in position; the program is at X{} Z{} "
+      "(machine coordinates)",
+      start_.text, run.origin.line, tool.active, tool.offset,
+      shown_axis_number(Axis::X, to.x, display), shown_axis_number(Axis::Z, to.z, display));
+  out().on_message({run.origin, run.scratch});
+  out().on_stop({run.origin, StopKind::ToolChange});
 }
 
 StartSearch::Approach StartSearch::approach_of(const Run& run) const {

@@ -96,6 +96,7 @@ class StartSearch final : public EventGate {
   static bool is_same_place(const Run& run);
   bool begin_here(Run& run);
   std::string refusal(const Run& run) const;
+  void show_tool(Run& run, const Point& to);
   Approach approach_of(const Run& run) const;
   bool may_cross(Run& run, const Approach& approach) const;
   void make_approach(Run& run, const Approach& approach);
