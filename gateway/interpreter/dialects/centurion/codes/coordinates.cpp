@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -60,10 +61,12 @@ void reset(Run& run, int first, double value) {
 
 }  // namespace
 
-/// The present position gets the given coordinates, whatever is transformed; every G50 ends G52.
+/// The present position gets the given coordinates, whatever is scaled; every G50 ends G52.
 bool set_floating_zero(Run& run) {
   const Words& words = run.block.words;
   ModalState& state = run.state;
+  const bool has_axes = words.has_any(set_of(Address::X, Address::Z));
+  if (has_axes && !check_untransformed(run, "G50")) return false;
   const Point machine = machine_of(run, state.position);
   state.local_zero = {};
   run.update_origin();

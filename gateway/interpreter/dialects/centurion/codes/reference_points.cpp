@@ -24,6 +24,15 @@ Point in_axes(const Run& run, const Point& point, AxesNamed named) {
   return to;
 }
 
+/// A first leg of no length, as in G28 W0, leads nowhere in any coordinates.
+bool has_increments_of_zero(const Run& run) {
+  const Words& words = run.block.words;
+  const auto is_zero = [&](Address address) { return !words.has(address) || words[address] == 0; };
+  const bool is_absolute = !run.state.modes.is_incremental;
+  if (is_absolute && words.has_any(set_of(Address::X, Address::Z))) return false;
+  return is_zero(Address::X) && is_zero(Address::Z) && is_zero(Address::U) && is_zero(Address::W);
+}
+
 /// The point that the words of G28, G29 and G30 name, in machine coordinates.
 bool read_via(Run& run, Target& target) {
   return read_end_words(run, {here(run), run.state.origin, run.state.modes.is_incremental}, target);
@@ -67,6 +76,15 @@ bool retract_for(Run& run, int code) {
 
 }  // namespace
 
+bool check_untransformed(Run& run, std::string_view what) {
+  const Transformation& how = run.state.transformation;
+  if (!how.mirrors() && !how.rotates) return true;
+  return run.fail(ErrorCode::IllegalStatement, motion_column(run),
+                  fmt::format("{} with axis words while {} is on: end it before ({})", what,
+                              how.mirrors() ? "mirror (G511)" : "rotation (G568)",
+                              how.mirrors() ? "G501" : "G569"));
+}
+
 bool move_in_machine(Run& run) {
   if (!run.block.words.has_any(kEndWords)) return true;
   const MotionMode mode = run.state.modes.motion;
@@ -86,9 +104,19 @@ bool move_in_machine(Run& run) {
   return true;
 }
 
+namespace {
+
+bool check_first_leg(Run& run) {
+  return has_increments_of_zero(run) ||
+         check_untransformed(run, fmt::format("G{}", run.axis_code()));
+}
+
+}  // namespace
+
 bool go_to_reference(Run& run) {
   Target via;
   Point reference;
+  if (!check_first_leg(run)) return false;
   if (!read_reference(run, reference) || !read_via(run, via)) return false;
   if (!via.named.x && !via.named.z) return true;
   const Point last = in_axes(run, reference, via.named);
@@ -106,6 +134,7 @@ bool return_from_reference(Run& run) {
   const ReferenceVia& via = run.state.reference_via;
   const AxesNamed axes{via.x, via.z};
   Target target;
+  if (!check_first_leg(run)) return false;
   cancel_compensation(run);
   rapid_untransformed(run, in_axes(run, via.at, axes), axes);
   const bool is_read = read_via(run, target);

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <string_view>
+
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 /// Moves to places of the machine, made without compensation and without mirror, scaling and
 /// rotation (manual: G28 to G30; G45 to G48; G53).
 namespace dripline::interpreter::centurion {
 
+/// False, error 518: mirror or rotation is on, and whether they apply to the axis words of `what`
+/// is not known (manual: scaling exempts G28 to G30 and G50, the others say nothing).
+bool check_untransformed(Run& run, std::string_view what);
 /// G53: the words are machine coordinates; on a straight line.
 bool move_in_machine(Run& run);
 /// G28, G30.
