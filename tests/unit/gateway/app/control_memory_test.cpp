@@ -178,7 +178,7 @@ TEST(CenturionMemory, IsClearedByASetupThatNamesIt) {
 class CenturionStart : public testing::Test {
  protected:
   static constexpr const char* kCount =
-      "O0001\nG98 F900\nP10=P10+1\nG0 X1 Z1\nN30 G1 X2\nP11=P11+1\nN40 G1 X3\nM30\n";
+      "O0001\nG98 F900 P140=2\nP10=P10+1\nG0 X1 Z1\nN30 G1 X2\nP11=P11+1\nN40 G1 X3\nM30\n";
 
   CenturionStart() { fixture.push("O1", kCount); }
   dds::RunEndText run_from(const std::string& place) {

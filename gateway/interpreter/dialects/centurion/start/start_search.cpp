@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::uint8_t kHasX = 1;
 constexpr std::uint8_t kHasZ = 2;
+constexpr double kSamePlace = 1e-6;  // millimeters
 
 std::optional<StartAt::Kind> kind_of_letter(char letter) {
   constexpr std::string_view kLetters = "NTLB+";  // in the order of the kinds
@@ -208,12 +209,12 @@ StartSearch::Approach StartSearch::approach_of(const Run& run) const {
   return approach;
 }
 
-/// Without a clearance X moves only where the tool is before the place and the program's zero, or
-/// where the program itself has moved it: no Z has come yet.
+/// Without a clearance X moves only where the tool is not beside the part: at the Z of the place or
+/// before it, and before the program's zero; or where no Z has come yet, as the program itself did.
 bool StartSearch::may_cross(Run& run, const Approach& approach) const {
   const Point &from = approach.from, &to = approach.to;
   const double zero = run.length(run.state.origin.z).mm();
-  const bool is_in_front = from.z > to.z && from.z >= zero;
+  const bool is_in_front = from.z >= to.z - kSamePlace && from.z >= zero - kSamePlace;
   const bool has_z = (run.state.searched_axes & kHasZ) != 0;
   if (approach.clearance || from.x == to.x || is_in_front || !has_z) return true;
   const auto z_of = [&run](double mm) { return shown_length(Length::mm(mm), run.state.units); };
@@ -227,7 +228,8 @@ bool StartSearch::may_cross(Run& run, const Approach& approach) const {
 }
 
 /// Below the clearance Z retracts first; above it X moves first, and Z goes to the clearance if
-/// that is before the place. The last move is a feed, after the operator has agreed.
+/// that is before the place. The last move is a feed, after the operator has agreed: all of it
+/// where nothing is known to be clear at the tool's Z.
 void StartSearch::make_approach(Run& run, const Approach& approach) {
   const Point &from = approach.from, &to = approach.to;
   Point at = from;
@@ -238,7 +240,7 @@ void StartSearch::make_approach(Run& run, const Approach& approach) {
   };
   const double clearance = approach.clearance.value_or(from.z);
   if (from.z < clearance) rapid({from.x, clearance});
-  rapid({to.x, at.z});
+  if (approach.clearance || from.z > to.z + kSamePlace) rapid({to.x, at.z});
   if (at.z > clearance && clearance >= to.z) rapid({to.x, clearance});
   out().on_stop({run.origin, StopKind::Operator});
   if (at == to) return;
