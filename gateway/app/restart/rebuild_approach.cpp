@@ -7,7 +7,7 @@ namespace dripline::gateway {
 namespace {
 
 constexpr double kSame = 1e-9;   ///< millimeters or degrees
-constexpr double kMoved = 0.05;  ///< more than axes settle after a stop
+constexpr double kMoved = 0.05;  ///< more than axes move while they come to rest
 
 }  // namespace
 
