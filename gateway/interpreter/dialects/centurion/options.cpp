@@ -218,7 +218,8 @@ constexpr std::array kOptionRows{
     // Panel and start
     Row{{"mode", "run|verify|mdi", "mode of the panel"}, read_mode},
     Row{{"start_at", kText,
-         "where a run begins: N120, T3 (tool), L40 (line), B4096 (byte), +25 (blocks)",
+         "where a run begins: N120, T3 (tool), L40 (line), B4096 (byte), +25 (blocks, as "
+         "executed)",
          "the first block"},
         read_start_at},
     Row{option("start_pass", kWhole,

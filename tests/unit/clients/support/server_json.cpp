@@ -46,6 +46,7 @@ json port_json(const std::string& name) {
           {"rules", nullptr},
           {"enabled", true},
           {"effective", {{"line", "4800e71"}, {"flow", "xonxoff"}, {"baud", "4800"}}},
+          {"sends_at_once", true},
           {"open", true},
           {"fault", nullptr},
           {"line",
