@@ -28,7 +28,8 @@ bool has_other_p(const Block& block) {
 /// becomes a single one, or of another length.
 bool check_other_repeats(Run& run, AddressSet taken) {
   const Words& words = run.block.words;
-  AddressSet others = words.present() & run.ledger.left() & set_of(K, L) & ~taken;
+  AddressSet others =
+      words.present() & static_cast<AddressSet>(run.ledger.left()) & set_of(K, L) & ~taken;
   if (calls_or_returns(run.block)) others &= ~set_of(L);
   if (others == 0) return true;
   const Address other = (others & set_of(L)) != 0 ? L : K;
