@@ -52,4 +52,9 @@ std::vector<std::string> programs_of(const SendJob& job) {
   return {job.name.empty() ? "an answer to the control" : "the answer " + job.name};
 }
 
+bool is_cut_off(const SendEnd& end) {
+  const bool has_left = end.progress.offered > 0 || end.progress.sent.bytes > 0;
+  return has_left && end.outcome != SendOutcome::Completed;
+}
+
 }  // namespace dripline::line

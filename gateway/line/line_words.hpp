@@ -30,5 +30,7 @@ inline constexpr std::string_view kHeadLeft = "a part of what is sent before the
 std::string what_it_does(const LineView& port);
 /// What a job sends: the programs of a transfer; an answer is one of comments, or has no name.
 std::vector<std::string> programs_of(const SendJob& job);
+/// A part of it has left, and not all.
+bool is_cut_off(const SendEnd& end);
 
 }  // namespace dripline::line

@@ -16,12 +16,6 @@ bool is_answer(const SendProgress& progress) {
   return progress.kind == JobKind::Answer;
 }
 
-/// An answer is remembered only if it was cut off.
-bool is_answer_over(const SendEnd& end) {
-  const bool has_left = end.progress.offered > 0 || end.progress.sent.bytes > 0;
-  return is_answer(end.progress) && (end.outcome == SendOutcome::Completed || !has_left);
-}
-
 TransferState state_of(SendOutcome outcome) {
   switch (outcome) {
     case SendOutcome::Completed:
@@ -252,7 +246,7 @@ void PortLine::take_back(std::optional<PortTransfer> before) {
 void PortLine::end_transfer(const SendEnd& end) {
   const std::lock_guard lock(mutex_);
   if (!transfer_ || transfer_->id != end.progress.id) return;
-  if (is_answer_over(end)) {
+  if (is_answer(end.progress) && !is_cut_off(end)) {  // then it is not remembered
     transfer_ = std::exchange(before_answer_, std::nullopt);
     return;
   }

@@ -167,9 +167,8 @@ void TransferLog::begin_answer(const SendJob& job) {
 }
 
 void TransferLog::end_answer(const SendEnd& end) {
-  const bool has_left = end.progress.offered > 0 || end.progress.sent.bytes > 0;
-  const bool is_over = end.outcome == SendOutcome::Completed || !has_left;
-  is_over&& sent_.before ? take_back_send(end.progress.id) : end_send(end);
+  if (sent_.before && !line::is_cut_off(end)) return take_back_send(end.progress.id);
+  end_send(end);
 }
 
 void TransferLog::take_back_send(const std::string& id) {

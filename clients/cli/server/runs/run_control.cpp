@@ -56,36 +56,19 @@ int complain_of_stop(const client::Failure& failure) {
   return status;
 }
 
-int stop(client::Client& client, Context& context, const client::Machine& machine,
-         const client::CommandRequest& command) {
-  const auto& status = *machine.status;
-  if (auto given = client.command(status.run, command); !given)
-    return complain_of_stop(given.error());
-  context.print(fmt::format("{} took {} (run {} of {})\n", machine.name, command_text(command),
-                            short_id(status.run), status.program));
-  return kExitOk;
-}
-
-/// A stop is sent at once: what the library has to say comes afterward, or not at all.
+/// Without the library. Nothing is done unless it is one stop, and of one machine.
 std::optional<int> stop_reported_run(client::Client& client, Context& context,
-                                     const std::string& reference,
+                                     const std::string& prefix,
                                      const std::vector<client::CommandRequest>& commands) {
   if (commands.size() != 1 || !is_stop(commands.front())) return std::nullopt;
-  if (reference.empty() || reference == kLatest) return std::nullopt;
-  const auto machine = find_machine_of(client, reference);
+  const auto machine = find_machine_of(client, prefix);
   if (!machine) return std::nullopt;
-  return stop(client, context, *machine, commands.front());
-}
-
-/// The library, which knows the latest run, is away: it is the only one there is.
-std::optional<int> stop_only_run(client::Client& client, Context& context,
-                                 const std::string& reference,
-                                 const std::vector<client::CommandRequest>& commands) {
-  if (commands.size() != 1 || !is_stop(commands.front()) || reference != kLatest)
-    return std::nullopt;
-  const auto machine = find_machine_of(client, "");
-  if (!machine) return std::nullopt;
-  return stop(client, context, *machine, commands.front());
+  const auto& status = *machine->status;
+  if (auto given = client.command(status.run, commands.front()); !given)
+    return complain_of_stop(given.error());
+  context.print(fmt::format("{} took {} (run {} of {})\n", machine->name,
+                            command_text(commands.front()), short_id(status.run), status.program));
+  return kExitOk;
 }
 
 /// Gives the orders one after the other, as long as the machine takes them.
@@ -93,11 +76,16 @@ int give(Context& context, const std::string& reference,
          const std::vector<client::CommandRequest>& commands) {
   auto client = context.connect();
   if (!client) return context.status;
-  if (auto stopped = stop_reported_run(*client, context, reference, commands)) return *stopped;
+  const bool is_latest = reference == kLatest;
+  // A stop is sent at once: what the library has to say comes afterward, or not at all.
+  if (!reference.empty() && !is_latest) {
+    if (auto stopped = stop_reported_run(*client, context, reference, commands)) return *stopped;
+  }
   const bool stops = !commands.empty() && is_stop(commands.front());
   auto run = find_run(*client, reference);
-  if (!run && run.error().kind != client::Failure::Kind::Refused) {
-    if (auto stopped = stop_only_run(*client, context, reference, commands)) return *stopped;
+  // The library, which knows the latest run, is away: it is the only one there is.
+  if (!run && is_latest && run.error().kind != client::Failure::Kind::Refused) {
+    if (auto stopped = stop_reported_run(*client, context, "", commands)) return *stopped;
   }
   if (!run) return stops ? complain_of_stop(run.error()) : complain(run.error());
   for (const auto& command : commands) {
