@@ -62,7 +62,7 @@ Result<ArchiveReader> ArchiveReader::open(const std::string& name) {
   auto buffer = std::make_shared<std::array<char, 64 * 1024>>();
   return begin(
       [file, buffer, name]() -> Result<std::span<const std::byte>> {
-        file->read(buffer->data(), buffer->size());
+        file->read(buffer->data(), std::ssize(*buffer));
         if (file->bad()) return fail(Errc::Io, "archive {} cannot be read", name);
         return std::as_bytes(std::span(*buffer).first(static_cast<std::size_t>(file->gcount())));
       },

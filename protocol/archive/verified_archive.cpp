@@ -16,7 +16,7 @@ Result<void> VerifiedArchive::read(const RowVisitor& visit, Digest& digest) cons
   source.file.seekg(0);
   auto reader = ArchiveReader::begin(
       [this, &source]() -> Result<std::span<const std::byte>> {
-        source.file.read(source.buffer.data(), source.buffer.size());
+        source.file.read(source.buffer.data(), std::ssize(source.buffer));
         if (source.file.bad()) return fail(Errc::Io, "archive {} cannot be read", name_);
         const auto count = static_cast<std::size_t>(source.file.gcount());
         return std::as_bytes(std::span(source.buffer).first(count));

@@ -32,9 +32,10 @@ std::string exact_text(double value, int decimals) {
   const auto text = [value](int with) { return fmt::format("{:.{}f}", value, with); };
   const std::string most = text(kMost);
   const std::string_view zeros = "000000000";
-  while (decimals < kMost && text(decimals) + (decimals == 0 ? "." : "") +
-                                     std::string(zeros.substr(0, kMost - decimals)) !=
-                                 most) {
+  while (decimals < kMost &&
+         text(decimals) + (decimals == 0 ? "." : "") +
+                 std::string(zeros.substr(static_cast<std::size_t>(decimals))) !=
+             most) {
     ++decimals;
   }
   return text(decimals);

@@ -12,7 +12,11 @@ using impl::path_of;
 using impl::with_method;
 using impl::with_page;
 using impl::with_query;
+namespace {
+
 using Json = nlohmann::json;
+
+}  // namespace
 
 Reply<std::vector<Machine>> Client::machines() {
   return fetch_list<Machine>(path_of("machines"), "machines");

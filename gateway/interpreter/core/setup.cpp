@@ -225,10 +225,11 @@ void read_machine_axis(Table& table, Axis axis, MachineData::AxisData& data) {
 void read_machine(Table& table, MachineData& machine) {
   for (const Axis axis : kEveryAxis) {
     const char name = letter(axis);
-    table.table(
-        std::string_view(&name, 1), {"min", "max", "rate", "acceleration"}, [&](Table& its) {
-          read_machine_axis(its, axis, machine.axes[static_cast<std::size_t>(axis)].emplace());
-        });
+    table.table(std::string_view(&name, 1), {"min", "max", "rate", "acceleration"},
+                [&](Table& its) {
+                  auto& data = machine.axes[static_cast<std::size_t>(axis)];
+                  read_machine_axis(its, axis, data.emplace(MachineData::AxisData{}));
+                });
   }
   if (table.has("max_rpm")) table.number("max_rpm", machine.max_rpm.emplace());
   if (machine.max_rpm && !(*machine.max_rpm > 0))

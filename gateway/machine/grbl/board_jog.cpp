@@ -20,7 +20,7 @@ Result<void> BoardSession::jog(const Jog& jog, SteadyTime now) {
   const bool is_free = counter_.unanswered_lines() == 0 && tracker_.is_empty() && !jog_;
   if (!is_free || !may_send(line.size())) return fail(Errc::Busy, "the board is not at rest");
   jog_fault_.clear();
-  jog_.emplace();
+  jog_ = JogInHand{};
   send_system(line);
   next_poll_ = now;
   return {};
