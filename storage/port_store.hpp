@@ -66,6 +66,8 @@ class PortStore {
   virtual Result<void> save_transfer(const PortTransfer& transfer) = 0;
   /// Of an active one: a later save_transfer is never overtaken, another id changes nothing.
   virtual Result<void> note_progress(const PortTransfer& transfer) = 0;
+  /// Drops it, if it is still the port's latest of that direction.
+  virtual Result<void> drop_transfer(const PortTransfer& transfer) = 0;
   /// The latest of each direction.
   virtual Result<std::vector<PortTransfer>> transfers(const std::string& port) = 0;
 };

@@ -6,6 +6,7 @@
 
 #include "gateway/line/inbound/rule_reader.hpp"
 #include "gateway/line/line_words.hpp"
+#include "gateway/line/port_transfer.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/process/log.hpp"
 #include "protocol/serial/channel.hpp"
@@ -180,9 +181,13 @@ Result<void> PortService::check_free_to_end(const std::string& name) const {
   if (auto idle = check_idle(name); !idle) return idle;
   const auto entry = find(name);
   const auto progress = entry && entry->line ? entry->line->progress() : std::nullopt;
-  if (!progress || progress->sent.bytes == 0) return {};
-  return fail(Errc::Busy, "port '{}' of machine '{}' is sending what its control asked for", name,
-              entry->port.machine);
+  if (!progress) return {};
+  const bool is_read = line::sends_at_once(entry->settings) || progress->sent.bytes > 0;
+  if (!is_read) return {};
+  return fail(Errc::Busy,
+              "port '{}' of machine '{}' is sending what its control asked for (dnc port stop {} "
+              "ends that)",
+              name, entry->port.machine, name);
 }
 
 Result<PortService::Entry> PortService::find(const std::string& name) const {
@@ -256,7 +261,7 @@ Result<PortView> PortService::save_prepared(Entry entry) {
   note_host(entry.port);
   const storage::Port& port = entry.port;
   if (auto free = check_free(port); !free) return fail(free.error());
-  if (auto idle = check_idle(port.name); !idle) return fail(idle.error());
+  if (auto idle = check_free_to_end(port.name); !idle) return fail(idle.error());
   const auto before = find(port.name);
   if (before && before->port.machine != port.machine) {
     if (auto ready = check_reset(*before); !ready) return fail(ready.error());
@@ -289,7 +294,7 @@ Result<void> PortService::remove(const std::string& name) {
   const std::lock_guard changing(change_mutex_);
   const auto entry = find(name);
   if (!entry) return fail(entry.error());
-  if (auto idle = check_idle(name); !idle) return idle;
+  if (auto idle = check_free_to_end(name); !idle) return idle;
   if (auto ready = check_reset(*entry); !ready) return ready;
   if (auto removed = store_.ports.remove(name); !removed) return removed;
   {

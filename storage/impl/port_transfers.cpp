@@ -75,6 +75,14 @@ Result<void> PortRepository::note_progress(const PortTransfer& transfer) {
   });
 }
 
+Result<void> PortRepository::drop_transfer(const PortTransfer& transfer) {
+  return connections_.write([&](sql::Database& database) {
+    return sql::run(database,
+                    "DELETE FROM port_transfer WHERE port = ?1 AND direction = ?2 AND id = ?3",
+                    transfer.port, to_string(transfer.direction), transfer.id);
+  });
+}
+
 Result<std::vector<PortTransfer>> PortRepository::transfers(const std::string& port) {
   return connections_.read([&](sql::Database& database) -> Result<std::vector<PortTransfer>> {
     std::string unknown;

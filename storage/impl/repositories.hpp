@@ -45,6 +45,7 @@ class PortRepository final : public PortStore {
   Result<void> remove(const std::string& name) override;
   Result<void> save_transfer(const PortTransfer& transfer) override;
   Result<void> note_progress(const PortTransfer& transfer) override;
+  Result<void> drop_transfer(const PortTransfer& transfer) override;
   Result<std::vector<PortTransfer>> transfers(const std::string& port) override;
 
  private:

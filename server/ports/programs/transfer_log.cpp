@@ -124,7 +124,8 @@ TransferLog::Transfer* TransferLog::active(Direction direction) {
 
 /// Said once, until it works again.
 Result<void> TransferLog::store(Entry& entry) {
-  auto saved = parts_.ports.save_transfer(*entry.latest);
+  auto saved = entry.latest ? parts_.ports.save_transfer(*entry.latest)
+                            : parts_.ports.drop_transfer(*entry.dropped);
   entry.is_saved = saved.has_value();
   if (saved) entry.is_moving = false;
   if (!saved && !std::exchange(is_failing_, true)) {
@@ -167,20 +168,12 @@ void TransferLog::begin_answer(const SendJob& job) {
 }
 
 void TransferLog::end_answer(const SendEnd& end) {
-  if (sent_.before && !line::is_cut_off(end)) return take_back_send(end.progress.id);
-  end_send(end);
+  line::is_cut_off(end) ? end_send(end) : take_back_send(end.progress.id);
 }
 
 void TransferLog::take_back_send(const std::string& id) {
   if (!sent_.latest || sent_.latest->id != id) return;
-  if (sent_.before) {
-    sent_.latest = std::exchange(sent_.before, std::nullopt);
-  } else {
-    sent_.latest->state = End::Aborted;
-    sent_.latest->at_most = 0;
-    sent_.latest->reason = "it was not begun";
-    sent_.latest->ended = parts_.clock.now();
-  }
+  sent_.dropped = std::exchange(sent_.latest, std::exchange(sent_.before, std::nullopt));
   static_cast<void>(store(sent_));
   show(Direction::Send, sent_.latest);
 }
@@ -278,12 +271,11 @@ void TransferLog::end_reception(End state, const std::string& program, const std
 void TransferLog::save() {
   for (const auto direction : {Direction::Send, Direction::Receive}) {
     Entry& entry = this->entry(direction);
-    if (!entry.latest) continue;
     if (!entry.is_saved) {
       static_cast<void>(store(entry));
       continue;
     }
-    if (!entry.is_moving || active(direction) == nullptr) continue;
+    if (!entry.latest || !entry.is_moving || active(direction) == nullptr) continue;
     // Repeated soon by the next one.
     if (parts_.ports.note_progress(*entry.latest)) entry.is_moving = false;
     show(direction, entry.latest);

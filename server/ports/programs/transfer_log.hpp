@@ -46,7 +46,7 @@ class TransferLog {
   Result<void> allow(const std::string& id, std::uint64_t end);
   void note_sent(const SendProgress& progress);
   void end_send(const SendEnd& end);
-  /// It was not begun after all: what was before is the latest again.
+  /// It was not begun after all: what was before is the latest again, or nothing.
   void take_back_send(const std::string& id);
 
   /// The control is asked for a program, or sends one; nothing happens while one is awaited or
@@ -65,8 +65,9 @@ class TransferLog {
  private:
   struct Entry {
     std::optional<Transfer> latest, before;
-    bool is_saved = true;    ///< the store has its beginning, or its end
-    bool is_moving = false;  ///< its numbers have changed since they were stored
+    std::optional<Transfer> dropped = {};  ///< there is none, but the store may have this yet
+    bool is_saved = true;                  ///< the store has its beginning, or its end
+    bool is_moving = false;                ///< its numbers have changed since they were stored
   };
   Entry& entry(Direction direction) { return direction == Direction::Send ? sent_ : received_; }
   Transfer* active(Direction direction);

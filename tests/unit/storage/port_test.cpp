@@ -120,6 +120,8 @@ TEST_P(PortTest, ProgressIsOfTheActiveTransferOnly) {
   EXPECT_EQ(store_->ports.transfers("line-1").value(), std::vector{transfer});
   PortTransfer another = transfer;
   another.id = "transfer-9";
+  ASSERT_TRUE(store_->ports.drop_transfer(another));
+  EXPECT_EQ(store_->ports.transfers("line-1")->size(), 1u) << "that one is not the latest";
   another.passed = 101;
   ASSERT_TRUE(store_->ports.note_progress(another));
   EXPECT_EQ(store_->ports.transfers("line-1").value(), std::vector{transfer});

@@ -306,6 +306,42 @@ TEST_F(BrokenAnswer, ThatWentThroughHidesNoProgramThatWasBrokenOff) {
   EXPECT_TRUE(start("O2"));
 }
 
+/// Also the first text without a run that the port ever had.
+TEST_F(BrokenAnswer, ThatWentThroughHidesNoRunThatWasBrokenOff) {
+  begin();
+  break_off_a_run();
+  ask();
+  line().read_until("M30\n%\n");
+  ASSERT_TRUE(wait([&] {
+    const auto kept = *store_->ports.transfers("com1");
+    return kept.size() == 1 && kept[0].direction == storage::TransferDirection::Receive;
+  }));
+  EXPECT_EQ(start("O2").error().code, Errc::Conflict);
+  EXPECT_EQ(ports_->send("com1", {{"O2", {}}}).error().code, Errc::Conflict);
+  ports_.reset();
+  start_ports();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  EXPECT_EQ(start("O2").error().code, Errc::Conflict);
+  EXPECT_EQ(sent(), "");
+}
+
+TEST_F(BrokenAnswer, IsNotMadeByAChangeOfThePort) {
+  begin();
+  ask();
+  line().read_until("O9998");
+  line().write("\x13");
+  const auto removed = ports_->remove("com1");
+  ASSERT_FALSE(removed);
+  EXPECT_EQ(removed.error().code, Errc::Busy);
+  EXPECT_NE(removed.error().what.find("dnc port stop com1"), std::string::npos);
+  auto other = mill();
+  other.machine = "mill-2";
+  EXPECT_EQ(ports_->save(other).error().code, Errc::Busy);
+  ASSERT_TRUE(ports_->stop_transfer("com1", "stopped by cam"));
+  EXPECT_TRUE(wait([&] { return ports_->remove("com1").error().code == Errc::Conflict; }))
+      << "then its reset is to be confirmed";
+}
+
 TEST_F(BrokenAnswer, IsNotCutOffByAProgram) {
   begin();
   ask();

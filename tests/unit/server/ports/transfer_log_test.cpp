@@ -24,6 +24,9 @@ class RefusingPorts final : public storage::PortStore {
   Result<void> note_progress(const storage::PortTransfer& transfer) override {
     return refuses || refuses_progress ? full() : inner_.note_progress(transfer);
   }
+  Result<void> drop_transfer(const storage::PortTransfer& transfer) override {
+    return refuses ? full() : inner_.drop_transfer(transfer);
+  }
   Result<std::vector<storage::PortTransfer>> transfers(const std::string& port) override {
     return inner_.transfers(port);
   }
