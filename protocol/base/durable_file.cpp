@@ -1,8 +1,10 @@
 #include "protocol/base/durable_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
+#include <string>
 
 #include "protocol/base/descriptor.hpp"
 
@@ -20,6 +22,18 @@ bool write_all(int file, std::span<const std::byte> bytes) {
 
 bool write_all(int file, std::string_view text) {
   return write_all(file, std::as_bytes(std::span(text)));
+}
+
+bool replace_private_file(const std::filesystem::path& path, std::string_view text) {
+  const std::string fresh = path.string() + ".new";
+  ::unlink(fresh.c_str());  // of a call that was cut off
+  {
+    const Descriptor file(
+        ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR));
+    if (!file || !write_all(file.get(), text) || ::fsync(file.get()) != 0) return false;
+  }
+  return ::rename(fresh.c_str(), path.c_str()) == 0 &&
+         sync_folder(path.has_parent_path() ? path.parent_path() : ".");
 }
 
 bool sync_folder(const std::filesystem::path& folder) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "protocol/base/durable_file.hpp"
 #include "protocol/base/private_folder.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
@@ -23,36 +24,16 @@ tl::unexpected<Error> fail_with_errno(const std::filesystem::path& path) {
   return fail(Errc::Io, "{}: {}", path.string(), std::generic_category().message(errno));
 }
 
-/// Writes a new file, onto the disk, that only its owner can read.
-Result<void> write_private_file(const std::filesystem::path& path, const std::string& text) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  if (file < 0) return fail_with_errno(path);
-  const bool is_written =
-      ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-      ::fsync(file) == 0;
-  const auto failure = fail_with_errno(path);
-  ::close(file);
-  if (is_written) return {};
-  ::unlink(path.c_str());
-  return failure;
-}
-
-/// A reader sees the whole file or none, also after a kill midway.
-Result<void> replace_private_file(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path fresh = path.string() + ".new";
-  std::error_code ec;
-  std::filesystem::remove(fresh, ec);
-  if (auto written = write_private_file(fresh, text); !written) return written;
-  std::filesystem::rename(fresh, path, ec);
-  if (ec) return fail(Errc::Io, "{}: {}", path.string(), ec.message());
-  return {};
+Result<void> replace_file(const std::filesystem::path& path, const std::string& text) {
+  if (replace_private_file(path, text)) return {};
+  return fail_with_errno(path);
 }
 
 /// The first line of a file that only its owner can read; made of random digits when it is missing.
 Result<std::string> secret_in(const std::filesystem::path& path, std::string_view remedy) {
   struct stat facts {};
   if (::stat(path.c_str(), &facts) != 0) {
-    if (auto made = replace_private_file(path, random_hex(kSecretBytes) + "\n"); !made)
+    if (auto made = replace_file(path, random_hex(kSecretBytes) + "\n"); !made)
       return fail(made.error());
     if (::stat(path.c_str(), &facts) != 0) return fail_with_errno(path);
   }
@@ -146,14 +127,14 @@ Result<std::uint64_t> StateFolder::term() const {
 }
 
 Result<void> StateFolder::remember_term(std::uint64_t term) const {
-  return replace_private_file(path_ / kTerm, std::to_string(term) + "\n");
+  return replace_file(path_ / kTerm, std::to_string(term) + "\n");
 }
 
 Result<void> StateFolder::remember_database(const std::string& identity,
                                             const std::string& name) const {
   std::error_code ec;
   if (!std::filesystem::exists(identity_file(), ec))
-    return replace_private_file(identity_file(), identity + "\n");
+    return replace_file(identity_file(), identity + "\n");
   return expect_identity(identity, name);
 }
 
@@ -182,7 +163,7 @@ Result<void> StateFolder::announce(const Announcement& announcement) const {
       {"pid", ::getpid()},
       {"token_file", token_file().string()},
       {"dds", {{"domain", announcement.dds_domain}, {"tag", announcement.dds_tag}}}};
-  return replace_private_file(announcement_file(), json.dump() + "\n");
+  return replace_file(announcement_file(), json.dump() + "\n");
 }
 
 void StateFolder::withdraw() const {

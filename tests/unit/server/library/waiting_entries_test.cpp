@@ -129,6 +129,8 @@ TEST_F(WaitingEntriesTest, AreTheServersAloneAndSkipWhatIsNoEntry) {
   std::ofstream(path() / "0-bad.json") << "{\"time\": 5}";
   std::ofstream(path() / "1-cut.json") << "{\"time\": \"2026-11-2";
   std::ofstream(path() / "2.json.new") << "{}";
+  std::filesystem::create_directory(path() / "3-folder.json");
+  ASSERT_EQ(::mkfifo((path() / "4-pipe.json").c_str(), 0600), 0) << "read, it would wait for ever";
   const auto read = kept.read();
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(read.front().entry.time, UtcTime(5us));
