@@ -105,6 +105,7 @@ Result<void> run_serial(const GatewayOptions& options) {
                          .clock = around.clock,
                          .rules = *std::move(rules),
                          .recordings = around.folder.recordings(),
+                         .kept_transfer = around.folder.kept_transfer(),
                          .session = around.session,
                          .wake = [&around] { around.inbox.post(LineChanged{}); }});
   return around.run(gateway);

@@ -20,6 +20,7 @@ class StateFolder {
   std::filesystem::path motion_journal() const { return folder_ / "motion.journal"; }
   std::filesystem::path recordings() const { return folder_ / "recordings"; }
   std::filesystem::path uploads() const { return folder_ / "uploads"; }
+  std::filesystem::path kept_transfer() const { return folder_ / "line-transfer.json"; }
 
  private:
   StateFolder(std::filesystem::path folder, FileLock lock)

@@ -34,7 +34,8 @@ PortLine::PortLine(Parts parts)
     : parts_(std::move(parts)),
       recorder_(parts_.recording, parts_.clock, parts_.on_traffic),
       losses_(parts_.names.address),
-      session_(parts_.settings, *this) {
+      session_(parts_.settings, *this),
+      transfer_(parts_.broken) {
   if (parts_.is_upload_broken) session_.expect_rest();
 }
 
@@ -243,8 +244,14 @@ void PortLine::take_back(std::optional<PortTransfer> before) {
   transfer_ = std::move(before);
 }
 
+/// A program that the control has read to its end began at its beginning.
 void PortLine::end_transfer(const SendEnd& end) {
   const std::lock_guard lock(mutex_);
+  if (end.progress.kind == JobKind::Run && end.outcome == SendOutcome::Completed) {
+    const bool is_through = transfer_ && transfer_->state == TransferState::Completed;
+    if (!is_through) transfer_.reset();
+    return;
+  }
   if (!transfer_ || transfer_->id != end.progress.id) return;
   if (is_answer(end.progress) && !is_cut_off(end)) {  // then it is not remembered
     transfer_ = std::exchange(before_answer_, std::nullopt);
@@ -256,8 +263,22 @@ void PortLine::end_transfer(const SendEnd& end) {
   transfer_->reason = end.reason;
 }
 
+Result<void> PortLine::keep_transfer() {
+  if (!parts_.keep_transfer) return {};
+  std::optional<PortTransfer> transfer;
+  {
+    const std::lock_guard lock(mutex_);
+    const bool is_through = transfer_ && transfer_->state == TransferState::Completed;
+    if (!is_through) transfer = transfer_;
+  }
+  return parts_.keep_transfer(transfer);
+}
+
 void PortLine::on_sent(const SendEnd& end) {
   end_transfer(end);
+  if (auto kept = keep_transfer(); !kept)
+    process::log_error("port={}: the end of {} is not kept: {}", parts_.names.name, end.progress.id,
+                       kept.error().what);
   refresh();  // the listener must not find it any more
   parts_.post([on_sent = parts_.listener.on_sent, end] { on_sent(end); });
 }

@@ -58,6 +58,12 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
     PortListener listener;
     bool is_program_broken = false;  ///< Discipline::expect_release
     bool is_upload_broken = false;   ///< LineSession::expect_rest
+    /// A transfer of a former life that did not go through.
+    std::optional<PortTransfer> broken = {};
+    /// What a next life has to know: the last transfer, from before it leaves until it went through
+    /// or a run did; else none. On the line's thread. Errors: nothing of it may leave. May be
+    /// empty.
+    std::function<Result<void>(const std::optional<PortTransfer>&)> keep_transfer = {};
   };
   /// Called as a task, once, with what came of it; of hold, resume and abort as one of `post_near`:
   /// it must not wait.
@@ -123,6 +129,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   std::optional<PortTransfer> show_transfer(const SendJob& job);
   void take_back(std::optional<PortTransfer> before);
   void end_transfer(const SendEnd& end);
+  Result<void> keep_transfer();
   void answer_request();
   /// Text that the session waits for.
   struct Wanted {

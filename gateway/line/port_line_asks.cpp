@@ -43,8 +43,14 @@ void PortLine::begin(SendJob job, Answer answer) {
   ask(
       [this, shared](wire::Discipline& line, wire::LineTime now) {
         auto before = show_transfer(*shared);
-        auto begun = session_.begin(std::move(*shared), line, now);
-        begun ? answer_request() : take_back(std::move(before));
+        auto begun = shared->kind == JobKind::Run ? Result<void>() : keep_transfer();
+        if (begun) begun = session_.begin(std::move(*shared), line, now);
+        if (begun) {
+          answer_request();
+        } else {
+          take_back(std::move(before));
+          (void)keep_transfer();  // at worst the next life asks for a reset that was not needed
+        }
         return begun;
       },
       std::move(answer));

@@ -55,6 +55,7 @@ SerialGateway::SerialGateway(Parts parts)
                 .transfer = transfer_,
                 .rules = parts_.rules,
                 .extracts_programs = settings_.extracts_programs}),
+      kept_transfer_(parts_.kept_transfer),
       tasks_(std::make_shared<TaskQueue>(parts_.wake)) {}
 
 SerialGateway::~SerialGateway() {
@@ -62,7 +63,7 @@ SerialGateway::~SerialGateway() {
   if (port_) port_->close("the gateway stopped");
 }
 
-std::shared_ptr<line::PortLine> SerialGateway::make_line() {
+std::shared_ptr<line::PortLine> SerialGateway::make_line(std::optional<line::PortTransfer> broken) {
   const auto& options = parts_.options;
   return line::PortLine::make(
       {.names = {options.machine, options.machine, options.line->address},
@@ -73,7 +74,12 @@ std::shared_ptr<line::PortLine> SerialGateway::make_line() {
        .recording = {.port = options.machine, .folder = parts_.recordings},
        .on_traffic = [](const line::PortTraffic&) {},
        .listener = listener(),
-       .is_program_broken = run_.is_program_broken()});
+       .is_program_broken = run_.is_program_broken(),
+       .broken = std::move(broken),
+       .keep_transfer =
+           [this](const std::optional<line::PortTransfer>& transfer) {
+             return kept_transfer_.write(transfer);
+           }});
 }
 
 line::PortListener SerialGateway::listener() {
@@ -98,7 +104,9 @@ Result<void> SerialGateway::recover() {
   if (parts_.options.speed.factor != 1)
     return fail(Errc::Unsupported, "a control on a line moves in real time: its speed is 1x");
   auto done = run_.recover();
-  port_ = make_line();
+  auto broken = kept_transfer_.read();
+  if (!broken) return fail(broken.error());
+  port_ = make_line(*std::move(broken));
   run_.use(*port_);
   inbound_.use(*port_);
   transfer_.use(*port_);

@@ -7,6 +7,7 @@
 #include "gateway/app/machine_gateway.hpp"
 #include "gateway/app/options.hpp"
 #include "gateway/app/panel/consent.hpp"
+#include "gateway/app/serial/kept_transfer.hpp"
 #include "gateway/app/serial/line_answers.hpp"
 #include "gateway/app/serial/line_calls.hpp"
 #include "gateway/app/serial/serial_inbound.hpp"
@@ -32,10 +33,11 @@ class SerialGateway final : public MachineGateway {
     UploadStore& uploads;
     const Clock& clock;
     std::shared_ptr<const line::RuleSet> rules;
-    std::filesystem::path recordings;  ///< folder of the flight recorder; empty: in memory only
-    std::uint64_t session = 0;         ///< of this process, not zero
-    std::function<void()> wake;        ///< `turn` has something to do; any thread
-    line::LineOpener open = {};        ///< empty: serial::LineDriver::start
+    std::filesystem::path recordings;     ///< folder of the flight recorder; empty: in memory only
+    std::filesystem::path kept_transfer;  ///< its file (KeptTransfer)
+    std::uint64_t session = 0;            ///< of this process, not zero
+    std::function<void()> wake;           ///< `turn` has something to do; any thread
+    line::LineOpener open = {};           ///< empty: serial::LineDriver::start
   };
   /// All references must outlive it.
   explicit SerialGateway(Parts parts);
@@ -78,7 +80,7 @@ class SerialGateway final : public MachineGateway {
   Result<void> check_transfer() const;
   bool end_transfer(const std::string& reason);
 
-  std::shared_ptr<line::PortLine> make_line();
+  std::shared_ptr<line::PortLine> make_line(std::optional<line::PortTransfer> broken);
   line::PortListener listener();
   std::string label() const;
 
@@ -94,6 +96,7 @@ class SerialGateway final : public MachineGateway {
   SerialInbound inbound_;
   SerialTransfer transfer_;
   LineAnswers answers_;
+  const KeptTransfer kept_transfer_;
   std::shared_ptr<TaskQueue> tasks_;
   std::shared_ptr<line::PortLine> port_;
   SteadyTime next_tick_{};

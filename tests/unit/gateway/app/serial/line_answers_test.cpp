@@ -237,6 +237,61 @@ TEST_F(LineAnswersTest, TheControlsRequestAfterItIsConsentAndBeforeItIsNone) {
       pass_until([&] { return transfer().state == dds::LineTransferState::Completed; }, 60s));
 }
 
+/// Its control still waits for the rest.
+TEST_F(LineAnswersTest, ATextThatWasBrokenOffOutlivesTheGateway) {
+  begin(kPlain);
+  ASSERT_EQ(send(program_).status, LineResult::Done);
+  pass(1s);
+  const auto left = wire_.sent.size();
+  ASSERT_GT(left, 0u);
+  kill();
+  begin(kPlain);
+  EXPECT_EQ(transfer().state, dds::LineTransferState::Interrupted);
+  EXPECT_EQ(transfer().id, "transfer-1");
+  EXPECT_EQ(transfer().programs, "O0077 revision 1");
+  EXPECT_NE(transfer().reason.find("the gateway stopped"), std::string::npos);
+  ASSERT_EQ(send(program_, sha256(program_).hex(), "transfer-2").status, LineResult::Done);
+  pass(1s);
+  ASSERT_EQ(stop("stopped by cam").status, LineResult::Done);
+  const auto aborted = transfer();
+  EXPECT_EQ(aborted.state, dds::LineTransferState::Aborted);
+  end();
+  begin(kPlain);
+  EXPECT_EQ(transfer().state, dds::LineTransferState::Aborted);
+  EXPECT_EQ(transfer().id, "transfer-2");
+  EXPECT_EQ(transfer().sent, aborted.sent);
+  ASSERT_EQ(send(program_, sha256(program_).hex(), "transfer-3").status, LineResult::Done);
+  ASSERT_TRUE(
+      pass_until([&] { return transfer().state == dds::LineTransferState::Completed; }, 60s));
+  end();
+  begin(kPlain);
+  EXPECT_FALSE(status().serial_line->transfer) << "it went through";
+}
+
+TEST_F(LineAnswersTest, ARunThatWentThroughIsTheEndOfATextThatDidNot) {
+  begin(kPlain);
+  ASSERT_EQ(send(program_).status, LineResult::Done);
+  pass(1s);
+  ASSERT_EQ(stop("stopped by cam").status, LineResult::Done);
+  start("O0077\nG1 X1.\nM30\n");
+  ASSERT_TRUE(pass_until([&] { return ended().has_value(); }, 60s));
+  EXPECT_FALSE(status().serial_line->transfer);
+  end();
+  begin(kPlain);
+  EXPECT_FALSE(status().serial_line->transfer);
+}
+
+TEST_F(LineAnswersTest, NothingLeavesThatWouldNotBeRemembered) {
+  std::filesystem::create_directories(folder_.path() / "line-transfer.json.new" / "folder");
+  begin(kPlain);
+  const auto refused = send(program_);
+  EXPECT_EQ(refused.status, LineResult::Refused);
+  EXPECT_NE(refused.reason.find("line-transfer.json"), std::string::npos) << refused.reason;
+  pass(1s);
+  EXPECT_EQ(wire_.sent, "");
+  EXPECT_FALSE(status().serial_line->transfer);
+}
+
 TEST_F(LineAnswersTest, RefusesToAskForAProgramWhereTheControlSendsUnasked) {
   begin(kPlain);
   const auto refused = ask(request(LineAction::Receive));

@@ -51,6 +51,7 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
                                : std::make_shared<const line::RuleSet>(
                                      line::RuleSet(line::read_rules(rules).value())),
         .recordings = folder_.path() / "recordings",
+        .kept_transfer = folder_.path() / "line-transfer.json",
         .session = kSession,
         .wake = [] {},
         .open =
@@ -62,6 +63,22 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
     ASSERT_TRUE(gateway_->recover());
     connect(true);
     pass(std::chrono::milliseconds(500));
+  }
+  /// `begin` is the gateway's next life then.
+  void end() {
+    gateway_.reset();
+    uploads_.reset();
+    journal_.reset();
+    outbox_.reset();
+    options_.line.reset();
+    wire_ = {};
+  }
+  /// The file is as a kill leaves it.
+  void kill() {
+    const auto file = folder_.path() / "line-transfer.json", copy = folder_.path() / "copy";
+    std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing);
+    end();
+    std::filesystem::copy_file(copy, file, std::filesystem::copy_options::overwrite_existing);
   }
   void connect(bool is_up) {
     is_up_ = is_up;
