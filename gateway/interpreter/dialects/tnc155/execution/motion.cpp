@@ -34,28 +34,6 @@ Target machine_target(Run& run, const Block& block) {
   return target;
 }
 
-/// The first positioning block must be absolute, and after GOTO it must name two coordinates.
-bool check_start(Run& run, const Block& block, const Target& target) {
-  State& state = run.state;
-  if (state.has_positioned) [[likely]]
-    return true;
-  const ProgramStart rule = state.is_restart ? ProgramStart::Complete : run.options.program_start;
-  bool is_incremental = block.is_radius_incremental || block.is_angle_incremental;
-  for (const Coordinate& word : block.words()) is_incremental |= word.is_incremental;
-  const bool has_one = (target.named & (target.named - 1)) == 0;
-  if ((rule != ProgramStart::Any && is_incremental) ||
-      (rule == ProgramStart::Complete && has_one)) {
-    return run.fail(
-        ErrorCode::ProgramStartUndefined,
-        fmt::format("the first positioning block{} {}", state.is_restart ? " after GOTO" : "",
-                    is_incremental ? "is incremental" : "has one coordinate"));
-  }
-  if (state.is_restart && !check_positions(run, target.named)) return false;
-  state.has_positioned = true;
-  state.is_restart = false;
-  return true;
-}
-
 /// M91, M92: the block's words are machine coordinates, and nothing else changes them.
 bool run_machine_block(Run& run, const Block& block) {
   const State& state = run.state;
@@ -136,6 +114,7 @@ bool check_axes(Run& run, const Target& target) {
 bool go_straight(Run& run, const Block& block, const Target& target) {
   State& state = run.state;
   if (!check_axes(run, target)) return false;
+  const bool is_first = state.is_restart && target.named != 0;
   if (target.named != 0 && !check_start(run, block, target)) return false;
   if (!read_feed(run, block)) return false;
   const PlaneMove move = plane_move(state, target);
@@ -143,7 +122,9 @@ bool go_straight(Run& run, const Block& block, const Target& target) {
   if (target.named != 0 && !pace_of(run, block, pace)) return false;
   if (!begin_move(run, block, move)) return false;
   line_to(run, target, pace);
-  return finish_move(run, block, move);
+  if (!finish_move(run, block, move)) return false;
+  if (is_first) state.last.from = expected_in_plane(state);
+  return true;
 }
 
 /// A block without coordinates: its compensation, its feed and its M; no element of a contour.
@@ -183,7 +164,7 @@ double sweep_by(double angle, double from, Turn turn) {
 bool round_corner(Run& run, const Block& block, const ArcTarget& arc, bool has_both = true) {
   State& state = run.state;
   if (!check_circle_plane(run)) return false;
-  if (!check_start(run, block, arc.to) || !read_feed(run, block)) return false;
+  if (!check_start(run, block, arc.to, true) || !read_feed(run, block)) return false;
   PlaneMove move = plane_move(state, arc.to);
   move.is_arc = true;
   move.has_both = has_both;

@@ -8,6 +8,7 @@
 
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/path.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
@@ -231,6 +232,9 @@ bool note_definition(Run& run, const Block& block, std::int32_t parameter) {
   return true;
 }
 
+namespace {
+
+/// All axes but those in `named` must be where the program has them.
 bool check_positions(Run& run, std::uint16_t named) {
   const StartState& start = run.state.start;
   std::string wrong;
@@ -244,6 +248,55 @@ bool check_positions(Run& run, std::uint16_t named) {
   if (wrong.empty()) return true;
   return run.fail(ErrorCode::ProgramStartUndefined,
                   wrong + " (machine coordinates): start at a block that positions it");
+}
+
+/// A corner after the first move is between it and the next one: it would be another one where the
+/// move does not come from where the program has the tool.
+bool check_corner_behind(Run& run, const Block& block) {
+  const bool is_approach = block.compensation > Compensation::Off;
+  if (!run.blend_follows || is_approach) return true;
+  const StartState& start = run.state.start;
+  for (const Axis axis : kAllAxes) {
+    if (std::fabs(start.expected.raw(axis) - start.actual.raw(axis)) <= kResolution) continue;
+    return run.fail(ErrorCode::ProgramStartUndefined,
+                    fmt::format("RND or a chamfer after the first positioning block: {} is at "
+                                "{:.3f} and the program has it at {:.3f} (machine coordinates), so "
+                                "the corner would be another one",
+                                letter(axis), start.actual.raw(axis), start.expected.raw(axis)));
+  }
+  return true;
+}
+
+}  // namespace
+
+bool check_start(Run& run, const Block& block, const Target& target, bool is_arc) {
+  State& state = run.state;
+  if (state.has_positioned) [[likely]]
+    return true;
+  const ProgramStart rule = state.is_restart ? ProgramStart::Complete : run.options.program_start;
+  bool is_incremental = block.is_radius_incremental || block.is_angle_incremental;
+  for (const Coordinate& word : block.words()) is_incremental |= word.is_incremental;
+  const bool has_one = (target.named & (target.named - 1)) == 0;
+  if ((rule != ProgramStart::Any && is_incremental) ||
+      (rule == ProgramStart::Complete && has_one)) {
+    return run.fail(
+        ErrorCode::ProgramStartUndefined,
+        fmt::format("the first positioning block{} {}", state.is_restart ? " after GOTO" : "",
+                    is_incremental ? "is incremental" : "has one coordinate"));
+  }
+  if (state.is_restart) {
+    if (!check_positions(run, is_arc ? AxisMask{0} : target.named)) return false;
+    if (!check_corner_behind(run, block)) return false;
+  }
+  state.has_positioned = true;
+  state.is_restart = false;
+  return true;
+}
+
+PlaneVector expected_in_plane(const State& state) {
+  const PlaneAxes axes = axes_of(state.plane);
+  const AxisValues at = state.transformation.to_program(values_of(state.start.expected));
+  return {at[static_cast<std::size_t>(axes.first)], at[static_cast<std::size_t>(axes.second)]};
 }
 
 bool refuse_before_positioning(Run& run, std::string_view what) {

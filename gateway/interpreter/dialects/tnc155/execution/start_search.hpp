@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "gateway/interpreter/dialects/tnc155/execution/path.hpp"
 #include "gateway/interpreter/dialects/tnc155/run.hpp"
 #include "gateway/interpreter/stages/event_filter.hpp"
 
@@ -50,9 +51,12 @@ bool note_definition(Run& run, const Block& block, std::int32_t parameter);
 /// FN 0 to FN 8 of the search.
 bool note_computation(Run& run, const Block& block);
 
-/// The first positioning after the start moves the axes in `named`; all others must be where the
-/// program has them.
-bool check_positions(Run& run, std::uint16_t named);
+/// Of the first positioning block of a run: it must be absolute, and after GOTO name two
+/// coordinates; all others must be where the program has them, and so must all where it is an arc.
+/// False: the run has failed.
+bool check_start(Run& run, const Block& block, const Target& target, bool is_arc = false);
+/// Where the program has the tool at the start: what continues the first move (CT) depends on it.
+PlaneVector expected_in_plane(const State& state);
 
 /// Motion other than by a positioning block needs one first. `what`: "a cycle call".
 bool refuse_before_positioning(Run& run, std::string_view what);

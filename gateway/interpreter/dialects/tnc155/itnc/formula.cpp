@@ -297,6 +297,7 @@ bool read_system(Run& run, const Block& block) {
                state.transformation.shift[static_cast<std::size_t>(place - 1)] / unit);
   }
   if (id == 270 && number == 1 && place >= 1 && place <= 3) {
+    if (!refuse_before_positioning(run, "FN 18 of the position")) return false;
     return set(run, block.target, state.nominal[static_cast<std::size_t>(place - 1)] / unit);
   }
   if (id == 240 && number == 1 && place >= 1 && place <= 3) {

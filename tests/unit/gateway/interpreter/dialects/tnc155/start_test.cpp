@@ -73,6 +73,70 @@ TEST(TncStart, BeginsTheContourWithItsTool) {
   EXPECT_EQ(tail(late), tail(whole));
 }
 
+std::string alarm_of(const PathRun& run) {
+  return run.events.empty() ? "" : run.events.back();
+}
+
+const std::vector<std::string> kPolar{"TOOL DEF 1 L+0 R+2",
+                                      "TOOL CALL 1 Z S1000",
+                                      "L X+0 Y+0 R0 F500 M03",
+                                      "CC X+20 Y+20",
+                                      "L X+40 Y+20",
+                                      "CP PA+180 DR+",
+                                      "CC",
+                                      "L X+60 Y+20",
+                                      "LP PR+10 PA+90"};
+
+// HD-192: the present position is the machine's, and none of the program.
+TEST(TncStart, TakesNoPoleFromWhereTheMachineIs) {
+  EXPECT_THAT(alarm_of(from_block(7, kPolar, "start = { X = 3.0, Y = -30.0 }")),
+              HasSubstr("CC by the present position after GOTO"));
+  for (const char* pole : {"CC X+5", "CC IX+1 Y+2", "CC IX+0 IY+0"}) {
+    auto blocks = kPolar;
+    blocks[6] = pole;
+    EXPECT_THAT(alarm_of(from_block(7, blocks, "start = { X = 0.0, Y = 20.0 }")),
+                HasSubstr("CC by the present position after GOTO"))
+        << pole;
+  }
+  auto blocks = kPolar;
+  blocks[6] = "CC X+5 Y+6";
+  EXPECT_EQ(from_block(7, blocks, "start = { X = 3.0, Y = -30.0 }").alarm_id, "");
+}
+
+// HD-192: an arc begins where the program has it begin.
+TEST(TncStart, BeginsNoArcElsewhere) {
+  EXPECT_THAT(alarm_of(from_block(6, kPolar, "start = { X = 40.0, Y = 10.0 }")),
+              HasSubstr("Y is at 10.000 and the program has it at 20.000 here"));
+  const auto there = from_block(6, kPolar, "start = { X = 40.0, Y = 20.0 }");
+  EXPECT_EQ(there.alarm_id, "");
+}
+
+// HD-192: what continues the first move is as the program has it, wherever the tool came from.
+TEST(TncStart, ATangentialArcAfterTheFirstMoveIsThatOfTheProgram) {
+  const std::vector<std::string> blocks{"TOOL DEF 1 L+0 R+2", "TOOL CALL 1 Z S1000",
+                                        "L X+0 Y+0 R0 F500 M03", "L X+20 Y+0", "CT X+40 Y+20"};
+  const auto whole = run_text(
+      "0 BEGIN PGM 5 MM\n1 TOOL DEF 1 L+0 R+2\n2 TOOL CALL 1 Z S1000\n3 L X+0 Y+0 R0 F500 M03\n4 L "
+      "X+20 Y+0\n"
+      "5 CT X+40 Y+20\n6 END PGM 5 MM\n");
+  const auto late = from_block(4, blocks, "start = { X = 20.0, Y = -30.0 }");
+  ASSERT_EQ(late.alarm_id, "");
+  ASSERT_GE(late.events.size(), 2u);
+  EXPECT_EQ(late.events[late.events.size() - 2], whole.events[whole.events.size() - 2]);
+}
+
+TEST(TncStart, RoundsNoCornerBehindAMoveFromElsewhere) {
+  for (const char* corner : {"RND R5", "L5"}) {
+    const std::vector<std::string> blocks{
+        "TOOL DEF 1 L+0 R+2", "TOOL CALL 1 Z S1000", "L X+0 Y+0 R0 F500 M03", "L X+20 Y+0", corner,
+        "L X+20 Y+30"};
+    EXPECT_THAT(alarm_of(from_block(4, blocks, "start = { X = 20.0, Y = -30.0 }")),
+                HasSubstr("RND or a chamfer after the first positioning block: X is at 20.000"))
+        << corner;
+    EXPECT_EQ(from_block(4, blocks).alarm_id, "") << "it is where the program has it";
+  }
+}
+
 // HD-192: the datum that M94 moves is kept from run to run, and would move once more.
 TEST(TncStart, IsRefusedAfterADatumThatM94HasMoved) {
   EXPECT_THAT(refusal(from_block(3, {"L C+730 R0 F9999", "L C+740 M94", "L C+20"})),
