@@ -19,7 +19,17 @@ namespace {
 constexpr double kOnPath = 0.02;
 
 /// Marks of the kinds of events in the hash.
-enum Mark : std::uint64_t { kRapid = 1, kLine, kArc, kThread, kDwell, kSpindle, kCoolant, kTool };
+enum Mark : std::uint64_t {
+  kRapid = 1,
+  kLine,
+  kArc,
+  kThread,
+  kDwell,
+  kSpindle,
+  kCoolant,
+  kTool,
+  kProbe
+};
 
 double distance(const Position& from, const Position& to) {
   double linear = 0, rotary = 0;
@@ -147,6 +157,20 @@ void EventTracker::on_thread(const interpreter::Thread& event) {
   add(event.lead.mm());
   move_to(event.origin, event.to);
   EventGate::on_thread(event);
+}
+
+/// The axes are where it ended: nothing else names that place.
+void EventTracker::on_probe(const interpreter::Probe& event) {
+  if (event.result) {
+    const Position& at = event.result->at;
+    measure_move(event.origin, at,
+                 event.arc ? arc_length(state_.position, interpreter::arc_of(event))
+                           : distance(state_.position, at));
+    add(kProbe);
+    if (!event.is_rapid) state_.feed = event.feed;
+    move_to(event.origin, at);
+  }
+  EventGate::on_probe(event);
 }
 
 void EventTracker::on_dwell(const interpreter::Dwell& event) {

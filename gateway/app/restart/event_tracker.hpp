@@ -90,6 +90,7 @@ class EventTracker final : public interpreter::EventGate {
   void on_line(const interpreter::Line& event) override;
   void on_arc(const interpreter::Arc& event) override;
   void on_thread(const interpreter::Thread& event) override;
+  void on_probe(const interpreter::Probe& event) override;
   void on_dwell(const interpreter::Dwell& event) override;
   void on_spindle(const interpreter::Spindle& event) override;
   void on_coolant(const interpreter::Coolant& event) override;

@@ -86,6 +86,33 @@ TEST_F(Restart, ContinuesWhereItWasExecutedLast) {
   }
 }
 
+/// The next block relies on where the probe has stopped the axes, and does not name it.
+TEST(ProbingRestart, ContinuesWhereTheProbeMoveEnded) {
+  interpreter::Setup setup;
+  setup.workpiece.add(interpreter::ProbePlane{interpreter::Axis::Z, Length::mm(-10)});
+  RestartFixture shop(interpreter::kFanucDialect, setup, "20x");
+  shop.push(
+      "P", "O0541\nG21 G90 G00 X10. Y0 Z5.\nG31 Z-20. F100\n#1=5\nM00\nG01 X20. F200\nY20.\nM30\n");
+  shop.restart_gateway();
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  const std::string run = shop.last_run();
+  ASSERT_TRUE(shop.run_until(
+      [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
+  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+  ASSERT_TRUE(shop.run_on());
+  shop.restart_gateway();  // the simulated axes are at their start again
+  const auto report = shop.begin_restart("P", run);
+  ASSERT_TRUE(report.is_object()) << shop.start_answer.reason;
+  EXPECT_EQ(report["continues_at"]["X"], 10);
+  EXPECT_EQ(report["continues_at"]["Z"], -10);
+  EXPECT_EQ(report["approach"][0]["to"]["Z"], 5) << "over the highest place of the program";
+  EXPECT_EQ(report["proof"]["path"], "equal");
+  ASSERT_TRUE(shop.cycle_start());
+  ASSERT_TRUE(shop.run_on());
+  EXPECT_EQ(shop.last_end().outcome, dds::RunOutcome::Completed) << shop.last_end().reason;
+  EXPECT_EQ(shop.status->position[2], -10) << "X20 and Y20 were cut at that depth";
+}
+
 /// A block that names where the axes are already moves none of them.
 TEST_F(Restart, BringsBackAnAxisThatTheProgramHadNotMovedYet) {
   shop.push("P",
