@@ -63,6 +63,7 @@ void Api::protect(Router::Route& route) {
 }
 
 std::optional<Response> Api::judge(Request& head) const {
+  if (head.given == SteadyTime{}) head.given = services_.clock.steady_now();
   const Router::Route* const found = router_.find(head);
   if (auto refused = access_.judge(head, found)) return refused;
   const bool is_open =

@@ -33,6 +33,7 @@ struct Request {
   std::string body;
   std::map<std::string, std::string> parameters;  ///< `{name}` of the route; set by the router
   std::string address;                            ///< of the client; set by the sockets
+  SteadyTime given{};                             ///< when its head came; set by the API
   /// Of the client, verified; set by the sockets.
   std::optional<identity::ClientCertificate> certificate;
   storage::Actor who;                      ///< the caller, for authors and the audit trail

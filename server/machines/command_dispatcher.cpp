@@ -78,13 +78,35 @@ SteadyTime CommandDispatcher::stamp(dds::Command& command) {
   if (command.session == 0 && is_for_one_gateway(command) && options_.gateway_of)
     command.session = options_.gateway_of(command.machine).session;
   command.server = session_;
-  const std::lock_guard lock(mutex_);
-  command.number = ++last_number_;
   return clock_.steady_now() + life;
+}
+
+/// Its number: the gateway carries out nothing with one below that of the last stop.
+Result<void> CommandDispatcher::take_turn(dds::Command& command, const Origin& origin) {
+  const SteadyTime now = clock_.steady_now();
+  const SteadyTime given = origin.given.value_or(now);
+  const bool is_start = command.action == dds::CommandAction::Start;  // has its own limit
+  if (!origin.is_stop && !is_start) {
+    const auto limit = is_jog(command) ? options_.jog_expiry : StopOrder::kMaxWait;
+    if (auto soon = check_age(command.machine, command.action, given, now, limit); !soon)
+      return soon;
+  }
+  const std::lock_guard lock(mutex_);
+  if (origin.is_stop) {
+    stops_.note(command.machine, command.action, given);
+  } else if (auto first = stops_.check(command.machine, command.action, given); !first) {
+    return first;
+  }
+  command.number = ++last_number_;
+  return {};
 }
 
 Result<void> CommandDispatcher::send(dds::Command command) {
   const SteadyTime deadline = stamp(command);
+  {
+    const std::lock_guard lock(mutex_);
+    command.number = ++last_number_;
+  }
   return write_in_time(command, deadline);
 }
 
@@ -106,20 +128,22 @@ Result<void> CommandDispatcher::send_to_present(dds::Command command, SteadyTime
   return endpoint_.write(command);
 }
 
-Result<void> CommandDispatcher::carry_out(dds::Command command) {
-  const auto result = send_and_await(command);
+Result<void> CommandDispatcher::carry_out(dds::Command command, const Origin& origin) {
+  const auto result = send_and_await(std::move(command), origin);
   if (!result) return fail(result.error());
   return {};
 }
 
 Result<std::string> CommandDispatcher::ask(dds::Command query) {
-  auto result = send_and_await(query);
+  auto result = send_and_await(std::move(query), {});
   if (!result) return fail(result.error());
   return std::move(result->values);
 }
 
-Result<dds::CommandResult> CommandDispatcher::send_and_await(dds::Command command) {
+Result<dds::CommandResult> CommandDispatcher::send_and_await(dds::Command command,
+                                                             const Origin& origin) {
   const SteadyTime deadline = stamp(command);
+  if (auto turn = take_turn(command, origin); !turn) return fail(turn.error());
   const std::string id = command.id;
   {
     const std::lock_guard lock(mutex_);

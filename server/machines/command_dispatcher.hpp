@@ -12,6 +12,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "protocol/dds/endpoint.hpp"
+#include "server/machines/stop_order.hpp"
 
 namespace dripline::machines {
 
@@ -42,15 +43,20 @@ class CommandDispatcher {
   CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock& clock, Options options,
                     std::function<void(const dds::Command&)> on_late_start);
 
+  /// How a command came to the server.
+  struct Origin {
+    std::optional<SteadyTime> given = {};  ///< absent: now
+    bool is_stop = false;                  ///< it makes the machine safer, as a lowered override
+  };
   /// Gives the command an id and an expiry, sends it and waits. Any thread but DDS's. Errors: Busy
-  /// (refused: the gateway's reason), Timeout (nothing heard in time, or before the server ended),
-  /// NotFound (never announced).
-  Result<void> carry_out(dds::Command command);
+  /// (refused: the gateway's reason; it waited too long before), Conflict (a stop was given after
+  /// it), Timeout (nothing heard in time, or before the server ended), NotFound (never announced).
+  Result<void> carry_out(dds::Command command, const Origin& origin = {std::nullopt, false});
   /// Asks for values (CommandAction::Query): as carry_out; returns what the gateway answers.
   Result<std::string> ask(dds::Command query);
   /// As carry_out; returns how it was answered.
-  Result<dds::CommandResult> result_of(dds::Command command) {
-    return send_and_await(std::move(command));
+  Result<dds::CommandResult> result_of(dds::Command command, const Origin& origin) {
+    return send_and_await(std::move(command), origin);
   }
   /// Without waiting for the result; for commands of the server itself.
   Result<void> send(dds::Command command);
@@ -75,10 +81,11 @@ class CommandDispatcher {
   std::chrono::milliseconds life_of(const dds::Command& command) const;
   bool is_replaced(const dds::Command& command) const;
   SteadyTime stamp(dds::Command& command);
+  Result<void> take_turn(dds::Command& command, const Origin& origin);
   Result<void> send_to_present(dds::Command command, SteadyTime deadline);
   Result<void> write_in_time(const dds::Command& command, SteadyTime deadline);
   Result<dds::CommandResult> await(const std::string& id);
-  Result<dds::CommandResult> send_and_await(dds::Command command);
+  Result<dds::CommandResult> send_and_await(dds::Command command, const Origin& origin);
 
   const std::uint64_t session_;  ///< of this server
   dds::ServerEndpoint& endpoint_;
@@ -90,6 +97,7 @@ class CommandDispatcher {
   std::map<std::string, Waiting> waiting_;
   std::deque<dds::Command> given_up_;  ///< starts without an answer, the newest kMaxGivenUp
   std::uint64_t last_number_ = 0;
+  StopOrder stops_;
   bool is_stopping_ = false;
 };
 

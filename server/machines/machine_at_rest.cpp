@@ -66,7 +66,7 @@ Result<PositionAnswer> MachineService::position(const PositionRequest& request) 
   if (!command) return fail(command.error());
   command->argument = request.argument;
   if (!request.is_playback) command->program = request.who;
-  auto result = parts->commands.result_of(*std::move(command));
+  auto result = parts->commands.result_of(*std::move(command), {.given = request.given});
   if (!result) return fail(result.error());
   const std::string change = std::string(dds::kChangePrefix) + result->id;
   return PositionAnswer{request.is_playback ? "" : change, std::move(result->reason),
@@ -80,7 +80,7 @@ Result<JogAnswer> MachineService::jog(const JogRequest& request) {
   if (!command) return fail(command.error());
   command->argument = request.move;
   process::log_info("command jog machine={} {}", request.machine, request.move);
-  auto result = parts->commands.result_of(*std::move(command));
+  auto result = parts->commands.result_of(*std::move(command), {.given = request.given});
   if (!result) return fail(result.error());
   return JogAnswer{std::move(result->reason), std::move(result->values)};
 }

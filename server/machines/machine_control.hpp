@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
 #include "protocol/base/shared.hpp"
 #include "protocol/dds/message.hpp"
@@ -91,6 +92,7 @@ struct StartRequest {
   StartMemory memory = StartMemory::Ask;
   bool is_test = false;  ///< a test run, which moves nothing; only at a gateway
   std::optional<RestartRequest> restart = {};  ///< then nothing of the four before
+  std::optional<SteadyTime> given = {};        ///< to the server; absent: now
   bool is_mdi = false;  ///< the program was keyed in for this run; only at a gateway
   std::optional<std::uint64_t> job = {};  ///< of the machine's queue, that it is a run of
   /// Called when the run is stored and nothing has gone to the machine. Its error refuses the run.
@@ -111,6 +113,7 @@ struct CommandRequest {
   std::string machine = {};                              ///< where `run` is empty: its panel
   /// Of a hold: shown with the machine while it is held.
   std::string who = {}, reason = {};
+  std::optional<SteadyTime> given = {};  ///< to the server; absent: now
 };
 
 /// Which values of a control are asked for.
@@ -125,7 +128,8 @@ struct PositionRequest {
   std::string machine;
   std::string argument;  ///< interpreter::to_text(PositionSetting); playback: letters of axes
   std::string who;
-  bool is_playback = false;  ///< asks for the words of a block, and changes nothing
+  bool is_playback = false;              ///< asks for the words of a block, and changes nothing
+  std::optional<SteadyTime> given = {};  ///< to the server; absent: now
 };
 struct PositionAnswer {
   std::string change;  ///< which its record names instead of a run; empty: nothing was changed
@@ -137,7 +141,8 @@ struct PositionAnswer {
 /// One axis of a machine without a run by one step.
 struct JogRequest {
   std::string machine;
-  std::string move;  ///< interpreter::to_text(JogMove)
+  std::string move;                      ///< interpreter::to_text(JogMove)
+  std::optional<SteadyTime> given = {};  ///< to the server; absent: now
 };
 struct JogAnswer {
   std::string text;     ///< where the axis is now, and why it has not come further

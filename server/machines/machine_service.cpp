@@ -213,10 +213,21 @@ Result<void> MachineService::check_protocol(const MachineView& view) {
   return fail(Errc::Unsupported, "machine '{}': {}", view.machine.name, notice);
 }
 
-Result<void> MachineService::check_command(const CommandRequest& request, const MachineView& view) {
-  if (dds::is_stop(request.action, request.argument, request.value)) return {};
-  if (view.status && dds::lowers_override(request.action, request.value, *view.status)) return {};
-  return check_protocol(view);
+/// Whether it makes the machine safer, whatever that does now.
+bool MachineService::is_stop(const CommandRequest& request, const MachineView& view) {
+  return dds::is_stop(request.action, request.argument, request.value) ||
+         (view.status && dds::lowers_override(request.action, request.value, *view.status));
+}
+
+Result<void> MachineService::send(dds::Command command, const CommandRequest& request,
+                                  const MachineView& view) {
+  const bool is_stop = this->is_stop(request, view);
+  if (auto fits = is_stop ? Result<void>() : check_protocol(view); !fits) return fits;
+  command.action = request.action;
+  command.argument = request.argument;
+  command.value = request.value;
+  return owned_parts_->commands.carry_out(std::move(command),
+                                          {.given = request.given, .is_stop = is_stop});
 }
 
 namespace {
@@ -251,41 +262,32 @@ Result<CommandTarget> MachineService::target_of(const CommandRequest& request) c
 }
 
 Result<void> MachineService::command(const CommandRequest& request) {
-  Parts* parts = this->parts();
-  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  if (parts() == nullptr) return fail(Errc::Io, "the server is stopping");
   if (request.run.empty()) return command_machine(request);
   const auto target = target_of(request);
   if (!target) return fail(target.error());
   const auto view = connected_machine(target->machine);
   if (!view) return fail(view.error());
-  if (auto fits = check_command(request, *view); !fits) return fits;
   dds::Command command;
   command.machine = target->machine;
-  command.action = request.action;
   command.run = request.run;
-  command.argument = request.argument;
-  command.value = request.value;
   process::log_info("command {} machine={} run={} program={}", dds::to_string(request.action),
                     target->machine, request.run, target->program);
-  return parts->commands.carry_out(std::move(command));
+  return send(std::move(command), request, *view);
 }
 
 /// For its panel: no run is needed.
 Result<void> MachineService::command_machine(const CommandRequest& request) {
   const auto view = connected_machine(request.machine);
   if (!view) return fail(view.error());
-  if (auto fits = check_command(request, *view); !fits) return fits;
   // To an older gateway it would be the abort of its run.
   if (request.action == dds::CommandAction::Abort) {
     if (auto knows = check_knows(*view, dds::CommandAction::Jog); !knows) return knows;
   }
   dds::Command command;
   command.machine = request.machine;
-  command.action = request.action;
-  command.argument = request.argument;
-  command.value = request.value;
   process::log_info("command {} machine={}", dds::to_string(request.action), request.machine);
-  return owned_parts_->commands.carry_out(std::move(command));
+  return send(std::move(command), request, *view);
 }
 
 /// The sender has got an error for this start, so it must not run.

@@ -85,7 +85,8 @@ class MachineService final : public MachineControl {
   void refuse_stranger(const dds::Announce& announce);
   static Result<void> check_protocol(const MachineView& view);
   Result<CommandTarget> target_of(const CommandRequest& request) const;
-  static Result<void> check_command(const CommandRequest& request, const MachineView& view);
+  static bool is_stop(const CommandRequest& request, const MachineView& view);
+  Result<void> send(dds::Command command, const CommandRequest& request, const MachineView& view);
   void tick();
   void log_rejected();
   void announce_run(const std::string& run);

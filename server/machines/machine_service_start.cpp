@@ -7,13 +7,7 @@
 #include "server/machines/start_point.hpp"
 
 namespace dripline::machines {
-namespace {
-
-/// From the request until the command goes out. Who gives a start expects it now, and is at the
-/// machine when a store that hung goes on.
-constexpr std::chrono::seconds kMaxWait{10};
-
-}  // namespace
+namespace {}  // namespace
 
 Result<storage::Run> MachineService::make_run(const StartRequest& request,
                                               const MachineView& view) {
@@ -108,6 +102,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
   const SteadyTime begun = clock_.steady_now();
+  const SteadyTime given = request.given.value_or(begun);
   const auto view = machine_for_work(request.machine);
   if (!view) return fail(view.error());
   if (auto fits = check_test(request, *view); !fits) return fail(fits.error());
@@ -130,12 +125,12 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
     if (auto ready = request.before(*run); !ready)
       return conclude_start(*run, fail(Errc::Busy, "{}", ready.error().what));
   }
-  if (const auto waited = clock_.steady_now() - begun; waited > kMaxWait) {
+  if (const auto waited = clock_.steady_now() - begun; waited > StopOrder::kMaxWait) {
     return conclude_start(
-        *run,
-        fail(Errc::Busy,
-             "storing the start took {} s, {} are allowed: it was not sent to the machine",
-             std::chrono::duration_cast<std::chrono::seconds>(waited).count(), kMaxWait.count()));
+        *run, fail(Errc::Busy,
+                   "storing the start took {} s, {} are allowed: it was not sent to the machine",
+                   std::chrono::duration_cast<std::chrono::seconds>(waited).count(),
+                   StopOrder::kMaxWait.count()));
   }
   dds::Command command;
   command.machine = run->machine;
@@ -148,7 +143,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   command.control = run->control;
   command.argument = start_argument(request);
   if (*setup) command.setup = (*setup)->text;
-  const auto result = parts->commands.result_of(std::move(command));
+  const auto result = parts->commands.result_of(std::move(command), {.given = given});
   if (result && request.on_notice && !result->reason.empty()) request.on_notice(result->reason);
   return conclude_start(*run, result ? Result<void>() : fail(result.error()));
 }

@@ -119,7 +119,8 @@ Result<storage::Run> LineMachines::start(const machines::StartRequest& request) 
   auto promise = std::make_shared<std::promise<Result<storage::Run>>>();
   auto answer = promise->get_future();
   post_start({.request = request,
-              .started = [promise](const Result<storage::Run>& run) { promise->set_value(run); }});
+              .started = [promise](const Result<storage::Run>& run) { promise->set_value(run); },
+              .given = request.given.value_or(clock_.steady_now())});
   return wait_for<storage::Run>(std::move(answer), "start on machine '" + request.machine + "'");
 }
 
@@ -127,6 +128,7 @@ void LineMachines::start_later(const machines::StartRequest& request, Started st
                                const std::string& wire_name) {
   post_start({.request = request,
               .started = std::move(started),
+              .given = request.given.value_or(clock_.steady_now()),
               .wire_name = wire_name,
               .is_asked_for = true});
 }
@@ -140,7 +142,7 @@ void LineMachines::post_start(Start start) {
 }
 
 void LineMachines::begin(const std::shared_ptr<PortLine>& line, const Start& start) {
-  const auto& [request, started, wire_name, is_asked_for] = start;
+  const auto& [request, started, given, wire_name, is_asked_for] = start;
   const LineView port = line->view();
   if (!port.is_open) {
     return started(fail(Errc::Timeout, "machine '{}' is not connected: port {} is not open: {}",
@@ -173,8 +175,26 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line, const Start& sta
   } else if (line::has_numbered_programs(port.settings.flow)) {
     job->name = line::program_number(run->program);
   }
-  line->begin(*std::move(job), [this, run = *run, started = start.started](
-                                   const Result<void>& begun) { started(conclude(run, begun)); });
+  if (auto ready = send(*line, start, *run, *std::move(job)); !ready)
+    started(conclude(*run, fail(ready.error())));
+}
+
+Result<void> LineMachines::send(PortLine& line, const Start& start, const storage::Run& run,
+                                SendJob job) {
+  using dds::CommandAction;
+  if (!start.is_asked_for) {
+    // After this time its sender has got "the outcome is unknown".
+    auto soon = machines::check_age(run.machine, CommandAction::Start, start.given,
+                                    clock_.steady_now(), kAnswerLimit);
+    if (!soon) return soon;
+  }
+  const std::lock_guard lock(order_mutex_);
+  if (auto first = stops_.check(run.machine, CommandAction::Start, start.given); !first)
+    return first;
+  line.begin(std::move(job), [this, run, started = start.started](const Result<void>& begun) {
+    started(conclude(run, begun));
+  });
+  return {};
 }
 
 Result<storage::Run> LineMachines::conclude(const storage::Run& run, const Result<void>& begun) {
@@ -210,22 +230,40 @@ Result<void> LineMachines::command(const machines::CommandRequest& request) {
   auto promise = std::make_shared<std::promise<Result<void>>>();
   auto answer = promise->get_future();
   const auto answered = [promise](const Result<void>& result) { promise->set_value(result); };
-  if (request.action == dds::CommandAction::Hold) {
-    line->hold(request.run, answered);
-  } else if (request.action == dds::CommandAction::Resume) {
-    line->resume(request.run, answered);
-  } else if (request.action == dds::CommandAction::Abort) {
-    line->abort(request.run, "aborted by command", answered);
-  } else {
-    return fail(Errc::Unsupported,
-                "machine '{}' is on a serial line: it takes hold, resume and abort, not {}",
-                machine, dds::to_string(request.action));
-  }
+  if (auto ordered = order(*line, request, answered); !ordered) return ordered;
   process::log_info("command {} machine={} run={} program={}", dds::to_string(request.action),
                     machine, request.run, program);
   auto done = wait_for<void>(std::move(answer), "run " + request.run);
   line->post([this, name = machine] { on_change(name); });  // in the order of what it reports
   return done;
+}
+
+/// They are carried out in the order in which they are posted here.
+Result<void> LineMachines::order(PortLine& line, const machines::CommandRequest& request,
+                                 const PortLine::Answer& answered) {
+  using enum dds::CommandAction;
+  const std::string machine = line.names().machine;
+  const SteadyTime now = clock_.steady_now();
+  const SteadyTime given = request.given.value_or(now);
+  const std::lock_guard lock(order_mutex_);
+  if (request.action == Resume) {
+    auto ready = machines::check_age(machine, Resume, given, now);
+    if (ready) ready = stops_.check(machine, Resume, given);
+    if (ready) line.resume(request.run, answered);
+    return ready;
+  }
+  if (request.action != Hold && request.action != Abort) {
+    return fail(Errc::Unsupported,
+                "machine '{}' is on a serial line: it takes hold, resume and abort, not {}",
+                machine, dds::to_string(request.action));
+  }
+  stops_.note(machine, request.action, given);
+  if (request.action == Hold) {
+    line.hold(request.run, answered);
+  } else {
+    line.abort(request.run, "aborted by command", answered);
+  }
+  return {};
 }
 
 void LineMachines::on_sent(const std::string& machine, const SendEnd& end,

@@ -8,6 +8,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "server/machines/machine_control.hpp"
+#include "server/machines/stop_order.hpp"
 #include "server/ports/line_records.hpp"
 #include "server/ports/line_runs.hpp"
 #include "server/ports/programs/broken_program.hpp"
@@ -60,12 +61,19 @@ class LineMachines final : public machines::MachineControl {
   struct Start {
     machines::StartRequest request;
     Started started;
+    SteadyTime given;  ///< to the server
     std::string wire_name = {};
     bool is_asked_for = false;  ///< at the control
   };
   void post_start(Start start);
   void begin(const std::shared_ptr<PortLine>& line, const Start& start);
+  /// Gives the line the job, if it is still wanted. Errors: Busy (it waited too long), Conflict (a
+  /// stop was given later).
+  Result<void> send(PortLine& line, const Start& start, const storage::Run& run, SendJob job);
   Result<storage::Run> conclude(const storage::Run& run, const Result<void>& begun);
+  /// Errors: as of `send`; Unsupported.
+  Result<void> order(PortLine& line, const machines::CommandRequest& request,
+                     const PortLine::Answer& answered);
   machines::MachineView view_of(const PortLine& line) const;
   /// What is shown of a machine that its line does not know.
   struct Shown {
@@ -87,6 +95,8 @@ class LineMachines final : public machines::MachineControl {
   LineRuns runs_;
   mutable std::mutex mutex_;
   std::map<std::string, Shown> shown_;
+  std::mutex order_mutex_;
+  machines::StopOrder stops_;
 };
 
 /// All machines of the server, however they are fed: those with an enabled port over their line,

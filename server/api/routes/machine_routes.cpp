@@ -259,6 +259,7 @@ Response key_in(Services& services, const Request& request) {
   const auto revision = store_mdi(services, *view, *text, request.who);
   if (!revision) return error_response(revision.error());
   machines::StartRequest start;
+  start.given = request.given;
   start.machine = view->machine.name;
   start.program = revision->program;
   start.revision = revision->number;
@@ -315,7 +316,8 @@ Response set_position(Services& services, const Request& request, bool is_tool) 
   machines::PositionRequest asked{.machine = name,
                                   .argument = interpreter::to_text(*setting),
                                   .who = request.who.name,
-                                  .is_playback = false};
+                                  .is_playback = false,
+                                  .given = request.given};
   const auto answer = ask_audited(services.audit,
                                   {.who = request.who,
                                    .action = is_tool ? "machine.touch_off" : "machine.datum",
@@ -339,7 +341,7 @@ Response jog(Services& services, const Request& request) {
   if (!move) return error_response(move.error());
   const std::string name = request.parameter("name");
   if (const auto view = services.machines.machine(name); !view) return error_response(view.error());
-  const machines::JogRequest asked{name, interpreter::to_text(*move)};
+  const machines::JogRequest asked{name, interpreter::to_text(*move), request.given};
   const auto answer = ask_audited(
       services.audit,
       {.who = request.who, .action = "machine.jog", .subject = name, .detail = asked.move},

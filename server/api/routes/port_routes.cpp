@@ -7,6 +7,7 @@
 #include "server/api/bodies/port_bodies.hpp"
 #include "server/api/nullable_json.hpp"
 #include "server/api/views.hpp"
+#include "server/machines/stop_order.hpp"
 #include "server/ports/port_control.hpp"
 
 namespace dripline::api {
@@ -186,6 +187,12 @@ Response test_port(Services& services, ports::PortControl& ports, const Request&
   return json_response(200, port_test_json(*test));
 }
 
+Result<ports::PortTransfer> too_late(SteadyTime::duration waited) {
+  return fail(Errc::Busy, "storing the request took {} s, {} are allowed: nothing was sent",
+              std::chrono::duration_cast<std::chrono::seconds>(waited).count(),
+              machines::StopOrder::kMaxWait.count());
+}
+
 Response send_programs(Services& services, ports::PortControl& ports, const Request& request) {
   const auto programs = decode_transfer(request.body);
   if (!programs) return error_response(programs.error());
@@ -199,7 +206,10 @@ Response send_programs(Services& services, ports::PortControl& ports, const Requ
                                               .subject = request.parameter("name"),
                                               .detail = fmt::format("{}", fmt::join(names, ", "))});
   if (!written) return error_response(written.error());
-  const auto transfer = ports.send(request.parameter("name"), *programs);
+  const auto waited = services.clock.steady_now() - request.given;
+  const auto transfer = waited > machines::StopOrder::kMaxWait
+                            ? too_late(waited)
+                            : ports.send(request.parameter("name"), *programs);
   if (!transfer) {
     note(services, request, "port.send", "refused: " + transfer.error().what);
     return error_response(transfer.error());

@@ -14,6 +14,7 @@ namespace {
 Response start_run(Services& services, const Request& request) {
   auto start = decode_start(request.body);
   if (!start) return error_response(start.error());
+  start->given = request.given;
   start->author = request.who.name;
   start->role = request.caller->role;
   start->before = [&services, who = request.who,
@@ -37,6 +38,7 @@ Response restart_run(Services& services, const Request& request) {
   const auto original = services.runs.run(request.parameter("id"));
   if (!original) return error_response(original.error());
   machines::StartRequest start;
+  start.given = request.given;
   start.machine = original->machine;
   start.program = original->program;
   start.revision = original->revision;
@@ -154,6 +156,7 @@ Response carry_out(Services& services, const Request& request,
                    const machines::CommandRequest& given) {
   machines::CommandRequest command = given;
   command.who = request.who.name;
+  command.given = request.given;
   const bool is_of_run = !command.run.empty();
   library::AuditTrail::Change change{
       .who = request.who,

@@ -56,6 +56,50 @@ TEST_F(PortServiceTest, ARunHasTheSetupThatIsSaidToBeInTheControl) {
   EXPECT_EQ(setup_of_next_run(), std::nullopt);
 }
 
+/// They may have waited for their audit entries while the store was away; the hold did not.
+TEST_F(PortServiceTest, ContinuesNothingThatWasHeldAfterTheOrderToContinue) {
+  start_ports();
+  add_port(mill());
+  push("O1", blocks(20000));
+  const auto begun = system_clock_.steady_now();
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  line().read_until("N50 ");
+  ASSERT_TRUE(command(run->id, dds::CommandAction::Hold));
+  ASSERT_TRUE(wait([&] { return line().read_for(std::chrono::milliseconds(60)).empty(); }));
+  machines::CommandRequest resume{
+      .run = run->id, .action = dds::CommandAction::Resume, .argument = {}};
+  resume.given = begun;
+  EXPECT_EQ(ports_->machines().command(resume).error().code, Errc::Conflict);
+  resume.given = system_clock_.steady_now() - std::chrono::seconds(11);
+  EXPECT_EQ(ports_->machines().command(resume).error().code, Errc::Busy);
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(100)), "");
+  resume.given = system_clock_.steady_now();
+  EXPECT_TRUE(ports_->machines().command(resume));
+  EXPECT_NE(line().read_until("N500 "), "");
+}
+
+/// Its sender had got "the outcome is unknown".
+TEST_F(PortServiceTest, BeginsNothingThatWasGivenLongAgo) {
+  start_ports();
+  add_port(mill());
+  push("O1", blocks(10));
+  const auto late =
+      ports_->machines().start({.machine = "mill",
+                                .program = "O1",
+                                .revision = {},
+                                .author = "cam",
+                                .given = system_clock_.steady_now() - std::chrono::seconds(11)});
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().code, Errc::Busy);
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(60)), "");
+  const auto runs =
+      store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {.limit = 2});
+  ASSERT_EQ(runs->size(), 1u);
+  EXPECT_EQ(runs->front().state, RunState::Refused);
+  EXPECT_TRUE(start("O1")) << "and no reset is asked for";
+}
+
 TEST_F(PortServiceTest, StopsForXoffAndShowsTheWait) {
   start_ports();
   add_port(mill());
