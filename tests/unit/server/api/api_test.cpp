@@ -76,6 +76,22 @@ TEST_F(ApiHandlers, PassOrdersOn) {
   EXPECT_EQ(machines_.commands.at(0).value, 0.5);
 }
 
+/// By it the machines know what was given before a stop, however long its entry in the trail took.
+TEST_F(ApiHandlers, PassOnWhenAnOrderWasGiven) {
+  const std::string run = stored_run(0);
+  const auto begun = clock_.steady_now();
+  clock_.advance(std::chrono::seconds(5));
+  EXPECT_EQ(post("/api/v1/runs/" + run + "/commands", {{"action", "resume"}}).status, 200);
+  EXPECT_EQ(machines_.commands.back().given, begun + std::chrono::seconds(5));
+  (void)post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}});
+  EXPECT_EQ(machines_.started.back().given, begun + std::chrono::seconds(5));
+  (void)post("/api/v1/machines/lathe-1/jog", {{"axis", "C"}, {"distance", 0.5}});
+  (void)post("/api/v1/machines/lathe-1/datum", {{"axis", "Z"}, {"value", 0}, {"offset", "G54"}});
+  ASSERT_FALSE(machines_.positions.empty() || machines_.jogs.empty());
+  EXPECT_EQ(machines_.jogs.back().given, begun + std::chrono::seconds(5));
+  EXPECT_EQ(machines_.positions.back().given, begun + std::chrono::seconds(5));
+}
+
 /// HD-195: the emergency stop is pressed and released where no run is.
 TEST_F(ApiHandlers, PassOrdersToAMachinesPanelOn) {
   show_machine("lathe-1");
