@@ -45,7 +45,7 @@ class ResetGate {
   /// broken off), the store's.
   Result<std::string> confirm(const LineView& port, const std::string& stored_port);
 
-  /// What a gateway was sending when it was lost: nothing else remembers it.
+  /// What a gateway was sending when it was lost, until it is here again and says so itself.
   void note_lost(const std::string& machine, BrokenProgram program);
 
  private:

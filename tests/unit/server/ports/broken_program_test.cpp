@@ -200,7 +200,7 @@ TEST_F(BrokenProgramTest, IsNotForgottenWithThePort) {
   EXPECT_TRUE(ports_->remove("com1"));
 }
 
-/// A gateway remembers no transfer, and its server only while it works.
+/// And what was lost with it, until it is here again.
 TEST_F(BrokenProgramTest, OfAGatewaysLineIsWhatItReports) {
   ports::ResetGate gate(*store_);
   line::LineView view;
