@@ -86,6 +86,7 @@ TEST_F(ApiHandlers, PassOnWhenAnOrderWasGiven) {
   (void)post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}});
   EXPECT_EQ(machines_.started.back().given, begun + std::chrono::seconds(5));
   (void)post("/api/v1/machines/lathe-1/jog", {{"axis", "C"}, {"distance", 0.5}});
+  ASSERT_TRUE(store_->runs.set_state(run, storage::RunState::Completed, ""));
   (void)post("/api/v1/machines/lathe-1/datum", {{"axis", "Z"}, {"value", 0}, {"offset", "G54"}});
   ASSERT_FALSE(machines_.positions.empty() || machines_.jogs.empty());
   EXPECT_EQ(machines_.jogs.back().given, begun + std::chrono::seconds(5));
