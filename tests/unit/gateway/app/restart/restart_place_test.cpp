@@ -16,6 +16,17 @@ const std::string kProgram =
     "Y0\nN70 "
     "X90.\nM30\nO0561\nG91 Z-1.\nZ1.\nG90 M99\n";
 
+/// Runs program P up to its stop, and aborts it there. Returns the run.
+std::string abort_at_its_stop(RestartFixture& shop) {
+  EXPECT_TRUE(shop.start_program("P").accepted);
+  EXPECT_TRUE(shop.run_until(
+      [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
+  EXPECT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+  EXPECT_TRUE(shop.run_on());
+  EXPECT_EQ(shop.last_end().outcome, dds::RunOutcome::Aborted);
+  return shop.last_run();
+}
+
 class Restart : public testing::Test {
  protected:
   Restart() : shop(interpreter::kFanucDialect, {}, "20x") {
@@ -23,16 +34,8 @@ class Restart : public testing::Test {
     shop.push("P", kProgram);
     shop.restart_gateway();
   }
-  /// Up to the stop before N60, where it is aborted.
-  void abort_at_stop() {
-    ASSERT_TRUE(shop.start_program("P").accepted);
-    run = shop.last_run();
-    ASSERT_TRUE(shop.run_until(
-        [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
-    ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
-    ASSERT_TRUE(shop.run_on());
-    ASSERT_EQ(shop.last_end().outcome, dds::RunOutcome::Aborted);
-  }
+  /// Up to the stop before N60.
+  void abort_at_stop() { run = abort_at_its_stop(shop); }
   nlohmann::json restart(const std::string& at = "executed") {
     shop.path.clear();
     return shop.begin_restart("P", run, at);
@@ -94,12 +97,7 @@ TEST(ProbingRestart, ContinuesWhereTheProbeMoveEnded) {
   shop.push(
       "P", "O0541\nG21 G90 G00 X10. Y0 Z5.\nG31 Z-20. F100\n#1=5\nM00\nG01 X20. F200\nY20.\nM30\n");
   shop.restart_gateway();
-  ASSERT_TRUE(shop.start_program("P").accepted);
-  const std::string run = shop.last_run();
-  ASSERT_TRUE(shop.run_until(
-      [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
-  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
-  ASSERT_TRUE(shop.run_on());
+  const std::string run = abort_at_its_stop(shop);
   shop.restart_gateway();  // the simulated axes are at their start again
   const auto report = shop.begin_restart("P", run);
   ASSERT_TRUE(report.is_object()) << shop.start_answer.reason;
@@ -350,12 +348,7 @@ TEST(RestartOfAHead, IsRefusedWhereTheToolIsTilted) {
             "O0541\nN10 G90 G00 X0 Y0 Z50.\nN20 X10.\nN30 G68.2 X0 Y0 Z0 I0 J60. K0\nN40 G53.1\n"
             "N50 G01 X5. Y5. Z-5. F600\nN60 M00\nN70 X20.\nG69\nM30\n");
   shop.restart_gateway();
-  ASSERT_TRUE(shop.start_program("P").accepted);
-  const std::string run = shop.last_run();
-  ASSERT_TRUE(shop.run_until(
-      [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
-  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
-  ASSERT_TRUE(shop.run_on());
+  const std::string run = abort_at_its_stop(shop);
   // from the tilted axes back to where they were not
   EXPECT_FALSE(shop.begin_restart("P", run, "N20").is_object());
   EXPECT_THAT(shop.last_end().reason, HasSubstr("tilted where the axes are"));
