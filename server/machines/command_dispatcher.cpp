@@ -92,13 +92,23 @@ Result<void> CommandDispatcher::take_turn(dds::Command& command, const Origin& o
       return soon;
   }
   const std::lock_guard lock(mutex_);
-  if (origin.is_stop) {
+  if (origin.is_stop && dds::is_override(command.action)) {
+    auto lower = stops_.check_lowered(command.machine, command.action, given, command.value);
+    if (!lower) return lower;
+    stops_.note(command.machine, command.action, given, command.value);
+  } else if (origin.is_stop) {
     stops_.note(command.machine, command.action, given);
   } else if (auto first = stops_.check(command.machine, command.action, given); !first) {
     return first;
   }
   command.number = ++last_number_;
   return {};
+}
+
+void CommandDispatcher::note_stop(const std::string& machine, dds::CommandAction action,
+                                  std::optional<SteadyTime> given) {
+  const std::lock_guard lock(mutex_);
+  stops_.note(machine, action, given.value_or(clock_.steady_now()));
 }
 
 Result<void> CommandDispatcher::send(dds::Command command) {

@@ -52,6 +52,9 @@ class CommandDispatcher {
   /// (refused: the gateway's reason; it waited too long before), Conflict (a stop was given after
   /// it), Timeout (nothing heard in time, or before the server ended), NotFound (never announced).
   Result<void> carry_out(dds::Command command, const Origin& origin = {std::nullopt, false});
+  /// A stop that is not sent, or not yet: what was given before it is not carried out any more.
+  void note_stop(const std::string& machine, dds::CommandAction action,
+                 std::optional<SteadyTime> given);
   /// Asks for values (CommandAction::Query): as carry_out; returns what the gateway answers.
   Result<std::string> ask(dds::Command query);
   /// As carry_out; returns how it was answered.

@@ -219,6 +219,12 @@ bool MachineService::is_stop(const CommandRequest& request, const MachineView& v
          (view.status && dds::lowers_override(request.action, request.value, *view.status));
 }
 
+/// Also where it does not reach the machine: a resume that waits must not reach it later.
+void MachineService::note_stop(const CommandRequest& request, const std::string& machine) {
+  if (dds::is_stop(request.action, request.argument, request.value))
+    owned_parts_->commands.note_stop(machine, request.action, request.given);
+}
+
 Result<void> MachineService::send(dds::Command command, const CommandRequest& request,
                                   const MachineView& view) {
   const bool is_stop = this->is_stop(request, view);
@@ -266,6 +272,7 @@ Result<void> MachineService::command(const CommandRequest& request) {
   if (request.run.empty()) return command_machine(request);
   const auto target = target_of(request);
   if (!target) return fail(target.error());
+  note_stop(request, target->machine);
   const auto view = connected_machine(target->machine);
   if (!view) return fail(view.error());
   dds::Command command;
@@ -278,6 +285,7 @@ Result<void> MachineService::command(const CommandRequest& request) {
 
 /// For its panel: no run is needed.
 Result<void> MachineService::command_machine(const CommandRequest& request) {
+  note_stop(request, request.machine);
   const auto view = connected_machine(request.machine);
   if (!view) return fail(view.error());
   // To an older gateway it would be the abort of its run.

@@ -86,6 +86,7 @@ class MachineService final : public MachineControl {
   static Result<void> check_protocol(const MachineView& view);
   Result<CommandTarget> target_of(const CommandRequest& request) const;
   static bool is_stop(const CommandRequest& request, const MachineView& view);
+  void note_stop(const CommandRequest& request, const std::string& machine);
   Result<void> send(dds::Command command, const CommandRequest& request, const MachineView& view);
   void tick();
   void log_rejected();

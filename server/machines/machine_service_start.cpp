@@ -7,8 +7,6 @@
 #include "server/machines/start_point.hpp"
 
 namespace dripline::machines {
-namespace {}  // namespace
-
 Result<storage::Run> MachineService::make_run(const StartRequest& request,
                                               const MachineView& view) {
   const auto admitted = sources_.releases.admit(request.wish());
@@ -101,8 +99,7 @@ Result<void> MachineService::check_test(const StartRequest& request, const Machi
 Result<storage::Run> MachineService::start(const StartRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
-  const SteadyTime begun = clock_.steady_now();
-  const SteadyTime given = request.given.value_or(begun);
+  const SteadyTime given = request.given.value_or(clock_.steady_now());
   const auto view = machine_for_work(request.machine);
   if (!view) return fail(view.error());
   if (auto fits = check_test(request, *view); !fits) return fail(fits.error());
@@ -125,7 +122,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
     if (auto ready = request.before(*run); !ready)
       return conclude_start(*run, fail(Errc::Busy, "{}", ready.error().what));
   }
-  if (const auto waited = clock_.steady_now() - begun; waited > StopOrder::kMaxWait) {
+  if (const auto waited = clock_.steady_now() - given; waited > StopOrder::kMaxWait) {
     return conclude_start(
         *run, fail(Errc::Busy,
                    "storing the start took {} s, {} are allowed: it was not sent to the machine",

@@ -1,7 +1,5 @@
 #include "server/machines/stop_order.hpp"
 
-#include <algorithm>
-
 #include "protocol/dds/endpoint.hpp"
 
 namespace dripline::machines {
@@ -10,19 +8,32 @@ StopOrder::Key StopOrder::key(const std::string& machine, dds::CommandAction act
   return {machine, dds::is_override(action) ? action : dds::CommandAction::Hold};
 }
 
-void StopOrder::note(const std::string& machine, dds::CommandAction action, SteadyTime given) {
-  SteadyTime& last = last_[key(machine, action)];
-  last = std::max(last, given);
+const StopOrder::Stop* StopOrder::later(const Key& key, SteadyTime given) const {
+  const auto stop = last_.find(key);
+  return stop != last_.end() && stop->second.given > given ? &stop->second : nullptr;
+}
+
+void StopOrder::note(const std::string& machine, dds::CommandAction action, SteadyTime given,
+                     double value) {
+  const Key of = key(machine, action);
+  if (later(of, given) == nullptr) last_[of] = {given, value};
 }
 
 Result<void> StopOrder::check(const std::string& machine, dds::CommandAction action,
                               SteadyTime given) const {
-  const auto stop = last_.find(key(machine, action));
-  if (stop == last_.end() || stop->second <= given) return {};
+  if (later(key(machine, action), given) == nullptr) return {};
   return fail(Errc::Conflict,
               "machine {}: {} was given before a command that stopped it, and came after it: "
               "nothing was done",
               machine, dds::to_string(action));
+}
+
+Result<void> StopOrder::check_lowered(const std::string& machine, dds::CommandAction action,
+                                      SteadyTime given, double value) const {
+  const Stop* const stop = later(key(machine, action), given);
+  if (stop == nullptr || stop->value >= value) return {};
+  return fail(Errc::Conflict, "machine {}: {} {} was given before {}, which is less: it stays",
+              machine, dds::to_string(action), value, stop->value);
 }
 
 Result<void> check_age(const std::string& machine, dds::CommandAction action, SteadyTime given,

@@ -19,16 +19,26 @@ class StopOrder {
   /// Who gave a command expects it now, and has walked on when a store that hung goes on.
   static constexpr std::chrono::seconds kMaxWait{10};
 
-  /// A stop: hold, abort, emergency stop; or an override that is lowered, which stops only the
-  /// earlier ones of its kind.
-  void note(const std::string& machine, dds::CommandAction action, SteadyTime given);
+  /// A stop: hold, abort, emergency stop; or an override that is lowered to `value`, which stops
+  /// only the earlier ones of its kind.
+  void note(const std::string& machine, dds::CommandAction action, SteadyTime given,
+            double value = 0);
   /// Errors: Conflict (a stop was given later).
   Result<void> check(const std::string& machine, dds::CommandAction action, SteadyTime given) const;
+  /// Of an override that is lowered. Errors: Conflict (a later one has lowered it further).
+  Result<void> check_lowered(const std::string& machine, dds::CommandAction action,
+                             SteadyTime given, double value) const;
 
  private:
   using Key = std::pair<std::string, dds::CommandAction>;
+  struct Stop {
+    SteadyTime given{};
+    double value = 0;  ///< of an override
+  };
   static Key key(const std::string& machine, dds::CommandAction action);
-  std::map<Key, SteadyTime> last_;
+  /// The last one, if it was given after that.
+  const Stop* later(const Key& key, SteadyTime given) const;
+  std::map<Key, Stop> last_;
 };
 
 /// Errors: Busy (`given` is longer ago than `limit`).

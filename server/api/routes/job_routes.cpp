@@ -104,7 +104,7 @@ Response start_job(Services& services, const Request& request) {
   }
   if (!job) return error_response(job.error());
   machines::StartRequest start;
-  start.given = services.clock.steady_now();  // a verdict may have been waited for
+  start.given = request.given;
   start.machine = job->machine;
   start.program = job->program;
   start.revision = job->revision;

@@ -58,6 +58,13 @@ TEST_F(StopOrderTest, NothingGivenBeforeAStopComesAfterIt) {
   }
 }
 
+/// The machine was not connected when it was given, and is when the resume has its entry.
+TEST_F(StopOrderTest, AStopThatReachedNothingCountsToo) {
+  dispatcher_.note_stop("lathe-1", Hold, ago(100ms));
+  EXPECT_EQ(give(Resume, {.given = ago(200ms)}).error().code, Errc::Conflict);
+  EXPECT_TRUE(give(Resume, {.given = ago(50ms)}));
+}
+
 TEST_F(StopOrderTest, IsOfOneMachine) {
   ASSERT_TRUE(give(Hold, {.given = ago(0s), .is_stop = true}));
   dds::Command other;
@@ -71,6 +78,16 @@ TEST_F(StopOrderTest, AnOverrideIsNotRaisedAfterALaterOneThatLoweredIt) {
   EXPECT_EQ(give(FeedOverride, {.given = ago(200ms)}, 1.2).error().code, Errc::Conflict);
   EXPECT_TRUE(give(RapidOverride, {.given = ago(200ms)}, 1)) << "another one";
   EXPECT_TRUE(give(FeedOverride, {.given = ago(50ms)}, 1.2));
+}
+
+/// The machine's status still shows the higher one, so both are stops.
+TEST_F(StopOrderTest, AnOverrideStaysAsLowAsTheLastOneHasSetIt) {
+  ASSERT_TRUE(give(FeedOverride, {.given = ago(100ms), .is_stop = true}, 0.1));
+  const auto higher = give(FeedOverride, {.given = ago(200ms), .is_stop = true}, 0.3);
+  ASSERT_FALSE(higher);
+  EXPECT_EQ(higher.error().code, Errc::Conflict);
+  EXPECT_TRUE(give(FeedOverride, {.given = ago(200ms), .is_stop = true}, 0.05)) << "lower still";
+  EXPECT_TRUE(give(FeedOverride, {.given = ago(50ms), .is_stop = true}, 0.3)) << "given later";
 }
 
 TEST_F(StopOrderTest, WhatHasWaitedTooLongIsNotSent) {
