@@ -252,6 +252,7 @@ Result<PortTest> GatewayLines::test(const std::string& name) {
 /// A text is pushed to a gateway only if its line can take it.
 Result<PortTransfer> GatewayLines::send(const std::string& name,
                                         const std::vector<ProgramChoice>& programs) {
+  const SteadyTime asked = parts_.clock.steady_now();
   const auto view = port(name);
   if (!view) return fail(view.error());
   if (!view->is_open) {
@@ -265,6 +266,8 @@ Result<PortTransfer> GatewayLines::send(const std::string& name,
   const auto job = make_transfer(
       {.store = parts_.store, .releases = parts_.releases, .clock = parts_.clock}, *view, programs);
   if (!job) return fail(job.error());
+  if (parts_.clock.steady_now() - asked > kAnswerLimit)
+    return fail(Errc::Busy, "port {}: reading {} took too long: nothing was sent", name, job->id);
   if (auto begun = send_at_gateway(parts_.ask, name, *job); !begun) return fail(begun.error());
   const PortTransfer sent{.id = job->id, .programs = job->programs, .size = job->size};
   const auto line = line_of(name);

@@ -32,11 +32,17 @@ std::uint64_t fetched_ahead(const wire::LineSettings& settings) {
 }
 
 /// On the line's strand. The store has it before anything leaves.
-void begin_transfer(const LineInUse& in_use, SendJob job, const PortLine::Answer& answer) {
+void begin_transfer(const LineInUse& in_use, SendJob job, const std::function<bool()>& is_late,
+                    const PortLine::Answer& answer) {
   if (auto ready = line::check_ready(*in_use.line); !ready) return answer(ready);
   const LineView port = in_use.line->view();
   if (auto ready = in_use.resets.check(port, port.names.name); !ready) return answer(ready);
   if (auto kept = in_use.log->begin_send(job); !kept) return answer(kept);
+  if (is_late()) {
+    in_use.log->take_back_send(job.id);
+    return answer(fail(Errc::Busy, "port {}: storing {} took longer than {} s: nothing was sent",
+                       port.names.name, job.id, kTransferAnswerLimit.count()));
+  }
   auto begun = [log = in_use.log, id = job.id, answer](const Result<void>& result) {
     if (!result) log->take_back_send(id);
     answer(result);
@@ -180,13 +186,18 @@ Result<SendJob> make_transfer(const machines::RunSources& sources, const LineVie
 Result<PortTransfer> send_programs(const LineInUse& in_use, const machines::RunSources& sources,
                                    const std::vector<ProgramChoice>& programs) {
   const auto& line = in_use.line;
+  // Its sender has got "the outcome is unknown" then.
+  const auto is_late = [&clock = sources.clock, asked = sources.clock.steady_now()] {
+    return clock.steady_now() - asked > kTransferAnswerLimit;
+  };
   auto job = make_transfer(sources, line->view(), programs);
   if (!job) return fail(job.error());
   job->prefetch = fetched_ahead(line->view().settings);
   job->source = guarded(job->source, in_use.log, job->id);
-  const auto begun = ask_on_strand(line, [in_use, job = *job](const PortLine::Answer& answer) {
-    begin_transfer(in_use, job, answer);
-  });
+  const auto begun =
+      ask_on_strand(line, [in_use, job = *job, is_late](const PortLine::Answer& answer) {
+        begin_transfer(in_use, job, is_late, answer);
+      });
   if (!begun) return fail(begun.error());
   process::log_info("programs sent without a run port={} id={} {}", line->names().name, job->id,
                     fmt::join(job->programs, ", "));
