@@ -42,6 +42,8 @@ void PortLine::begin(SendJob job, Answer answer) {
   const auto shared = std::make_shared<SendJob>(std::move(job));
   ask(
       [this, shared](wire::Discipline& line, wire::LineTime now) {
+        if (session_.progress())  // it refuses, and what it sends stays shown
+          return session_.begin(std::move(*shared), line, now);
         auto before = show_transfer(*shared);
         auto begun = shared->kind == JobKind::Run ? Result<void>() : keep_transfer();
         if (begun) begun = session_.begin(std::move(*shared), line, now);

@@ -53,6 +53,9 @@ void stop_transfer(PortLine& line, const std::string& reason, const PortLine::An
   }
   const bool is_sending = port.transfer && port.transfer->state == TransferState::Sending;
   if (is_sending) return line.abort(port.transfer->id, reason, answer);
+  const auto progress = line.progress();
+  if (progress && progress->kind == JobKind::Answer)
+    return line.abort(progress->id, reason, answer);
   line.stop_receiving(reason, answer);
 }
 

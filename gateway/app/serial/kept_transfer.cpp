@@ -53,8 +53,11 @@ std::optional<line::PortTransfer> decode(const std::string& text) {
 }  // namespace
 
 Result<std::optional<line::PortTransfer>> KeptTransfer::read() const {
-  std::error_code unknown;
-  if (!std::filesystem::exists(file_, unknown)) return std::nullopt;
+  std::error_code failure;
+  if (!std::filesystem::exists(file_, failure)) {
+    if (!failure) return std::nullopt;
+    return fail(Errc::Io, "{}: {}", file_.string(), failure.message());
+  }
   std::ostringstream text;
   text << std::ifstream(file_).rdbuf();
   auto transfer = decode(text.str());
@@ -69,7 +72,8 @@ Result<std::optional<line::PortTransfer>> KeptTransfer::read() const {
 Result<void> KeptTransfer::write(const std::optional<line::PortTransfer>& transfer) const {
   std::error_code failure;
   if (!transfer) {
-    std::filesystem::remove(file_, failure);
+    const bool was_there = std::filesystem::remove(file_, failure);
+    if (was_there) static_cast<void>(sync_folder(file_.parent_path()));
     if (!failure) return {};
     return fail(Errc::Io, "{}: {}", file_.string(), failure.message());
   }

@@ -65,6 +65,7 @@ SerialGateway::~SerialGateway() {
 
 std::shared_ptr<line::PortLine> SerialGateway::make_line(std::optional<line::PortTransfer> broken) {
   const auto& options = parts_.options;
+  const bool is_broken = broken && broken->state == line::TransferState::Interrupted;
   return line::PortLine::make(
       {.names = {options.machine, options.machine, options.line->address},
        .settings = settings_,
@@ -74,7 +75,7 @@ std::shared_ptr<line::PortLine> SerialGateway::make_line(std::optional<line::Por
        .recording = {.port = options.machine, .folder = parts_.recordings},
        .on_traffic = [](const line::PortTraffic&) {},
        .listener = listener(),
-       .is_program_broken = run_.is_program_broken(),
+       .is_program_broken = run_.is_program_broken() || is_broken,
        .broken = std::move(broken),
        .keep_transfer =
            [this](const std::optional<line::PortTransfer>& transfer) {

@@ -325,6 +325,22 @@ TEST_F(BrokenAnswer, ThatWentThroughHidesNoRunThatWasBrokenOff) {
   EXPECT_EQ(sent(), "");
 }
 
+/// The second is not sent, and what is shown and remembered is what the first leaves.
+TEST_F(BrokenAnswer, ThatIsAskedForTwiceOpensNothing) {
+  begin();
+  break_off_a_run();
+  ask();
+  ask();
+  line().read_until("M30\n%\n");
+  let_come_to_rest();
+  EXPECT_TRUE(wait([&] {
+    const auto shown = ports_->port("com1")->transfer;
+    return !shown || shown->state != line::TransferState::Sending;
+  }));
+  EXPECT_EQ(start("O2").error().code, Errc::Conflict);
+  EXPECT_TRUE(ports_->confirm_reset("com1"));
+}
+
 TEST_F(BrokenAnswer, IsNotMadeByAChangeOfThePort) {
   begin();
   ask();

@@ -268,6 +268,35 @@ TEST_F(LineAnswersTest, ATextThatWasBrokenOffOutlivesTheGateway) {
   EXPECT_FALSE(status().serial_line->transfer) << "it went through";
 }
 
+/// Its next DC1 asks for the rest of that text.
+TEST_F(LineAnswersTest, ATextThatAControlWasReadingIsNotFollowedByARunAtItsNextRequest) {
+  const std::string line = "line=9600n81\neob=lf\nflow=dc_codes";
+  begin(line);
+  ASSERT_EQ(send(program_).status, LineResult::Done);
+  line_->receive("\x11");
+  pass(1s);
+  ASSERT_NE(wire_.sent, "");
+  kill();
+  begin(line);
+  start("O0077\nG1 X1.\nM30\n");
+  line_->receive("\x11");
+  pass(2s);
+  EXPECT_EQ(wire_.sent, "");
+  line_->receive("\x13");
+  pass(200ms);
+  line_->receive("\x11");
+  EXPECT_TRUE(pass_until([&] { return !wire_.sent.empty(); }, 5s)) << "that is its own request";
+}
+
+TEST_F(LineAnswersTest, AnAnswerThatNobodyFetchesCanBeStopped) {
+  begin("line=9600n81\neob=lf\nflow=dc_codes");
+  give(program_);
+  pass(500ms);
+  EXPECT_EQ(stop("stopped by cam").status, LineResult::Done);
+  pass(500ms);
+  EXPECT_EQ(send(program_).status, LineResult::Done) << "the line is free";
+}
+
 TEST_F(LineAnswersTest, ARunThatWentThroughIsTheEndOfATextThatDidNot) {
   begin(kPlain);
   ASSERT_EQ(send(program_).status, LineResult::Done);
