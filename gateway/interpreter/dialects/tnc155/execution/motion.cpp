@@ -123,7 +123,7 @@ bool go_straight(Run& run, const Block& block, const Target& target) {
   if (!begin_move(run, block, move)) return false;
   line_to(run, target, pace);
   if (!finish_move(run, block, move)) return false;
-  if (is_first) state.last.from = expected_in_plane(state);
+  if (is_first && !run.blend_follows) state.last.from = expected_in_plane(state);
   return true;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "tests/unit/gateway/interpreter/dialects/tnc155/path_run.hpp"
 
@@ -135,6 +136,22 @@ TEST(TncStart, RoundsNoCornerBehindAMoveFromElsewhere) {
         << corner;
     EXPECT_EQ(from_block(4, blocks).alarm_id, "") << "it is where the program has it";
   }
+}
+
+// The tangential approach comes from where the tool is.
+TEST(TncStart, WarnsOfAnApproachByWhereTheToolComesFrom) {
+  const std::vector<std::string> blocks{"TOOL DEF 1 L+0 R+2",
+                                        "TOOL CALL 1 Z S1000",
+                                        "L X-30 Y-40 R0 F500 M03",
+                                        "L X+0 Y+0 RL",
+                                        "RND R3",
+                                        "L X+0 Y+50"};
+  const auto warnings = [&](const char* start) {
+    const auto run = from_block(4, blocks, start);
+    return std::ranges::count(run.events, "warning TNC-QUADRANT");
+  };
+  EXPECT_EQ(warnings("start = { X = 30.0, Y = 10.0 }"), 1);
+  EXPECT_EQ(warnings("start = { X = -30.0, Y = -40.0 }"), 0);
 }
 
 // HD-192: the datum that M94 moves is kept from run to run, and would move once more.
