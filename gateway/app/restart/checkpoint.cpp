@@ -23,6 +23,9 @@ constexpr std::uint32_t kConditionsFormat = 5;
 /// Of endings, which say whether the tool stopped in a thread; kFormat: without.
 constexpr std::uint32_t kEndingFormat = 6;
 
+/// Of checkpoints, whose position is that after a probe move; kFormat: before it, which is refused.
+constexpr std::uint32_t kCheckpointFormat = 7;
+
 /// What bytes are, and of what.
 struct Label {
   std::string_view kind, owner;
@@ -121,10 +124,10 @@ std::string numbered(std::string_view run, std::uint64_t number) {
 }  // namespace
 
 Bytes encode(std::string_view run, Checkpoint checkpoint) {
-  return sealed({kCheckpoint, run}, checkpoint);
+  return sealed({kCheckpoint, run}, checkpoint, kCheckpointFormat);
 }
 Result<Checkpoint> decode_checkpoint(std::string_view run, const Bytes& bytes) {
-  return opened<Checkpoint>({kCheckpoint, run}, bytes);
+  return opened<Checkpoint>({kCheckpoint, run}, bytes, kCheckpointFormat);
 }
 
 Bytes sealed_checkpoint(std::string_view run, Bytes content) {
