@@ -234,8 +234,8 @@ bool note_definition(Run& run, const Block& block, std::int32_t parameter) {
 
 namespace {
 
-/// All axes but those in `named` must be where the program has them.
-bool check_positions(Run& run, std::uint16_t named) {
+/// All axes but those in `named` must be where the program has them. `why`: ahead of the reason.
+bool check_positions(Run& run, AxisMask named, std::string_view why) {
   const StartState& start = run.state.start;
   std::string wrong;
   for (const Axis axis : kAllAxes) {
@@ -246,25 +246,9 @@ bool check_positions(Run& run, std::uint16_t named) {
                          wrong.empty() ? "" : ", ", letter(axis), actual, expected);
   }
   if (wrong.empty()) return true;
-  return run.fail(ErrorCode::ProgramStartUndefined,
-                  wrong + " (machine coordinates): start at a block that positions it");
-}
-
-/// A corner after the first move is between it and the next one: it would be another one where the
-/// move does not come from where the program has the tool.
-bool check_corner_behind(Run& run, const Block& block) {
-  const bool is_approach = block.compensation > Compensation::Off;
-  if (!run.blend_follows || is_approach) return true;
-  const StartState& start = run.state.start;
-  for (const Axis axis : kAllAxes) {
-    if (std::fabs(start.expected.raw(axis) - start.actual.raw(axis)) <= kResolution) continue;
-    return run.fail(ErrorCode::ProgramStartUndefined,
-                    fmt::format("RND or a chamfer after the first positioning block: {} is at "
-                                "{:.3f} and the program has it at {:.3f} (machine coordinates), so "
-                                "the corner would be another one",
-                                letter(axis), start.actual.raw(axis), start.expected.raw(axis)));
-  }
-  return true;
+  return run.fail(
+      ErrorCode::ProgramStartUndefined,
+      fmt::format("{}{} (machine coordinates): start at a block that positions it", why, wrong));
 }
 
 }  // namespace
@@ -285,8 +269,13 @@ bool check_start(Run& run, const Block& block, const Target& target, bool is_arc
                     is_incremental ? "is incremental" : "has one coordinate"));
   }
   if (state.is_restart) {
-    if (!check_positions(run, is_arc ? AxisMask{0} : target.named)) return false;
-    if (!check_corner_behind(run, block)) return false;
+    // A corner is between this move and the next one, an arc about its center: from another place
+    // they would be others. An approach may come from anywhere.
+    const bool has_corner = run.blend_follows && block.compensation <= Compensation::Off;
+    const AxisMask may_move = is_arc || has_corner ? AxisMask{0} : target.named;
+    if (!check_positions(run, may_move,
+                         has_corner ? "RND or a chamfer after the first positioning block: " : ""))
+      return false;
   }
   state.has_positioned = true;
   state.is_restart = false;
