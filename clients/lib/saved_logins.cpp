@@ -1,8 +1,6 @@
 #include "clients/lib/saved_logins.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <cerrno>
 #include <fstream>
 #include <iterator>
@@ -10,6 +8,7 @@
 #include <system_error>
 
 #include "protocol/base/clock.hpp"
+#include "protocol/base/durable_file.hpp"
 
 namespace dripline::client {
 namespace {
@@ -48,20 +47,8 @@ Result<Json> read_logins(const fs::path& path) {
 /// The whole file or none of it, for its owner alone.
 Result<void> write_logins(const fs::path& path, const Json& logins) {
   if (auto made = make_private_folder(path.parent_path()); !made) return fail(made.error());
-  const fs::path fresh = path.string() + ".new";
-  ::unlink(fresh.c_str());
-  const int file =
-      ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  if (file < 0) return failed_with_errno(fresh);
-  const std::string text = logins.dump(1) + "\n";
-  const bool is_written =
-      ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const auto failure = failed_with_errno(fresh);
-  ::close(file);
-  if (is_written && ::rename(fresh.c_str(), path.c_str()) == 0) return {};
-  const auto not_renamed = failed_with_errno(path);
-  ::unlink(fresh.c_str());
-  return is_written ? not_renamed : failure;
+  if (replace_private_file(path, logins.dump(1) + "\n")) return {};
+  return failed_with_errno(path);
 }
 
 std::string text_of(const Json& login, const char* member) {
