@@ -16,6 +16,11 @@ bool is_answer(const SendProgress& progress) {
   return progress.kind == JobKind::Answer;
 }
 
+/// The control may wait for more of it.
+bool is_unfinished(const std::optional<PortTransfer>& transfer) {
+  return transfer && transfer->state != TransferState::Completed;
+}
+
 TransferState state_of(SendOutcome outcome) {
   switch (outcome) {
     case SendOutcome::Completed:
@@ -248,8 +253,7 @@ void PortLine::take_back(std::optional<PortTransfer> before) {
 void PortLine::end_transfer(const SendEnd& end) {
   const std::lock_guard lock(mutex_);
   if (end.progress.kind == JobKind::Run && end.outcome == SendOutcome::Completed) {
-    const bool is_through = transfer_ && transfer_->state == TransferState::Completed;
-    if (!is_through) transfer_.reset();
+    if (is_unfinished(transfer_)) transfer_.reset();
     return;
   }
   if (!transfer_ || transfer_->id != end.progress.id) return;
@@ -268,8 +272,7 @@ Result<void> PortLine::keep_transfer() {
   std::optional<PortTransfer> transfer;
   {
     const std::lock_guard lock(mutex_);
-    const bool is_through = transfer_ && transfer_->state == TransferState::Completed;
-    if (!is_through) transfer = transfer_;
+    if (is_unfinished(transfer_)) transfer = transfer_;
   }
   return parts_.keep_transfer(transfer);
 }

@@ -1,8 +1,6 @@
 #include "server/app/state_folder.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <cerrno>
 #include <cstring>
 #include <fstream>

@@ -10,13 +10,13 @@
 
 namespace dripline::machines {
 
-/// A command may wait in the server, as for its audit entry while the store is away, and
-/// one that stops does not. So what was given before a stop may come after it: that must not move
+/// A command may wait in the server, as for its audit entry while the store is away, and one that
+/// stops does not. So what was given before a stop may come after it: that must not move
 /// the machine any more. Not synchronized: a command is checked, and goes out, under the lock
 /// under which a stop is noted and goes out.
 class StopOrder {
  public:
-  /// Who gave a command expects it now, and has walked on when a store that hung goes on.
+  /// Who gave a command expects it now, and has walked on when a store that hung answers.
   static constexpr std::chrono::seconds kMaxWait{10};
 
   /// A stop: hold, abort, emergency stop; or an override that is lowered to `value`, which stops
