@@ -8,7 +8,7 @@
 namespace dripline::client {
 namespace {
 
-constexpr std::uint64_t kPiece = 8ull * 1024 * 1024;
+constexpr std::uint64_t kPullPiece = 8ull * 1024 * 1024;
 /// After a failure the client asks for one chunk: the server checks the first chunk of an answer
 /// before it sends a byte, so that a damaged one becomes an error with its name instead of an
 /// answer that is cut off.
@@ -67,7 +67,7 @@ Reply<Revision> pull_program(Client& client, const PullOptions& options,
   std::uint64_t done = 0;
   std::uint64_t careful_until = 0;  ///< the end of the piece that failed
   while (done < revision->size) {
-    const std::uint64_t piece = done < careful_until ? kCarefulPiece : kPiece;
+    const std::uint64_t piece = done < careful_until ? kCarefulPiece : kPullPiece;
     ContentRange range{options.program, revision->revision, done,
                        std::min(piece, revision->size - done)};
     const std::uint64_t wanted_end = done + range.length;

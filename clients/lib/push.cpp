@@ -8,7 +8,7 @@
 namespace dripline::client {
 namespace {
 
-constexpr std::uint64_t kPiece = 4ull * 1024 * 1024;
+constexpr std::uint64_t kPushPiece = 4ull * 1024 * 1024;
 
 bool can_help_to_retry(const Failure& failure) {
   return failure.kind == Failure::Kind::Unreachable || failure.code == Errc::Busy ||
@@ -50,7 +50,7 @@ class Sending {
       auto upload = options_.open();
       if (upload) {
         id_ = upload->id;
-        piece_size_ = upload->max_piece == 0 ? kPiece : std::min(upload->max_piece, kPiece);
+        piece_size_ = upload->max_piece == 0 ? kPushPiece : std::min(upload->max_piece, kPushPiece);
         return {};
       }
       if (!can_help_to_retry(upload.error()) || !back_off_.wait()) return failed(upload.error());
@@ -129,7 +129,7 @@ class Sending {
   const SendOptions& options_;
   BackOff back_off_;
   std::string id_;
-  std::uint64_t piece_size_ = kPiece;
+  std::uint64_t piece_size_ = kPushPiece;
   std::uint64_t offset_ = 0;  ///< of the next piece
   std::uint64_t hashed_ = 0;  ///< bytes in the digest
   Sha256 digest_;

@@ -115,7 +115,7 @@ struct MotionRow {
   Result<void> (*check)(std::string_view address);
   Result<machine::MotionFactory> (*make)(const MotionTask&);
 };
-constexpr std::array kRows{
+constexpr std::array kMotionRows{
     MotionRow{kSimulatedMotion, "simulated", needs_no_address, simulated},
     MotionRow{"linuxcnc", "linuxcnc:INI", check_linuxcnc_address, linuxcnc},
     MotionRow{"grbl", "grbl:ADDRESS", check_board_address, grbl},
@@ -123,8 +123,8 @@ constexpr std::array kRows{
 };
 
 Result<const MotionRow*> find_row(std::string_view text) {
-  const auto* row = std::ranges::find(kRows, words_of(text).name, &MotionRow::name);
-  if (row == kRows.end())
+  const auto* row = std::ranges::find(kMotionRows, words_of(text).name, &MotionRow::name);
+  if (row == kMotionRows.end())
     return fail(Errc::NotFound, "motion '{}' is not known: {}", text, motion_names());
   if (const auto good = row->check(words_of(text).address); !good) return fail(good.error());
   return row;
@@ -134,7 +134,7 @@ Result<const MotionRow*> find_row(std::string_view text) {
 
 std::string motion_names() {
   std::string names;
-  for (const MotionRow& row : kRows) {
+  for (const MotionRow& row : kMotionRows) {
     if (!names.empty()) names += ", ";
     names += row.form;
   }

@@ -128,7 +128,7 @@ constexpr auto set_by(Written form, SetOption set) {
   return process::SettingValue<Options>{form, set};
 }
 
-constexpr std::array kRows{
+constexpr std::array kOptionRows{
     OptionRow{"machine", "NAME", "", "required", "Name of the machine, as commands use it",
               set_by(Written::Text, set_machine)},
     OptionRow{"control", "NAME", "", "required", "Control family whose programs it runs",
@@ -305,7 +305,7 @@ bool GatewayOptions::drives_control() const {
 }
 
 std::span<const OptionRow> option_rows() {
-  return kRows;
+  return kOptionRows;
 }
 
 Result<Speed> parse_speed(std::string_view text) {

@@ -15,10 +15,6 @@ namespace {
 constexpr int kMaxWindowLog = 23;  // 8 MiB
 constexpr std::uint64_t kVersion = 1;
 
-struct FreeStream {
-  void operator()(ZSTD_DStream* stream) const { ZSTD_freeDStream(stream); }
-};
-
 std::string text_of(const nlohmann::json& object, const char* key) {
   const auto found = object.find(key);
   return found == object.end() || !found->is_string() ? "" : found->get<std::string>();
@@ -27,10 +23,14 @@ std::string text_of(const nlohmann::json& object, const char* key) {
 }  // namespace
 
 struct ArchiveReader::Stream {
+  struct FreeDecompressor {
+    void operator()(ZSTD_DStream* stream) const { ZSTD_freeDStream(stream); }
+  };
+
   Bytes bytes;
   std::string name;
   Head head;
-  std::unique_ptr<ZSTD_DStream, FreeStream> zstd;
+  std::unique_ptr<ZSTD_DStream, FreeDecompressor> zstd;
   std::span<const std::byte> in;
   std::vector<char> out;
   std::string text;  ///< decompressed, from `at` on not taken yet

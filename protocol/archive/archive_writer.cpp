@@ -17,10 +17,6 @@ namespace {
 
 constexpr int kLevel = 3;
 
-struct FreeStream {
-  void operator()(ZSTD_CStream* stream) const { ZSTD_freeCStream(stream); }
-};
-
 tl::unexpected<Error> refused(const char* what, const std::filesystem::path& file) {
   return fail(Errc::Io, "archive {}: {}: {}", file.string(), what, std::strerror(errno));
 }
@@ -28,9 +24,13 @@ tl::unexpected<Error> refused(const char* what, const std::filesystem::path& fil
 }  // namespace
 
 struct ArchiveWriter::File {
+  struct FreeCompressor {
+    void operator()(ZSTD_CStream* stream) const { ZSTD_freeCStream(stream); }
+  };
+
   std::filesystem::path name, temporary;
   Descriptor descriptor;
-  std::unique_ptr<ZSTD_CStream, FreeStream> stream;
+  std::unique_ptr<ZSTD_CStream, FreeCompressor> stream;
   std::vector<std::byte> buffer;
   Sha256 of_lines, of_file;
   WrittenFile written;

@@ -162,27 +162,28 @@ constexpr SettingRow optional_character(std::string_view text) {
 
 /// `kWords`: the words in the order of the enumerators, and the type that people see.
 template <std::size_t kCount>
-struct Words {
+struct WordSet {
   std::string_view type;
   std::array<std::string_view, kCount> words;
 };
-constexpr Words<5> kParities{"none|even|odd|mark|space", {"none", "even", "odd", "mark", "space"}};
-constexpr Words<3> kStopBits{"1|1.5|2", {"1", "1.5", "2"}};
-constexpr Words<8> kFlows{
+constexpr WordSet<5> kParities{"none|even|odd|mark|space",
+                               {"none", "even", "odd", "mark", "space"}};
+constexpr WordSet<3> kStopBitWords{"1|1.5|2", {"1", "1.5", "2"}};
+constexpr WordSet<8> kFlows{
     "none|xonxoff|rtscts|dc_codes|xmodem|heidenhain|heidenhain_bcc|tape_reader",
     {"none", "xonxoff", "rtscts", "dc_codes", "xmodem", "heidenhain", "heidenhain_bcc",
      "tape_reader"}};
-constexpr Words<3> kCodes{"ascii|iso|eia", {"ascii", "iso", "eia"}};
-constexpr Words<5> kEndsOfBlock{"lf|cr|crlf|lfcr|lfcrcr", {"lf", "cr", "crlf", "lfcr", "lfcrcr"}};
-constexpr Words<4> kControls{"plain|fanuc|prototrak|centurion",
-                             {"plain", "fanuc", "prototrak", "centurion"}};
-constexpr Words<4> kOffers{"none|named|all|repeat", {"none", "named", "all", "repeat"}};
-constexpr Words<3> kTncStops{"dc3|rts|both", {"dc3", "rts", "both"}};
-constexpr Words<5> kReaderFaults{
+constexpr WordSet<3> kCodes{"ascii|iso|eia", {"ascii", "iso", "eia"}};
+constexpr WordSet<5> kEndsOfBlock{"lf|cr|crlf|lfcr|lfcrcr", {"lf", "cr", "crlf", "lfcr", "lfcrcr"}};
+constexpr WordSet<4> kControls{"plain|fanuc|prototrak|centurion",
+                               {"plain", "fanuc", "prototrak", "centurion"}};
+constexpr WordSet<4> kOffers{"none|named|all|repeat", {"none", "named", "all", "repeat"}};
+constexpr WordSet<3> kTncStops{"dc3|rts|both", {"dc3", "rts", "both"}};
+constexpr WordSet<5> kReaderFaults{
     "none|parity|chad|missing_sprocket|sprocket_spacing",
     {"none", "parity", "chad", "missing_sprocket", "sprocket_spacing"}};
-constexpr Words<5> kDncModes{"off|fast|run|verify|continue",
-                             {"off", "fast", "run", "verify", "continue"}};
+constexpr WordSet<5> kDncModes{"off|fast|run|verify|continue",
+                               {"off", "fast", "run", "verify", "continue"}};
 
 template <Key kKey, const auto& kWords, auto... kPath>
 constexpr SettingRow choice(std::string_view text) {
@@ -210,13 +211,13 @@ using S = LineSettings;
 using H = HeidenhainSettings;
 using C = ControlSettings;
 
-constexpr std::array kRows{
+constexpr std::array kSettingRows{
     SettingRow{"line", "9600e72", "baud, parity, data and stop bits in one word", set_short_form,
                short_form},
     number<"baud", kMinimumBaud, kMaximumBaud, &S::baud>("bits per second"),
     number<"data_bits", 7, 8, &S::data_bits>("bits of a character, without parity"),
     choice<"parity", kParities, &S::parity>("parity bit that the UART makes and checks"),
-    choice<"stop_bits", kStopBits, &S::stop_bits>("stop bits"),
+    choice<"stop_bits", kStopBitWords, &S::stop_bits>("stop bits"),
     choice<"flow", kFlows, &S::flow>("flow control, or the whole protocol"),
     choice<"code", kCodes, &S::code>("code of the characters on the line"),
     choice<"eob", kEndsOfBlock, &S::end_of_block>("end of block that is sent"),
@@ -292,7 +293,7 @@ constexpr std::array kRows{
 }  // namespace
 
 std::span<const SettingRow> setting_rows() {
-  return kRows;
+  return kSettingRows;
 }
 
 }  // namespace dripline::wire

@@ -8,7 +8,7 @@ namespace dripline::wire {
 
 namespace {
 
-constexpr std::size_t kShownHead = 40;
+constexpr std::size_t kTapeHead = 40;
 
 void feed_blanks(unsigned count, std::vector<std::byte>& rows) {
   rows.insert(rows.end(), count, std::byte{0});
@@ -146,7 +146,7 @@ void TapeReader::note_head(TapeRow meaning) {
   if (meaning.kind == RowKind::WrongParity || meaning.kind == RowKind::Unassigned) {
     is_head_text_ = false;
   }
-  if (meaning.kind == RowKind::Text && head_.size() < kShownHead) head_ += meaning.character;
+  if (meaning.kind == RowKind::Text && head_.size() < kTapeHead) head_ += meaning.character;
 }
 
 Result<void> TapeReader::read_data(std::uint8_t row, TapeRow meaning, std::string& text) {

@@ -4,11 +4,12 @@
 #include <array>
 #include <charconv>
 
+#include "protocol/wire/impl/discipline_base.hpp"
+
 namespace dripline::wire {
 
 namespace {
 
-constexpr char kDc1 = 0x11, kDc3 = 0x13;
 constexpr std::size_t kMaxText = kMaxTncLine + 3;  // CR LF and the blank before ETB
 
 char check_of(char begin, std::string_view text, char etb) {

@@ -12,7 +12,7 @@ namespace {
 
 /// MP 222, the data format of a character.
 constexpr unsigned kEightBits = 1, kPrintableBcc = 2, kStopByRts = 4, kStopByDc3 = 8, kOdd = 16,
-                   kHasParity = 32, kStopBits = 192, kTwoStopBits = 64, kOneStopBit = 128;
+                   kHasParity = 32, kStopBitMask = 192, kTwoStopBits = 64, kOneStopBit = 128;
 constexpr unsigned kMaxFormat = 255, kMaxWord = 65'535;
 
 /// A parameter holds two characters or a number; the values are those of a new control.
@@ -22,14 +22,14 @@ struct ParameterRow {
 };
 constexpr int kEnds = 71, kInputHeading = 218, kOutputHeading = 219, kBlockFrame = 220,
               kAnswers = 221, kFormat = 222, kProtocol = 223, kEndOfTransmission = 224;
-constexpr std::array kRows{ParameterRow{kEnds, 515, kMaxWord},
-                           ParameterRow{kInputHeading, 17736, kMaxWord},
-                           ParameterRow{kOutputHeading, 16712, kMaxWord},
-                           ParameterRow{kBlockFrame, 279, kMaxWord},
-                           ParameterRow{kAnswers, 5382, kMaxWord},
-                           ParameterRow{kFormat, 168, kMaxFormat},
-                           ParameterRow{kProtocol, 0, 1},
-                           ParameterRow{kEndOfTransmission, 4, 127}};
+constexpr std::array kParameterRows{ParameterRow{kEnds, 515, kMaxWord},
+                                    ParameterRow{kInputHeading, 17736, kMaxWord},
+                                    ParameterRow{kOutputHeading, 16712, kMaxWord},
+                                    ParameterRow{kBlockFrame, 279, kMaxWord},
+                                    ParameterRow{kAnswers, 5382, kMaxWord},
+                                    ParameterRow{kFormat, 168, kMaxFormat},
+                                    ParameterRow{kProtocol, 0, 1},
+                                    ParameterRow{kEndOfTransmission, 4, 127}};
 
 constexpr char low(unsigned word) {
   return static_cast<char>(word & 0xffu);
@@ -43,11 +43,11 @@ constexpr unsigned word(char low, char high) {
 }
 
 /// The interface's parameters, each within its limits.
-class Words {
+class ParameterWords {
  public:
-  static Result<Words> read(const TncParameters& parameters) {
-    Words words;
-    for (const ParameterRow& row : kRows) {
+  static Result<ParameterWords> read(const TncParameters& parameters) {
+    ParameterWords words;
+    for (const ParameterRow& row : kParameterRows) {
       const auto found = parameters.find(row.number);
       const double value = found == parameters.end() ? row.usual : found->second;
       if (value < 0 || value > row.most || value != std::floor(value)) {
@@ -79,7 +79,7 @@ void read_format(unsigned format, LineSettings& line) {
   line.parity = (format & kHasParity) == 0 ? Parity::None
                 : (format & kOdd) != 0     ? Parity::Odd
                                            : Parity::Even;
-  const unsigned stop = format & kStopBits;
+  const unsigned stop = format & kStopBitMask;
   line.stop_bits = stop == 0              ? StopBits::OneAndHalf
                    : stop == kTwoStopBits ? StopBits::Two
                                           : StopBits::One;
@@ -87,7 +87,7 @@ void read_format(unsigned format, LineSettings& line) {
 }
 
 /// The standard interface uses only the ends of programs and transmissions.
-void read_characters(const Words& words, bool is_blockwise, HeidenhainSettings& tnc) {
+void read_characters(const ParameterWords& words, bool is_blockwise, HeidenhainSettings& tnc) {
   tnc.etx = low(words[kEnds]);
   if (words[kEndOfTransmission] != 0) tnc.eot = low(words[kEndOfTransmission]);
   if (!is_blockwise) return;
@@ -98,7 +98,7 @@ void read_characters(const Words& words, bool is_blockwise, HeidenhainSettings& 
   tnc.nak = high(words[kAnswers]);
 }
 
-Result<void> read_heading(const Words& words, std::optional<char> heading,
+Result<void> read_heading(const ParameterWords& words, std::optional<char> heading,
                           HeidenhainSettings& tnc) {
   const unsigned input = words[kInputHeading], output = words[kOutputHeading];
   if (high(input) != 'E' || high(output) != 'A') {
@@ -134,7 +134,7 @@ Result<void> check_tnc_baud(unsigned baud) {
 
 Result<LineSettings> line_of_tnc(const TncInterface& interface) {
   if (auto checked = check_tnc_baud(interface.baud); !checked) return fail(checked.error());
-  const auto words = Words::read(interface.parameters);
+  const auto words = ParameterWords::read(interface.parameters);
   if (!words) return fail(words.error());
   const auto usual = find_template((*words)[kProtocol] == 1 ? "tnc155-bcc" : "tnc155");
   if (!usual) return fail(usual.error());

@@ -8,40 +8,43 @@
 namespace dripline::app {
 namespace {
 
-struct Row {
+struct FaultRow {
   const char* subject;
   std::string StandbyFaults::*fault;
   const char* message;  ///< for any client
   const char* summary;  ///< for the status line
 };
 
-constexpr std::array kRows{
-    Row{"store", &StandbyFaults::database,
-        "the database that this standby waits for cannot be reached",
-        "the database cannot be reached"},
-    Row{"dds", &StandbyFaults::ports,
-        "a UDP port that this server needs for gateways is in use: it cannot take over",
-        "its UDP ports are in use"},
-    Row{"dds", &StandbyFaults::network,
+constexpr std::array kFaultRows{
+    FaultRow{"store", &StandbyFaults::database,
+             "the database that this standby waits for cannot be reached",
+             "the database cannot be reached"},
+    FaultRow{"dds", &StandbyFaults::ports,
+             "a UDP port that this server needs for gateways is in use: it cannot take over",
+             "its UDP ports are in use"},
+    FaultRow{
+        "dds", &StandbyFaults::network,
         "the DDS settings of this server are not those of the active one, whose gateways would not "
         "find it: it cannot take over",
         "its DDS settings are not the active server's"},
-    Row{"mtconnect", &StandbyFaults::agent,
+    FaultRow{
+        "mtconnect", &StandbyFaults::agent,
         "the address of this server's MTConnect agent is in use or not allowed: it would take over "
         "without the agent",
         "its MTConnect address cannot be used"},
-    Row{"settings", &StandbyFaults::settings,
+    FaultRow{
+        "settings", &StandbyFaults::settings,
         "this server's settings are not those of the active one: after a takeover it would work "
         "differently",
         "its settings are not the active server's"},
-    Row{"disk", &StandbyFaults::disk, "the disk of this server is full or nearly full",
-        "its disk is full or nearly full"},
+    FaultRow{"disk", &StandbyFaults::disk, "the disk of this server is full or nearly full",
+             "its disk is full or nearly full"},
 };
 
 }  // namespace
 
 bool StandbyFaults::is_well() const {
-  for (const Row& row : kRows)
+  for (const FaultRow& row : kFaultRows)
     if (!(this->*row.fault).empty()) return false;
   return true;
 }
@@ -59,14 +62,14 @@ std::string StandbyFaults::note() const {
 
 std::string StandbyFaults::summary() const {
   std::string text;
-  for (const Row& row : kRows)
+  for (const FaultRow& row : kFaultRows)
     if (!(this->*row.fault).empty()) text += fmt::format(", {}", row.summary);
   return text;
 }
 
 nlohmann::json StandbyFaults::health() const {
   auto reasons = nlohmann::json::array();
-  for (const Row& row : kRows) {
+  for (const FaultRow& row : kFaultRows) {
     if ((this->*row.fault).empty()) continue;
     reasons.push_back({{"subject", row.subject}, {"status", "degraded"}, {"message", row.message}});
   }

@@ -11,7 +11,7 @@ namespace {
 using storage::FolderFile;
 using storage::FolderFileState;
 
-constexpr std::size_t kPiece = 4 * 1024 * 1024;
+constexpr std::size_t kTextPiece = 4 * 1024 * 1024;
 constexpr std::size_t kMaxReason = 1024;
 
 /// Not the file's fault: another time it may go well.
@@ -293,8 +293,8 @@ Result<storage::Revision> HotFolder::upload(const NamedProgram& named, const Fil
                                             .folder_file = file},
                                            who);
   if (!begun) return fail(begun.error());
-  for (std::size_t offset = 0; offset < copy.text().size(); offset += kPiece) {
-    const auto piece = copy.text().substr(offset, kPiece);
+  for (std::size_t offset = 0; offset < copy.text().size(); offset += kTextPiece) {
+    const auto piece = copy.text().substr(offset, kTextPiece);
     if (auto added = parts_.programs.append(begun->id, offset, bytes_of(piece)); !added) {
       (void)parts_.programs.abandon(begun->id);
       return fail(added.error());

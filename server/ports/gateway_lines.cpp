@@ -17,10 +17,6 @@ namespace {
 using dds::LineAction;
 using std::chrono::milliseconds;
 
-std::string text_of(const dds::LineData& data) {
-  return {reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size()};
-}
-
 }  // namespace
 
 /// What is known of one machine's line.

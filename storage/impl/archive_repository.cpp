@@ -9,7 +9,7 @@
 namespace dripline::storage {
 namespace {
 
-const std::string kSelect =
+const std::string kSelectArchive =
     "SELECT id, kind, machine, epoch, first, last, file, sha256, rows, bytes, first_us, last_us, "
     "created_us, is_removed, is_counted FROM archive ";
 
@@ -37,7 +37,7 @@ Archive read_archive(const sql::Statement& row) {
 constexpr const char* kNoMemory = "NOT (kind = 'message' AND device = 'memory')";
 
 Result<std::optional<Archive>> find_archive(sql::Database& database, std::uint64_t id) {
-  static const std::string kSql = kSelect + "WHERE id = ?1";
+  static const std::string kSql = kSelectArchive + "WHERE id = ?1";
   return sql::first_row(database, kSql, read_archive, id);
 }
 
@@ -244,20 +244,20 @@ Result<std::uint64_t> ArchiveRepository::remove_rows(std::uint64_t id, std::uint
 }
 
 Result<std::vector<Archive>> ArchiveRepository::list(Page page) {
-  static const std::string kSql = kSelect + "ORDER BY id DESC LIMIT ?1 OFFSET ?2";
+  static const std::string kSql = kSelectArchive + "ORDER BY id DESC LIMIT ?1 OFFSET ?2";
   return connections_.read([&](sql::Database& database) {
     return sql::all_rows(database, kSql, read_archive, page.limit, page.offset);
   });
 }
 
 Result<std::vector<Archive>> ArchiveRepository::unremoved() {
-  static const std::string kSql = kSelect + "WHERE is_removed = 0 ORDER BY id";
+  static const std::string kSql = kSelectArchive + "WHERE is_removed = 0 ORDER BY id";
   return connections_.read(
       [&](sql::Database& database) { return sql::all_rows(database, kSql, read_archive); });
 }
 
 Result<std::vector<Archive>> ArchiveRepository::uncounted() {
-  static const std::string kSql = kSelect + "WHERE is_counted = 0 ORDER BY id";
+  static const std::string kSql = kSelectArchive + "WHERE is_counted = 0 ORDER BY id";
   return connections_.read(
       [&](sql::Database& database) { return sql::all_rows(database, kSql, read_archive); });
 }

@@ -34,7 +34,7 @@ std::string sum_of_runs(const char* parts, const char* runs) {
 }
 
 // A condition follows.
-const std::string kSelect = select_with("0, 0, 0, 0");
+const std::string kSelectJob = select_with("0, 0, 0, 0");
 const std::string kSelectShown =
     select_with("c.good, " + sum_of_runs("v.rework", "<> 'refused'") + ", " +
                 sum_of_runs("v.scrap", "<> 'refused'") + ", " +
@@ -79,7 +79,7 @@ Result<Job> one_job(std::uint64_t id, Result<std::optional<Job>> job) {
 }
 
 Result<Job> find_job(sql::Database& database, std::uint64_t id) {
-  static const std::string kSql = kSelect + "WHERE id = ?1";
+  static const std::string kSql = kSelectJob + "WHERE id = ?1";
   return one_job(id, sql::first_row(database, kSql, read_job, id));
 }
 
@@ -87,7 +87,7 @@ const std::string kOpenOfMachine =
     "WHERE machine = ?1 AND " + kOpen + kInOrder + "LIMIT ?2 OFFSET ?3";
 
 Result<std::vector<Job>> open_jobs(sql::Database& database, const std::string& machine, Page page) {
-  static const std::string kSql = kSelect + kOpenOfMachine;
+  static const std::string kSql = kSelectJob + kOpenOfMachine;
   return sql::all_rows(database, kSql, read_job, machine, page.limit, page.offset);
 }
 
@@ -234,7 +234,7 @@ Result<void> JobRepository::remove(std::uint64_t id, const Actor& who, UtcTime t
 
 Result<std::optional<Job>> JobRepository::next(const std::string& machine) {
   static const std::string kSql =
-      kSelect + "WHERE machine = ?1 AND removed_us IS NULL AND counted < quantity " + kInOrder +
+      kSelectJob + "WHERE machine = ?1 AND removed_us IS NULL AND counted < quantity " + kInOrder +
       "LIMIT 1";
   return connections_.read(
       [&](sql::Database& database) { return sql::first_row(database, kSql, read_job, machine); });

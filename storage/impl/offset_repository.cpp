@@ -24,7 +24,7 @@ Result<std::optional<OffsetRules>> newest_rules(sql::Database& database,
                         read_rules, machine);
 }
 
-const std::string kSelect =
+const std::string kSelectOffset =
     "SELECT id, machine, rule, target, unit, old_value, new_value, base, state, used, left_out, "
     "mean, first, last, reasons, created_us, decided_us, who, comment, is_automatic, setup "
     "FROM offset_proposal ";
@@ -58,7 +58,7 @@ OffsetProposal read_proposal(const sql::Statement& row) {
 }
 
 Result<OffsetProposal> find_proposal(sql::Database& database, std::uint64_t id) {
-  auto found = sql::first_row(database, kSelect + "WHERE id = ?1", read_proposal, id);
+  auto found = sql::first_row(database, kSelectOffset + "WHERE id = ?1", read_proposal, id);
   if (!found) return fail(found.error());
   if (*found) return std::move(**found);
   return fail(Errc::NotFound, "there is no offset proposal {}", id);
@@ -75,7 +75,7 @@ Result<std::optional<OffsetProposal>> pending_of(sql::Database& database,
                                                  const std::string& machine,
                                                  const std::string& target) {
   return sql::first_row(database,
-                        kSelect + "WHERE machine = ?1 AND target = ?2 AND state = 'pending'",
+                        kSelectOffset + "WHERE machine = ?1 AND target = ?2 AND state = 'pending'",
                         read_proposal, machine, target);
 }
 
@@ -177,7 +177,7 @@ Result<OffsetProposal> OffsetRepository::find(std::uint64_t id) {
 }
 
 Result<std::vector<OffsetProposal>> OffsetRepository::list(const OffsetFilter& filter, Page page) {
-  std::string sql = kSelect + "WHERE true ";  // few texts, so that each is prepared once
+  std::string sql = kSelectOffset + "WHERE true ";  // few texts, so that each is prepared once
   if (filter.machine) sql += "AND machine = ?1 ";
   if (filter.target) sql += "AND target = ?2 ";
   if (filter.state) sql += "AND state = ?3 ";

@@ -10,11 +10,11 @@
 namespace dripline::storage {
 namespace {
 
-constexpr std::string_view kStates[] = {"active", "completed", "aborted", "interrupted"};
+constexpr std::string_view kTransferStates[] = {"active", "completed", "aborted", "interrupted"};
 
 Result<TransferState> parse_state(std::string_view text) {
-  for (std::size_t at = 0; at < std::size(kStates); ++at) {
-    if (kStates[at] == text) return static_cast<TransferState>(at);
+  for (std::size_t at = 0; at < std::size(kTransferStates); ++at) {
+    if (kTransferStates[at] == text) return static_cast<TransferState>(at);
   }
   return fail(Errc::Corrupt, "'{}' is no state of a transfer", text);
 }
@@ -36,7 +36,7 @@ std::string_view to_string(TransferDirection direction) {
 }
 
 std::string_view to_string(TransferState state) {
-  return kStates[static_cast<std::size_t>(state)];
+  return kTransferStates[static_cast<std::size_t>(state)];
 }
 
 Result<void> PortRepository::save_transfer(const PortTransfer& transfer) {

@@ -7,7 +7,8 @@
 namespace dripline::storage {
 namespace {
 
-const std::string kSelect = "SELECT name, version, text, author, created_us FROM report_template ";
+const std::string kSelectTemplate =
+    "SELECT name, version, text, author, created_us FROM report_template ";
 
 ReportTemplateVersion read_version(const sql::Statement& row) {
   return {.name = row.text(0),
@@ -22,8 +23,8 @@ Result<std::optional<ReportTemplateVersion>> find_version(sql::Database& databas
                                                           const std::string& name,
                                                           std::optional<std::uint64_t> version) {
   static const std::string kNewest =
-      kSelect + "WHERE name = ?1 AND is_removed = 0 ORDER BY version DESC LIMIT 1";
-  static const std::string kOne = kSelect + "WHERE name = ?1 AND version = ?2";
+      kSelectTemplate + "WHERE name = ?1 AND is_removed = 0 ORDER BY version DESC LIMIT 1";
+  static const std::string kOne = kSelectTemplate + "WHERE name = ?1 AND version = ?2";
   return version ? sql::first_row(database, kOne, read_version, name, *version)
                  : sql::first_row(database, kNewest, read_version, name);
 }
@@ -85,7 +86,7 @@ Result<ReportTemplateVersion> ReportTemplateRepository::push(const ReportTemplat
 
 Result<std::vector<ReportTemplateVersion>> ReportTemplateRepository::list() {
   static const std::string kSql =
-      kSelect +
+      kSelectTemplate +
       "AS one WHERE is_removed = 0 AND version = (SELECT max(version) FROM report_template WHERE "
       "name = one.name) ORDER BY name";
   return connections_.read(
@@ -94,7 +95,8 @@ Result<std::vector<ReportTemplateVersion>> ReportTemplateRepository::list() {
 
 Result<std::vector<ReportTemplateVersion>> ReportTemplateRepository::versions(
     const std::string& name) {
-  static const std::string kSql = kSelect + "WHERE name = ?1 ORDER BY version DESC LIMIT 1000";
+  static const std::string kSql =
+      kSelectTemplate + "WHERE name = ?1 ORDER BY version DESC LIMIT 1000";
   return connections_.read(
       [&](sql::Database& database) { return sql::all_rows(database, kSql, read_version, name); });
 }

@@ -9,7 +9,7 @@
 namespace dripline::storage {
 namespace {
 
-const std::string kSelect =
+const std::string kSelectRun =
     "SELECT run.id, machine.name, program.name, run.revision, run.sha256, coalesce(content.size, "
     "0), "
     "run.control, run.state, run.sent, run.accepted, run.executed, run.line, run.sequence, "
@@ -66,7 +66,7 @@ Run read_run(const sql::Statement& row) {
 
 /// Errors: NotFound.
 Result<Run> find_run(sql::Database& database, const std::string& id) {
-  static const std::string kSql = kSelect + "WHERE run.id = ?1";
+  static const std::string kSql = kSelectRun + "WHERE run.id = ?1";
   auto run = sql::first_row(database, kSql, read_run, id);
   if (!run) return fail(run.error());
   if (!*run) return fail(Errc::NotFound, "run {} is not known", id);
@@ -202,7 +202,7 @@ Result<Run> RunRepository::find(const std::string& id) {
 namespace {
 
 std::string select_filtered(const RunFilter& filter) {
-  std::string sql = kSelect + "WHERE true ";  // few texts, so that each is prepared once
+  std::string sql = kSelectRun + "WHERE true ";  // few texts, so that each is prepared once
   if (filter.machine) sql += "AND machine.name = ?1 ";
   if (filter.program) sql += "AND program.name = ?2 ";
   if (filter.state) sql += "AND run.state = ?3 ";

@@ -10,7 +10,7 @@ namespace dripline::storage {
 namespace {
 
 /// Everything but the text.
-constexpr const char* kColumns =
+constexpr const char* kSetupColumns =
     "machine, number, sha256, length(hex(text)) / 2, comment, author, created_us";
 
 SetupRevision read_setup(const sql::Statement& row) {
@@ -32,7 +32,7 @@ SetupRevision read_with_text(const sql::Statement& row) {
 
 Result<std::optional<SetupRevision>> newest(sql::Database& database, const std::string& machine) {
   static const std::string kSql = fmt::format(
-      "SELECT {}, text FROM setup WHERE machine = ?1 ORDER BY number DESC LIMIT 1", kColumns);
+      "SELECT {}, text FROM setup WHERE machine = ?1 ORDER BY number DESC LIMIT 1", kSetupColumns);
   return sql::first_row(database, kSql, read_with_text, machine);
 }
 
@@ -112,8 +112,9 @@ Result<SetupRevision> SetupRepository::save(const SetupRevision& setup,
 }
 
 Result<std::vector<SetupRevision>> SetupRepository::list(const std::string& machine, Page page) {
-  static const std::string kSql = fmt::format(
-      "SELECT {} FROM setup WHERE machine = ?1 ORDER BY number DESC LIMIT ?2 OFFSET ?3", kColumns);
+  static const std::string kSql =
+      fmt::format("SELECT {} FROM setup WHERE machine = ?1 ORDER BY number DESC LIMIT ?2 OFFSET ?3",
+                  kSetupColumns);
   return connections_.read([&](sql::Database& database) {
     return sql::all_rows(database, kSql, read_setup, machine, page.limit, page.offset);
   });
@@ -122,7 +123,7 @@ Result<std::vector<SetupRevision>> SetupRepository::list(const std::string& mach
 Result<SetupRevision> SetupRepository::find(const std::string& machine,
                                             std::optional<std::uint64_t> number) {
   static const std::string kSql =
-      fmt::format("SELECT {}, text FROM setup WHERE machine = ?1 AND number = ?2", kColumns);
+      fmt::format("SELECT {}, text FROM setup WHERE machine = ?1 AND number = ?2", kSetupColumns);
   return connections_.read([&](sql::Database& database) -> Result<SetupRevision> {
     auto found = number ? sql::first_row(database, kSql, read_with_text, machine, *number)
                         : newest(database, machine);

@@ -9,11 +9,11 @@
 namespace dripline::storage {
 namespace {
 
-const std::string kColumns =
+const std::string kWebhookColumns =
     "SELECT id, name, url, secret, kinds, author, created_us, delivered, delivered_us, failures, "
     "failing_since_us, fault, lost, ";
-const std::string kSelect =
-    kColumns +
+const std::string kSelectWebhook =
+    kWebhookColumns +
     "(SELECT count(*) FROM event WHERE event.id > webhook.delivered AND (kinds = '' OR "
     "instr(',' || kinds || ',', ',' || event.kind || ',') > 0)) FROM webhook ";
 
@@ -38,7 +38,7 @@ Webhook read_webhook(const sql::Statement& row) {
 }
 
 Result<Webhook> find_webhook(sql::Database& database, const std::string& name) {
-  static const std::string kSql = kSelect + "WHERE name = ?1";
+  static const std::string kSql = kSelectWebhook + "WHERE name = ?1";
   auto webhook = sql::first_row(database, kSql, read_webhook, name);
   if (!webhook) return fail(webhook.error());
   if (!*webhook) return fail(Errc::NotFound, "webhook '{}' is not known", name);
@@ -55,7 +55,7 @@ Result<void> drop_delivered(sql::Database& database) {
 }  // namespace
 
 Result<std::vector<Webhook>> WebhookRepository::list() {
-  static const std::string kSql = kSelect + "ORDER BY name LIMIT ?1";
+  static const std::string kSql = kSelectWebhook + "ORDER BY name LIMIT ?1";
   return connections_.read([&](sql::Database& database) {
     return sql::all_rows(database, kSql, read_webhook, kMaxWebhooks);
   });
@@ -66,7 +66,7 @@ Result<Webhook> WebhookRepository::find(const std::string& name) {
 }
 
 Result<Webhook> WebhookRepository::receiver(std::uint64_t id) {
-  static const std::string kSql = kColumns + "0 FROM webhook WHERE id = ?1";
+  static const std::string kSql = kWebhookColumns + "0 FROM webhook WHERE id = ?1";
   return connections_.read([&](sql::Database& database) -> Result<Webhook> {
     auto webhook = sql::first_row(database, kSql, read_webhook, id);
     if (!webhook) return fail(webhook.error());

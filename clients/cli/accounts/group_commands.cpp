@@ -23,7 +23,7 @@ int print_group(Context& context, const client::Reply<client::MachineGroup>& gro
   return kExitOk;
 }
 
-int list(Context& context, client::Client& client) {
+int list_groups(Context& context, client::Client& client) {
   const auto groups = client.machine_groups();
   if (const auto status = finished(context, groups, "groups")) return *status;
   Table table({"NAME", "MACHINES"});
@@ -32,10 +32,10 @@ int list(Context& context, client::Client& client) {
   return kExitOk;
 }
 
-using Change = client::Reply<client::MachineGroup> (client::Client::*)(std::string_view,
-                                                                       std::string_view);
+using GroupChange = client::Reply<client::MachineGroup> (client::Client::*)(std::string_view,
+                                                                            std::string_view);
 int change_each(Context& context, client::Client& client, const GroupCommand& command,
-                Change change) {
+                GroupChange change) {
   client::Reply<client::MachineGroup> group;
   for (const auto& machine : command.machines) {
     group = (client.*change)(command.group, machine);
@@ -64,10 +64,10 @@ int remove(Context& context, client::Client& client, const GroupCommand& command
   return kExitOk;
 }
 
-using Action = int (*)(Context&, client::Client&, const GroupCommand&);
+using GroupAction = int (*)(Context&, client::Client&, const GroupCommand&);
 enum class Machines { None, Some, OneAtLeast };
-void add_verb(Command parent, Context& context, const char* verb, const char* help, Action action,
-              Machines machines) {
+void add_verb(Command parent, Context& context, const char* verb, const char* help,
+              GroupAction action, Machines machines) {
   auto command = parent.add_subcommand(verb, help);
   auto options = std::make_shared<GroupCommand>();
   command.add_option("GROUP", options->group, "The group").required();
@@ -86,7 +86,7 @@ void add_group_commands(Command app, Context& context) {
   group.require_subcommand(1);
   auto listing = group.add_subcommand("list", "List all groups with their machines");
   add_json_flag(listing, context);
-  run_at_server(listing, context, list);
+  run_at_server(listing, context, list_groups);
   add_verb(group, context, "add", "Make a group, if it is not there, and add machines", add,
            Machines::Some);
   add_verb(group, context, "add-machine", "Add machines to a group", add_machine,

@@ -61,7 +61,7 @@ void add_user_option(Command command, const std::shared_ptr<TokenCommand>& optio
       .type_name("NAME");
 }
 
-void add_add(Command group, Context& context) {
+void add_token_add(Command group, Context& context) {
   auto command = group.add_subcommand("add", "Make a token for a program");
   auto options = std::make_shared<TokenCommand>();
   command.add_option("NAME", options->token.name, "Lower-case letters, digits, '.', '-', '_'")
@@ -89,7 +89,7 @@ void add_add(Command group, Context& context) {
 void add_token_commands(Command app, Context& context) {
   auto group = app.add_subcommand("token", "Access for programs, with a name and an end");
   group.require_subcommand(1);
-  add_add(group, context);
+  add_token_add(group, context);
   auto listing = group.add_subcommand("list", "List the tokens and sessions of a user");
   auto whose = std::make_shared<TokenCommand>();
   add_user_option(listing, whose, "USER,--user");

@@ -31,7 +31,7 @@ int add(Context& context, client::Client& client, const AddUser& command) {
   return print_user(context, client.add_user(user));
 }
 
-int list(Context& context, client::Client& client) {
+int list_users(Context& context, client::Client& client) {
   const auto users = client.users();
   if (const auto status = finished(context, users, "users")) return *status;
   context.print(user_table(*users));
@@ -90,7 +90,7 @@ int set_password(Context& context, client::Client& client, const std::string& gi
   return kExitOk;
 }
 
-int remove(Context& context, client::Client& client, const std::string& name) {
+int remove_user(Context& context, client::Client& client, const std::string& name) {
   if (auto removed = client.remove_user(name); !removed) return complain(removed.error());
   context.print(fmt::format("Removed user {} with all tokens and sessions.\n", name));
   return kExitOk;
@@ -106,7 +106,7 @@ void add_named(Command group, Context& context, const char* verb, const char* he
   run_at_server(command, context, name, action);
 }
 
-void add_add(Command group, Context& context) {
+void add_user_add(Command group, Context& context) {
   auto command = group.add_subcommand("add", "Add a user");
   auto options = std::make_shared<AddUser>();
   command.add_option("NAME", options->user.name, "Lower-case letters, digits, '.', '-', '_'")
@@ -156,10 +156,10 @@ void add_groups(Command group, Context& context) {
 void add_user_commands(Command app, Context& context) {
   auto group = app.add_subcommand("user", "People and programs that use the server");
   group.require_subcommand(1);
-  add_add(group, context);
+  add_user_add(group, context);
   auto listing = group.add_subcommand("list", "List all users");
   add_json_flag(listing, context);
-  run_at_server(listing, context, list);
+  run_at_server(listing, context, list_users);
   add_named(group, context, "show", "Show a user", show);
   add_role(group, context);
   add_groups(group, context);
@@ -172,7 +172,7 @@ void add_user_commands(Command app, Context& context) {
   run_at_server(password, context, name, set_password);
   add_named(group, context, "lock", "Refuse a user and all tokens until unlock", lock);
   add_named(group, context, "unlock", "Let a locked user in again", unlock);
-  add_named(group, context, "remove", "Remove a user; the name is never used again", remove);
+  add_named(group, context, "remove", "Remove a user; the name is never used again", remove_user);
 }
 
 }  // namespace dripline::cli

@@ -28,7 +28,7 @@ struct AssignmentChoice {
   std::string program, machine, macro;
 };
 
-int list_templates(Context& context, client::Client& client, const TemplateChoice&) {
+int list_report_templates(Context& context, client::Client& client, const TemplateChoice&) {
   const auto templates = client.report_templates();
   if (!templates) return complain(templates.error());
   const auto assignments = client.report_template_assignments();
@@ -248,7 +248,7 @@ void add_template_commands(Command report, Context& context) {
   auto list = group.add_subcommand("list", "List templates and what they are assigned to");
   auto listed = std::make_shared<TemplateChoice>();
   add_json_flag(list, context);
-  run_at_server(list, context, listed, list_templates);
+  run_at_server(list, context, listed, list_report_templates);
 
   auto show = group.add_subcommand("show", "Print a template");
   auto shown = std::make_shared<TemplateChoice>();

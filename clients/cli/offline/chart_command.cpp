@@ -17,11 +17,6 @@ struct ChartCommand {
   bool is_whole = false;
 };
 
-int say_no(const Error& error) {
-  complain(error);
-  return kExitUsage;
-}
-
 void print_index(const Context& context, const ChartCommand& command,
                  const std::vector<centurion::ChartLine>& lines) {
   const std::size_t shown =
@@ -37,27 +32,27 @@ void print_index(const Context& context, const ChartCommand& command,
 /// A page lies beside its index; its name cannot lead out of the folder.
 int print_page(const Context& context, const ChartCommand& command, const std::string& name) {
   if (name.find_first_of("/\\") != std::string::npos || name.starts_with("..")) {
-    return say_no(
+    return complain(
         Error{Errc::Syntax, fmt::format("{}: \"{}\" is no file name", command.index, name)});
   }
   const auto path = std::filesystem::path(command.index).parent_path() / name;
   auto file = MappedFile::open(path.string());
-  if (!file) return say_no(file.error());
+  if (!file) return complain(file.error());
   context.print(command.is_whole ? file->text() : centurion::first_chart_page(file->text()));
   return kExitOk;
 }
 
 int show_chart(const Context& context, const ChartCommand& command) {
   auto file = MappedFile::open(command.index);
-  if (!file) return say_no(file.error());
+  if (!file) return complain(file.error());
   const auto lines = centurion::parse_chart_index(file->text());
   if (command.page == 0) {
     print_index(context, command, lines);
     return kExitOk;
   }
   if (command.page > lines.size() || lines[command.page - 1].file.empty()) {
-    return say_no(Error{Errc::NotFound, fmt::format("{}: line {} names no page; it has {} lines",
-                                                    command.index, command.page, lines.size())});
+    return complain(Error{Errc::NotFound, fmt::format("{}: line {} names no page; it has {} lines",
+                                                      command.index, command.page, lines.size())});
   }
   return print_page(context, command, lines[command.page - 1].file);
 }

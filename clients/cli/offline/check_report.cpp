@@ -97,7 +97,7 @@ std::string verdict(const CheckReport& report, bool has_color) {
   return styled(text, summary.ended ? Style::Good : Style::Bad, has_color);
 }
 
-std::string feed_text(const Summary& summary, const Feed& feed) {
+std::string summary_feed(const Summary& summary, const Feed& feed) {
   switch (feed.per()) {
     case Feed::Per::Minute:
       return fmt::format("{:.1f} {}/min", length(summary, feed.length()), unit_name(summary));
@@ -119,7 +119,7 @@ void add_state(Details& details, const Summary& summary, const MachineState& sta
   }
   details.add("position", position);
   details.add("tool", state.tool() ? std::to_string(*state.tool()) : "");
-  details.add("feed", state.feed() ? feed_text(summary, *state.feed()) : "");
+  details.add("feed", state.feed() ? summary_feed(summary, *state.feed()) : "");
   const auto& spindle = state.spindle();
   std::string turning(word_of(spindle.state));
   if (spindle.state != interpreter::SpindleState::Off && !spindle.surface_speed) {
@@ -207,7 +207,7 @@ Json state_json(const Summary& summary, const MachineState& state) {
   json["tool"] = state.tool() ? Json(*state.tool()) : Json(nullptr);
   json["spindle"] = std::string(word_of(state.spindle().state));
   json["speed"] = rounded(state.spindle().revolutions_per_minute);
-  json["feed"] = state.feed() ? Json(feed_text(summary, *state.feed())) : Json(nullptr);
+  json["feed"] = state.feed() ? Json(summary_feed(summary, *state.feed())) : Json(nullptr);
   json["flood"] = state.coolant().flood;
   json["mist"] = state.coolant().mist;
   return json;

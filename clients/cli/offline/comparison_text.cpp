@@ -74,7 +74,7 @@ std::string side_text(const std::string& name, const Json& side) {
   return text + "\n";
 }
 
-std::string place_text(const Json& place, const ComparedNames& names, bool has_color) {
+std::string compared_place(const Json& place, const ComparedNames& names, bool has_color) {
   std::string head;
   for (const auto& word : place.at("differences"))
     head += (head.empty() ? "" : ", ") + with_spaces(word);
@@ -105,7 +105,7 @@ std::string condition_text(const Json& condition, const ComparedNames& names) {
 std::string motion_text(const Json& result, const ComparedNames& names, bool has_color) {
   const Json& motion = result.at("motion");
   std::string text;
-  for (const auto& place : motion.at("places")) text += place_text(place, names, has_color);
+  for (const auto& place : motion.at("places")) text += compared_place(place, names, has_color);
   for (const auto& condition : motion.at("conditions")) text += condition_text(condition, names);
   if (motion.at("same")) {
     const bool is_sure = motion.at("conditions").empty();

@@ -123,9 +123,9 @@ int list_events(Context& context, const ConversationalCommand& command) {
   return kExitOk;
 }
 
-using Options = std::shared_ptr<ConversationalCommand>;
+using ConversationalOptions = std::shared_ptr<ConversationalCommand>;
 
-void add_post(Command group, Context& context, const Options& options) {
+void add_post(Command group, Context& context, const ConversationalOptions& options) {
   auto post_verb = group.add_subcommand("post", "Post an event file as program text");
   post_verb.add_option("FILE", options->file, "TOML with [[event]] tables, or the same as JSON")
       .required();
@@ -137,7 +137,7 @@ void add_post(Command group, Context& context, const Options& options) {
   post_verb.callback([&context, options] { context.status = post(*options); });
 }
 
-void add_events(Command group, Context& context, const Options& options) {
+void add_events(Command group, Context& context, const ConversationalOptions& options) {
   auto events = group.add_subcommand("events", "List the events with their fields and limits");
   events.add_option("TYPE", options->event, "List only this event, e.g. drill");
   add_json_flag(events, context);
@@ -145,7 +145,7 @@ void add_events(Command group, Context& context, const Options& options) {
   events.callback([&context, options] { context.status = list_events(context, *options); });
 }
 
-void add_new(Command group, Context& context, const Options& options) {
+void add_new(Command group, Context& context, const ConversationalOptions& options) {
   auto starter = group.add_subcommand("new", "Write a small job with comments, to start from");
   starter.add_option("--program", options->program, "O number of the program [1]")
       .check(in_range(1, 9999));

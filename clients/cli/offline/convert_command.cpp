@@ -103,7 +103,7 @@ Result<bool> walk(client::FileSource& file, const std::string& label, Take take)
   return true;
 }
 
-int interrupted() {
+int end_interrupted() {
   fmt::print(stderr, "dnc: the conversion was ended; nothing was written\n");
   return kExitInterrupted;
 }
@@ -119,7 +119,7 @@ int list(const ConvertCommand& command, CharacterCode code, client::FileSource& 
   });
   if (output.error()) return output.complain();
   if (!walked) return complain(walked.error());
-  if (!*walked) return interrupted();
+  if (!*walked) return end_interrupted();
   text.clear();
   listing.finish(text);
   return output.write(text) ? kExitOk : output.complain();
@@ -155,7 +155,7 @@ std::string summary_line(const ConvertCommand& command, CharacterCode from,
 }
 
 /// A fault in the tape or the program is no misuse.
-int say_no(const Error& error) {
+int complain_of_tape(const Error& error) {
   complain(error);
   return error.code == Errc::Io ? kExitUsage : kExitNo;
 }
@@ -186,11 +186,11 @@ int convert_to(Context& context, const ConvertCommand& command, CharacterCode fr
   if (auto begun = conversion.begin(); !begun) return complain(begun.error());
   auto walked = walk(file, command.input,
                      [&](std::span<const std::byte> piece) { return conversion.convert(piece); });
-  if (walked && !*walked) return interrupted();
+  if (walked && !*walked) return end_interrupted();
   auto done = walked ? conversion.finish() : Result<void>(fail(walked.error()));
   if (target.standard.error()) return target.standard.complain();
   if (done && target.file) done = target.file->commit();
-  if (!done) return say_no(named(command, done.error()));
+  if (!done) return complain_of_tape(named(command, done.error()));
   say_notices(command, conversion);
   if (target.file) context.print(summary_line(command, from, conversion));
   return kExitOk;
@@ -270,7 +270,7 @@ int convert(Context& context, const ConvertCommand& command) {
     return complain(named_right.error());
   }
   const auto from = source_code(command, *file);
-  if (!from) return say_no(named(command, from.error()));
+  if (!from) return complain_of_tape(named(command, from.error()));
   catch_interrupts();
   if (command.is_listing) return list(command, *from, *file);
   if (command.output.empty()) {

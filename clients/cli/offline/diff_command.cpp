@@ -68,21 +68,16 @@ class DiffedFile {
   std::optional<MappedFile> file_;
 };
 
-int complain_usage(const Error& error) {
-  complain(error);
-  return kExitUsage;
-}
-
 int diff(Context& context, const DiffCommand& command) {
   const bool needs_control = command.by_motion || command.normalized;
   auto first = DiffedFile::open(command.first, needs_control);
-  if (!first) return complain_usage(first.error());
+  if (!first) return complain(first.error());
   auto second = DiffedFile::open(command.second, needs_control);
-  if (!second) return complain_usage(second.error());
+  if (!second) return complain(second.error());
   auto first_source = first->source(), second_source = second->source();
   const auto result = comparison::compare_programs(
       first->side(first_source), second->side(second_source), options_of(command));
-  if (!result) return complain_usage(result.error());
+  if (!result) return complain(result.error());
   const nlohmann::ordered_json printed = *result;
   const std::string text = context.wants_json
                                ? json_text(printed)

@@ -16,9 +16,9 @@ namespace {
 constexpr std::uint64_t kMaxBytes = 64 * 1024 * 1024;
 
 /// Text in memory as the source of a push.
-class TextSource final : public client::ByteSource {
+class EditedSource final : public client::ByteSource {
  public:
-  explicit TextSource(const std::string& text) : text_(text) {}
+  explicit EditedSource(const std::string& text) : text_(text) {}
   std::uint64_t size() const override { return text_.size(); }
   Result<void> read(std::uint64_t offset, std::span<char> into) override {
     if (offset > text_.size() || into.size() > text_.size() - offset) {
@@ -127,7 +127,7 @@ int EditedText::push(const std::string& text, std::string& written) {
                                place_.program, now->program.revision, revision_)});
     return kExitNo;
   }
-  TextSource source(text);
+  EditedSource source(text);
   client::PushOptions options{{.program = place_.program,
                                .control = control_,
                                .comment = place_.comment,

@@ -20,7 +20,7 @@ struct ExtractCommand {
   bool replaces = false;
 };
 
-int say_no(const Error& error, int status = kExitUsage) {
+int complain_with(const Error& error, int status = kExitUsage) {
   complain(error);
   return status;
 }
@@ -44,30 +44,31 @@ std::map<std::uint32_t, std::string_view> by_number(const std::vector<ExtractedP
 
 int extract(const Context& context, const ExtractCommand& command) {
   auto file = MappedFile::open(command.input);
-  if (!file) return say_no(file.error());
+  if (!file) return complain_with(file.error());
   const auto programs = interpreter::centurion::extract_programs(file->text());
   if (!programs.empty() && programs.front().number == 0) {
-    return say_no(
+    return complain_with(
         Error{Errc::Syntax,
               fmt::format("{}: there is text in front of the first O number", command.input)},
         kExitNo);
   }
   const auto numbered = by_number(programs);
   if (numbered.empty()) {
-    return say_no(Error{Errc::NotFound, fmt::format("{}: no O number", command.input)}, kExitNo);
+    return complain_with(Error{Errc::NotFound, fmt::format("{}: no O number", command.input)},
+                         kExitNo);
   }
   const auto path_of = [&](std::uint32_t number) {
     return fs::path(command.folder) / fmt::format("O{:04}", number);
   };
   for (const auto& program : numbered) {
     if (command.replaces || !fs::exists(path_of(program.first))) continue;
-    return say_no(Error{Errc::Busy, fmt::format("{} exists; --replace writes over it",
-                                                path_of(program.first).string())},
-                  kExitNo);
+    return complain_with(Error{Errc::Busy, fmt::format("{} exists; --replace writes over it",
+                                                       path_of(program.first).string())},
+                         kExitNo);
   }
   for (const auto& program : numbered) {
     const auto path = path_of(program.first);
-    if (auto done = write_program(path, program.second); !done) return say_no(done.error());
+    if (auto done = write_program(path, program.second); !done) return complain_with(done.error());
     context.print(fmt::format("{}  {} bytes\n", path.string(), program.second.size()));
   }
   return kExitOk;

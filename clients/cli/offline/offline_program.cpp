@@ -20,7 +20,7 @@ using interpreter::Dialect;
 
 constexpr std::size_t kHead = 64 * 1024;
 constexpr std::size_t kTapeHead = 64 * 1024;
-constexpr std::size_t kMaxSetup = 16 * 1024 * 1024;
+constexpr std::size_t kMaxSetupFile = 16 * 1024 * 1024;
 
 std::string names_of(const std::vector<const Dialect*>& dialects) {
   std::string names;
@@ -97,9 +97,9 @@ Result<Data> read_setup_as(const std::string& path, const Dialect& dialect,
   if (path.empty()) return Data{};
   auto file = MappedFile::open(path);
   if (!file) return fail(file.error());
-  if (file->text().size() > kMaxSetup) {
+  if (file->text().size() > kMaxSetupFile) {
     return fail(Errc::LimitExceeded, "setup file {} has {} bytes, expected at most {}", path,
-                file->text().size(), kMaxSetup);
+                file->text().size(), kMaxSetupFile);
   }
   auto data = parse(file->text(), dialect.units);
   if (!data) return fail(data.error().code, "setup file {}: {}", path, data.error().what);

@@ -61,7 +61,7 @@ std::string date_text(UtcTime time) {
   return time_text(to_iso8601(time)).substr(0, kDate);
 }
 
-std::string state_text(const Authority& authority, const Issued& issued, UtcTime now) {
+std::string certificate_state(const Authority& authority, const Issued& issued, UtcTime now) {
   if (issued.revoked) return "revoked";
   if (issued.validity.not_after <= now) return "expired";
   if (!authority.has_folder(issued.holder)) return "no folder";
@@ -148,7 +148,7 @@ nlohmann::ordered_json json_of(const Authority& authority, const Issued& issued,
   nlohmann::ordered_json json{
       {"role", authority::to_string(issued.holder.role)},
       {"name", issued.holder.name},
-      {"state", state_text(authority, issued, now)},
+      {"state", certificate_state(authority, issued, now)},
       {"not_before", to_iso8601(issued.validity.not_before)},
       {"not_after", to_iso8601(issued.validity.not_after)},
       {"serial", issued.serial},
@@ -172,7 +172,7 @@ int list(Context& context, const PkiCommand& command) {
   }
   Table table({"FOR", "NAME", "UNTIL", "STATE"});
   for (const auto& issued : identities) {
-    const auto state = state_text(*authority, issued, now);
+    const auto state = certificate_state(*authority, issued, now);
     table.add({std::string(authority::to_string(issued.holder.role)), issued.holder.name,
                date_text(issued.validity.not_after),
                Cell(state, state == "valid" ? Style::Plain : Style::Bad)});
@@ -181,22 +181,22 @@ int list(Context& context, const PkiCommand& command) {
   return kExitOk;
 }
 
-using Options = std::shared_ptr<PkiCommand>;
+using PkiOptions = std::shared_ptr<PkiCommand>;
 
 /// `--folder`, and what is done.
-void finish_verb(Command verb, Context& context, const Options& options,
+void finish_verb(Command verb, Context& context, const PkiOptions& options,
                  int (*action)(Context&, const PkiCommand&)) {
   verb.add_option("--folder", options->folder, "Folder of the authority [STATE/pki]")
       .type_name("DIR");
   verb.callback([&context, options, action] { context.status = action(context, *options); });
 }
 
-void add_days(Command verb, const Options& options) {
+void add_days(Command verb, const PkiOptions& options) {
   verb.add_option("--days", options->days, "Days until it expires")
       .check(in_range(1, Authority::kMaxDays));
 }
 
-Options add_holder(Command verb) {
+PkiOptions add_holder(Command verb) {
   auto options = std::make_shared<PkiCommand>();
   verb.add_option("MACHINE", options->machine, "The machine");
   verb.add_flag("--server", options->is_server, "The server instead of a machine");

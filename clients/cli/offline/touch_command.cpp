@@ -9,14 +9,14 @@
 namespace dripline::cli {
 namespace {
 
-namespace tnc = tnc_probing;
+namespace probing = tnc_probing;
 using interpreter::Axis;
 using interpreter::is_rotary;
 using interpreter::Plane;
 using interpreter::PlaneAxes;
 using interpreter::Position;
-using tnc::NamedCoordinate;
-using tnc::ProbingFunction;
+using probing::NamedCoordinate;
+using probing::ProbingFunction;
 
 struct TouchCommand {
   std::string function, setup;
@@ -31,8 +31,8 @@ struct TouchCommand {
   double unit() const { return is_inch ? Length::kMillimetersPerInch : 1; }
   Axis tool() const { return *interpreter::axis_of(tool_axis.front()); }
   Plane plane() const { return interpreter::plane_across(tool()); }
-  tnc::Stylus stylus() const {
-    tnc::Stylus made;
+  probing::Stylus stylus() const {
+    probing::Stylus made;
     made.radius = ball * unit();
     if (travel) made.travel = *travel * unit();
     return made;
@@ -41,7 +41,7 @@ struct TouchCommand {
 
 /// The probe strokes, and where the stylus was at contact.
 struct Touched {
-  std::vector<tnc::Touch> touches;
+  std::vector<probing::Touch> touches;
   std::vector<Position> at;
 };
 
@@ -82,14 +82,14 @@ NamedCoordinate named(const TouchCommand& command, Axis axis, std::size_t i) {
 /// The datum that makes `point` be called so.
 std::string datum_text(const TouchSetup& setup, const Position& point,
                        std::span<const NamedCoordinate> names) {
-  return datum_toml(setup, tnc::datum_for(setup.frame, point, names), names);
+  return datum_toml(setup, probing::datum_for(setup.frame, point, names), names);
 }
 
 Measured measure_surface(const TouchCommand& command, const TouchSetup& setup,
                          const Touched& touched) {
-  const tnc::Touch& touch = touched.touches[0];
+  const probing::Touch& touch = touched.touches[0];
   const Position point =
-      tnc::touched_point(touched.at[0], touch, command.stylus(), command.tool(), setup.frame);
+      probing::touched_point(touched.at[0], touch, command.stylus(), command.tool(), setup.frame);
   const NamedCoordinate names[] = {named(command, touch.axis, 0)};
   return {{{std::string(1, letter(touch.axis)), point.raw(touch.axis), is_rotary(touch.axis)}},
           datum_text(setup, point, names)};
@@ -111,8 +111,8 @@ Result<Measured> measure_corner(const TouchCommand& command, const TouchSetup& s
                                 const Touched& touched) {
   const auto& [touches, at] = touched;
   const auto corner =
-      tnc::corner({touches[0], touches[1], at[0], at[1]}, {touches[2], touches[3], at[2], at[3]},
-                  command.stylus(), command.plane());
+      probing::corner({touches[0], touches[1], at[0], at[1]},
+                      {touches[2], touches[3], at[2], at[3]}, command.stylus(), command.plane());
   if (!corner) return fail(corner.error());
   Measured measured = place_in_plane(command, setup, at[3], corner->at);
   measured.values.push_back({"PA of side 1", corner->first_angle, true});
@@ -123,7 +123,8 @@ Result<Measured> measure_corner(const TouchCommand& command, const TouchSetup& s
 Measured measure_circle(const TouchCommand& command, const TouchSetup& setup,
                         const Touched& touched) {
   const std::span<const Position, 4> four(touched.at.data(), 4);
-  const auto circle = tnc::circle_center(four, command.plane(), !command.is_boss, command.stylus());
+  const auto circle =
+      probing::circle_center(four, command.plane(), !command.is_boss, command.stylus());
   Measured measured = place_in_plane(command, setup, touched.at[3], circle.center);
   measured.values.push_back({"PR", circle.radius});
   return measured;
@@ -132,9 +133,9 @@ Measured measure_circle(const TouchCommand& command, const TouchSetup& setup,
 Result<Measured> measure_rotation(const TouchCommand& command, const TouchSetup& setup,
                                   const Touched& touched) {
   const auto angle =
-      tnc::basic_rotation(touched.at[0], touched.at[1], command.plane(), command.nominal);
+      probing::basic_rotation(touched.at[0], touched.at[1], command.plane(), command.nominal);
   if (!angle) return fail(angle.error());
-  std::vector<tnc::Touch> places = touched.touches;
+  std::vector<probing::Touch> places = touched.touches;
   for (std::size_t i = 0; i < places.size(); ++i) places[i].from = touched.at[i];
   return Measured{{{"basic rotation", *angle, true}}, rotation_toml(setup, *angle, places)};
 }
@@ -145,7 +146,8 @@ Result<Measured> measure(const TouchCommand& command, const TouchSetup& setup,
     case ProbingFunction::Length: {
       const double plane = named(command, command.tool(), 0).value;
       return Measured{
-          {{"effective length", tnc::calibrated_length(touched.at[0], command.tool(), plane)}}, ""};
+          {{"effective length", probing::calibrated_length(touched.at[0], command.tool(), plane)}},
+          ""};
     }
     case ProbingFunction::Surface:
       return measure_surface(command, setup, touched);
@@ -159,7 +161,8 @@ Result<Measured> measure(const TouchCommand& command, const TouchSetup& setup,
       break;
   }
   const std::span<const Position, 4> four(touched.at.data(), 4);
-  const auto radius = tnc::calibrated_radius(four, command.plane(), command.ring * command.unit());
+  const auto radius =
+      probing::calibrated_radius(four, command.plane(), command.ring * command.unit());
   if (!radius) return fail(radius.error());
   return Measured{{{"effective radius", *radius}}, ""};
 }
@@ -221,35 +224,36 @@ Result<void> check(const TouchCommand& command, const TouchSetup& setup) {
     }
     kept = setup.rotation_touches.size();
   }
-  const std::size_t needed = tnc::touches_of(row.function) - kept;
+  const std::size_t needed = probing::touches_of(row.function) - kept;
   if (command.touches.size() == needed) return {};
   return fail(Errc::Syntax, "{} takes {} touches{}, {} are given", row.name, needed,
               kept != 0 ? " besides those of the basic rotation" : "", command.touches.size());
 }
 
 /// All probe strokes; first those of the basic rotation, where they are taken.
-Result<std::vector<tnc::Touch>> read_touches(const TouchCommand& command, const TouchSetup& setup) {
-  std::vector<tnc::Touch> touches;
+Result<std::vector<probing::Touch>> read_touches(const TouchCommand& command,
+                                                 const TouchSetup& setup) {
+  std::vector<probing::Touch> touches;
   if (command.takes_rotation_touches) touches = setup.rotation_touches;
   for (const std::string& text : command.touches) {
     const auto touch = parse_touch(text, {setup.fourth_axis, command.unit()});
     if (!touch) return fail(touch.error());
     touches.push_back(*touch);
   }
-  auto checked = tnc::check_touches(function_of(command).function, touches, command.tool());
+  auto checked = probing::check_touches(function_of(command).function, touches, command.tool());
   if (!checked) return fail(checked.error());
   return touches;
 }
 
 /// The places of a basic rotation are known, the others are touched.
 Result<Touched> touch_all(const TouchCommand& command, const TouchSetup& setup,
-                          std::vector<tnc::Touch> touches) {
+                          std::vector<probing::Touch> touches) {
   Touched touched{std::move(touches), {}};
-  for (const tnc::Touch& touch : touched.touches) {
+  for (const probing::Touch& touch : touched.touches) {
     const bool is_known =
         command.takes_rotation_touches && touched.at.size() < setup.rotation_touches.size();
     auto at = is_known ? Result<Position>(touch.from)
-                       : tnc::touch(setup.workpiece, command.stylus(), touch);
+                       : probing::touch(setup.workpiece, command.stylus(), touch);
     if (!at) return fail(at.error());
     touched.at.push_back(*at);
   }

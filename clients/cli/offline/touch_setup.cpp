@@ -15,7 +15,7 @@ using interpreter::Axis;
 using interpreter::is_rotary;
 using interpreter::Units;
 
-constexpr std::size_t kMaxSetup = 1024 * 1024;
+constexpr std::size_t kMaxTouchSetup = 1024 * 1024;
 constexpr const char* kTouchesKey = "basic_rotation_touches";
 
 double millimeters(Units units) {
@@ -103,7 +103,7 @@ std::string touch_text(const tnc_probing::Touch& touch, const TouchSetup& setup)
 }  // namespace
 
 Result<TouchSetup> read_touch_setup(const std::string& path) {
-  const auto text = read_small_file(path, kMaxSetup);
+  const auto text = read_small_file(path, kMaxTouchSetup);
   if (!text) return fail(text.error());
   auto setup = read_setup_text(*text);
   if (!setup) return fail(setup.error().code, "{}: {}", path, setup.error().what);

@@ -24,7 +24,7 @@ using graphics::TurningSimulation;
 using interpreter::Axis;
 
 constexpr std::size_t kX = 0, kZ = 2;  // of AxisRanges
-constexpr std::size_t kUsualCells = 1024;
+constexpr std::size_t kUsualTurningCells = 1024;
 
 /// X as diameters, as a lathe's programs have it.
 Result<graphics::SectionExtent> bar_of(const AxisRanges& ranges) {
@@ -53,12 +53,12 @@ Result<std::pair<int, double>> parse_width(const std::string& text, bool is_inch
   return fail(Errc::Syntax, "--tool-width \"{}\": expected an offset and a width, as 5=10", text);
 }
 
-Result<graphics::TurningSettings> settings_of(const GraphicsCommand& command,
-                                              const interpreter::Setup& setup) {
+Result<graphics::TurningSettings> turning_settings_of(const GraphicsCommand& command,
+                                                      const interpreter::Setup& setup) {
   graphics::TurningSettings settings;
   settings.tools = setup.tools;
   settings.start = setup.start;
-  settings.cells_along = command.size.value_or(kUsualCells);
+  settings.cells_along = command.size.value_or(kUsualTurningCells);
   settings.insert_degrees = command.insert_degrees;
   for (const std::string& text : command.tool_widths) {
     const auto width = parse_width(text, command.is_inch);
@@ -130,7 +130,7 @@ Result<graphics::TurnedView> view_of(const GraphicsCommand& command,
   view.shows_part_path = command.shows_part_path;
   view.shows_path = command.shows_path || (command.view == "path" && !command.shows_part_path);
   view.has_front_turret = command.has_front_turret || is_front_turret(setup.control);
-  view.width = std::clamp<std::size_t>(command.size.value_or(kUsualCells), 320, 4096);
+  view.width = std::clamp<std::size_t>(command.size.value_or(kUsualTurningCells), 320, 4096);
   const auto window = window_of(command, simulation.part() ? &*simulation.part() : nullptr);
   if (!window) return fail(window.error());
   view.window = *window;
@@ -193,8 +193,8 @@ Result<std::vector<graphics::PathPiece>> part_path_of(const OfflineProgram& prog
   }
 }
 
-Result<void> write_files(const GraphicsCommand& command, const interpreter::Setup& setup,
-                         const Drawing& drawing) {
+Result<void> write_turning_files(const GraphicsCommand& command, const interpreter::Setup& setup,
+                                 const Drawing& drawing) {
   const TurningSimulation& simulation = drawing.simulation;
   const TurnedSection* part = simulation.part() ? &*simulation.part() : nullptr;
   if (!command.heights.empty()) {
@@ -241,7 +241,7 @@ void report(Context& context, const Drawing& drawing) {
   }
 }
 
-Result<void> check_view(const GraphicsCommand& command) {
+Result<void> check_turning_view(const GraphicsCommand& command) {
   for (const std::string_view known : {"", "half", "full", "section", "path"}) {
     if (command.view == known) return {};
   }
@@ -252,11 +252,11 @@ Result<void> check_view(const GraphicsCommand& command) {
 }  // namespace
 
 int show_turned(Context& context, const GraphicsCommand& command, const OfflineProgram& program) {
-  if (auto checked = check_view(command); !checked) return complain(checked.error());
+  if (auto checked = check_turning_view(command); !checked) return complain(checked.error());
   const bool has_part_path = program.dialect().name == interpreter::kCenturionDialect.name;
   if (command.shows_part_path && !has_part_path)
     return complain(Error{Errc::Unsupported, "--part-path: only a Centurion draws one"});
-  auto settings = settings_of(command, program.setup());
+  auto settings = turning_settings_of(command, program.setup());
   if (!settings) return complain(settings.error());
   const graphics::TurningSettings part_settings = *settings;
   SystemClock clock;
@@ -285,7 +285,7 @@ int show_turned(Context& context, const GraphicsCommand& command, const OfflineP
     if (!part_path) return complain_offline(part_path.error());
     drawing.part_path = std::move(*part_path);
   }
-  if (auto written = write_files(command, program.setup(), drawing); !written)
+  if (auto written = write_turning_files(command, program.setup(), drawing); !written)
     return complain(written.error());
   report(context, drawing);
   if (!outcome->alarm) return kExitOk;

@@ -127,7 +127,7 @@ int disable(Context& context, client::Client& client, const std::string& name) {
   return set_enabled(context, client, name, false);
 }
 
-int remove(Context& context, client::Client& client, const std::string& name) {
+int remove_port(Context& context, client::Client& client, const std::string& name) {
   auto removed = client.remove_port(name);
   if (!removed) return complain(removed.error());
   context.print(fmt::format("Removed port {}; its line is closed.\n", name));
@@ -163,7 +163,7 @@ std::shared_ptr<PortCommand> add_port_options(Command command, Context& context)
   return options;
 }
 
-void add_add(Command group, Context& context) {
+void add_port_add(Command group, Context& context) {
   auto command = group.add_subcommand("add", "Set up the serial line to a machine");
   auto options = add_port_options(command, context);
   command.get_option("--machine").required();
@@ -257,13 +257,13 @@ void add_recording(Command group, Context& context) {
 void add_port_commands(Command app, Context& context) {
   auto group = app.add_subcommand("port", "Serial lines to machines");
   group.require_subcommand(1);
-  add_add(group, context);
+  add_port_add(group, context);
   add_set(group, context);
   auto list = group.add_subcommand("list", "List all ports with the state of their lines");
   add_json_flag(list, context);
   run_at_server(list, context, list_ports);
   add_json_flag(add_by_name(group, context, "show", "Show a port", show_port), context);
-  add_by_name(group, context, "remove", "Close a line and remove the port", remove);
+  add_by_name(group, context, "remove", "Close a line and remove the port", remove_port);
   add_json_flag(add_by_name(group, context, "enable", "Open the line", enable), context);
   add_json_flag(add_by_name(group, context, "disable", "Close the line, keep the port", disable),
                 context);

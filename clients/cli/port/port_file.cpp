@@ -12,21 +12,21 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxPortFile = 1024 * 1024;
 
 /// Says where in the file something is wrong.
-struct Place {
+struct FilePlace {
   const std::string& file;
   const toml::node& node;
 };
 
-tl::unexpected<Error> wrong(const Place& place, std::string_view what) {
+tl::unexpected<Error> wrong(const FilePlace& place, std::string_view what) {
   return fail(Errc::Syntax, "{} line {}: {}", place.file, place.node.source().begin.line, what);
 }
 
-Result<std::string> text_of(const Place& place, std::string_view key) {
+Result<std::string> text_of(const FilePlace& place, std::string_view key) {
   if (const auto* text = place.node.as_string()) return text->get();
   return wrong(place, fmt::format("{} must be a string", key));
 }
 
-Result<std::string> value_of(const Place& place, std::string_view key) {
+Result<std::string> value_of(const FilePlace& place, std::string_view key) {
   if (const auto* text = place.node.as_string()) return text->get();
   if (const auto* number = place.node.as_integer()) return std::to_string(number->get());
   if (const auto* number = place.node.as_floating_point()) return fmt::format("{}", number->get());
@@ -34,7 +34,7 @@ Result<std::string> value_of(const Place& place, std::string_view key) {
   return wrong(place, fmt::format("{} must be a string, a number, true or false", key));
 }
 
-Result<void> read_rules(client::PortRequest& port, const Place& place) {
+Result<void> read_rules(client::PortRequest& port, const FilePlace& place) {
   const auto name = text_of(place, "rules_file");
   if (!name) return fail(name.error());
   auto rules =
@@ -54,7 +54,7 @@ std::string* member_of(client::PortRequest& port, std::string_view key) {
   return nullptr;
 }
 
-Result<void> read_key(client::PortRequest& port, std::string_view key, const Place& place) {
+Result<void> read_key(client::PortRequest& port, std::string_view key, const FilePlace& place) {
   if (key == "rules_file") return read_rules(port, place);
   if (key == "enabled") {
     const auto* flag = place.node.as_boolean();
@@ -69,7 +69,7 @@ Result<void> read_key(client::PortRequest& port, std::string_view key, const Pla
   return {};
 }
 
-Result<client::PortRequest> read_port(const Place& place) {
+Result<client::PortRequest> read_port(const FilePlace& place) {
   const auto* table = place.node.as_table();
   if (table == nullptr) return wrong(place, "write [[port]]");
   client::PortRequest port;
@@ -110,7 +110,7 @@ Result<std::vector<client::PortRequest>> read_port_file(const std::string& path)
   if (!table) return fail(table.error());
   std::vector<client::PortRequest> ports;
   for (const auto& [key, node] : *table) {
-    const Place place{path, node};
+    const FilePlace place{path, node};
     if (key.str() != "port" || !node.is_array()) {
       return wrong(place, fmt::format("'{}' is not known here: write [[port]]", key.str()));
     }

@@ -60,23 +60,18 @@ int show_page(Context& context, const CenturionPage& page) {
   return kExitOk;
 }
 
-int refuse(const Error& error) {
-  complain(error);
-  return kExitUsage;
-}
-
 int page_of_line(Context& context, const PageCommand& command) {
   const auto line = line_named(command.line, command.changes);
-  if (!line) return refuse(line.error());
+  if (!line) return complain(line.error());
   const auto page = wire::page_of_line(*line, command.port());
-  return page ? show_page(context, *page) : refuse(page.error());
+  return page ? show_page(context, *page) : complain(page.error());
 }
 
 int line_of_page(Context& context, const PageCommand& command) {
   const auto page = read_page(command.file);
-  if (!page) return refuse(page.error());
+  if (!page) return complain(page.error());
   const auto line = wire::line_of_page(*page, command.port());
-  if (!line) return refuse(line.error());
+  if (!line) return complain(line.error());
   return show_line(context, line->control.tape_start ? "centurion-tape" : "centurion", *line);
 }
 
@@ -100,7 +95,7 @@ void add_port_page_command(Command group, Context& context) {
   command.callback([&context, options] {
     const bool has_line = !options->line.empty();
     if (!has_line && options->file.empty()) {
-      context.status = refuse(Error{Errc::Syntax, "port page needs FILE or --for LINE"});
+      context.status = complain(Error{Errc::Syntax, "port page needs FILE or --for LINE"});
       return;
     }
     context.status = has_line ? page_of_line(context, *options) : line_of_page(context, *options);

@@ -83,16 +83,11 @@ Result<Interface> read_interface(const ParametersCommand& command) {
   return interface;
 }
 
-int refuse(const Error& error) {
-  complain(error);
-  return kExitUsage;
-}
-
 int parameters_of_line(Context& context, const ParametersCommand& command) {
   const auto line = line_named(command.line, command.changes);
-  if (!line) return refuse(line.error());
+  if (!line) return complain(line.error());
   const auto parameters = wire::tnc_parameters_of_line(*line);
-  if (!parameters) return refuse(parameters.error());
+  if (!parameters) return complain(parameters.error());
   if (!context.wants_json) {
     context.print(tnc::write_machine_parameters(*parameters));
     return kExitOk;
@@ -105,9 +100,9 @@ int parameters_of_line(Context& context, const ParametersCommand& command) {
 
 int line_of_file(Context& context, const ParametersCommand& command) {
   const auto interface = read_interface(command);
-  if (!interface) return refuse(interface.error());
+  if (!interface) return complain(interface.error());
   const auto line = wire::line_of_tnc(interface->tnc);
-  if (!line) return refuse(line.error());
+  if (!line) return complain(line.error());
   return show_line(context, line->flow == Flow::HeidenhainBcc ? "tnc155-bcc" : "tnc155", *line);
 }
 
@@ -175,13 +170,13 @@ int check_port(Context& context, const ParametersCommand& command) {
     if (!setup) return complain(setup.error());
     interface = interface_of(setup->text, command.baud);
     if (!interface) {
-      return refuse({interface.error().code,
-                     fmt::format("setup of {}: {}", port->machine, interface.error().what)});
+      return complain(Error{interface.error().code,
+                            fmt::format("setup of {}: {}", port->machine, interface.error().what)});
     }
   }
-  if (!interface) return refuse(interface.error());
+  if (!interface) return complain(interface.error());
   const auto line = wire::line_of_tnc(interface->tnc);
-  if (!line) return refuse(line.error());
+  if (!line) return complain(line.error());
   return report(context, *port, differences(*port, *line, interface->has_baud));
 }
 
@@ -189,7 +184,7 @@ int run(Context& context, const ParametersCommand& command) {
   if (!command.line.empty()) return parameters_of_line(context, command);
   if (!command.port.empty()) return check_port(context, command);
   if (!command.file.empty()) return line_of_file(context, command);
-  return refuse(Error{Errc::Syntax, "port parameters needs FILE, --port NAME or --for LINE"});
+  return complain(Error{Errc::Syntax, "port parameters needs FILE, --port NAME or --for LINE"});
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ int verify(Context& context, client::Client& client, const BackupCommand& comman
   return finish(context, client, client.verify_backup(id), command);
 }
 
-int list(Context& context, client::Client& client) {
+int list_backups(Context& context, client::Client& client) {
   const auto state = client.backups();
   if (const auto status = finished(context, state)) return *status;
   Table table({"BACKUP", "MADE", "SIZE", "NEW", "VERIFIED"});
@@ -116,7 +116,7 @@ void add_backup_commands(Command server, Context& context) {
 
   auto listed = server.add_subcommand("backups", "List the backups, newest first");
   add_json_flag(listed, context);
-  run_at_server(listed, context, list);
+  run_at_server(listed, context, list_backups);
 
   auto verified = server.add_subcommand("verify", "Read every byte of a backup");
   auto verify_options = std::make_shared<BackupCommand>();

@@ -14,7 +14,7 @@ namespace dripline::cli {
 
 namespace {
 
-constexpr std::size_t kBarCells = 16;
+constexpr std::size_t kRunBarCells = 16;
 
 std::string after_gap(const std::string& text) {
   return text.empty() ? std::string() : "  " + text;
@@ -218,7 +218,7 @@ std::vector<std::string> run_lines(const client::Run& run, const client::Machine
   const double fraction = fraction_executed(*status);
   std::vector<std::string> lines{
       fmt::format("{} on {} {} {:3.0f} %  {}  {}{}", run.program, run.machine,
-                  render_bar(fraction, kBarCells), fraction * 100, status->execution,
+                  render_bar(fraction, kRunBarCells), fraction * 100, status->execution,
                   place_text(*status), after_gap(status->message)),
       fmt::format("sent {}  accepted {}  executed {}  {}  F {}",
                   bytes_text(std::max(run.sent, status->sent)),

@@ -225,11 +225,12 @@ int clear(Context& context, client::Client& client, const MemoryCommand& command
   return save(context, client, command, variables, "memory cleared");
 }
 
-using Action = int (*)(Context&, client::Client&, const MemoryCommand&);
+using MemoryAction = int (*)(Context&, client::Client&, const MemoryCommand&);
 
-std::pair<Command, std::shared_ptr<MemoryCommand>> add_verb(Command group, Context& context,
-                                                            const char* name, const char* help,
-                                                            Action action) {
+std::pair<Command, std::shared_ptr<MemoryCommand>> add_memory_verb(Command group, Context& context,
+                                                                   const char* name,
+                                                                   const char* help,
+                                                                   MemoryAction action) {
   auto verb = group.add_subcommand(name, help);
   auto options = std::make_shared<MemoryCommand>();
   verb.add_option("MACHINE", options->machine, "The machine").required();
@@ -248,21 +249,23 @@ void add_memory_commands(Command app, Context& context) {
       "clear make a new\nversion of the setup, in force from the next start.");
 
   constexpr const char* kFilter = "List only names that contain this text";
-  auto [showing, show_options] = add_verb(group, context, "show", "Show the retained memory", show);
+  auto [showing, show_options] =
+      add_memory_verb(group, context, "show", "Show the retained memory", show);
   showing.add_option("--run", show_options->run, kRunHelp);
   showing.add_option("--filter", show_options->filter, kFilter);
   add_json_flag(showing, context);
 
-  auto [listing, unused] = add_verb(group, context, "list", "List the runs that changed it", list);
+  auto [listing, unused] =
+      add_memory_verb(group, context, "list", "List the runs that changed it", list);
   (void)unused;
   add_json_flag(listing, context);
 
-  auto [comparing, compare_options] =
-      add_verb(group, context, "compare", "Show the difference from what a run left", compare);
+  auto [comparing, compare_options] = add_memory_verb(
+      group, context, "compare", "Show the difference from what a run left", compare);
   comparing.add_option("RUN", compare_options->run, kRunHelp).required();
   comparing.add_option("--filter", compare_options->filter, kFilter);
 
-  auto [restoring, restore_options] = add_verb(
+  auto [restoring, restore_options] = add_memory_verb(
       group, context, "restore", "Restore what a run left, of this or another machine", restore);
   restoring.add_option("RUN", restore_options->run, kRunHelp).required();
   restoring.add_option("--filter", restore_options->filter, kFilter);
@@ -271,8 +274,8 @@ void add_memory_commands(Command app, Context& context) {
   add_json_flag(restoring, context);
 
   auto [clearing, clear_options] =
-      add_verb(group, context, "clear",
-               "Clear the retained memory: the next start uses the setup's values", clear);
+      add_memory_verb(group, context, "clear",
+                      "Clear the retained memory: the next start uses the setup's values", clear);
   clearing.add_option("--filter", clear_options->filter, kFilter);
   clearing.add_option("-m,--comment", clear_options->comment,
                       "Give a reason; shown in the list of setups");

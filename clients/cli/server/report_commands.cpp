@@ -15,7 +15,7 @@
 namespace dripline::cli {
 namespace {
 
-struct ListCommand {
+struct ReportListCommand {
   client::ReportQuery query;
   std::uint64_t limit = 20;
 };
@@ -56,13 +56,13 @@ Table table_of(const std::vector<client::MachineReport>& reports) {
 }
 
 template <class T>
-nlohmann::ordered_json json_array(const std::vector<T>& list) {
+nlohmann::ordered_json json_array(const std::vector<T>& items) {
   auto array = nlohmann::ordered_json::array();
-  for (const auto& item : list) array.push_back(client::to_json_value(item));
+  for (const auto& item : items) array.push_back(client::to_json_value(item));
   return array;
 }
 
-int list(Context& context, client::Client& client, const ListCommand& command) {
+int list_reports(Context& context, client::Client& client, const ReportListCommand& command) {
   auto reports = fetch_all(command.limit, [&](client::Page page) {
     client::ReportQuery query = command.query;
     query.page = page;
@@ -299,12 +299,12 @@ void add_report_commands(Command app, Context& context) {
   auto list_command = group.add_subcommand(
       "list",
       "List runs that reported lines, newest first, and machines that printed outside runs");
-  auto options = std::make_shared<ListCommand>();
+  auto options = std::make_shared<ReportListCommand>();
   list_command.add_option("--machine", options->query.machine, "List only runs of this machine");
   list_command.add_option("--program", options->query.program, "List only runs of this program");
   list_command.add_option("--limit", options->limit, "List at most this many, 0 for all [20]");
   add_json_flag(list_command, context);
-  run_at_server(list_command, context, options, list);
+  run_at_server(list_command, context, options, list_reports);
 
   auto shown = std::make_shared<ShowCommand>();
   auto show_command = group.add_subcommand("show", "Print the report of a run, or a machine's own");

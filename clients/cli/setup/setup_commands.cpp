@@ -15,7 +15,7 @@
 namespace dripline::cli {
 namespace {
 
-constexpr std::size_t kMaxSetupFile = 64 * 1024;
+constexpr std::size_t kMaxSetupText = 64 * 1024;
 
 struct SetupCommand {
   std::string machine, file, comment, control, map;
@@ -67,7 +67,7 @@ int show(Context& context, const SetupCommand& command) {
 }
 
 int push(Context& context, const SetupCommand& command) {
-  auto text = read_small_file(command.file, kMaxSetupFile);
+  auto text = read_small_file(command.file, kMaxSetupText);
   if (!text) return complain(text.error());
   auto client = context.connect();
   if (!client) return context.status;
@@ -102,7 +102,7 @@ std::string control_of(client::Client& client, const SetupCommand& command) {
 /// The text of a parameter map; none was named: nothing.
 Result<std::string> map_of(const std::string& path) {
   if (path.empty()) return std::string();
-  auto text = read_small_file(path, kMaxSetupFile);
+  auto text = read_small_file(path, kMaxSetupText);
   if (text && text->empty()) return fail(Errc::Syntax, "{} is empty", path);
   return text;
 }
@@ -154,7 +154,7 @@ int import_tables(const ImportCommand& command, const std::vector<std::string>& 
 int import_form(const ImportCommand& command) {
   std::vector<std::string> texts;
   for (const std::string& path : command.files) {
-    auto text = read_small_file(path, kMaxSetupFile);
+    auto text = read_small_file(path, kMaxSetupText);
     if (!text) return complain(text.error());
     texts.push_back(*std::move(text));
   }
@@ -218,8 +218,8 @@ struct Verb {
   Command command;
   std::shared_ptr<SetupCommand> options;
 };
-Verb add_verb(Command group, Context& context, const char* name, const char* help,
-              SetupAction action) {
+Verb add_setup_verb(Command group, Context& context, const char* name, const char* help,
+                    SetupAction action) {
   Verb verb{group.add_subcommand(name, help), std::make_shared<SetupCommand>()};
   verb.command.add_option("MACHINE", verb.options->machine, "The machine").required();
   verb.command.callback(
@@ -246,12 +246,12 @@ void add_setup_commands(Command app, Context& context) {
       "start of a program; a control at the end of a line is loaded by hand (loaded).");
 
   auto listing =
-      add_verb(group, context, "list", "List the versions of a setup, newest first", list);
+      add_setup_verb(group, context, "list", "List the versions of a setup, newest first", list);
   listing.command.add_option("--limit", listing.options->limit,
                              "List at most this many, 0 for all [20]");
   add_json_flag(listing.command, context);
 
-  auto showing = add_verb(group, context, "show", "Show the tables of a setup", show);
+  auto showing = add_setup_verb(group, context, "show", "Show the tables of a setup", show);
   showing.command.add_option("-r,--revision", showing.options->revision, "Version [newest]");
   showing.command.add_option("--control", showing.options->control,
                              "Control, for a machine that has never been connected, e.g. tnc155");
@@ -263,23 +263,25 @@ void add_setup_commands(Command app, Context& context) {
       "For a TNC also its MOD functions in the control's order, and the user parameters.");
   add_json_flag(showing.command, context);
 
-  auto pushing = add_verb(group, context, "push", "Store a file as the machine's setup", push);
+  auto pushing =
+      add_setup_verb(group, context, "push", "Store a file as the machine's setup", push);
   pushing.command.add_option("FILE", pushing.options->file, "TOML").required();
   pushing.command.add_option("--base", pushing.options->base,
                              "Push only if this is still the newest version, 0: none yet");
   add_saving_options(pushing, context);
   pushing.command.footer("Example:\n  dnc setup push mill-3 mill-3-tools.toml -m \"new cutter 4\"");
 
-  auto pulling = add_verb(group, context, "pull", "Fetch a setup's text", pull);
+  auto pulling = add_setup_verb(group, context, "pull", "Fetch a setup's text", pull);
   pulling.command.add_option("-r,--revision", pulling.options->revision, "Version [newest]");
   pulling.command.add_option("-o,--output", pulling.options->file,
                              "File to write, - for standard output [-]");
 
-  auto exporting = add_verb(group, context, "export",
-                            "Write a setup in the control's own format: a TNC's tools (program 0), "
-                            "tools and offsets of a Fanuc control (G10), a Centurion's parameters "
-                            "(G10; with --map in the control's numbers), LinuxCNC's tool table",
-                            export_form);
+  auto exporting =
+      add_setup_verb(group, context, "export",
+                     "Write a setup in the control's own format: a TNC's tools (program 0), "
+                     "tools and offsets of a Fanuc control (G10), a Centurion's parameters "
+                     "(G10; with --map in the control's numbers), LinuxCNC's tool table",
+                     export_form);
   exporting.command.add_option("--control", exporting.options->control,
                                "tnc155, centurion, fanuc, fanuc-t or rs274ngc [the machine's]");
   exporting.command.add_flag(
@@ -302,7 +304,8 @@ void add_setup_commands(Command app, Context& context) {
   add_setup_changes(group, context);
   add_loaded_setup(group, context);
 
-  auto restoring = add_verb(group, context, "restore", "Make an old version the newest", restore);
+  auto restoring =
+      add_setup_verb(group, context, "restore", "Make an old version the newest", restore);
   restoring.command.add_option("REVISION", restoring.options->revision, "Version to restore")
       .required();
   add_saving_options(restoring, context);

@@ -7,8 +7,8 @@
 namespace dripline::graphics {
 namespace {
 
-constexpr Shade kBackground = 24;
-constexpr double kMargin = 0.94;  ///< of the picture that the body may fill
+constexpr Shade kSolidBackground = 24;
+constexpr double kBodyShare = 0.94;  ///< of the picture that the body may fill
 
 struct Vector {
   double u = 0, v = 0, w = 0;
@@ -47,7 +47,7 @@ class Ray {
       : part_(part), from_(from), along_(along) {}
 
   Shade look() {
-    if (!enter()) return kBackground;
+    if (!enter()) return kSolidBackground;
     while (is_inside()) {
       const double leave = std::min(next_u_, next_v_);
       const double height =
@@ -61,10 +61,10 @@ class Ray {
         }
         if (w_out <= height && w_in > height) return lit(normal_at(), depth_of(height));
       }
-      if (w_out < low) return kBackground;
+      if (w_out < low) return kSolidBackground;
       step();
     }
-    return kBackground;
+    return kSolidBackground;
   }
 
  private:
@@ -207,11 +207,11 @@ Picture draw_solid(const HeightField& part, const SolidView& view) {
   const Cuboid& extent = part.extent();
   const Reach reach = reach_of(camera, extent);
   const auto width = static_cast<double>(view.width), height = static_cast<double>(view.height);
-  const double scale = std::max(2 * reach.right / width, 2 * reach.up / height) / kMargin;
+  const double scale = std::max(2 * reach.right / width, 2 * reach.up / height) / kBodyShare;
   const double far = extent.width() + extent.depth() + extent.height();
   const Vector middle{(extent.low.u + extent.high.u) / 2, (extent.low.v + extent.high.v) / 2,
                       (extent.low.w + extent.high.w) / 2};
-  Picture picture(view.width, view.height, kBackground);
+  Picture picture(view.width, view.height, kSolidBackground);
   for (std::size_t y = 0; y < view.height; ++y) {
     const double up = (height / 2 - static_cast<double>(y) - 0.5) * scale;
     for (std::size_t x = 0; x < view.width; ++x) {

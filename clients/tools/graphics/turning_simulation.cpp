@@ -12,10 +12,10 @@ using interpreter::Axis;
 
 /// Smallest loose piece that stays, as a part of the material.
 constexpr double kCrumb = 0.01;
-constexpr int kMaxChords = 4096;
-constexpr double kSagitta = 0.25;   ///< of a chord, in cells
-constexpr double kCoarse = 0.01;    ///< without a bar: mm
-constexpr double kSharpest = 0.75;  ///< least nose radius drawn, in cells
+constexpr int kMaxTurnedChords = 4096;
+constexpr double kTurnedSagitta = 0.25;  ///< of a chord, in cells
+constexpr double kCoarse = 0.01;         ///< without a bar: mm
+constexpr double kSharpest = 0.75;       ///< least nose radius drawn, in cells
 bool is_for_bores(int type) {
   return type == 1 || type == 2 || type == 6;
 }
@@ -115,10 +115,10 @@ void TurningSimulation::go_around(const interpreter::Arc& arc, Travel travel) {
   const double radius = std::hypot(from.z - center.z, from.x - center.x);
   const double begin = std::atan2(from.x - center.x, from.z - center.z);
   const double turn = arc.turn == interpreter::Turn::Counterclockwise ? 1 : -1;
-  const double sagitta = std::min(part_ ? kSagitta * part_->cell() : kCoarse, radius);
+  const double sagitta = std::min(part_ ? kTurnedSagitta * part_->cell() : kCoarse, radius);
   const double step = radius > 0 ? 2 * std::acos(1 - sagitta / radius) : 1;
   const double wanted = std::ceil(arc.sweep.radians() / std::max(step, 1e-6));
-  const int chords = static_cast<int>(std::clamp(wanted, 1.0, double{kMaxChords}));
+  const int chords = static_cast<int>(std::clamp(wanted, 1.0, double{kMaxTurnedChords}));
   for (int i = 1; i < chords; ++i) {
     const double angle = begin + turn * arc.sweep.radians() * i / chords;
     const SectionPoint to{center.z + radius * std::cos(angle), center.x + radius * std::sin(angle)};

@@ -9,7 +9,7 @@ namespace dripline::graphics {
 namespace {
 
 /// Edge length of the insert that is drawn: of the usual sizes.
-constexpr double kEdge = 15;
+constexpr double kUsualEdge = 15;
 /// Free space between the edge and a wall that the tip follows, degrees.
 constexpr double kClearance = 3;
 constexpr double kThreadDegrees = 60;
@@ -49,7 +49,7 @@ ConvexOutline insert_of(const SectionPoint& center, const SectionPoint& tip, dou
   const double up = tip.x < 0 ? 1 : -1, right = tip.z < 0 ? 1 : -1;
   ConvexOutline outline = circle(center, nose);
   for (const double edge : {90 - kClearance, 90 - kClearance - degrees}) {
-    const SectionPoint end = toward(edge, kEdge);
+    const SectionPoint end = toward(edge, kUsualEdge);
     outline.push_back({center.z + right * end.z, center.x + up * end.x});
   }
   return swept(outline, {}, {});
@@ -58,7 +58,7 @@ ConvexOutline insert_of(const SectionPoint& center, const SectionPoint& tip, dou
 ConvexOutline pointed(const SectionPoint& center, double nose, double outwards) {
   ConvexOutline outline = circle(center, nose);
   for (const double side : {-1.0, 1.0}) {
-    const SectionPoint end = toward(outwards + side * kThreadDegrees / 2, kEdge);
+    const SectionPoint end = toward(outwards + side * kThreadDegrees / 2, kUsualEdge);
     outline.push_back({center.z + end.z, center.x + end.x});
   }
   return swept(outline, {}, {});

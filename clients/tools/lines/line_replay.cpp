@@ -15,7 +15,7 @@ constexpr std::size_t kMaxAhead = 4096;
 constexpr LineTime kLastWait = std::chrono::hours(1);
 constexpr unsigned kMaxTicks = 100'000;
 
-std::string character_text(char c) {
+std::string shown_character(char c) {
   const auto byte = static_cast<unsigned char>(c);
   if (byte == 0x06) return "ACK";
   if (byte == 0x15) return "NAK";
@@ -192,7 +192,7 @@ void LineReplay::compare() {
     if (recorded_[i] == simulated_[i]) continue;
     ++report_->deviations;
     say(fmt::format("the recorded control sent {}, the simulated one {}",
-                    character_text(recorded_[i]), character_text(simulated_[i])));
+                    shown_character(recorded_[i]), shown_character(simulated_[i])));
   }
   recorded_.erase(0, both);
   simulated_.erase(0, both);

@@ -14,7 +14,7 @@ using interpreter::JogMove;
 
 namespace {
 
-SteadyTime::duration seconds(double count) {
+SteadyTime::duration steady_seconds(double count) {
   return std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(count));
 }
 
@@ -114,7 +114,7 @@ Result<void> Jogger::begin_step(const dds::Command& command) {
                .from = from,
                .distance = distance,
                .last = now,
-               .limit = now + seconds(std::max(takes, kLongest)) + kLate,
+               .limit = now + steady_seconds(std::max(takes, kLongest)) + kLate,
                .why_stopped = {}};
   return {};
 }

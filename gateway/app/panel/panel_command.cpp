@@ -28,7 +28,7 @@ struct VerbRow {
   std::string_view help;
 };
 
-constexpr std::array kRows{
+constexpr std::array kVerbRows{
     VerbRow{"status", Verb::Status, Takes::Nothing, "print what the machine does and waits for"},
     VerbRow{"cycle-start", Verb::CycleStart, Takes::Nothing,
             "begin the program that waits, or resume after a hold or a stop"},
@@ -140,18 +140,18 @@ Result<PanelCommand> read_argument(const VerbRow& row, std::string_view rest) {
 Result<PanelCommand> parse_panel_command(std::string_view line) {
   if (const auto good = check_text(line); !good) return fail(good.error());
   const std::string_view word = first_word(line);
-  for (const VerbRow& row : kRows) {
+  for (const VerbRow& row : kVerbRows) {
     if (first_word(row.word) == word) return read_argument(row, after_word(line));
   }
   std::string known;
-  for (const VerbRow& row : kRows)
+  for (const VerbRow& row : kVerbRows)
     known += (known.empty() ? "" : ", ") + std::string(first_word(row.word));
   return fail(Errc::Syntax, "'{}' is none of {}", word, known);
 }
 
 std::string panel_verbs() {
   std::string text;
-  for (const VerbRow& row : kRows) {
+  for (const VerbRow& row : kVerbRows) {
     text += fmt::format("  {:<25} {}", row.word, row.help);
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';

@@ -6,8 +6,8 @@
 namespace dripline::gateway {
 namespace {
 
-constexpr double kSame = 1e-9;   ///< millimeters or degrees
-constexpr double kMoved = 0.05;  ///< more than axes move while they come to rest
+constexpr double kSamePosition = 1e-9;  ///< millimeters or degrees
+constexpr double kMoved = 0.05;         ///< more than axes move while they come to rest
 
 }  // namespace
 
@@ -29,7 +29,7 @@ machine::ToolLengths Rebuild::take_lengths() {
 void Rebuild::expect_unmoved(const machine::ToolLengths& lengths) {
   const interpreter::Position begun = machine::minus(parts_.plan.conditions.begun_at, lengths);
   for (const interpreter::Axis axis : interpreter::kAllAxes) {
-    const bool is_there = std::fabs(begun.raw(axis) - report_.machine.raw(axis)) <= kSame;
+    const bool is_there = std::fabs(begun.raw(axis) - report_.machine.raw(axis)) <= kSamePosition;
     if (is_there || parts_.tracker.delivered().position.has(axis)) continue;
     parts_.tracker.expect(axis, begun.raw(axis));
   }

@@ -12,7 +12,7 @@ using interpreter::StepState;
 
 namespace {
 
-std::int64_t milliseconds(UtcTime time) {
+std::int64_t unix_milliseconds(UtcTime time) {
   return std::chrono::floor<std::chrono::milliseconds>(time.time_since_epoch()).count();
 }
 
@@ -119,7 +119,7 @@ RunSession::RunSession(Parts parts, const interpreter::Dialect& dialect,
                        const interpreter::Setup& setup)
     : parts_(std::move(parts)),
       setup_(setup),
-      begun_ms_(milliseconds(parts_.clock.now())),
+      begun_ms_(unix_milliseconds(parts_.clock.now())),
       dialect_(dialect),
       events_(parts_.machine.capabilities(), parts_.machine.events(),
               [this] {
@@ -295,7 +295,7 @@ void RunSession::note_skip_change(const std::string& change, std::uint64_t last,
 }
 
 std::int64_t RunSession::clock_ms() const {
-  std::int64_t shown = milliseconds(parts_.clock.now());
+  std::int64_t shown = unix_milliseconds(parts_.clock.now());
   if (setup_.date_time) shown = interpreter::milliseconds_of(*setup_.date_time) + shown - begun_ms_;
   return shown + static_cast<std::int64_t>(std::round(clock_ahead_ * 1000));
 }

@@ -12,7 +12,7 @@
 namespace dripline::gateway {
 namespace {
 
-constexpr std::chrono::milliseconds kSyncInterval{1000};
+constexpr std::chrono::milliseconds kSerialSyncInterval{1000};
 dds::RunOutcome to_outcome(line::SendOutcome outcome) {
   if (outcome == line::SendOutcome::Completed) return dds::RunOutcome::Completed;
   if (outcome == line::SendOutcome::Aborted) return dds::RunOutcome::Aborted;
@@ -199,7 +199,7 @@ void SerialRun::poll(SteadyTime now) {
                {});
   }
   if (now < next_sync_) return;
-  next_sync_ = now + kSyncInterval;
+  next_sync_ = now + kSerialSyncInterval;
   if (const auto done = journal_.sync(); !done)
     process::log_warning("{} {}", done.error().what, label());
 }

@@ -10,7 +10,7 @@ namespace dripline::line {
 
 namespace {
 
-using TextKind = interpreter::TextForm::Kind;
+using FormKind = interpreter::TextForm::Kind;
 
 constexpr std::uint64_t kMaxLooked = 5000;
 constexpr std::size_t kMaxUnknown = 8;
@@ -150,9 +150,9 @@ void ModalScan::name_unknown(std::string_view text) {
 
 void ModalScan::skip(std::string_view text) {
   ++line_;
-  if (text_.kind == TextKind::PlainLanguage) return skip_plain_language(text);
+  if (text_.kind == FormKind::PlainLanguage) return skip_plain_language(text);
   const Block block = read(text);
-  if (text_.kind == TextKind::Events) return skip_event(text, block);
+  if (text_.kind == FormKind::Events) return skip_event(text, block);
   bool is_computed = false;
   for (const Word& word : block) {
     const int code = word.is_number ? tenths(word.value) : -1;
@@ -247,10 +247,10 @@ void ModalScan::skip_tool(const Block& block) {
 }
 
 bool ModalScan::look(std::string_view text) {
-  if (text_.kind == TextKind::PlainLanguage || in_force_.empty() || ++looked_ > kMaxLooked)
+  if (text_.kind == FormKind::PlainLanguage || in_force_.empty() || ++looked_ > kMaxLooked)
     return false;
   const Block block = read(text);
-  if (text_.kind == TextKind::Events) return look_event(block);
+  if (text_.kind == FormKind::Events) return look_event(block);
   for (const Word& word : block) look_word(word, block);
   const bool changes = std::ranges::any_of(
       block, [](const Word& word) { return word.letter == 'M' && tenths(word.value) == 60; });

@@ -7,7 +7,7 @@
 namespace dripline::line {
 namespace {
 
-constexpr std::size_t kHead = 24;
+constexpr std::size_t kBlockHead = 24;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ bool PlaceFinder::look(char c) {
     return true;
   }
   if (c != '\n') {
-    if (head_.size() < kHead) head_ += c;
+    if (head_.size() < kBlockHead) head_ += c;
     ++at_;
     return false;
   }

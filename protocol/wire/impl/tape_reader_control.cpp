@@ -50,7 +50,7 @@ TapeEnd tape_end(std::string_view block) {
 }
 
 constexpr std::size_t kMaxTapeBlock = 1024;
-constexpr std::size_t kShownHead = 40;
+constexpr std::size_t kShownText = 40;
 
 /// The control reading tape, as the Tektronix 1704 does.
 ///
@@ -200,7 +200,7 @@ class TapeReaderControl final : public DisciplineBase {
   void say_head() {
     if (is_head_text_ && !head_.empty()) {
       emit_fault({Errc::Corrupt, fmt::format("no end of block before '{}', which was skipped",
-                                             std::string_view(head_).substr(0, kShownHead))});
+                                             std::string_view(head_).substr(0, kShownText))});
     } else {
       emit_fault({Errc::Corrupt, "no rewind stop just before the first end of block"});
     }

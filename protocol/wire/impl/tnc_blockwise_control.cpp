@@ -4,7 +4,7 @@
 namespace dripline::wire {
 namespace {
 
-constexpr std::size_t kMaxNumber = 8;
+constexpr std::size_t kMaxProgramNumber = 8;
 constexpr std::string_view kNoneLeft = "the device has no program left";
 
 /// The control: sends headings to its device, and withholds the ACK of a block while it has no
@@ -31,9 +31,9 @@ class TncBlockwiseControl final : public TncBlockwise {
  private:
   Result<void> ask(std::string_view name, char direction) {
     if (auto idle = check_idle(); !idle) return idle;
-    if (name.size() > kMaxNumber || name.find_first_not_of("0123456789") != name.npos) {
+    if (name.size() > kMaxProgramNumber || name.find_first_not_of("0123456789") != name.npos) {
       return fail(Errc::Unsupported, "a TNC program is named by up to {} digits, not '{}'",
-                  kMaxNumber, name);
+                  kMaxProgramNumber, name);
     }
     const auto& tnc = settings_.heidenhain;
     name_ = name;

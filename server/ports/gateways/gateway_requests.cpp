@@ -28,10 +28,6 @@ std::vector<std::byte> bytes_of(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
-std::string text_of(const dds::LineData& data) {
-  return {reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size()};
-}
-
 Result<void> ask_done(const AskLine& ask, dds::LineRequest request, milliseconds limit) {
   const auto done = ask(std::move(request), limit);
   if (!done) return fail(done.error());
@@ -56,6 +52,10 @@ std::vector<PortTraffic> entries_of(const dds::LineData& data, const std::string
 }
 
 }  // namespace
+
+std::string text_of(const dds::LineData& data) {
+  return {reinterpret_cast<const char*>(data.bytes.data()), data.bytes.size()};
+}
 
 Result<PortTest> test_gateway(const AskLine& ask, const std::string& machine) {
   const auto data = ask(request_of(machine, LineAction::Test), kTestLimit);

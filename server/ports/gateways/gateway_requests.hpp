@@ -15,6 +15,8 @@ namespace dripline::ports {
 /// Texts are pushed in pieces, which the gateway keeps until it has the whole.
 inline constexpr std::uint64_t kMaxGatewayTransfer = 16 * 1024 * 1024;
 
+std::string text_of(const dds::LineData& data);
+
 Result<PortTest> test_gateway(const AskLine& ask, const std::string& machine);
 Result<void> receive_at_gateway(const AskLine& ask, const std::string& machine);
 /// The text of a job, which the gateway keeps under its id; the order to send it. Errors:

@@ -9,7 +9,6 @@ namespace dripline::ports {
 namespace {
 
 using storage::RunState;
-using storage::TransferState;
 
 /// Nothing of it has left. While a server or a gateway is lost only the least is known.
 bool is_unsent(const storage::Run& run) {
@@ -62,11 +61,11 @@ Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store,
   if (!sent) return fail(sent.error());
   if (*sent && (!*run || (*run)->created <= (*sent)->began)) {
     const auto& transfer = **sent;
-    const bool is_over = transfer.state == TransferState::Completed ||
-                         (transfer.state == TransferState::Aborted && to.are_aborts_told);
+    const bool is_over = transfer.state == storage::TransferState::Completed ||
+                         (transfer.state == storage::TransferState::Aborted && to.are_aborts_told);
     if (is_over) return std::nullopt;
     auto broken = sent_program(transfer);
-    broken.is_active = transfer.state == TransferState::Active;
+    broken.is_active = transfer.state == storage::TransferState::Active;
     return broken;
   }
   if (!*run) return std::nullopt;

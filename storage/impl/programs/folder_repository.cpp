@@ -6,7 +6,7 @@
 namespace dripline::storage {
 namespace {
 
-const std::string kSelect =
+const std::string kSelectFolder =
     "SELECT id, folder, name, sha256, size, changed_ns, state, program, coalesce(revision, 0), "
     "reason, target, taken_us, moved_us FROM folder_file ";
 
@@ -32,7 +32,8 @@ FolderFile read_file(const sql::Statement& row) {
 Result<std::optional<FolderFile>> find_unfinished(sql::Database& database,
                                                   const std::string& folder,
                                                   const std::string& name) {
-  static const std::string kSql = kSelect + "WHERE folder = ?1 AND name = ?2 AND moved_us IS NULL";
+  static const std::string kSql =
+      kSelectFolder + "WHERE folder = ?1 AND name = ?2 AND moved_us IS NULL";
   return sql::first_row(database, kSql, read_file, folder, name);
 }
 
@@ -54,7 +55,7 @@ Result<void> store_folder_file(sql::Database& database, std::uint64_t id,
 
 Result<std::vector<FolderFile>> FolderRepository::unfinished(const std::string& folder) {
   static const std::string kSql =
-      kSelect + "WHERE folder = ?1 AND moved_us IS NULL ORDER BY id LIMIT ?2";
+      kSelectFolder + "WHERE folder = ?1 AND moved_us IS NULL ORDER BY id LIMIT ?2";
   return connections_.read([&](sql::Database& database) {
     return sql::all_rows(database, kSql, read_file, folder, kKept);
   });
@@ -124,7 +125,7 @@ Result<void> FolderRepository::set_moved(std::uint64_t id, UtcTime time) {
 Result<std::vector<FolderFile>> FolderRepository::list(const std::optional<std::string>& folder,
                                                        Page page) {
   static const std::string kSql =
-      kSelect + "WHERE ?1 IS NULL OR folder = ?1 ORDER BY id DESC LIMIT ?2 OFFSET ?3";
+      kSelectFolder + "WHERE ?1 IS NULL OR folder = ?1 ORDER BY id DESC LIMIT ?2 OFFSET ?3";
   return connections_.read([&](sql::Database& database) {
     return sql::all_rows(database, kSql, read_file, folder, page.limit, page.offset);
   });

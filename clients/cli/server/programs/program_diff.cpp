@@ -18,18 +18,18 @@ struct ProgramDiff {
 };
 
 /// 1 is for programs that differ.
-int status_of(const client::Failure& failure) {
+int status_of_failure(const client::Failure& failure) {
   const int status = complain(failure);
   return status == kExitNo ? kExitUsage : status;
 }
 
-std::string name_of(const nlohmann::ordered_json& revision) {
+std::string revision_name(const nlohmann::ordered_json& revision) {
   return fmt::format("{}@{}", revision.at("program").get<std::string>(),
                      revision.at("revision").get<std::uint64_t>());
 }
 
 int print_comparison(const Context& context, const nlohmann::ordered_json& result) {
-  const ComparedNames names{name_of(result.at("first")), name_of(result.at("second"))};
+  const ComparedNames names{revision_name(result.at("first")), revision_name(result.at("second"))};
   const int written =
       write_to("-", context.wants_json ? json_text(result)
                                        : comparison_text(result, names, context.has_color()));
@@ -47,7 +47,7 @@ int diff_programs(Context& context, client::Client& client, const ProgramDiff& c
   query.second_revision = second.revision;
   query.by = command.by_motion ? "motion" : command.normalized ? "normalized" : "text";
   const auto answer = client.compare(query);
-  if (!answer) return status_of(answer.error());
+  if (!answer) return status_of_failure(answer.error());
   return shown_json(
       client, *answer,
       [&](const nlohmann::ordered_json& result) { return print_comparison(context, result); },

@@ -17,7 +17,7 @@ std::string axes_text(const Json& axes) {
   return text.empty() ? "no axis has moved" : text + " (machine coordinates)";
 }
 
-std::string feed_text(const Json& feed) {
+std::string programmed_feed(const Json& feed) {
   for (const auto& [unit, value] : feed.items()) {
     if (unit == "mm_per_min") return fmt::format("{:.4g} mm/min", value.get<double>());
     if (unit == "mm_per_rev") return fmt::format("{:.4g} mm per revolution", value.get<double>());
@@ -73,7 +73,7 @@ std::string modes_text(const Json& modes) {
   add("work_system", "");
   add("compensation", "compensation ");
   add("cycle", "cycle ");
-  text += ", feed " + feed_text(modes.at("feed"));
+  text += ", feed " + programmed_feed(modes.at("feed"));
   if (modes.contains("rotation") && modes.at("rotation").get<double>() != 0)
     text += fmt::format(", rotation {:.3f}", modes.at("rotation").get<double>());
   return text;
@@ -96,7 +96,7 @@ std::string move_text(const Json& move) {
   std::string text = kind + " to";
   for (const auto& [axis, value] : move.at("to").items())
     text += fmt::format(" {}{:.3f}", axis, value.get<double>());
-  if (move.contains("feed")) text += " at " + feed_text(move.at("feed"));
+  if (move.contains("feed")) text += " at " + programmed_feed(move.at("feed"));
   return text;
 }
 

@@ -19,7 +19,7 @@ struct StartCommand {
   bool follows = false, waits = false;
 };
 
-struct ListCommand {
+struct RunListCommand {
   client::RunQuery query;
   std::uint64_t limit = 20;
 };
@@ -47,7 +47,7 @@ int start(Context& context, client::Client& client, const StartCommand& command)
 }
 
 /// What was tested and cut off is not what was executed and cut off.
-std::string state_text(const client::Run& run) {
+std::string run_state_text(const client::Run& run) {
   const bool says_so = !run.test || run.state == "tested" || run.state == "refused";
   return says_so ? run.state : run.state + " (test run)";
 }
@@ -55,12 +55,12 @@ std::string state_text(const client::Run& run) {
 void add_row(Table& table, const client::Run& run) {
   table.add(
       {short_id(run.id), run.machine, run.program, std::to_string(run.revision),
-       Cell(state_text(run), style_of_state(run.state)), std::to_string(run.executed),
+       Cell(run_state_text(run), style_of_state(run.state)), std::to_string(run.executed),
        std::to_string(run.outputs), time_text(run.started.empty() ? run.created : run.started),
        has_ended(run) ? duration_text(seconds_between(run.started, run.ended)) : "", run.reason});
 }
 
-int list(Context& context, client::Client& client, const ListCommand& command) {
+int list_runs(Context& context, client::Client& client, const RunListCommand& command) {
   auto runs = fetch_all(command.limit, [&](client::Page page) {
     client::RunQuery query = command.query;
     query.page = page;
@@ -130,7 +130,7 @@ Details run_details(const client::ShownRun& shown, const client::Display& displa
   return details;
 }
 
-int show(Context& context, client::Client& client, const std::string& reference) {
+int show_run(Context& context, client::Client& client, const std::string& reference) {
   const auto found = find_run(client, reference);
   if (!found) return complain(found.error());
   const auto run = client.shown_run(found->id);
@@ -201,7 +201,7 @@ void add_start(Command group, Context& context) {
 
 void add_list(Command group, Context& context) {
   auto command = group.add_subcommand("list", "List runs, newest first");
-  auto options = std::make_shared<ListCommand>();
+  auto options = std::make_shared<RunListCommand>();
   command.add_option("--machine", options->query.machine, "List only runs of this machine");
   command.add_option("--program", options->query.program, "List only runs of this program");
   command.add_option("--state", options->query.state,
@@ -209,7 +209,7 @@ void add_list(Command group, Context& context) {
                      "interrupted, refused, tested");
   command.add_option("--limit", options->limit, "List at most this many, 0 for all [20]");
   add_json_flag(command, context);
-  run_at_server(command, context, options, list);
+  run_at_server(command, context, options, list_runs);
 }
 
 }  // namespace
@@ -225,7 +225,7 @@ void add_run_commands(Command app, Context& context) {
   auto show_command = group.add_subcommand("show", "Show everything known of a run");
   show_command.add_option("ID", *shown, kRunHelp).required();
   add_json_flag(show_command, context);
-  run_at_server(show_command, context, shown, show);
+  run_at_server(show_command, context, shown, show_run);
 
   add_run_control_commands(group, context);
   add_attestation_commands(group, context);

@@ -123,7 +123,7 @@ void add_answer(Command group, Context& context) {
   });
 }
 
-void add_switch(Command group, Context& context) {
+void add_run_switch(Command group, Context& context) {
   auto command = group.add_subcommand("switch", "Set a switch of the machine's panel");
   auto options = std::make_shared<RunControlCommand>();
   command.add_option("ID", options->run, kRunHelp).required();
@@ -218,7 +218,7 @@ void add_run_control_commands(Command group, Context& context) {
   add_plain(group, context, "resume", "Resume after a hold, a stop or a single block");
   add_plain(group, context, "abort", "Abort a run; it cannot be resumed");
   add_answer(group, context);
-  add_switch(group, context);
+  add_run_switch(group, context);
   add_override(group, context);
   add_handwheel(group, context);
 }

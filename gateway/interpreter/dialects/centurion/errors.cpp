@@ -228,7 +228,7 @@ constexpr auto kIds = [] {
   return ids;
 }();
 
-constexpr auto kRows = [] {
+constexpr auto kErrorRows = [] {
   std::array<ErrorRow, kTexts.size()> rows{};
   for (std::size_t i = 0; i < kTexts.size(); ++i) {
     rows[i] = {{{kIds[i].data(), kIdLength}, kTexts[i].text},
@@ -245,9 +245,9 @@ static_assert(std::adjacent_find(kTexts.begin(), kTexts.end(),
 
 const ErrorRow* find_row(unsigned number) {
   const auto* row = std::lower_bound(
-      kRows.begin(), kRows.end(), number,
+      kErrorRows.begin(), kErrorRows.end(), number,
       [](const ErrorRow& each, unsigned key) { return static_cast<unsigned>(each.code) < key; });
-  const bool is_found = row != kRows.end() && static_cast<unsigned>(row->code) == number;
+  const bool is_found = row != kErrorRows.end() && static_cast<unsigned>(row->code) == number;
   return is_found ? row : nullptr;
 }
 

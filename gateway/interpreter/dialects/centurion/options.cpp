@@ -10,12 +10,12 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-using C = ControlOptions;
-using Row = OptionRow<C>;
+using Control = ControlOptions;
+using Row = OptionRow<Control>;
 
 /// One number for both units, or [inch, metric].
-template <std::array<int, 2> C::*kMember>
-Result<void> read_digits(const Options& options, const OptionKey& key, C& control) {
+template <std::array<int, 2> Control::*kMember>
+Result<void> read_digits(const Options& options, const OptionKey& key, Control& control) {
   const auto values = options.integers(key.key);
   if (!values) return fail(values.error());
   if (values->empty()) return {};
@@ -31,7 +31,7 @@ Result<void> read_digits(const Options& options, const OptionKey& key, C& contro
 }
 
 /// With `resolve_dnc`, GOTO runs all the same.
-Result<void> read_dnc_refusals(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_dnc_refusals(const Options& options, const OptionKey& key, Control& control) {
   const auto refuses = options.flag(key.key, false);
   if (!refuses) return fail(refuses.error());
   const auto resolves = options.flag("resolve_dnc", true);
@@ -41,14 +41,14 @@ Result<void> read_dnc_refusals(const Options& options, const OptionKey& key, C& 
   return {};
 }
 
-Result<void> read_dry_run_feed(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_dry_run_feed(const Options& options, const OptionKey& key, Control& control) {
   const auto feed = options.length(key.key, Length::inch(75));
   if (!feed) return fail(feed.error());
   control.dry_run_feed_mm = feed->mm();
   return check_range(key, feed->mm());
 }
 
-Result<void> read_spindle_ranges(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_spindle_ranges(const Options& options, const OptionKey& key, Control& control) {
   const auto max = read_integers(options, key);
   if (!max) return fail(max.error());
   if (max->empty()) return {};
@@ -60,8 +60,8 @@ Result<void> read_spindle_ranges(const Options& options, const OptionKey& key, C
 }
 
 /// Codes in the order of the programs they call; 0 leaves a program out.
-template <std::array<int, 10> C::*kMember>
-Result<void> read_custom(const Options& options, const OptionKey& key, C& control) {
+template <std::array<int, 10> Control::*kMember>
+Result<void> read_custom(const Options& options, const OptionKey& key, Control& control) {
   const auto codes = read_integers(options, key);
   if (!codes) return fail(codes.error());
   for (std::size_t i = 0; i < codes->size(); ++i) {
@@ -71,7 +71,7 @@ Result<void> read_custom(const Options& options, const OptionKey& key, C& contro
   return {};
 }
 
-Result<void> read_post_codes(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_post_codes(const Options& options, const OptionKey& key, Control& control) {
   const auto codes = read_integers(options, key);
   if (!codes) return fail(codes.error());
   for (const std::int64_t code : *codes) {
@@ -80,7 +80,7 @@ Result<void> read_post_codes(const Options& options, const OptionKey& key, C& co
   return {};
 }
 
-Result<void> read_change_pin(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_change_pin(const Options& options, const OptionKey& key, Control& control) {
   const auto pin = options.integer(key.key, 0);
   if (!pin) return fail(pin.error());
   if (*pin == 0) return {};
@@ -90,7 +90,7 @@ Result<void> read_change_pin(const Options& options, const OptionKey& key, C& co
               "[control] m6_pin: {} is no output, 1012 to 1023 (Z) or 2012 to 2023 (X)", *pin);
 }
 
-Result<void> read_mode(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_mode(const Options& options, const OptionKey& key, Control& control) {
   const auto mode = read_word(options, key, 0);
   if (!mode) return fail(mode.error());
   control.is_verify = *mode == 1;
@@ -98,14 +98,14 @@ Result<void> read_mode(const Options& options, const OptionKey& key, C& control)
   return {};
 }
 
-Result<void> read_dnc_mode(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_dnc_mode(const Options& options, const OptionKey& key, Control& control) {
   const auto mode = read_word(options, key, 0);
   if (!mode) return fail(mode.error());
   control.is_dnc_fast = *mode == 2;
   return {};
 }
 
-Result<void> read_start_at(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_start_at(const Options& options, const OptionKey& key, Control& control) {
   const auto text = options.text(key.key, "");
   if (!text) return fail(text.error());
   if (text->empty()) return {};
@@ -116,7 +116,7 @@ Result<void> read_start_at(const Options& options, const OptionKey& key, C& cont
 }
 
 /// Without a start elsewhere there is nothing that it chooses.
-Result<void> read_start_pass(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_start_pass(const Options& options, const OptionKey& key, Control& control) {
   const auto pass = options.integer(key.key, 0);
   if (!pass) return fail(pass.error());
   if (auto good = check_range(key, static_cast<double>(*pass)); !good) return good;
@@ -129,14 +129,14 @@ Result<void> read_start_pass(const Options& options, const OptionKey& key, C& co
   return {};
 }
 
-Result<void> read_start_memory(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_start_memory(const Options& options, const OptionKey& key, Control& control) {
   const auto memory = read_word(options, key, 0);
   if (!memory) return fail(memory.error());
   control.may_count_again = control.start_at && *memory != 0;
   return {};
 }
 
-Result<void> read_report_file(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_report_file(const Options& options, const OptionKey& key, Control& control) {
   const auto name = options.text(key.key, "");
   if (!name) return fail(name.error());
   control.report_file = name->empty() ? key.fallback : std::string_view(*name);
@@ -155,18 +155,19 @@ constexpr std::array kOptionRows{
     // POWER page
     Row{{"power_on_feed", kNumber, "feed in force at power on", "10", {}, "per min or rev"}},
     Row{{"power_on_feed_mode", "per_min|per_rev", "unit of that feed", "per_rev"}},
-    row<&C::tool_change_program>("m6_macro", kWhole, "program that M6 calls; 0: none", {0, 9999}),
+    row<&Control::tool_change_program>("m6_macro", kWhole, "program that M6 calls; 0: none",
+                                       {0, 9999}),
     Row{{"m6_pin", kWhole, "output that M6 pulses, by its pin; 0: none", "0"}, read_change_pin},
-    row<&C::tool_change_stops_spindle>("m6_spindle", "keep|stop",
-                                       "what M6 does with a running spindle"),
-    row<&C::has_tool_changer>("tool_changer", kFlag,
-                              "true: M6 does not wait until the operator has changed"),
+    row<&Control::tool_change_stops_spindle>("m6_spindle", "keep|stop",
+                                             "what M6 does with a running spindle"),
+    row<&Control::has_tool_changer>("tool_changer", kFlag,
+                                    "true: M6 does not wait until the operator has changed"),
     Row{{"custom_g", kWholes, "G codes that call O9010 to O9019; 0: none", "", {0, 999, false, 10}},
-        read_custom<&C::custom_g>},
+        read_custom<&Control::custom_g>},
     Row{option("custom_m", kWholes, "M codes that call O9020 to O9029; 0: none", "",
                {0, kHighestM, false, 10}),
-        read_custom<&C::custom_m>},
-    row<&C::dry_run_turns_spindle>("dry_run_spindle", kFlag, "the spindle runs in a dry run"),
+        read_custom<&Control::custom_m>},
+    row<&Control::dry_run_turns_spindle>("dry_run_spindle", kFlag, "the spindle runs in a dry run"),
     // AXIS pages
     place("home", "coordinates of the home point"),
     place("positive_limit", "positive end of travel from machine zero; both ends 0: no limits"),
@@ -177,10 +178,10 @@ constexpr std::array kOptionRows{
     place("g60_overrun", "approach of G60 from one side"),
     place("tool_change", "tool change point of G47, G48 and M6"),
     Row{{"leading", kWholes, "digits before the point that PRINT shows: inch, metric", "0", {0, 9}},
-        read_digits<&C::leading_digits>},
+        read_digits<&Control::leading_digits>},
     Row{option("trailing", kWholes, "digits after the point that PRINT shows: inch, metric", "4, 3",
                {0, 9}),
-        read_digits<&C::trailing_digits>},
+        read_digits<&Control::trailing_digits>},
     // MISC page
     Row{option("special_flags", kWhole,
                "sum of 1: tool circle, 2: Trig Help off, 4: nose compensation off", "0", {0, 255})},
@@ -188,17 +189,17 @@ constexpr std::array kOptionRows{
                "9999, 9999, 9999", {1, 9999}, "rpm"),
         read_spindle_ranges},
     Row{{"spindle_range", "low|medium|high", "range in force at the start"}},
-    row<&C::tap_ramp_seconds>("tap_ramp", kNumber,
-                              "time of the spindle from full speed to standstill", {0, 60}, "s"),
+    row<&Control::tap_ramp_seconds>(
+        "tap_ramp", kNumber, "time of the spindle from full speed to standstill", {0, 60}, "s"),
     Row{{"post_m", kWholes, "M codes that act last in their block", "", {0, kHighestM, false, 10}},
         read_post_codes},
-    row<&C::interlocks_coolant>("coolant_interlock", kFlag,
-                                "coolant runs only while the spindle runs"),
+    row<&Control::interlocks_coolant>("coolant_interlock", kFlag,
+                                      "coolant runs only while the spindle runs"),
     Row{option("cranking_minutes", kNumber,
                "program time of one revolution of the handwheel that drives a program", "0.001",
                {0, 1, true}, "min")},
     Row{{"report_file", kText, "file of DPRNT after POPEN P0", "REPORT.DAT"}, read_report_file},
-    row<&C::pulse_ms>("pulse_ms", kNumber, "length of PULSE0 and PULSE1", {}, "ms"),
+    row<&Control::pulse_ms>("pulse_ms", kNumber, "length of PULSE0 and PULSE1", {}, "ms"),
     Row{{"resolve_dnc", kFlag, "GOTO runs in a DNC run despite dnc_refusals", "true"}},
     // Override tables
     Row{option("feed_overrides", kWholes,
@@ -234,16 +235,16 @@ constexpr std::array kOptionRows{
     Row{{"dnc_refusals", kFlag, "refuses loops and calls in a DNC run, as the control does",
          "false"},
         read_dnc_refusals},
-    row<&C::spindle_check>("cycle_spindle", "ignore|warn|alarm",
-                           "what a cycle does while the spindle is stopped"),
-    row<&C::groove_relief_goes_on>("groove_relief", "back|on",
-                                   "G74, G75 back off against their steps, or in their direction"),
-    row<&C::chamfer>("chamfer", "leg|face", "what the size of ,C is"),
-    row<&C::solver_x_is_radius>("solver_x", "diameter|radius",
-                                "what X is in the points of TANL, TANA and CGEN"),
-    row<&C::asks_for_inputs>("ask_inputs", kFlag, "waits for inputs ask the operator"),
-    Row{{"disable_417", kFlag, "no effect", "false"}, check_option<C>},
-    pins_row<&C::pins_at_one, &C::answers_pins>(),
+    row<&Control::spindle_check>("cycle_spindle", "ignore|warn|alarm",
+                                 "what a cycle does while the spindle is stopped"),
+    row<&Control::groove_relief_goes_on>(
+        "groove_relief", "back|on", "G74, G75 back off against their steps, or in their direction"),
+    row<&Control::chamfer>("chamfer", "leg|face", "what the size of ,C is"),
+    row<&Control::solver_x_is_radius>("solver_x", "diameter|radius",
+                                      "what X is in the points of TANL, TANA and CGEN"),
+    row<&Control::asks_for_inputs>("ask_inputs", kFlag, "waits for inputs ask the operator"),
+    Row{{"disable_417", kFlag, "no effect", "false"}, check_option<Control>},
+    pins_row<&Control::pins_at_one, &Control::answers_pins>(),
     Row{{"machine", "table",
          "the other parameters of the AXIS and POWER pages, [control.machine]"}},
 };

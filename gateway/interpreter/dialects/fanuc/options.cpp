@@ -9,8 +9,8 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-using C = ControlOptions;
-using Row = OptionRow<C>;
+using Control = ControlOptions;
+using Row = OptionRow<Control>;
 
 /// What a model decides where no option does.
 struct ModelRow {
@@ -46,7 +46,7 @@ AxisValues values_of(const Position& position) {
   return values;
 }
 
-Result<void> read_model(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_model(const Options& options, const OptionKey& key, Control& control) {
   if (options.find(key.key) == nullptr) return {};
   const auto model = read_word(options, key, 3);
   if (!model) return fail(model.error());
@@ -68,14 +68,14 @@ Result<void> read_model(const Options& options, const OptionKey& key, C& control
   return {};
 }
 
-Result<void> read_program_digits(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_program_digits(const Options& options, const OptionKey& key, Control& control) {
   if (auto done = read_value(options, key, control.program_digits); !done) return done;
   if (control.program_digits == 4 || control.program_digits == 8) return {};
   return fail(Errc::Syntax, "[control] program_digits: {} is neither 4 nor 8",
               control.program_digits);
 }
 
-Result<void> read_increment(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_increment(const Options& options, const OptionKey& key, Control& control) {
   const auto increment = read_word(options, key, 1);
   if (!increment) return fail(increment.error());
   control.decimals_mm = 2 + static_cast<int>(*increment);
@@ -92,7 +92,7 @@ bool is_start_code(std::int64_t code) {
          std::find(kNeedMore.begin(), kNeedMore.end(), code) == kNeedMore.end();
 }
 
-Result<void> read_start_codes(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_start_codes(const Options& options, const OptionKey& key, Control& control) {
   std::vector<std::int64_t> codes{0, 17, 90, 94, 40, 49, 50, 54, 64, 67, 69, 80, 97, 98, 22, 15};
   if (control.is_lathe) codes.insert(codes.end(), {18, 95});
   const auto given = options.integers(key.key);
@@ -119,7 +119,7 @@ Result<void> read_start_codes(const Options& options, const OptionKey& key, C& c
   return {};
 }
 
-Result<void> read_reference(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_reference(const Options& options, const OptionKey& key, Control& control) {
   const auto points = options.positions(key.key);
   if (!points) return fail(points.error());
   if (points->size() > control.reference.size()) {
@@ -130,7 +130,7 @@ Result<void> read_reference(const Options& options, const OptionKey& key, C& con
   return {};
 }
 
-Result<void> read_shift_direction(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_shift_direction(const Options& options, const OptionKey& key, Control& control) {
   const auto direction = read_word(options, key, 0);
   if (!direction) return fail(direction.error());
   control.shift_first = *direction == 0 ? 1 : *direction == 1 ? -1 : 0;
@@ -138,14 +138,14 @@ Result<void> read_shift_direction(const Options& options, const OptionKey& key, 
   return {};
 }
 
-Result<void> read_single_direction(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_single_direction(const Options& options, const OptionKey& key, Control& control) {
   const auto overrun = options.position(key.key);
   if (!overrun) return fail(overrun.error());
   control.single_direction = values_of(*overrun);
   return {};
 }
 
-Result<void> read_length_axis(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_length_axis(const Options& options, const OptionKey& key, Control& control) {
   const auto type = read_word(options, key, 0);
   if (!type) return fail(type.error());
   control.length_axis_type = static_cast<char>('A' + *type);
@@ -163,7 +163,7 @@ std::array<double, 3> corner_of(const Position& position, double missing) {
 }
 
 /// Two corners are limit 1, two more the forbidden zone of limit 2.
-Result<void> read_limits(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_limits(const Options& options, const OptionKey& key, Control& control) {
   constexpr double kFar = 1e9;
   const auto corners = options.positions(key.key);
   if (!corners) return fail(corners.error());
@@ -184,7 +184,7 @@ Result<void> read_limits(const Options& options, const OptionKey& key, C& contro
   return {};
 }
 
-Result<void> read_g_macros(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_g_macros(const Options& options, const OptionKey& key, Control& control) {
   if (auto done = assign(read_integers(options, key), control.g_macros); !done) return done;
   for (const std::int64_t code : control.g_macros) {
     if (code >= 65 && code <= 67) {
@@ -194,7 +194,7 @@ Result<void> read_g_macros(const Options& options, const OptionKey& key, C& cont
   return {};
 }
 
-Result<void> read_external_folder(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_external_folder(const Options& options, const OptionKey& key, Control& control) {
   if (auto done = assign(options.text(key.key, ""), control.external_folder); !done) return done;
   if (control.external_folder.empty()) return {};
   constexpr std::size_t kLongestName = 32;  // of a called program
@@ -203,7 +203,7 @@ Result<void> read_external_folder(const Options& options, const OptionKey& key, 
   return fail(Errc::Syntax, "[control] m198_folder: {}", good.error().what);
 }
 
-Result<void> read_skip_levels(const Options& options, const OptionKey& key, C& control) {
+Result<void> read_skip_levels(const Options& options, const OptionKey& key, Control& control) {
   const auto levels = read_integers(options, key);
   if (!levels) return fail(levels.error());
   for (const std::int64_t level : *levels) {
@@ -220,65 +220,69 @@ constexpr std::array kSharedRows{
          "numbers of system variables; of a lathe, how many pockets G71 and G72 cut",
          "16M"},
         read_model},
-    row<&C::calculator_point>(
+    row<&Control::calculator_point>(
         "calculator_point", kFlag,
         "a number without a point is in millimeters or inches, not increments"),
     Row{{"increment", "IS-A|IS-B|IS-C", "least increment: 0.01, 0.001, 0.0001 mm", "IS-B"},
         read_increment},
-    row<&C::start_units>("start_units", "in|mm", "units in force at power on"),
+    row<&Control::start_units>("start_units", "in|mm", "units in force at power on"),
     Row{{"start_g", kWholes, "G codes in force at power on besides the usual ones"},
         read_start_codes},
-    row<&C::call_form>("m98_form", "P8|L|both",
-                       "repeats of M98: in P of up to 8 digits, or in a word L"),
-    row<&C::start_up_b>("startup", "A|B", "start and cancel of cutter compensation"),
+    row<&Control::call_form>("m98_form", "P8|L|both",
+                             "repeats of M98: in P of up to 8 digits, or in a word L"),
+    row<&Control::start_up_b>("startup", "A|B", "start and cancel of cutter compensation"),
     Row{{"reference", kAxisTables, "first to fourth reference point, in machine coordinates",
          "0 on every axis"},
         read_reference},
-    row<&C::arc_error>(
+    row<&Control::arc_error>(
         "arc_error", kLength,
         "allowed difference of the radii at start and end of an arc; 0: not checked"),
-    row<&C::arc_needs_center>("arc_without_center", "line|alarm",
-                              "what an arc without I, J, K and R is"),
-    row<&C::short_radius_is_semicircle>("short_radius", "alarm|semicircle",
-                                        "what R is that is too short to reach the end"),
-    row<&C::helix_feed_is_path>("helix_feed", "circle|path",
-                                "F of a helix is the speed along its circle, or along its path"),
-    row<&C::leading_zero_print>("leading_zero_print", kFlag,
-                                "DPRNT prints blanks for leading zeros"),
+    row<&Control::arc_needs_center>("arc_without_center", "line|alarm",
+                                    "what an arc without I, J, K and R is"),
+    row<&Control::short_radius_is_semicircle>("short_radius", "alarm|semicircle",
+                                              "what R is that is too short to reach the end"),
+    row<&Control::helix_feed_is_path>(
+        "helix_feed", "circle|path",
+        "F of a helix is the speed along its circle, or along its path"),
+    row<&Control::leading_zero_print>("leading_zero_print", kFlag,
+                                      "DPRNT prints blanks for leading zeros"),
     Row{{"print_newline", "LF|CRLF|LFCRCR",
          "end of a line of DPRNT at a real control; no effect here"},
-        check_option<C>},
-    row<&C::print_expands>("print_overflow", "cut|expand",
-                           "a number too long for its DPRNT format is cut, or printed"),
-    row<&C::atan_is_signed>("atan_range", kWhole,
-                            "results of ATAN: 0: 0 to 360 degrees; 1: -180 to 180", {0, 1}),
-    row<&C::reset_clears_locals>("reset_clears_locals", kFlag, "reset and M30 clear #1 to #33"),
-    row<&C::reset_clears_commons>("reset_clears_commons", kFlag,
-                                  "reset and M30 clear the variables from #100"),
+        check_option<Control>},
+    row<&Control::print_expands>("print_overflow", "cut|expand",
+                                 "a number too long for its DPRNT format is cut, or printed"),
+    row<&Control::atan_is_signed>("atan_range", kWhole,
+                                  "results of ATAN: 0: 0 to 360 degrees; 1: -180 to 180", {0, 1}),
+    row<&Control::reset_clears_locals>("reset_clears_locals", kFlag,
+                                       "reset and M30 clear #1 to #33"),
+    row<&Control::reset_clears_commons>("reset_clears_commons", kFlag,
+                                        "reset and M30 clear the variables from #100"),
     Row{{"stroke_limits", kAxisTables,
          "lowest and highest position of limit 1, then of the forbidden zone of limit 2"},
         read_limits},
     Row{option("skip_levels", kWholes, "block skip switches that are on: /2 to /9, and / or /1", "",
                {1, 9}),
         read_skip_levels},
-    row<&C::m_macros>("m_macro", kWholes, "M codes that call O9020 to O9029 as a macro",
-                      {1, 99'999'999, false, 10}),
+    row<&Control::m_macros>("m_macro", kWholes, "M codes that call O9020 to O9029 as a macro",
+                            {1, 99'999'999, false, 10}),
     Row{option("g_macro", kWholes, "G codes that call O9010 to O9019 as a macro", "",
                {1, 255, false, 10}),
         read_g_macros},
-    row<&C::t_macro>("t_macro", kFlag, "T calls O9000"),
-    row<&C::semicolon_eob>("semicolon_eob", kFlag, "a semicolon ends a block"),
-    row<&C::comment_over_eob>("comment_over_eob", kFlag, "a comment may go over ends of blocks"),
-    row<&C::feed_unit_inch>("feed_unit_inch", kNumber, "unit of F without a point in inch",
-                            kPositive, "inch/min"),
-    row<&C::dry_run_feed>("dry_run_feed", kFeed,
-                          "feed of a dry run at a gateway; 0: its panel has no dry run",
-                          kNotNegative),
-    row<&C::before_m>("before_m", kWholes,
-                      "M codes that act before the move of their block; none: all do"),
-    row<&C::is_dnc>("dnc", kFlag,
-                    "as in a DNC run: no loops and jumps in the fed program; calls take programs "
-                    "of the library"),
+    row<&Control::t_macro>("t_macro", kFlag, "T calls O9000"),
+    row<&Control::semicolon_eob>("semicolon_eob", kFlag, "a semicolon ends a block"),
+    row<&Control::comment_over_eob>("comment_over_eob", kFlag,
+                                    "a comment may go over ends of blocks"),
+    row<&Control::feed_unit_inch>("feed_unit_inch", kNumber, "unit of F without a point in inch",
+                                  kPositive, "inch/min"),
+    row<&Control::dry_run_feed>("dry_run_feed", kFeed,
+                                "feed of a dry run at a gateway; 0: its panel has no dry run",
+                                kNotNegative),
+    row<&Control::before_m>("before_m", kWholes,
+                            "M codes that act before the move of their block; none: all do"),
+    row<&Control::is_dnc>(
+        "dnc", kFlag,
+        "as in a DNC run: no loops and jumps in the fed program; calls take programs "
+        "of the library"),
     Row{{"m198_folder", kText,
          "what precedes the name of a program that M198 calls: with \"CARD.\" M198 P2000 takes "
          "CARD.O2000 of the library",
@@ -286,70 +290,74 @@ constexpr std::array kSharedRows{
         read_external_folder},
     Row{{"unroll", kFlag,
          "sends a real control the program without loops and calls; no effect here", "false"},
-        check_option<C>},
-    row<&C::max_call_depth>("max_call_depth", kWhole, "calls within calls", {1, 16}),
-    row<&C::max_nesting>("max_nesting", kWhole,
-                         "calls within calls, macros and subprograms together", {1, kMaxFrames}),
-    row<&C::max_loops>("max_loops", kWhole, "jumps back without a move before an alarm", {1, 1e9}),
-    row<&C::max_blocks>("max_blocks", kWhole, "blocks without a move before an alarm", {1, 1e12}),
-    row<&C::last_common>("last_common", kWhole, "last variable from #100", {149, 199}),
-    row<&C::last_kept>("last_kept", kWhole, "last variable from #500", {531, 999}),
-    row<&C::has_extra_commons>("extra_commons", kFlag,
-                               "the variables #98000 to #98499, which are kept"),
+        check_option<Control>},
+    row<&Control::max_call_depth>("max_call_depth", kWhole, "calls within calls", {1, 16}),
+    row<&Control::max_nesting>("max_nesting", kWhole,
+                               "calls within calls, macros and subprograms together",
+                               {1, kMaxFrames}),
+    row<&Control::max_loops>("max_loops", kWhole, "jumps back without a move before an alarm",
+                             {1, 1e9}),
+    row<&Control::max_blocks>("max_blocks", kWhole, "blocks without a move before an alarm",
+                              {1, 1e12}),
+    row<&Control::last_common>("last_common", kWhole, "last variable from #100", {149, 199}),
+    row<&Control::last_kept>("last_kept", kWhole, "last variable from #500", {531, 999}),
+    row<&Control::has_extra_commons>("extra_commons", kFlag,
+                                     "the variables #98000 to #98499, which are kept"),
     Row{option("program_digits", kWhole, "digits of program numbers: 4 or 8", "4", {4, 8}),
         read_program_digits},
-    row<&C::has_program_names>("program_names", kFlag,
-                               "programs may have a name, <NAME>, instead of an O number"),
-    pins_row<&C::pins_at_one, &C::answers_pins>()};
+    row<&Control::has_program_names>("program_names", kFlag,
+                                     "programs may have a name, <NAME>, instead of an O number"),
+    pins_row<&Control::pins_at_one, &Control::answers_pins>()};
 
 constexpr std::array kMillRows{
-    row<&C::has_tool_changer>(
+    row<&Control::has_tool_changer>(
         "tool_changer", kFlag,
         "false: M06 stops the spindle and waits until the operator has changed"),
-    row<&C::repeat_address>("repeat_address", "K|L|both",
-                            "address of the repeats of a canned cycle"),
-    row<&C::offset_memory>("offset_memory", "A|B|C",
-                           "tool offsets: one, geometry and wear, or these for H and D each"),
-    row<&C::peck_return>("g73_return", kLength, "retraction of a peck of G73", kNotNegative, "",
-                         "0.1 mm, 0.004 in"),
-    row<&C::peck_clearance>("g83_clearance", kLength,
-                            "where G83 goes from rapid to feed, above the last depth", kNotNegative,
-                            "", "1 mm, 0.04 in"),
-    row<&C::peck_tap_leaves>("peck_tapping", "high-speed|standard",
-                             "a peck of rigid tapping goes back a little, or out to R"),
-    row<&C::peck_tap_return>("peck_tapping_return", kLength,
-                             "retraction of a peck of rigid tapping", kNotNegative, "",
-                             "0.1 mm, 0.004 in"),
+    row<&Control::repeat_address>("repeat_address", "K|L|both",
+                                  "address of the repeats of a canned cycle"),
+    row<&Control::offset_memory>("offset_memory", "A|B|C",
+                                 "tool offsets: one, geometry and wear, or these for H and D each"),
+    row<&Control::peck_return>("g73_return", kLength, "retraction of a peck of G73", kNotNegative,
+                               "", "0.1 mm, 0.004 in"),
+    row<&Control::peck_clearance>("g83_clearance", kLength,
+                                  "where G83 goes from rapid to feed, above the last depth",
+                                  kNotNegative, "", "1 mm, 0.04 in"),
+    row<&Control::peck_tap_leaves>("peck_tapping", "high-speed|standard",
+                                   "a peck of rigid tapping goes back a little, or out to R"),
+    row<&Control::peck_tap_return>("peck_tapping_return", kLength,
+                                   "retraction of a peck of rigid tapping", kNotNegative, "",
+                                   "0.1 mm, 0.004 in"),
     Row{{"shift_direction", "+X|-X|+Y|-Y", "direction of the shift of G76 and G87"},
         read_shift_direction},
     Row{{"single_direction", kAxisTable, "overrun of G60, with its sign", "0 on every axis"},
         read_single_direction},
-    row<&C::scale_default>("scale_default", kNumber, "factor of G51 without P"),
-    row<&C::rotate_default>("rotate_default", kNumber, "angle of G68 without R", {}, "degree"),
-    row<&C::rotate_incremental>("rotate_incremental", kFlag,
-                                "R of G68 in G91 is added to the angle in force"),
-    row<&C::measuring_rapid_end>("g37_clearance", kLength,
-                                 "G37 feeds from so far before the position; 0: no G37",
-                                 kNotNegative),
-    row<&C::measuring_tolerance>("g37_tolerance", kLength,
-                                 "G37 expects the signal so close to the position", kNotNegative),
-    row<&C::measuring_feed>("g37_feed", kFeed, "feed of G37", kNotNegative),
-    row<&C::diameter_offset>("diameter_offset", kFlag,
-                             "offsets of cutter compensation are diameters"),
+    row<&Control::scale_default>("scale_default", kNumber, "factor of G51 without P"),
+    row<&Control::rotate_default>("rotate_default", kNumber, "angle of G68 without R", {},
+                                  "degree"),
+    row<&Control::rotate_incremental>("rotate_incremental", kFlag,
+                                      "R of G68 in G91 is added to the angle in force"),
+    row<&Control::measuring_rapid_end>("g37_clearance", kLength,
+                                       "G37 feeds from so far before the position; 0: no G37",
+                                       kNotNegative),
+    row<&Control::measuring_tolerance>(
+        "g37_tolerance", kLength, "G37 expects the signal so close to the position", kNotNegative),
+    row<&Control::measuring_feed>("g37_feed", kFeed, "feed of G37", kNotNegative),
+    row<&Control::diameter_offset>("diameter_offset", kFlag,
+                                   "offsets of cutter compensation are diameters"),
     Row{{"length_axis", "A|B|C", "type of tool length compensation"}, read_length_axis}};
 
 constexpr std::array kLatheRows{
-    row<&C::code_system>("code_system", "A|B|C", "which set of G codes the lathe has"),
-    row<&C::x_is_diameter>("x_is_diameter", kFlag, "X and U are diameters", {}, "", "true"),
-    row<&C::has_c_axis>("c_axis", kFlag, "the lathe has an axis C; without it C is an alarm"),
-    row<&C::has_y_axis>("y_axis", kFlag, "the lathe has an axis Y; without it Y is an alarm"),
-    row<&C::turret_digits>("turret_digits", kWhole, "last digits of T that are the offset's number",
-                           {1, 2}),
-    row<&C::feed_unit_turn>("feed_unit_revolution", kNumber,
-                            "unit of F without a point in feed per revolution; 0: an alarm",
-                            kNotNegative, "", "0"),
-    row<&C::thread_chamfer>("thread_chamfer", kNumber, "pull-out of the thread cycle, in leads",
-                            kNotNegative),
+    row<&Control::code_system>("code_system", "A|B|C", "which set of G codes the lathe has"),
+    row<&Control::x_is_diameter>("x_is_diameter", kFlag, "X and U are diameters", {}, "", "true"),
+    row<&Control::has_c_axis>("c_axis", kFlag, "the lathe has an axis C; without it C is an alarm"),
+    row<&Control::has_y_axis>("y_axis", kFlag, "the lathe has an axis Y; without it Y is an alarm"),
+    row<&Control::turret_digits>("turret_digits", kWhole,
+                                 "last digits of T that are the offset's number", {1, 2}),
+    row<&Control::feed_unit_turn>("feed_unit_revolution", kNumber,
+                                  "unit of F without a point in feed per revolution; 0: an alarm",
+                                  kNotNegative, "", "0"),
+    row<&Control::thread_chamfer>("thread_chamfer", kNumber,
+                                  "pull-out of the thread cycle, in leads", kNotNegative),
 };
 
 template <std::size_t kFirst, std::size_t kSecond>

@@ -57,13 +57,13 @@ constexpr std::array<ErrorRow, static_cast<std::size_t>(Count)> kRows{{
     {ProgramError, {"TNC-PROGRAM-ERROR", "ERROR OF THE PROGRAM"}},
 }};
 
-constexpr bool is_in_order() {
+constexpr bool are_errors_in_order() {
   for (std::size_t i = 0; i < kRows.size(); ++i) {
     if (static_cast<std::size_t>(kRows[i].code) != i) return false;
   }
   return true;
 }
-static_assert(is_in_order());
+static_assert(are_errors_in_order());
 
 }  // namespace
 

@@ -73,7 +73,7 @@ constexpr GRow dwell(std::uint16_t code, Name name) {
       .code = code, .group = Group::OneShot, .words = kNone, .name = name, .kind = GKind::Dwell};
 }
 
-constexpr std::array kRows{
+constexpr std::array kGRows{
     motion(0, "positioning"),
     motion(1, "linear interpolation"),
     motion(2, "circular interpolation clockwise"),
@@ -157,13 +157,13 @@ constexpr std::array kRows{
     once(998, kNone, beep, "beep"),
     once(999, kNone, force_fatal_error, "force fatal error"),
 };
-static_assert(kRows.size() < kNoRow);
+static_assert(kGRows.size() < kNoRow);
 
 constexpr std::array<std::uint8_t, 1000> index_by_code() {
   std::array<std::uint8_t, 1000> index{};
   for (auto& entry : index) entry = kNoRow;
-  for (std::size_t row = 0; row < kRows.size(); ++row) {
-    index[kRows[row].code] = static_cast<std::uint8_t>(row);
+  for (std::size_t row = 0; row < kGRows.size(); ++row) {
+    index[kGRows[row].code] = static_cast<std::uint8_t>(row);
   }
   return index;
 }
@@ -175,7 +175,7 @@ std::uint8_t g_row_index(unsigned code) {
   return code < kIndex.size() ? kIndex[code] : kNoRow;
 }
 const GRow& g_row(std::uint8_t index) {
-  return kRows[index];
+  return kGRows[index];
 }
 
 }  // namespace dripline::interpreter::centurion

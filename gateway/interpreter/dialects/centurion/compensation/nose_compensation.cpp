@@ -13,7 +13,7 @@ namespace dripline::interpreter::centurion {
 namespace {
 
 using compensation::Fault;
-using compensation::FaultKind;
+using NoseFault = compensation::FaultKind;
 using compensation::Side;
 
 /// From the center of the nose to the point that is programmed, in nose radii (manual: tool types).
@@ -40,14 +40,14 @@ NoseUse wanted_use(const Run& run) {
 
 ErrorCode code_of(const Fault& fault) {
   switch (fault.kind) {
-    case FaultKind::NoIntersection:
+    case NoseFault::NoIntersection:
       return fault.first_is_arc && fault.next_is_arc ? ErrorCode::CompensatedArcsApart
                                                      : ErrorCode::CompensatedLineArcApart;
-    case FaultKind::ArcTooSmall:
+    case NoseFault::ArcTooSmall:
       return fault.first_is_arc ? ErrorCode::SecondArcTooSmall : ErrorCode::ArcTooSmall;
-    case FaultKind::TooMuchBetween:
+    case NoseFault::TooMuchBetween:
       return ErrorCode::TooMuchBetween;
-    case FaultKind::Reversed:
+    case NoseFault::Reversed:
       return ErrorCode::ContourTooNarrow;
     default:
       return ErrorCode::CompensationNotStraight;

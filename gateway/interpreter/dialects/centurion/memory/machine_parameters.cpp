@@ -24,7 +24,7 @@ constexpr MachineParameter power_row(std::string_view name, std::string_view tit
   return {name, "POWER", title, number, false, false, true, low, high};
 }
 
-constexpr std::array kRows{
+constexpr std::array kParameterRows{
     axis_row("address_label", "axis address label (ASCII)", 850, 65, 90),
     axis_row("pulses_per_unit", "feedback pulses per unit", 852, 1, 10'000'000),
     axis_row("encoder_multiplier", "encoder multiplier: 0 x4, 1 x2, 2 x1", 854, 0, 2),
@@ -59,9 +59,9 @@ constexpr std::array kRows{
 };
 
 const MachineParameter* find_row(std::string_view name) {
-  const auto* row = std::find_if(kRows.begin(), kRows.end(),
+  const auto* row = std::find_if(kParameterRows.begin(), kParameterRows.end(),
                                  [name](const MachineParameter& r) { return r.name == name; });
-  return row == kRows.end() ? nullptr : row;
+  return row == kParameterRows.end() ? nullptr : row;
 }
 
 /// true and false are 1 and 0.
@@ -109,7 +109,7 @@ Result<void> store_axes(const MachineParameter& row, const OptionValue& option,
 
 std::string known_names() {
   std::string text;
-  for (const MachineParameter& row : kRows) {
+  for (const MachineParameter& row : kParameterRows) {
     if (!text.empty()) text += ", ";
     text += row.name;
   }
@@ -119,7 +119,7 @@ std::string known_names() {
 }  // namespace
 
 std::span<const MachineParameter> machine_parameters() {
-  return kRows;
+  return kParameterRows;
 }
 
 Result<void> load_machine_parameters(const Options& options, Parameters& parameters) {

@@ -10,7 +10,7 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-using blending::FaultKind;
+using BlendFault = blending::FaultKind;
 
 constexpr std::uint8_t kTrigHelpOff = 2;  ///< of the special flags
 
@@ -161,19 +161,19 @@ void announce_arc(Run& run, std::optional<double> radius) {
 
 ErrorCode code_of(const blending::Fault& fault) {
   switch (fault.kind) {
-    case FaultKind::ArcsApart:
+    case BlendFault::ArcsApart:
       return ErrorCode::ArcsApart;
-    case FaultKind::OffArc:
+    case BlendFault::OffArc:
       return ErrorCode::OutOfPosition;
-    case FaultKind::Straight:
+    case BlendFault::Straight:
       if (fault.first_is_arc)
         return fault.next_is_arc ? ErrorCode::StraightArcToArc : ErrorCode::StraightArcToLine;
       return fault.next_is_arc ? ErrorCode::StraightLineToArc : ErrorCode::StraightLineToLine;
-    case FaultKind::DoesNotFit:
+    case BlendFault::DoesNotFit:
       return ErrorCode::CornerDoesNotFit;
-    case FaultKind::ChamferAtArc:
+    case BlendFault::ChamferAtArc:
       return ErrorCode::ChamferAtArc;
-    case FaultKind::TooMuchBetween:
+    case BlendFault::TooMuchBetween:
       return ErrorCode::TooMuchBetween;
     default:
       return ErrorCode::CompensatedLineArcApart;

@@ -11,18 +11,19 @@ namespace {
 
 constexpr double kDegreesPerRadian = 180 / Angle::kPi;
 constexpr double kPathTolerance = 0.001;    ///< of a piece, millimeters
-constexpr double kLongestPiece = 5;         ///< degrees of the rotary axis, or of an arc
+constexpr double kLongestRotaryPiece = 5;   ///< degrees of the rotary axis, or of an arc
 constexpr double kClosestToCenter = 0.001;  ///< millimeters
-constexpr int kMaxPieces = 20'000;
+constexpr int kMaxRotaryPieces = 20'000;
 
 /// The angle of a piece whose middle is off its circle by the tolerance.
 double piece_degrees(double radius) {
   const double cosine = 1 - kPathTolerance / std::max(radius, kPathTolerance);
-  return std::clamp(2 * std::acos(cosine) * kDegreesPerRadian, 0.05, kLongestPiece);
+  return std::clamp(2 * std::acos(cosine) * kDegreesPerRadian, 0.05, kLongestRotaryPiece);
 }
 
 int pieces_for(double degrees, double piece) {
-  return std::clamp(static_cast<int>(std::ceil(std::fabs(degrees) / piece - 1e-9)), 1, kMaxPieces);
+  return std::clamp(static_cast<int>(std::ceil(std::fabs(degrees) / piece - 1e-9)), 1,
+                    kMaxRotaryPieces);
 }
 
 }  // namespace
@@ -87,7 +88,7 @@ int RotaryPath::pieces_of_line(const Position& to) const {
   // Near the center the axis rotates fast: the pieces are as short as they have to be there.
   const double closest_at = std::clamp(-dot(from, along) / (size * size), 0.0, 1.0);
   const double closest = dripline::interpreter::length(from + closest_at * along);
-  if (closest < kClosestToCenter) return kMaxPieces;
+  if (closest < kClosestToCenter) return kMaxRotaryPieces;
   const double far =
       std::max(dripline::interpreter::length(from), dripline::interpreter::length(end));
   const double piece = closest * piece_degrees(far) / kDegreesPerRadian;
@@ -95,7 +96,7 @@ int RotaryPath::pieces_of_line(const Position& to) const {
       dot(from, end) / (dripline::interpreter::length(from) * dripline::interpreter::length(end)),
       -1.0, 1.0));
   if (turn * kDegreesPerRadian < 1e-9) return 1;
-  return std::clamp(static_cast<int>(std::ceil(size / piece)), 1, kMaxPieces);
+  return std::clamp(static_cast<int>(std::ceil(size / piece)), 1, kMaxRotaryPieces);
 }
 
 void RotaryPath::on_rapid(const Rapid& event) {

@@ -11,8 +11,6 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-using Kind = RotaryPlane::Kind;
-
 bool refuse_mode(Run& run, std::string_view why) {
   return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column, why);
 }
@@ -57,7 +55,7 @@ void end_mode(Run& run) {
     run.compensator.flush();
   }
   // The partner is where the path has led it: at its distance from the center.
-  if (plane.kind == Kind::Polar) {
+  if (plane.kind == RotaryPlane::Kind::Polar) {
     const double along = state.position.raw(plane.partner) - plane.zero_partner;
     const double across = state.position.raw(plane.slot) - plane.zero_slot;
     state.position.set_raw(plane.partner, plane.zero_partner + std::hypot(along, across));
@@ -67,7 +65,7 @@ void end_mode(Run& run) {
   state.position.set_raw(plane.rotary, run.rotary.degrees());
   state.g[kPlaneGroup] = plane.plane_before;
   run.rotary.end();
-  state.rotary.kind = Kind::None;
+  state.rotary.kind = RotaryPlane::Kind::None;
   run.place_stages();
 }
 
@@ -76,8 +74,9 @@ void end_mode(Run& run) {
 bool set_polar_plane(Run& run) {
   ModalState& state = run.state;
   const bool begins = run.block.g[kInterpolationGroup] == kPolarPlaneOn;
-  if (begins == (state.rotary.kind == Kind::Polar)) return true;
-  if (begins && state.rotary.kind != Kind::None) return refuse_mode(run, "G12.1 in G07.1");
+  if (begins == (state.rotary.kind == RotaryPlane::Kind::Polar)) return true;
+  if (begins && state.rotary.kind != RotaryPlane::Kind::None)
+    return refuse_mode(run, "G12.1 in G07.1");
   if (!check_state(run)) return false;
   if (run.block.words.has_any(kAxisWords)) {
     return refuse_mode(run, "G12.1 and G13.1 are alone in their block");
@@ -87,7 +86,7 @@ bool set_polar_plane(Run& run) {
     if (!(from_center > 0)) {
       return refuse_mode(run, "G12.1 begins at X above 0: the center of rotation is X0");
     }
-    begin_mode(run, {.kind = Kind::Polar});
+    begin_mode(run, {.kind = RotaryPlane::Kind::Polar});
     state.g[kPlaneGroup] = 17;
   } else {
     end_mode(run);
@@ -110,13 +109,14 @@ bool set_cylinder(Run& run) {
   if (radius < 0) return run.fail(ErrorCode::NegativeSign, words.column(address));
   if (!check_state(run)) return false;
   if (radius == 0) {
-    if (state.rotary.kind != Kind::Cylinder) return true;
+    if (state.rotary.kind != RotaryPlane::Kind::Cylinder) return true;
     if (state.rotary.rotary != rotary)
       return refuse_mode(run, "G07.1 ends with the axis it began with");
     end_mode(run);
     return true;
   }
-  if (state.rotary.kind != Kind::None) return refuse_mode(run, "G07.1 in G12.1 or G07.1");
+  if (state.rotary.kind != RotaryPlane::Kind::None)
+    return refuse_mode(run, "G07.1 in G12.1 or G07.1");
   // The axis of the cylinder is in the plane; the surface runs along the other axis.
   const Axis along = rotary == Axis::A ? Axis::X : rotary == Axis::B ? Axis::Y : Axis::Z;
   const PlaneAxes plane = axes_of(state.plane());
@@ -124,7 +124,7 @@ bool set_cylinder(Run& run) {
     return refuse_mode(
         run, fmt::format("the plane of G07.1 {} needs {} in it", letter(rotary), letter(along)));
   }
-  begin_mode(run, {.kind = Kind::Cylinder,
+  begin_mode(run, {.kind = RotaryPlane::Kind::Cylinder,
                    .rotary = rotary,
                    .slot = plane.first == along ? plane.second : plane.first,
                    .partner = along,
@@ -166,7 +166,7 @@ bool read_rotary_target(Run& run, Position& to) {
         is_incremental ? to.raw(axis) : run.state.origin[static_cast<std::size_t>(axis)];
     to.set_raw(axis, base + value);
   };
-  const bool is_cylinder = plane.kind == Kind::Cylinder;
+  const bool is_cylinder = plane.kind == RotaryPlane::Kind::Cylinder;
   if (is_cylinder && words.has(rotary)) {
     // degrees on the surface: the word keeps its unit, the path is its length
     taken |= set_of(rotary);

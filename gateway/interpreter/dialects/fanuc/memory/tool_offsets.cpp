@@ -9,15 +9,15 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-enum class Kind : std::uint8_t { LengthWear, LengthGeometry, RadiusWear, RadiusGeometry };
+enum class RegisterKind : std::uint8_t { LengthWear, LengthGeometry, RadiusWear, RadiusGeometry };
 
-double* cell_of(ToolOffsets& tools, Kind kind, std::size_t n) {
+double* cell_of(ToolOffsets& tools, RegisterKind kind, std::size_t n) {
   const std::array registers{&tools.length_wear, &tools.length_geometry, &tools.radius_wear,
                              &tools.radius_geometry};
   return &(*registers[static_cast<std::size_t>(kind)])[n];
 }
 
-OffsetRegister register_of(Run& run, Kind kind, int number) {
+OffsetRegister register_of(Run& run, RegisterKind kind, int number) {
   if (number < 1 || number > kMaxOffsets) return {};
   ToolOffsets& tools = run.memory.tools;
   const auto n = static_cast<std::size_t>(number);
@@ -25,9 +25,9 @@ OffsetRegister register_of(Run& run, Kind kind, int number) {
     case OffsetMemory::A:
       return {&tools.length_geometry[n], &tools.radius_geometry[n]};
     case OffsetMemory::B: {
-      const bool is_wear = kind == Kind::LengthWear || kind == Kind::RadiusWear;
-      return {cell_of(tools, is_wear ? Kind::LengthWear : Kind::LengthGeometry, n),
-              cell_of(tools, is_wear ? Kind::RadiusWear : Kind::RadiusGeometry, n)};
+      const bool is_wear = kind == RegisterKind::LengthWear || kind == RegisterKind::RadiusWear;
+      return {cell_of(tools, is_wear ? RegisterKind::LengthWear : RegisterKind::LengthGeometry, n),
+              cell_of(tools, is_wear ? RegisterKind::RadiusWear : RegisterKind::RadiusGeometry, n)};
     }
     case OffsetMemory::C:
       break;
@@ -80,15 +80,15 @@ OffsetRegister offset_variable(Run& run, int number) {
   }
   struct Row {
     int base, last;
-    Kind kind;
+    RegisterKind kind;
     OffsetMemory least;  ///< memory that has these variables
   };
-  constexpr std::array kRows{Row{2000, 2200, Kind::LengthWear, OffsetMemory::A},
-                             Row{2200, 2400, Kind::LengthGeometry, OffsetMemory::B},
-                             Row{10000, 10400, Kind::LengthWear, OffsetMemory::A},
-                             Row{11000, 11400, Kind::LengthGeometry, OffsetMemory::B},
-                             Row{12000, 12400, Kind::RadiusWear, OffsetMemory::C},
-                             Row{13000, 13400, Kind::RadiusGeometry, OffsetMemory::C}};
+  constexpr std::array kRows{Row{2000, 2200, RegisterKind::LengthWear, OffsetMemory::A},
+                             Row{2200, 2400, RegisterKind::LengthGeometry, OffsetMemory::B},
+                             Row{10000, 10400, RegisterKind::LengthWear, OffsetMemory::A},
+                             Row{11000, 11400, RegisterKind::LengthGeometry, OffsetMemory::B},
+                             Row{12000, 12400, RegisterKind::RadiusWear, OffsetMemory::C},
+                             Row{13000, 13400, RegisterKind::RadiusGeometry, OffsetMemory::C}};
   for (const Row& row : kRows) {
     if (number > row.base && number <= row.last && run.options.offset_memory >= row.least)
       return register_of(run, row.kind, number - row.base);
@@ -97,10 +97,10 @@ OffsetRegister offset_variable(Run& run, int number) {
 }
 
 OffsetRegister offset_of_g10(Run& run, int list, int number) {
-  const Kind kind = list == 10   ? Kind::LengthGeometry
-                    : list == 12 ? Kind::RadiusGeometry
-                    : list == 13 ? Kind::RadiusWear
-                                 : Kind::LengthWear;
+  const RegisterKind kind = list == 10   ? RegisterKind::LengthGeometry
+                            : list == 12 ? RegisterKind::RadiusGeometry
+                            : list == 13 ? RegisterKind::RadiusWear
+                                         : RegisterKind::LengthWear;
   return register_of(run, kind, number);
 }
 

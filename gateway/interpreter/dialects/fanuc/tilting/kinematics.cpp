@@ -7,8 +7,6 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-constexpr double kDegreesPerRadian = 180 / Angle::kPi;
-
 Point3 unit(std::size_t axis) {
   Point3 direction{};
   direction[axis] = 1;
@@ -30,7 +28,7 @@ std::optional<double> angle_about(const Point3& axis, const Point3& a, const Poi
   constexpr double kAlong = 1e-7;
   const Point3 across = a - dot(a, axis) * axis;
   if (length(across) < kAlong) return std::nullopt;
-  return std::atan2(dot(axis, cross(across, b)), dot(across, b)) * kDegreesPerRadian;
+  return std::atan2(dot(axis, cross(across, b)), dot(across, b)) * (180 / Angle::kPi);
 }
 
 /// The angle, or one that is whole revolutions away, nearest to the present one within the limits.
@@ -156,8 +154,8 @@ std::optional<Pose> aligned_pose(const Kinematics& machine, Pose zero, const Poi
 /// whole move: with n pieces the acceleration is one n-th of a n-th.
 double pieces_within(const Kinematics& machine, Pose pose, Pose end, const Point3& from,
                      const Point3& to, double length) {
-  const double master = std::fabs(end.master - pose.master) / kDegreesPerRadian;
-  const double slave = std::fabs(end.slave - pose.slave) / kDegreesPerRadian;
+  const double master = std::fabs(end.master - pose.master) / (180 / Angle::kPi);
+  const double slave = std::fabs(end.slave - pose.slave) / (180 / Angle::kPi);
   if (master == 0 && slave == 0) return 1;
   double table_turn = 0;
   double head_turn = 0;

@@ -9,11 +9,11 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-constexpr int kMaxPieces = 20'000;   ///< of one move
-constexpr double kNoMove = 1e-9;     ///< what going there and back leaves of a place
-constexpr double kSamePlace = 1e-6;  ///< of an arc's start
-constexpr double kParallel = 1e-9;   ///< of a plane and one of the machine's
-constexpr double kLongestPiece = 5;  ///< of an arc in straight pieces, degrees
+constexpr int kMaxTiltedPieces = 20'000;  ///< of one move
+constexpr double kNoMove = 1e-9;          ///< what going there and back leaves of a place
+constexpr double kSamePlace = 1e-6;       ///< of an arc's start
+constexpr double kParallel = 1e-9;        ///< of a plane and one of the machine's
+constexpr double kLongestArcPiece = 5;    ///< of an arc in straight pieces, degrees
 
 void set_linear(Position& at, const Point3& to) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -35,9 +35,9 @@ Position between(const Position& from, const Position& to, double part) {
 /// Of an arc whose chords are off it by no more than the tolerance.
 int pieces_of_arc(double radius, double sweep, double tolerance) {
   const double cosine = 1 - tolerance / std::max(radius, tolerance);
-  const double piece = std::min(2 * std::acos(cosine) * (180 / Angle::kPi), kLongestPiece);
+  const double piece = std::min(2 * std::acos(cosine) * (180 / Angle::kPi), kLongestArcPiece);
   return std::clamp(static_cast<int>(std::ceil(std::min(sweep / piece, 1e6) - 1e-9)), 1,
-                    kMaxPieces);
+                    kMaxTiltedPieces);
 }
 
 /// The feed of a piece, so that all of them together take `minutes`.
@@ -115,7 +115,7 @@ bool TiltedPath::check_pieces(const Origin& origin, const Position& to, int piec
   return true;
 }
 
-/// More than kMaxPieces: too many.
+/// More than kMaxTiltedPieces: too many.
 int TiltedPath::pieces_of(const Position& to) const {
   const Kinematics& machine = options_.kinematics;
   const Rigid back = table_motion(machine, state_.tilt.zero).inverse();
@@ -125,7 +125,7 @@ int TiltedPath::pieces_of(const Position& to) const {
   };
   const double pieces = pieces_within(machine, pose_of(machine, state_.flat), pose_of(machine, to),
                                       on_table(state_.flat), on_table(to), tilt.length);
-  return pieces <= kMaxPieces ? static_cast<int>(pieces) : kMaxPieces + 1;
+  return pieces <= kMaxTiltedPieces ? static_cast<int>(pieces) : kMaxTiltedPieces + 1;
 }
 
 /// Per revolution of a move of the machine's axes that takes so many.
@@ -152,10 +152,10 @@ template <class Event>
 void TiltedPath::deliver_straight(const Event& whole, void (EventSink::*deliver)(const Event&)) {
   if (fault_) return;
   const int pieces = pieces_of(whole.to);
-  if (pieces > kMaxPieces) {
+  if (pieces > kMaxTiltedPieces) {
     fault_ = Fault{ErrorCode::TipControl, whole.origin,
                    fmt::format("the tip's path within {} mm takes more than {} pieces",
-                               options_.kinematics.tip_tolerance, kMaxPieces)};
+                               options_.kinematics.tip_tolerance, kMaxTiltedPieces)};
     return;
   }
   if (!check_pieces(whole.origin, whole.to, pieces)) return;
@@ -312,7 +312,7 @@ bool TiltedPath::arc_on_machine(const Arc& flat, Arc& arc) const {
 
 bool TiltedPath::check_arc(const Arc& arc) {
   if (!checks_stroke()) return true;
-  const int pieces = static_cast<int>(std::ceil(arc.sweep.degrees() / kLongestPiece));
+  const int pieces = static_cast<int>(std::ceil(arc.sweep.degrees() / kLongestArcPiece));
   Position last = state_.machine;
   for (int n = 1; n <= pieces; ++n) {
     const Position next = point_on_arc(arc, state_.machine, arc.sweep.degrees() * n / pieces);

@@ -10,8 +10,6 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-using Kind = Tilt::Kind;
-
 bool refuse(Run& run, const DiagnosticRow& row, std::string_view why) {
   return run.fail(row, run.block.parts.g_column, why);
 }
@@ -19,8 +17,8 @@ bool refuse(Run& run, const DiagnosticRow& row, std::string_view why) {
 /// Why the mode cannot begin, or nothing.
 std::string_view hindrance(const Run& run) {
   const ModalState& state = run.state;
-  if (run.tilted.kind() == Kind::Plane) return "G68.2 is in force; G69 ends it";
-  if (run.tilted.kind() == Kind::TipControl) return "G43.4 or G43.5 is in force; G49 ends it";
+  if (run.tilted.kind() == Tilt::Kind::Plane) return "G68.2 is in force; G69 ends it";
+  if (run.tilted.kind() == Tilt::Kind::TipControl) return "G43.4 or G43.5 is in force; G49 ends it";
   if (state.is_compensating()) return "cutter compensation is on";
   if (state.is_cycle()) return "a hole cycle is in force";
   if (state.is_transformed) return "G51, G51.1 or G68 is in force";
@@ -54,7 +52,7 @@ void begin(Run& run, Tilt tilt) {
     return state.origin[static_cast<std::size_t>(rotary.axis)];
   };
   tilt.zero = {zero_of(machine.master), zero_of(machine.slave)};
-  if (tilt.kind == Kind::TipControl && machine.begins_at_present)
+  if (tilt.kind == Tilt::Kind::TipControl && machine.begins_at_present)
     tilt.zero = pose_of(machine, state.position);
   tilt.length = state.length_offset;
   tilt.mm_per_unit = run.increments.mm_per_unit;
@@ -104,7 +102,7 @@ std::string_view excluded_shot(const Run& run) {
     case kAxisDirection:
       return {};
     case 39:
-      return run.tilted.kind() == Kind::Plane ? std::string_view{} : "G39";
+      return run.tilted.kind() == Tilt::Kind::Plane ? std::string_view{} : "G39";
     case 10: {
       const double list = block.words.has(L) ? run.whole(block.words[L]) : 1;
       return list == 1 || (list >= 10 && list <= 13) ? std::string_view{} : "G10 of coordinates";
@@ -137,7 +135,7 @@ std::string_view excluded_by_tip_control(const Run& run) {
 }
 
 bool refuse_excluded(Run& run, std::string_view excluded) {
-  const bool is_plane = run.tilted.kind() == Kind::Plane;
+  const bool is_plane = run.tilted.kind() == Tilt::Kind::Plane;
   const std::string_view mode = is_plane                                  ? "G68.2"
                                 : run.state.g[kLengthGroup] == kTipVector ? "G43.5"
                                                                           : "G43.4";
@@ -167,7 +165,7 @@ bool is_beside(const Run& run) {
 
 bool check_tilted_block(Run& run) {
   const Block& block = run.block;
-  const bool is_plane = run.tilted.kind() == Kind::Plane;
+  const bool is_plane = run.tilted.kind() == Tilt::Kind::Plane;
   std::string_view excluded = excluded_code(run);
   if (excluded.empty()) excluded = excluded_shot(run);
   if (excluded.empty() && !is_plane) {
@@ -191,7 +189,7 @@ bool begin_tilted_plane(Run& run) {
   if (const std::string_view why = hindrance(run); !why.empty())
     return refuse(run, ErrorCode::PlaneFormat, why);
   if (is_beside(run)) return refuse(run, ErrorCode::PlaneFormat, "U, V or W is not at 0");
-  Tilt tilt{.kind = Kind::Plane};
+  Tilt tilt{.kind = Tilt::Kind::Plane};
   if (!read_plane(run, tilt) || !flush_stages(run)) return false;
   begin(run, tilt);
   return true;
@@ -220,7 +218,7 @@ bool begin_tip_control(Run& run) {
   if (const std::string_view why = hindrance(run); !why.empty())
     return refuse(run, ErrorCode::TipControl, why);
   if (!flush_stages(run)) return false;
-  Tilt tilt{.kind = Kind::TipControl};
+  Tilt tilt{.kind = Tilt::Kind::TipControl};
   for (std::size_t i = 0; i < 3; ++i) tilt.at[i] = run.state.origin[i];
   begin(run, tilt);
   std::string_view excluded = excluded_shot(run);
@@ -254,7 +252,7 @@ bool follow_length_offset(Run& run) {
 bool take_length_offset(Run& run) {
   const ModalState& state = run.state;
   const bool waits = !state.position.same_point(run.tilted.flat());
-  if (run.tilted.kind() != Kind::Plane || waits || !run.tilted.lags()) return true;
+  if (run.tilted.kind() != Tilt::Kind::Plane || waits || !run.tilted.lags()) return true;
   const std::uint8_t mode = state.g[kMotionGroup];
   if (mode > 1 && !state.is_cycle()) {
     return refuse(run, ErrorCode::ImproperCommand,
@@ -296,7 +294,7 @@ bool direct_tool_axis(Run& run) {
   const ModalState& state = run.state;
   const Words& words = run.block.words;
   constexpr AddressSet kOthers = kAxisWords | kCenterWords | set_of(P, Q, R, H, D, L);
-  if (run.tilted.kind() != Kind::Plane)
+  if (run.tilted.kind() != Tilt::Kind::Plane)
     return refuse(run, ErrorCode::AxisDirection, "G68.2 is not in force");
   if (words.has_any(kOthers)) {
     return run.fail(ErrorCode::AxisDirection, words.first_column(kOthers),

@@ -32,7 +32,7 @@ void put(const Run& run, Position& position, PlaneVector point) {
 }
 
 /// A straight line through `at` along `angle`, or a circle about `at`.
-struct Curve {
+struct OffsetCurve {
   bool is_circle = false;
   PlaneVector at;
   double angle = 0;
@@ -44,7 +44,7 @@ struct Meeting {
   std::array<PlaneVector, 2> points{};
 };
 
-Meeting meet_line(const Curve& line, const Curve& other) {
+Meeting meet_line(const OffsetCurve& line, const OffsetCurve& other) {
   const double c = std::cos(line.angle);
   const double s = std::sin(line.angle);
   if (!other.is_circle) {
@@ -64,7 +64,7 @@ Meeting meet_line(const Curve& line, const Curve& other) {
   return {2, {along(foot, line.angle, half), along(foot, line.angle, -half)}};
 }
 
-Meeting meet(const Curve& a, const Curve& b) {
+Meeting meet(const OffsetCurve& a, const OffsetCurve& b) {
   if (!a.is_circle) return meet_line(a, b);
   if (!b.is_circle) return meet_line(b, a);
   const double apart = distance(a.at, b.at);
@@ -78,7 +78,7 @@ Meeting meet(const Curve& a, const Curve& b) {
 }
 
 /// The held move's curve: an arc's circle, or the line it was programmed along.
-Curve held_curve(const Run& run, PlaneVector corner, PlaneVector tool) {
+OffsetCurve held_curve(const Run& run, PlaneVector corner, PlaneVector tool) {
   if (const auto* arc = std::get_if<Arc>(&run.held.events().front())) {
     const PlaneVector center{arc->center_first.mm(), arc->center_second.mm()};
     return {true, center, 0, distance(center, tool)};
@@ -190,7 +190,7 @@ bool make_corner(Run& run, const Target& target, bool is_rapid, const Feed& feed
 }
 
 /// Makes the corner between the held move and the next, whose offset curve is `next`.
-bool join(Run& run, const Entry& entry, const Curve& next, bool is_rapid, const Feed& feed) {
+bool join(Run& run, const Entry& entry, const OffsetCurve& next, bool is_rapid, const Feed& feed) {
   const double travel = travel_of(run, entry);
   switch (corner_of(run, entry)) {
     case Corner::StraightOn:
@@ -317,7 +317,7 @@ bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& fee
   const double turned = run.state.rotation * (Angle::kPi / 180);
   const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)), normal + turned,
                     std::nullopt, &target};
-  const Curve next{false, machine_point(run, stop), direction(start, end) + turned, 0};
+  const OffsetCurve next{false, machine_point(run, stop), direction(start, end) + turned, 0};
   if (!run.held.empty() && !join(run, entry, next, is_rapid, feed)) return false;
   Hold(run).line(moved_to(run, target, stop), is_rapid, feed);
   programmed_at(run, end);
@@ -339,7 +339,7 @@ bool trimmed_arc(Run& run, const Target& target, PlaneVector center, Turn turn, 
   const double turned = run.state.rotation * (Angle::kPi / 180);
   const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)),
                     (inside ? outward + Angle::kPi : outward) + turned, turn, &target};
-  const Curve next{true, machine_point(run, center), 0, path};
+  const OffsetCurve next{true, machine_point(run, center), 0, path};
   if (!run.held.empty() && !join(run, entry, next, false, feed)) return false;
   const PlaneVector stop = along(center, direction(center, end), path);
   const double sweep = sweep_of(center, tool_point(run), stop, turn) + 360 * (full_circles - 1);

@@ -9,16 +9,16 @@ namespace dripline::interpreter::rs274ngc {
 namespace {
 
 /// Radians; corners this small are none.
-constexpr double kStraightOn = 0.01;
+constexpr double kNoCorner = 0.01;
 
-enum class Corner : std::uint8_t { StraightOn, Convex, Concave };
+enum class CornerKind : std::uint8_t { StraightOn, Convex, Concave };
 
 /// Rotates the tool's normal from where it is to `normal`.
-Corner corner_to(const Run& run, double normal) {
+CornerKind corner_to(const Run& run, double normal) {
   const double old_normal = direction(programmed_point(run), tool_point(run));
-  const double turn = turned_into(side_sign(run) * (old_normal - normal), -kStraightOn);
-  if (turn <= kStraightOn) return Corner::StraightOn;
-  return turn <= Angle::kPi + kStraightOn ? Corner::Convex : Corner::Concave;
+  const double turn = turned_into(side_sign(run) * (old_normal - normal), -kNoCorner);
+  if (turn <= kNoCorner) return CornerKind::StraightOn;
+  return turn <= Angle::kPi + kNoCorner ? CornerKind::Convex : CornerKind::Concave;
 }
 
 /// Both parts of a move with a corner arc share its time.
@@ -33,9 +33,9 @@ struct CornerArc {
   double sweep = 0;
 };
 
-CornerArc plan_corner(const Run& run, Corner corner, double normal) {
+CornerArc plan_corner(const Run& run, CornerKind corner, double normal) {
   CornerArc arc;
-  if (corner != Corner::Convex) return arc;
+  if (corner != CornerKind::Convex) return arc;
   arc.is_needed = true;
   const PlaneVector center = programmed_point(run);
   arc.end = along(center, normal, run.state.compensation.radius);
@@ -51,7 +51,7 @@ bool make_corner(Run& run, const CornerArc& arc, const Target& next, const Feed&
 }
 
 /// The line from the programmed point stays tangent to the tool where it begins.
-bool enter_on_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
+bool nist_entry_on_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
   const double radius = run.state.compensation.radius;
   const PlaneVector tool = tool_point(run);
   const PlaneVector end = point_of(run, target.to);
@@ -79,15 +79,15 @@ bool nist_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) 
     programmed_at(run, end);
     return true;
   }
-  if (run.state.compensation.is_first) return enter_on_line(run, target, is_rapid, feed);
+  if (run.state.compensation.is_first) return nist_entry_on_line(run, target, is_rapid, feed);
   const PlaneVector start = programmed_point(run);
   if (end == start) {
     move_to(run, moved_to(run, target, tool_point(run)), is_rapid, feed);
     return true;
   }
   const double normal = direction(start, end) + side_sign(run) * kQuarter;
-  const Corner corner = corner_to(run, normal);
-  if (corner == Corner::Concave) return run.fail(ErrorCode::ConcaveCorner, 0);
+  const CornerKind corner = corner_to(run, normal);
+  if (corner == CornerKind::Concave) return run.fail(ErrorCode::ConcaveCorner, 0);
   const CornerArc arc = is_rapid ? CornerArc{} : plan_corner(run, corner, normal);
   const double arc_length = corner_length(run, arc);
   const double length = distance(start, end);
@@ -126,8 +126,8 @@ bool entry_center_of_radius(Run& run, PlaneVector end, Turn turn, PlaneVector& c
   return true;
 }
 
-bool enter_on_arc(Run& run, const Target& target, PlaneVector center, Turn turn,
-                  double full_circles, const Feed& feed) {
+bool nist_entry_on_arc(Run& run, const Target& target, PlaneVector center, Turn turn,
+                       double full_circles, const Feed& feed) {
   const double tool_radius = run.state.compensation.radius;
   const PlaneVector tool = tool_point(run);
   const PlaneVector end = point_of(run, target.to);
@@ -160,7 +160,8 @@ bool enter_on_arc(Run& run, const Target& target, PlaneVector center, Turn turn,
 bool nist_arc(Run& run, const Target& target, PlaneVector center, Turn turn, double full_circles,
               const Feed& feed) {
   const Compensation& compensation = run.state.compensation;
-  if (compensation.is_first) return enter_on_arc(run, target, center, turn, full_circles, feed);
+  if (compensation.is_first)
+    return nist_entry_on_arc(run, target, center, turn, full_circles, feed);
   const PlaneVector start = programmed_point(run);
   const PlaneVector end = point_of(run, target.to);
   const bool inside = is_inside(run, turn);
@@ -168,8 +169,9 @@ bool nist_arc(Run& run, const Target& target, PlaneVector center, Turn turn, dou
   if (inside && radius <= compensation.radius) return run.fail(ErrorCode::CompArcRadius, 0);
   const double outward = direction(center, start);
   const double normal = inside ? outward + Angle::kPi : outward;
-  const Corner corner = compensation.radius == 0 ? Corner::StraightOn : corner_to(run, normal);
-  if (corner == Corner::Concave) return run.fail(ErrorCode::ConcaveCorner, 0);
+  const CornerKind corner =
+      compensation.radius == 0 ? CornerKind::StraightOn : corner_to(run, normal);
+  if (corner == CornerKind::Concave) return run.fail(ErrorCode::ConcaveCorner, 0);
   const CornerArc arc = plan_corner(run, corner, normal);
   const double sweep = sweep_of(center, start, end, turn) + 360 * (full_circles - 1);
   const double path = inside ? radius - compensation.radius : radius + compensation.radius;

@@ -10,9 +10,6 @@
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
-constexpr std::size_t kX = index_of(Axis::X);
-constexpr std::size_t kY = index_of(Axis::Y);
-
 /// Origins have changed; the machine has not moved.
 void keep_machine(Run& run) {
   run.state.position = to_program(run, values_of(run.state.machine));

@@ -7,6 +7,8 @@
 /// system.
 namespace dripline::interpreter::rs274ngc {
 
+inline constexpr std::size_t kX = index_of(Axis::X), kY = index_of(Axis::Y);
+
 /// Machine coordinates of a program point; no axis is marked as moved that was not.
 Position to_machine(const Run& run, const Axes& program);
 /// The inverse; `machine` in millimeters and degrees.

@@ -30,7 +30,7 @@ Result<void> for_each_line(std::string_view text, Use use) {
 }
 
 /// Takes the text up to the next blank off the line.
-std::string_view take_word(std::string_view& line) {
+std::string_view next_word(std::string_view& line) {
   const std::size_t end = std::min(line.find_first_of(kBlanks), line.size());
   const std::string_view word = line.substr(0, end);
   line.remove_prefix(std::min(line.find_first_not_of(kBlanks, end), line.size()));
@@ -55,16 +55,16 @@ std::optional<int> whole_of(std::string_view text, int most) {
   return static_cast<int>(*value);
 }
 
-struct Row {
+struct TableRow {
   std::optional<int> number, pocket;
   std::map<char, double> values;  ///< by its letter, as written
 };
 
-Result<Row> read_row(std::string_view line, std::size_t at) {
+Result<TableRow> read_row(std::string_view line, std::size_t at) {
   constexpr int kMostTools = 99'999;
-  Row row;
+  TableRow row;
   while (!line.empty()) {
-    const std::string_view word = take_word(line);
+    const std::string_view word = next_word(line);
     const char letter = word.front() >= 'a' && word.front() <= 'z'
                             ? static_cast<char>(word.front() - 'a' + 'A')
                             : word.front();
@@ -98,7 +98,7 @@ struct SetupText {
   }
 };
 
-Result<void> add_tool(const Row& row, double mm_per_unit, std::size_t at, SetupText& text) {
+Result<void> add_tool(const TableRow& row, double mm_per_unit, std::size_t at, SetupText& text) {
   text.tools += fmt::format("\n[[tool]]\nnumber = {}\npocket = {}\n", *row.number, *row.pocket);
   for (const auto& [letter, value] : row.values) {
     const std::string cell = fmt::format("tool.{}.", *row.number);
@@ -131,8 +131,8 @@ Result<void> add_tool(const Row& row, double mm_per_unit, std::size_t at, SetupT
 Result<std::map<int, double>> read_parameters(std::string_view file) {
   std::map<int, double> values;
   auto read = for_each_line(file, [&](std::string_view line, std::size_t at) -> Result<void> {
-    const auto number = whole_of(take_word(line), kAllParameters - 1);
-    const auto value = number_of(take_word(line));
+    const auto number = whole_of(next_word(line), kAllParameters - 1);
+    const auto value = number_of(next_word(line));
     if (!number || *number == 0 || !value || !line.empty())
       return fail(Errc::Syntax, "parameter file, line {}: a number from 1 to {} and its value", at,
                   kAllParameters - 1);
@@ -222,7 +222,7 @@ bool is_tool_table(std::string_view text) {
 
 bool is_parameter_file(std::string_view text) {
   std::string_view line = first_line(text);
-  const bool are_numbers = number_of(take_word(line)) && number_of(take_word(line));
+  const bool are_numbers = number_of(next_word(line)) && number_of(next_word(line));
   return are_numbers && line.empty();
 }
 

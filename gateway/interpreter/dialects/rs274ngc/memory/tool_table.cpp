@@ -11,8 +11,6 @@ namespace {
 
 constexpr int kOrientations = 9;
 constexpr int kToolFixture = 9;  ///< G59.3
-constexpr std::size_t kX = index_of(Axis::X);
-constexpr std::size_t kY = index_of(Axis::Y);
 
 bool check_tool_words(Run& run, int l) {
   const Words& words = run.block.words;

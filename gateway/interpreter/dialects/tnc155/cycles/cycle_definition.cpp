@@ -122,11 +122,6 @@ void warn_of_graphics(Run& run) {
 
 namespace {
 
-constexpr int kDatumShift = 7;
-constexpr int kMirror = 8;
-constexpr int kDwell = 9;
-constexpr int kRotation = 10;
-constexpr int kScaling = 11;
 constexpr double kLongestDwell = 19'999.999;
 constexpr double kMaxRotation = 360;
 

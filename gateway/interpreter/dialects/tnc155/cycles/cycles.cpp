@@ -13,12 +13,11 @@
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
 namespace {
-
-enum Machining : std::uint8_t { kPecking = 1, kTapping, kSlot, kPocket, kCircle, kProgram = 12 };
 
 bool check_signs(Run& run, const MachiningCycle& cycle) {
   const double toward = cycle.depth;
@@ -62,7 +61,7 @@ bool check_room(Run& run, const MachiningCycle& cycle) {
   const double width =
       2 * run.state.tool.data.radius / run.state.transformation.factor(run.state.plane);
   if (!(width > 0)) return too_narrow(run, "no tool to mill", 0);
-  if (cycle.number == kCircle) {
+  if (cycle.number == kCircularPocket) {
     return 2 * cycle.radius > width || too_narrow(run, "circle radius", cycle.radius);
   }
   if (!check_sides(run, cycle)) return false;
@@ -87,7 +86,7 @@ double moves_of(const Run& run, const MachiningCycle& cycle) {
   if (cycle.number == kPecking) return 3 * pecks;
   if (cycle.number == kSlot) return 2 * pecks;
   const double widest =
-      cycle.number == kCircle
+      cycle.number == kCircularPocket
           ? cycle.radius
           : std::min(std::fabs(cycle.first_side), std::fabs(cycle.second_side)) / 2;
   return pecks * (4 + 6 * std::ceil(widest / stepover(run)));
@@ -166,7 +165,7 @@ bool check_machining(Run& run, const MachiningCycle& cycle) {
     return run.fail(ErrorCode::SpindleRotatesMissing, "M03 or M04 before a cycle");
   }
   if (!check_signs(run, cycle) || !check_feeds(run, cycle)) return false;
-  if (cycle.number == kCircle && !check_circle_plane(run)) return false;
+  if (cycle.number == kCircularPocket && !check_circle_plane(run)) return false;
   if (cycle.number >= kSlot && !check_room(run, cycle)) return false;
   return check_bounds(run, cycle);
 }
@@ -174,7 +173,7 @@ bool check_machining(Run& run, const MachiningCycle& cycle) {
 bool call_cycle(Run& run) {
   const MachiningCycle& cycle = run.state.cycle.machining;
   if (cycle.number == 0) return run.fail(ErrorCode::CycleIncomplete, "no cycle was defined");
-  if (cycle.number == kProgram) return call_cycle_program(run, cycle.program);
+  if (cycle.number == kProgramCall) return call_cycle_program(run, cycle.program);
   if (cycle.number >= itnc::kFirstTable) return itnc::run_table(run);
   if (!refuse_before_positioning(run, "a cycle call")) return false;
   if (!check_machining(run, cycle)) return false;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
+
 namespace dripline::interpreter::tnc155 {
 
 AheadSearch::AheadSearch(ProgramSource& source, ReaderOptions options) : reader_(source, options) {}
@@ -92,7 +94,7 @@ std::int32_t AheadSearch::called_program() const {
   if (!is_iso()) {
     const Block& block = parts_.blocks[0];
     const bool calls = block.kind == BlockKind::ProgramCall ||
-                       (block.kind == BlockKind::CycleDefinition && block.cycle == 12);
+                       (block.kind == BlockKind::CycleDefinition && block.cycle == kProgramCall);
     return calls ? block.target : Block::kNone;
   }
   const IsoBlock& block = reader_.iso_block();

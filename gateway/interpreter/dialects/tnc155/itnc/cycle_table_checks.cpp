@@ -23,7 +23,7 @@ bool is_allowed(CycleUse use, double value) {
   }
 }
 
-constexpr double kMaxPasses = 2000;
+constexpr double kMaxCyclePasses = 2000;
 
 bool check_spindle(Run& run, int cycle) {
   const State& state = run.state;
@@ -153,10 +153,10 @@ bool check_values(Run& run, const Table& table, int cycle) {
     if (!check_bore(run, table)) return false;
   }
   const double passes = passes_of(table);
-  if (passes <= kMaxPasses) return true;
+  if (passes <= kMaxCyclePasses) return true;
   return run.fail(ErrorCode::EntryOutOfRange,
                   fmt::format("CYCL DEF {} would be {:.0f} infeeds, at most {:.0f}", cycle, passes,
-                              kMaxPasses));
+                              kMaxCyclePasses));
 }
 
 bool define_table(Run& run, const Block& block) {

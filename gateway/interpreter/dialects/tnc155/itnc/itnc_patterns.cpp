@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMaxPoints = 2'000;
 /// Of a cycle with many infeeds: what one block may come to.
-constexpr double kMaxPasses = 20'000;
+constexpr double kMaxPatternPasses = 20'000;
 
 /// The words of a pattern.
 class Pattern {
@@ -130,10 +130,10 @@ void make(Run& run, const std::vector<PlaneVector>& points, bool stays_low) {
 
 bool check_size(Run& run, const Table& table, std::size_t points) {
   const double passes = static_cast<double>(points) * passes_of(table);
-  if (passes <= kMaxPasses) return true;
+  if (passes <= kMaxPatternPasses) return true;
   return run.fail(ErrorCode::EntryOutOfRange,
                   fmt::format("{} points of cycle {} would be {:.0f} infeeds, at most {:.0f}",
-                              points, run.state.cycle.machining.number, passes, kMaxPasses));
+                              points, run.state.cycle.machining.number, passes, kMaxPatternPasses));
 }
 
 /// With the pattern's words in those of the cycle.

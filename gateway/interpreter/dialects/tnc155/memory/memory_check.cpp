@@ -6,6 +6,7 @@
 #include "gateway/interpreter/dialects/tnc155/memory/program_memory.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -84,7 +85,8 @@ class Loading {
       case BlockKind::ProgramCall:
         return note_call(block.target, line);
       case BlockKind::CycleDefinition:
-        if (block.cycle == 12 && block.target != Block::kNone) note_call(block.target, line);
+        if (block.cycle == kProgramCall && block.target != Block::kNone)
+          note_call(block.target, line);
         return;
       default:
         return;

@@ -47,7 +47,7 @@ Result<void> read_display(const Options& options, ModSettings& settings) {
   return {};
 }
 
-Result<void> read_line(const Options& options, ModSettings& settings) {
+Result<void> read_line_settings(const Options& options, ModSettings& settings) {
   const auto increment = options.integer("block_increment", settings.block_increment);
   if (!increment) return fail(increment.error());
   if (*increment < 0 || *increment > kHighestIncrement) {
@@ -226,7 +226,7 @@ Result<void> read_user_parameters(const Options& options, ModSettings& settings)
 
 Result<ModSettings> read_mod_settings(const Options& options) {
   ModSettings settings;
-  for (auto* read : {&read_display, &read_line, &read_limits, &read_user_parameters}) {
+  for (auto* read : {&read_display, &read_line_settings, &read_limits, &read_user_parameters}) {
     if (auto done = read(options, settings); !done) return fail(done.error());
   }
   auto nc = software_number(options, "nc_software");

@@ -36,38 +36,39 @@ struct FeatureRow {
   bool is_of_all_models;  ///< else E and V have it not
 };
 
-using enum Feature;
 constexpr std::array kFeatures{
-    FeatureRow{ThreeAxisLines, "straight lines of three axes at once", kAlways, kAlways, false},
-    FeatureRow{Helix, "helices", kAlways, kAlways, false},
-    FeatureRow{BlockwiseTransfer, "transfer blockwise", kAlways, kAlways, false},
-    FeatureRow{Graphics, "graphics", kNever, kAlways, true},
-    FeatureRow{SplitFeed, "feed split between linear and rotary axes", kAlways, 3, true},
-    FeatureRow{ToolStore, "central tool store", 3, 3, true},
-    FeatureRow{NextTool, "search for the next tool", kAlways, 2, true},
-    FeatureRow{Hardcopy, "hardcopy of its graphics", kNever, 3, true},
-    FeatureRow{HardcopyIn8Bits, "hardcopy with 8 data bits by itself", kNever, 8, true},
-    FeatureRow{PrinterParameters, "machine parameters 225 to 234", kAlways, 3, true},
-    FeatureRow{LaterParameters, "machine parameters 235 and 236", kAlways, 6, true},
-    FeatureRow{FastSpindle, "speeds above 9000", kAlways, 6, true},
-    FeatureRow{TouchProbe, "touch probe functions", kAlways, 6, true},
-    FeatureRow{SectionProjections, "US projection of three planes", kNever, 6, true},
-    FeatureRow{StopBlock, "G38", 8, 8, true},
+    FeatureRow{Feature::ThreeAxisLines, "straight lines of three axes at once", kAlways, kAlways,
+               false},
+    FeatureRow{Feature::Helix, "helices", kAlways, kAlways, false},
+    FeatureRow{Feature::BlockwiseTransfer, "transfer blockwise", kAlways, kAlways, false},
+    FeatureRow{Feature::Graphics, "graphics", kNever, kAlways, true},
+    FeatureRow{Feature::SplitFeed, "feed split between linear and rotary axes", kAlways, 3, true},
+    FeatureRow{Feature::ToolStore, "central tool store", 3, 3, true},
+    FeatureRow{Feature::NextTool, "search for the next tool", kAlways, 2, true},
+    FeatureRow{Feature::Hardcopy, "hardcopy of its graphics", kNever, 3, true},
+    FeatureRow{Feature::HardcopyIn8Bits, "hardcopy with 8 data bits by itself", kNever, 8, true},
+    FeatureRow{Feature::PrinterParameters, "machine parameters 225 to 234", kAlways, 3, true},
+    FeatureRow{Feature::LaterParameters, "machine parameters 235 and 236", kAlways, 6, true},
+    FeatureRow{Feature::FastSpindle, "speeds above 9000", kAlways, 6, true},
+    FeatureRow{Feature::TouchProbe, "touch probe functions", kAlways, 6, true},
+    FeatureRow{Feature::SectionProjections, "US projection of three planes", kNever, 6, true},
+    FeatureRow{Feature::StopBlock, "G38", 8, 8, true},
 };
 
-constexpr bool is_in_order() {
+constexpr bool are_features_in_order() {
   for (std::size_t i = 0; i < kFeatures.size(); ++i) {
     if (static_cast<std::size_t>(kFeatures[i].feature) != i) return false;
   }
-  return kFeatures.size() == static_cast<std::size_t>(Count);
+  return kFeatures.size() == static_cast<std::size_t>(Feature::Count);
 }
-static_assert(is_in_order());
+static_assert(are_features_in_order());
 
 constexpr std::uint32_t bit(Feature feature) {
   return 1u << static_cast<unsigned>(feature);
 }
-constexpr std::uint32_t kOfBlocks = bit(ThreeAxisLines) | bit(Helix) | bit(NextTool) |
-                                    bit(FastSpindle) | bit(TouchProbe) | bit(StopBlock);
+constexpr std::uint32_t kOfBlocks = bit(Feature::ThreeAxisLines) | bit(Feature::Helix) |
+                                    bit(Feature::NextTool) | bit(Feature::FastSpindle) |
+                                    bit(Feature::TouchProbe) | bit(Feature::StopBlock);
 
 int first_software(const FeatureRow& row, std::size_t model) {
   if (!row.is_of_all_models && is_limited(model)) return kNever;

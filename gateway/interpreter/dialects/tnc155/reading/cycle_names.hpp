@@ -28,7 +28,21 @@ struct CyclePart {
   std::string_view word;  ///< as the control writes it; for Name that of the cycle
 };
 
-inline constexpr int kLastCycle = 12;
+/// The cycles by their numbers.
+enum CycleNumber : std::uint8_t {
+  kPecking = 1,
+  kTapping,
+  kSlot,
+  kPocket,
+  kCircularPocket,
+  kDatumShift = 7,
+  kMirror,
+  kDwell,
+  kRotation,
+  kScaling,
+  kProgramCall
+};
+inline constexpr int kLastCycle = kProgramCall;
 
 /// The sub-blocks of a cycle, first its name; empty for a number that is no cycle. Of the datum
 /// shift all four are listed and the first two are needed.

@@ -4,6 +4,7 @@
 
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
@@ -33,8 +34,9 @@ Result<ProgramCalls> calls_of(const Result<ControlOptions>& options, ProgramSour
       continue;
     }
     for (const Block& block : parts) {
-      const bool is_call = block.kind == BlockKind::ProgramCall || block.kind == BlockKind::Print ||
-                           (block.kind == BlockKind::CycleDefinition && block.cycle == 12);
+      const bool is_call =
+          block.kind == BlockKind::ProgramCall || block.kind == BlockKind::Print ||
+          (block.kind == BlockKind::CycleDefinition && block.cycle == kProgramCall);
       const bool has_name = is_call && !parts.itnc.name.empty();
       if (!is_call || (block.target == Block::kNone && !has_name)) continue;
       calls.add({.name = has_name ? parts.itnc.name : fmt::format("{}", block.target),

@@ -9,8 +9,6 @@ namespace dripline::interpreter::tnc155 {
 
 namespace {
 
-constexpr int kMirror = 8;
-
 bool check_value(Run& run, std::string_view name, const Value& value, const Range& range) {
   if (!value.is_q()) return true;
   constexpr double kSteps = static_cast<double>(kUnit);
