@@ -16,6 +16,7 @@
 #include "gateway/machine/execution_sink.hpp"
 #include "gateway/machine/machine_status.hpp"
 #include "gateway/machine/operator_panel.hpp"
+#include "gateway/machine/position_trust.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::machine {
@@ -209,6 +210,7 @@ class MotionBackend {
   /// Where the axes rest, after a motion that was cut off too; nothing: they move, or have lost
   /// their position.
   virtual std::optional<GivenAction::Point> rests_at() const { return std::nullopt; }
+  virtual PositionTrust position_trust() const { return PositionTrust::Kept; }
 };
 
 /// Makes a back end that reports to `sink`, which outlives it. A device was opened before.

@@ -1,6 +1,7 @@
 #include "gateway/app/restart/restart_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dripline::gateway {
 
@@ -79,6 +80,52 @@ Result<void> resolve_place(RestartPlan& plan,
               plan.original.run, executed, last - executed,
               rests_at ? axes_text(*rests_at, plan.ending.in_hand) : " at a place not known",
               executed + 1, last + 1);
+}
+
+/// Of the axes that are not at 0.
+std::string position_text(const interpreter::Position& at) {
+  std::string text;
+  for (const interpreter::Axis axis : interpreter::kAllAxes)
+    if (at.raw(axis) != 0)
+      text += fmt::format(" {}{:.3f}", interpreter::letter(axis), at.raw(axis));
+  return text.empty() ? " 0" : text;
+}
+
+std::string_view words_of(machine::PositionTrust trust) {
+  switch (trust) {
+    case machine::PositionTrust::Reconnected:
+      return "the machine was connected since, and may have been switched off";
+    case machine::PositionTrust::Unlocked:
+      return "the machine has lost its position since and was unlocked without homing";
+    default:
+      return "the machine has lost its position since";
+  }
+}
+
+/// After the end of what was executed the path continues from machine coordinates: they are those
+/// of the run, or it is refused.
+Result<void> check_trust(const RestartPlan& plan, const PresentState& present) {
+  using machine::PositionTrust;
+  constexpr double kSamePlace = 0.002;  // mm or degrees; the same axes report the same
+  const std::uint64_t executed = plan.ending.executed.executed;
+  if (plan.at.kind == Kind::Block || plan.known_target() != executed) return {};
+  if (present.trust == PositionTrust::Kept || present.trust == PositionTrust::Homed) return {};
+  const auto& stopped = plan.ending.stopped_at;
+  const auto& now = present.conditions.begun_at;
+  const auto differs = [&](interpreter::Axis axis) {
+    return std::fabs(stopped->raw(axis) - now.raw(axis)) > kSamePlace;
+  };
+  // The count of a board that was only stopped while it moved is the same, and says nothing.
+  const bool may_be_kept = present.trust == PositionTrust::Reconnected && stopped;
+  if (may_be_kept && std::ranges::none_of(interpreter::kAllAxes, differs)) return {};
+  return fail(Errc::Conflict,
+              "run {}: {}{}: home the machine, or look at the part and name the block that "
+              "continues, block={}",
+              plan.original.run, words_of(present.trust),
+              may_be_kept ? fmt::format(", and its axes are at{}, where that run stopped at{}",
+                                        position_text(now), position_text(*stopped))
+                          : "",
+              executed + 1);
 }
 
 Result<void> check_place(const RestartPlan& plan) {
@@ -160,6 +207,7 @@ Result<RestartPlan> plan_restart(storage::sqlite::Database& database,
   }
   if (auto resolved = resolve_place(plan, present.rests_at); !resolved)
     return fail(resolved.error());
+  if (auto trusted = check_trust(plan, present); !trusted) return fail(trusted.error());
   const std::string changed = changes(plan.original, plan.conditions, plan.ending, present);
   if (!changed.empty())
     return fail(Errc::Conflict, "changed since run {}: {}", argument.run, changed);

@@ -5,6 +5,7 @@
 
 #include "gateway/app/restart/checkpoint.hpp"
 #include "gateway/app/restart/restart_argument.hpp"
+#include "gateway/machine/position_trust.hpp"
 
 namespace dripline::gateway {
 
@@ -14,7 +15,8 @@ struct PresentState {
   std::uint64_t size = 0;
   Conditions conditions;                                ///< of a start at the first block
   std::optional<machine::GivenAction::Point> rests_at;  ///< the axes, where that is known
-  std::string memory;                                   ///< digest of what the control keeps
+  machine::PositionTrust trust = machine::PositionTrust::Kept;
+  std::string memory;  ///< digest of what the control keeps
 };
 
 /// A restart that can begin: the run that was cut off, and its checkpoints.

@@ -158,6 +158,8 @@ class RunLoop {
   std::optional<Modes> modes_of_part_;  ///< those that the program of the tape has begun with
   bool is_jogging_ = false;             ///< from where `modes_` were
   bool is_keyed_in_ = false;            ///< of this run: Modes::is_keyed_in
+  std::string
+      last_run_;  ///< that may have moved the machine; empty: none since the gateway was started
   std::string why_no_modes_ = "nothing has run since the gateway was started";
   std::string notice_;
   std::string setup_given_;  ///< digest of the server's setup of this run

@@ -25,13 +25,19 @@ Conditions RunLoop::conditions_of(const StartOrigin& origin) const {
 Result<std::optional<RestartPlan>> RunLoop::plan_of(const report::ActiveRun& run,
                                                     const StartOrigin& origin) const {
   if (!origin.from.restart) return std::optional<RestartPlan>();
-  auto plan = plan_restart(parts_.outbox.database(), *origin.from.restart,
-                           {.revision = run.revision,
-                            .control = run.control,
-                            .size = run.size,
-                            .conditions = conditions_of(origin),
-                            .rests_at = parts_.machine.rests_at(),
-                            .memory = parts_.memory.digest()});
+  // A later run has moved the axes, and its device may have lost the position before.
+  const bool is_last = last_run_ == origin.from.restart->run;
+  const auto rests_at = is_last || last_run_.empty() ? parts_.machine.rests_at() : std::nullopt;
+  const bool is_kept = is_last && rests_at;
+  auto plan = plan_restart(
+      parts_.outbox.database(), *origin.from.restart,
+      {.revision = run.revision,
+       .control = run.control,
+       .size = run.size,
+       .conditions = conditions_of(origin),
+       .rests_at = rests_at,
+       .trust = is_kept ? machine::PositionTrust::Kept : parts_.machine.position_trust(),
+       .memory = parts_.memory.digest()});
   if (!plan) return fail(plan.error().code, "restart: {}", plan.error().what);
   return std::optional(*std::move(plan));
 }
@@ -110,7 +116,12 @@ void RunLoop::resolve_interrupted(const std::string& run, RunEnding& ending) {
     (void)parts_.machine.poll(machine::Seconds{0}, 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  if (at) ending.stopped_at = parts_.machine.status().axes();
+  if (at) {
+    // Not of the status: before a board is identified that has no axes.
+    ending.stopped_at.emplace();
+    for (const interpreter::Axis axis : interpreter::kAllAxes)
+      ending.stopped_at->set_raw(axis, (*at)[static_cast<std::size_t>(axis)]);
+  }
   (void)resolve(ending.in_hand, at, ending.executed);
 }
 

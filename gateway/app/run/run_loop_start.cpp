@@ -160,6 +160,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
     return done;
   }
 
+  if (!tests) last_run_ = run.run;
   parts_.journal.begin(run.run);
   parts_.on_begin(*setup);
   if (tests) {

@@ -32,6 +32,7 @@ void BoardSession::on(const OkReply&, SteadyTime now) {
   std::string line;
   if (counter_.answered(line)) {
     resting_since_.reset();
+    if (homing_limit_ && trust_ == PositionTrust::Lost) trust_ = reference_;
     end_homing(now);
     if (line.front() != '$') tracker_.answered();
     if (take_jog_answer(line, now)) return;
@@ -76,7 +77,7 @@ void BoardSession::end_homing(SteadyTime now) {
 
 void BoardSession::on(const AlarmReply& alarm, SteadyTime now) {
   last_alarm_ = fmt::format(" {} ({})", alarm.code, alarm_text(alarm.code));
-  keeps_position_ = false;
+  if (!grbl::keeps_position(alarm.code)) lose_position();
   if (phase_ != Phase::Ready || stop_ != Stop::None) return;
   end_homing(now);
   if (is_active_)
@@ -88,7 +89,7 @@ void BoardSession::on(const Greeting& greeting, SteadyTime now) {
   const bool is_expected = phase_ == Phase::Resetting || phase_ == Phase::Waking;
   const Stop stop = std::exchange(stop_, Stop::None);
   const bool was_ready = phase_ == Phase::Ready;
-  if (phase_ != Phase::Resetting) keeps_position_ = false;
+  if (phase_ != Phase::Resetting && !std::exchange(awaits_greeting_, false)) lose_position();
   if (phase_ == Phase::Silent) return;
   drop_lines();
   report_.reset();
@@ -170,6 +171,8 @@ void BoardSession::on(const StatusReport& report, SteadyTime now) {
   report_ = report;
   reported_at_ = now;
   take_position(report);
+  if (std::exchange(is_new_line_, false) && report.state == BoardState::Alarm)
+    lose_position();  // a board that homes wakes up like this
   if (phase_ == Phase::Waking) {
     // A board that moves without its program is stopped, never left to itself.
     if (stop_ == Stop::None && report.rests())

@@ -22,7 +22,9 @@ void BoardSession::opened(SteadyTime now) {
   wants_reopen_ = false;
   stop_ = Stop::None;
   phase_ = Phase::Waking;
-  keeps_position_ = true;
+  keeps_position_ = is_new_line_ = true;
+  awaits_greeting_ = false;
+  if (trust_ == PositionTrust::Homed) trust_ = PositionTrust::Reconnected;
   not_ready_ = "the board has not answered yet";
   phase_began_ = now;
   next_poll_ = now;
@@ -151,7 +153,10 @@ void BoardSession::watch_answers(SteadyTime now) {
 // -- the program ---------------------------------------------------------------------------------
 
 void BoardSession::set_active(bool is_active, SteadyTime) {
-  if (is_active && !is_active_) garbage_ = 0;
+  if (is_active && !is_active_) {
+    garbage_ = 0;
+    keeps_position_ = true;  // from here on
+  }
   if (!is_active) preamble_ = Preamble::None;
   is_active_ = is_active;
 }
@@ -305,7 +310,8 @@ Result<void> BoardSession::reference(bool is_homing, SteadyTime now) {
   if (!is_at_rest || stop_ != Stop::None || counter_.unanswered_lines() > 0)
     return fail(Errc::Busy, "the board is not at rest");
   send_system(is_homing ? "$H" : "$X");
-  if (is_homing) keeps_position_ = false;
+  if (is_homing) lose_position();
+  reference_ = is_homing ? PositionTrust::Homed : PositionTrust::Unlocked;
   homing_limit_ = now + (is_homing ? limits_.homing : limits_.answer);
   return {};
 }
@@ -336,6 +342,7 @@ void BoardSession::stop(bool is_emergency, SteadyTime now) {
     case Phase::Silent:  // it was reset, but may not have obeyed
       real_time(kFeedHold);
       real_time(kSoftReset);
+      awaits_greeting_ = true;
       return;
     case Phase::Closed:
     case Phase::Resetting:
@@ -345,7 +352,7 @@ void BoardSession::stop(bool is_emergency, SteadyTime now) {
 }
 
 void BoardSession::reset_board(SteadyTime now) {
-  if (!report_ || !report_->rests()) keeps_position_ = false;
+  if (!report_ || !report_->rests()) lose_position();
   drop_output();  // lines that have not left must not reach a board that was reset
   real_time(kSoftReset);
   splitter_.reset();
@@ -360,7 +367,18 @@ void BoardSession::restart(SteadyTime now) {
   is_held_ = is_resuming_ = false;
   garbage_ = 0;
   if (phase_ == Phase::Closed) return;
+  const PositionTrust trust = trust_;
+  const bool is_kept = keeps_position_;
   opened(now);
+  // The line was open all the time.
+  trust_ = trust;
+  keeps_position_ = is_kept;
+  is_new_line_ = false;
+}
+
+void BoardSession::lose_position() {
+  trust_ = PositionTrust::Lost;
+  keeps_position_ = false;
 }
 
 bool BoardSession::is_connected() const {

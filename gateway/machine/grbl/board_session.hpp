@@ -71,6 +71,7 @@ class BoardSession final : public streamed::Device {
   bool is_at_rest() const override { return report_ && report_->state == BoardState::Idle; }
   const Coordinates& position() const override { return position_; }
   bool keeps_position() const override { return keeps_position_; }
+  PositionTrust position_trust() const override { return trust_; }
   void drop_probe() override { probe_.reset(); }
   std::optional<streamed::ProbeEnd> probe() const override;
   void raise(std::string_view id, std::string text, SteadyTime now) override;
@@ -142,6 +143,7 @@ class BoardSession final : public streamed::Device {
   void reset_board(SteadyTime now);
   void drop_lines();
   void end_homing(SteadyTime now);
+  void lose_position();
   void cancel_jog(SteadyTime now);
   void end_jog(std::string fault);
   bool take_jog_answer(const std::string& line, SteadyTime now);
@@ -171,7 +173,11 @@ class BoardSession final : public streamed::Device {
   std::optional<StatusReport> report_;
   Coordinates position_{};
   bool has_position_ = false;
-  bool keeps_position_ = false;  ///< the board has not restarted since the line was opened
+  bool keeps_position_ = false;   ///< since the last program began, or the line was opened
+  bool is_new_line_ = false;      ///< nothing was reported over it yet
+  bool awaits_greeting_ = false;  ///< after a reset of ours whose end is not waited for
+  PositionTrust trust_ = PositionTrust::Reconnected;
+  PositionTrust reference_ = PositionTrust::Lost;  ///< that homing or unlocking leads to
   std::optional<AxisValues> work_offset_;
   std::optional<ModesReply> modes_;
   std::string work_system_;  ///< that the program's lines are in

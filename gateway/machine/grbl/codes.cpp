@@ -89,6 +89,11 @@ std::string_view alarm_text(int code) {
   return find(kAlarms, code, "an alarm that only the firmware's manual explains");
 }
 
+bool keeps_position(int alarm) {
+  constexpr int kOutsideTravel = 2, kProbeNotAtRest = 4, kNoContact = 5;
+  return alarm == kOutsideTravel || alarm == kProbeNotAtRest || alarm == kNoContact;
+}
+
 std::string_view error_text(int code) {
   return find(kErrors, code, "an error that only the firmware's manual explains");
 }

@@ -8,6 +8,8 @@ namespace dripline::machine::grbl {
 
 /// What has happened, and whether the position is still right.
 std::string_view alarm_text(int code);
+/// The axes have stopped under control, and the board knows where: of the alarm with this number.
+bool keeps_position(int alarm);
 /// Why the board did not take a line.
 std::string_view error_text(int code);
 

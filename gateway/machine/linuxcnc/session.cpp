@@ -184,6 +184,12 @@ Coordinates Session::in_mm(const Coordinates& values) const {
   return result;
 }
 
+PositionTrust Session::position_trust() const {
+  if (!status_) return PositionTrust::Reconnected;
+  const bool is_homed = status_->is_homed && !status_->is_homing;
+  return is_homed ? PositionTrust::Homed : PositionTrust::Lost;
+}
+
 void Session::on(const StatusReply& status, SteadyTime now) {
   if (phase_ != Phase::Ready) return;
   const bool is_changed = status_ != status;

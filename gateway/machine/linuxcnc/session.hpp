@@ -70,6 +70,7 @@ class Session final : public streamed::Device {
   bool keeps_position() const override {
     return keeps_position_ && status_ && status_->interpreter == InterpreterState::Idle;
   }
+  PositionTrust position_trust() const override;
   std::optional<bool> is_touching() const override;
   void drop_probe() override {}
   std::optional<streamed::ProbeEnd> probe() const override;
@@ -151,7 +152,7 @@ class Session final : public streamed::Device {
   streamed::TextRules rules_;
   std::optional<StatusReply> status_;
   Coordinates position_{};
-  bool keeps_position_ = false;  ///< homed all the time since the helper was started
+  bool keeps_position_ = false;  ///< homed since the helper was started or the last program began
   std::string trouble_ = "LinuxCNC is not connected", reopen_reason_;
   std::optional<streamed::DeviceFault> fault_;
   std::string last_error_;  ///< LinuxCNC's, of this program

@@ -108,6 +108,7 @@ void Session::set_active(bool is_active, SteadyTime now) {
   stopped_since_.reset();
   if (is_active) {
     garbage_ = 0;
+    keeps_position_ = true;  // from here on
     last_error_.clear();
     return;
   }

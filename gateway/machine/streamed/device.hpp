@@ -63,8 +63,9 @@ class Device {
   virtual bool finish(SteadyTime /*now*/) { return true; }
   /// In machine coordinates.
   virtual const Coordinates& position() const = 0;
-  /// `position` is that of before the link was opened: neither lost nor taken for right.
+  /// `position` is that of since the last program began, or the link was opened.
   virtual bool keeps_position() const = 0;
+  virtual PositionTrust position_trust() const = 0;
   /// Whether the probe is in contact now; nothing: the device does not report it.
   virtual std::optional<bool> is_touching() const { return std::nullopt; }
   virtual void drop_probe() = 0;

@@ -54,7 +54,14 @@ const MotionCapabilities& StreamedMachine::capabilities() const {
 
 Result<void> StreamedMachine::check_device() const {
   if (auto ready = device_.check_ready(); !ready) return ready;
-  return check_machine(stated_, device_.rules());
+  if (auto same = check_machine(stated_, device_.rules()); !same) return same;
+  const PositionTrust trust = device_.position_trust();
+  if (stated_.homing == true && (trust == PositionTrust::Unlocked || trust == PositionTrust::Lost))
+    return fail(
+        Errc::Conflict,
+        "the setup says that the machine is homed before programs (homing), and it has lost "
+        "its position since: home it");
+  return {};
 }
 
 Result<void> StreamedMachine::check_begin(const Position& at) const {
@@ -276,6 +283,11 @@ std::optional<GivenAction::Point> StreamedMachine::rests_at() const {
   if (!device_.is_connected() || !device_.is_at_rest() || !device_.keeps_position())
     return std::nullopt;
   return device_.position();
+}
+
+PositionTrust StreamedMachine::position_trust() const {
+  const Lock lock(mutex_);
+  return device_.is_connected() ? device_.position_trust() : PositionTrust::Reconnected;
 }
 
 MachineState StreamedMachine::state() const {

@@ -66,6 +66,7 @@ class StreamedMachine : public MotionBackend {
   bool is_moving() const override;
   MachineStatus status() const override;
   std::optional<GivenAction::Point> rests_at() const override;
+  PositionTrust position_trust() const override;
 
   static constexpr std::size_t kMaxActions = 1024;  ///< that are not sent yet
   static constexpr std::size_t kMaxLines = 16 * kMaxActions;

@@ -29,6 +29,17 @@ const std::string kCalledLater = "O0562\nG91 Z-2.\nZ2.\nG90 M99\n";
 
 class RestartFaults : public testing::Test {
  protected:
+  /// Under which the run was executed.
+  PresentState unchanged(storage::sqlite::Database& database) const {
+    const auto stored = report::CheckpointStore::find(database, run).value();
+    PresentState now;
+    now.revision = stored.run.revision;
+    now.size = stored.run.size;
+    now.control = stored.run.control;
+    now.conditions = decode_conditions(run, stored.conditions).value();
+    now.memory = decode_ending(run, stored.ending)->memory;
+    return now;
+  }
   RestartFaults() : shop(interpreter::kFanucDialect, {}, "20x") {
     shop.set_checkpoint_interval(std::chrono::milliseconds(200));
     shop.push("P", kProgram);
@@ -212,18 +223,47 @@ TEST_F(RestartFaults, BelongsToItsMachine) {
   abort_at_stop();
   shop.close_gateway();
   auto database = storage::sqlite::Database::open(shop.folder() / "outbox.sqlite").value();
-  const auto stored = report::CheckpointStore::find(database, run).value();
-  PresentState now;
-  now.revision = stored.run.revision;
-  now.size = stored.run.size;
-  now.control = stored.run.control;
-  now.conditions = decode_conditions(run, stored.conditions).value();
-  now.memory = decode_ending(run, stored.ending)->memory;
+  PresentState now = unchanged(database);
   EXPECT_TRUE(plan_restart(database, {run, {}}, now));
   now.conditions.machine = "lathe-2";
   const auto refused = plan_restart(database, {run, {}}, now);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().what, HasSubstr("the machine was lathe-1, it is lathe-2"));
+}
+
+TEST_F(RestartFaults, ALostPositionIsNotContinuedFrom) {
+  using machine::PositionTrust;
+  abort_at_stop();
+  shop.close_gateway();
+  auto database = storage::sqlite::Database::open(shop.folder() / "outbox.sqlite").value();
+  PresentState now = unchanged(database);
+  const auto stored = report::CheckpointStore::find(database, run).value();
+  const RunEnding ending = decode_ending(run, stored.ending).value();
+  ASSERT_TRUE(ending.stopped_at);
+  now.conditions.begun_at = *ending.stopped_at;
+  for (const auto trust : {PositionTrust::Kept, PositionTrust::Homed, PositionTrust::Reconnected}) {
+    now.trust = trust;
+    EXPECT_TRUE(plan_restart(database, {run, {}}, now)) << "the axes are where the run stopped";
+  }
+  for (const auto trust : {PositionTrust::Unlocked, PositionTrust::Lost}) {
+    now.trust = trust;
+    EXPECT_FALSE(plan_restart(database, {run, {}}, now)) << "the count of a board is no proof";
+  }
+  now.conditions.begun_at.set_raw(interpreter::Axis::X,
+                                  ending.stopped_at->raw(interpreter::Axis::X) + 0.01);
+  for (const auto trust : {PositionTrust::Kept, PositionTrust::Homed}) {
+    now.trust = trust;
+    EXPECT_TRUE(plan_restart(database, {run, {}}, now)) << "machine coordinates are the same";
+  }
+  for (const auto trust :
+       {PositionTrust::Reconnected, PositionTrust::Unlocked, PositionTrust::Lost}) {
+    now.trust = trust;
+    const auto refused = plan_restart(database, {run, {}}, now);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().what, AllOf(HasSubstr("home the machine"), HasSubstr("block=")));
+    EXPECT_TRUE(plan_restart(database, {run, parse_restart_place("block=1").value()}, now))
+        << "named by who has looked";
+  }
 }
 
 TEST_F(RestartFaults, ACalledProgramThatChangedIsNamed) {

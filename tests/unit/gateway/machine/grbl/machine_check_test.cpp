@@ -20,10 +20,13 @@ std::string refusal(std::string_view toml, std::map<int, std::string> settings =
 }
 
 TEST(GrblMachineCheck, TakesABoardThatIsTheMachineOfTheSetup) {
-  EXPECT_EQ(refusal("[machine]\nX = { min = -300.0, max = 0.0, rate = 12000.0 }\nmax_rpm = 10000\n"
-                    "homing = true",
-                    {{20, "1"}, {22, "1"}}),
-            "");
+  GrblShop shop({.is_locked = true, .settings = {{20, "1"}, {22, "1"}}}, {},
+                stated("[machine]\nX = { min = -300.0, max = 0.0, rate = 12000.0 }\n"
+                       "max_rpm = 10000\nhoming = true"));
+  ASSERT_TRUE(shop.machine.home());
+  shop.pass(9);
+  const auto begins = shop.machine.check_begin({});
+  EXPECT_TRUE(begins) << begins.error().what;
 }
 
 TEST(GrblMachineCheck, NamesWhatDiffers) {
