@@ -115,11 +115,11 @@ Computed Terms::apply(Operator op, double left, double right) const {
     case Operator::Less:
       return claim(left < right);
     case Operator::LessOrEqual:
-      return claim(left <= right);
+      return claim(left <= right || std::fabs(left - right) < kSameWithin);
     case Operator::Greater:
       return claim(left > right);
     case Operator::GreaterOrEqual:
-      return claim(left >= right);
+      return claim(left >= right || std::fabs(left - right) < kSameWithin);
     default:
       return language::apply(op, left, right);
   }
