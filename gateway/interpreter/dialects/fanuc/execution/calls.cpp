@@ -69,8 +69,14 @@ bool plan_subprogram(Run& run, int code) {
   const std::string folder = code == 198 ? run.options.external_folder : std::string();
   if (has_name) return plan_named_subprogram(run, folder);
   const double value = run.whole(words[P]);
-  const bool takes_l = form != CallForm::EightDigits && words.has(L);
   const bool has_long_numbers = run.options.program_digits == 8;
+  const bool takes_l = words.has(L) && (form != CallForm::EightDigits || has_long_numbers);
+  if (words.has(L) && !takes_l) {
+    return run.fail(ErrorCode::ImproperCommand, words.column(L),
+                    fmt::format("repeats of M{} stand before the last four digits of P here, not "
+                                "in L: m98_form, or the model, decides it",
+                                code));
+  }
   const bool splits = form != CallForm::L && !takes_l && !has_long_numbers;
   const double most = splits || has_long_numbers ? 99'999'999 : 9999;
   if (!(value >= 1 && value <= most) || value != std::trunc(value)) {
