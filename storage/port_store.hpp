@@ -45,6 +45,9 @@ struct PortTransfer {
   std::string reason = {};  ///< why it was not completed, for people
   UtcTime began;
   std::optional<UtcTime> ended = {};  ///< when it is not Active any more
+  /// The newest run of the machine when it began, empty: there was none; stored by save_transfer.
+  /// Absent: not known (before version 24).
+  std::optional<std::string> after_run = {};
 
   friend bool operator==(const PortTransfer&, const PortTransfer&) = default;
 };

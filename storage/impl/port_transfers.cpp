@@ -45,23 +45,27 @@ Result<void> PortRepository::save_transfer(const PortTransfer& transfer) {
                 to_string(transfer.state), transfer.ended ? "with" : "without");
   }
   return connections_.write([&](sql::Database& database) -> Result<void> {
-    const auto known = sql::first_row(
-        database, "SELECT 1 FROM port WHERE name = ?1",
-        [](const sql::Statement& row) { return row.integer(0); }, transfer.port);
-    if (!known) return fail(known.error());
-    if (!*known) return fail(Errc::NotFound, "port {} is not known", transfer.port);
+    const auto machine = sql::first_row(
+        database, "SELECT machine FROM port WHERE name = ?1",
+        [](const sql::Statement& row) { return row.text(0); }, transfer.port);
+    if (!machine) return fail(machine.error());
+    if (!*machine) return fail(Errc::NotFound, "port {} is not known", transfer.port);
     return sql::run(
         database,
         "INSERT INTO port_transfer (port, direction, id, programs, size, passed, at_most, state, "
-        "reason, began_us, ended_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11) "
+        "reason, began_us, ended_us, after_run) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, "
+        "?11, coalesce((SELECT run.id FROM run JOIN machine ON machine.id = run.machine "
+        "WHERE machine.name = ?12 ORDER BY run.number DESC LIMIT 1), '')) "
         "ON CONFLICT (port, direction) DO UPDATE SET id = excluded.id, "
         "programs = excluded.programs, size = excluded.size, passed = excluded.passed, "
         "at_most = excluded.at_most, state = excluded.state, reason = excluded.reason, "
-        "began_us = excluded.began_us, ended_us = excluded.ended_us",
+        "began_us = excluded.began_us, ended_us = excluded.ended_us, after_run = "
+        "CASE WHEN port_transfer.id = excluded.id THEN port_transfer.after_run "
+        "ELSE excluded.after_run END",
         transfer.port, to_string(transfer.direction), transfer.id,
         fmt::format("{}", fmt::join(transfer.programs, "\n")), transfer.size, transfer.passed,
         transfer.at_most, to_string(transfer.state), transfer.reason, transfer.began,
-        transfer.ended);
+        transfer.ended, **machine);
   });
 }
 
@@ -88,8 +92,8 @@ Result<std::vector<PortTransfer>> PortRepository::transfers(const std::string& p
     std::string unknown;
     auto all = sql::all_rows(
         database,
-        "SELECT direction, id, programs, size, passed, at_most, state, reason, began_us, ended_us "
-        "FROM port_transfer WHERE port = ?1 ORDER BY direction DESC",
+        "SELECT direction, id, programs, size, passed, at_most, state, reason, began_us, ended_us, "
+        "after_run FROM port_transfer WHERE port = ?1 ORDER BY direction DESC",
         [&](const sql::Statement& row) {
           PortTransfer transfer;
           transfer.port = port;
@@ -106,6 +110,7 @@ Result<std::vector<PortTransfer>> PortRepository::transfers(const std::string& p
           transfer.reason = row.text(7);
           transfer.began = row.time(8);
           transfer.ended = row.optional_time(9);
+          transfer.after_run = row.optional_text(10);
           return transfer;
         },
         port);

@@ -1,6 +1,7 @@
 #include "server/ports/programs/broken_program.hpp"
 
 #include <fmt/ranges.h>
+#include <algorithm>
 
 #include "gateway/line/line_words.hpp"
 #include "gateway/line/port_transfer.hpp"
@@ -18,14 +19,46 @@ bool is_unsent(const storage::Run& run) {
   return is_counted && run.counters.sent == 0 && !has_head_left;
 }
 
-/// The latest of a machine of which something may have left.
-Result<std::optional<storage::Run>> last_run(storage::RunStore& store, const std::string& machine) {
+/// The latest of which something may have left; `runs` begin with the newest.
+const storage::Run* last_sent(const std::vector<storage::Run>& runs) {
+  const auto sent = std::ranges::find_if_not(runs, is_unsent);
+  return sent == runs.end() ? nullptr : &*sent;
+}
+
+/// The newest runs of the machine, to the latest of which something may have left and further.
+Result<std::vector<storage::Run>> runs_to_last_sent(storage::RunStore& store,
+                                                    const std::string& machine) {
   constexpr std::uint64_t kLook = 50;
-  const auto runs = store.list({.machine = machine, .program = {}, .state = {}}, {.limit = kLook});
-  if (!runs) return fail(runs.error());
-  for (const auto& run : *runs)
-    if (!is_unsent(run)) return run;
-  return std::nullopt;
+  std::vector<storage::Run> runs;
+  for (;;) {
+    auto more = store.list({.machine = machine, .program = {}, .state = {}},
+                           {.limit = kLook, .offset = runs.size()});
+    if (!more) return fail(more.error());
+    const bool is_last = more->size() < kLook;
+    std::ranges::move(*more, std::back_inserter(runs));
+    if (is_last || last_sent(runs) != nullptr) return runs;
+  }
+}
+
+/// Whether a program without a run passed the line after `run`. By what the store has written down
+/// in its order: a clock may be set back.
+bool is_later(const storage::PortTransfer& transfer, const storage::Run& run,
+              const std::vector<storage::Run>& runs) {
+  if (!transfer.after_run) return run.created <= transfer.began;
+  if (transfer.after_run->empty()) return false;
+  const auto at = std::ranges::find(runs, *transfer.after_run, &storage::Run::id);
+  const auto own = std::ranges::find(runs, run.id, &storage::Run::id);
+  return at <= own && at != runs.end();
+}
+
+/// The port was another machine's then: only the times can be compared.
+Result<void> forget_others_run(storage::RunStore& store, const std::string& machine,
+                               storage::PortTransfer& transfer) {
+  if (!transfer.after_run || transfer.after_run->empty()) return {};
+  const auto run = store.find(*transfer.after_run);
+  if (!run && run.error().code != Errc::NotFound) return fail(run.error());
+  if (!run || run->machine != machine) transfer.after_run.reset();
+  return {};
 }
 
 /// The latest of a port of which something may have left.
@@ -55,11 +88,16 @@ bool is_sending(const LineView& port) {
 }  // namespace
 
 Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store, const SentTo& to) {
-  const auto run = last_run(store.runs, to.machine);
-  if (!run) return fail(run.error());
-  const auto sent = last_transfer(store.ports, to.port);
+  const auto runs = runs_to_last_sent(store.runs, to.machine);
+  if (!runs) return fail(runs.error());
+  const storage::Run* const run = last_sent(*runs);
+  auto sent = last_transfer(store.ports, to.port);
   if (!sent) return fail(sent.error());
-  if (*sent && (!*run || (*run)->created <= (*sent)->began)) {
+  if (*sent) {
+    auto compared = forget_others_run(store.runs, to.machine, **sent);
+    if (!compared) return fail(compared.error());
+  }
+  if (*sent && (run == nullptr || is_later(**sent, *run, *runs))) {
     const auto& transfer = **sent;
     const bool is_over = transfer.state == storage::TransferState::Completed ||
                          (transfer.state == storage::TransferState::Aborted && to.are_aborts_told);
@@ -68,12 +106,12 @@ Result<std::optional<BrokenProgram>> broken_program(const storage::Store& store,
     broken.is_active = transfer.state == storage::TransferState::Active;
     return broken;
   }
-  if (!*run) return std::nullopt;
-  const RunState state = (*run)->state;
+  if (run == nullptr) return std::nullopt;
+  const RunState state = run->state;
   if (state == RunState::Completed || (state == RunState::Aborted && to.are_aborts_told))
     return std::nullopt;
-  return BrokenProgram{.id = (*run)->id,
-                       .what = fmt::format("run {} of program {}", (*run)->id, (*run)->program),
+  return BrokenProgram{.id = run->id,
+                       .what = fmt::format("run {} of program {}", run->id, run->program),
                        .is_active = state == RunState::Active || state == RunState::Ordered};
 }
 

@@ -289,6 +289,9 @@ TEST_P(KeptFile, HasTransfersOfAPortSinceVersion22) {
   EXPECT_EQ(transfers->front().state, TransferState::Active);
   EXPECT_EQ(transfers->front().programs.size(), 2u);
   EXPECT_EQ(transfers->back().reason, "the line is lost");
+  const auto& sent = transfers->front().direction == TransferDirection::Send ? transfers->front()
+                                                                             : transfers->back();
+  EXPECT_EQ(sent.after_run, version() >= 24 ? std::optional<std::string>("r1") : std::nullopt);
 }
 
 TEST_P(KeptFile, KnowsATestRunThatWasCutOffSinceVersion23) {
@@ -306,7 +309,7 @@ INSTANTIATE_TEST_SUITE_P(, KeptFile,
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
                                          "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql",
                                          "v17.sql", "v18.sql", "v19.sql", "v20.sql", "v21.sql",
-                                         "v22.sql", "v23.sql"),
+                                         "v22.sql", "v23.sql", "v24.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

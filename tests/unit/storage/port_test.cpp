@@ -78,6 +78,7 @@ PortTransfer make_transfer(UtcTime began) {
   transfer.size = 640;
   transfer.at_most = 128;
   transfer.began = began;
+  transfer.after_run = "";  // no run yet: as it is stored
   return transfer;
 }
 

@@ -102,6 +102,39 @@ TEST_F(BrokenProgramTest, OfATransferIsTheSame) {
   EXPECT_TRUE(start("O2"));
 }
 
+/// What passed the line last is not found by the clock, which may be set back.
+TEST_F(BrokenProgramTest, IsTheLastOneAlsoAfterTheClockWasSetBack) {
+  add_port(mill());
+  storage::PortTransfer transfer;
+  transfer.port = "com1";
+  transfer.id = "transfer-1";
+  transfer.programs = {"O2 revision 1"};
+  transfer.at_most = 20;
+  transfer.began = system_clock_.now() + std::chrono::hours(1);
+  ASSERT_TRUE(store_->ports.save_transfer(transfer));
+  transfer.state = storage::TransferState::Completed;
+  transfer.ended = transfer.began;
+  ASSERT_TRUE(store_->ports.save_transfer(transfer));
+  using ports::broken_program;
+  const auto broken = [&] { return broken_program(*store_, {"mill", "com1"}).value(); };
+  EXPECT_FALSE(broken());
+  add_run("cut off", RunState::Interrupted);
+  ASSERT_TRUE(broken());
+  EXPECT_EQ(broken()->id, "cut off");
+  Run whole = run_of(store_->programs.revision("O1", {}).value(), "whole");
+  whole.machine = "mill";
+  whole.created = system_clock_.now() + std::chrono::hours(2);
+  ASSERT_TRUE(store_->runs.create(whole));
+  ASSERT_TRUE(store_->runs.set_state("whole", RunState::Completed, ""));
+  EXPECT_FALSE(broken());
+  transfer.id = "transfer-2";
+  transfer.began = system_clock_.now();
+  transfer.state = storage::TransferState::Interrupted;
+  ASSERT_TRUE(store_->ports.save_transfer(transfer));
+  ASSERT_TRUE(broken());
+  EXPECT_EQ(broken()->id, "transfer-2");
+}
+
 /// Such a run was looked through and refused at a gateway, or tested there; the one before counts.
 TEST_F(BrokenProgramTest, IsNoneWhereNothingHadLeft) {
   add_port(mill());

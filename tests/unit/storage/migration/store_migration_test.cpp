@@ -104,7 +104,7 @@ TEST_F(StoreMigration, TakesEveryTableAndTheShopContinues) {
   ASSERT_TRUE(SqliteStore::open({.file = file_}, clock_)) << "the tables of today";
   change_file(
       "INSERT INTO port_transfer VALUES ('zz', 'send', 't-1', 'O1', 9, 3, 6, 'interrupted', "
-      "'killed', 1, 2)");
+      "'killed', 1, 2, 'r1')");
   const auto report = enter();
   ASSERT_TRUE(report) << report.error().what;
   EXPECT_FALSE(report->was_resumed);
