@@ -101,6 +101,14 @@ Result<FileCopy> copy_bytes(int from, Descriptor to, const std::string& name,
   }
 }
 
+std::string account_name(uid_t number) {
+  std::array<char, 4096> room{};
+  passwd account{};
+  passwd* found = nullptr;
+  if (::getpwuid_r(number, &account, room.data(), room.size(), &found) != 0) return {};
+  return found == nullptr ? std::string() : std::string(found->pw_name);
+}
+
 /// "O1.nc", "O1.2.nc", "O1.3.nc" ...
 std::string numbered(const std::string& name, unsigned number) {
   if (number == 1) return name;
@@ -129,6 +137,7 @@ FileCopy::FileCopy(FileCopy&& other) noexcept
     : file_(std::move(other.file_)),
       size_(std::exchange(other.size_, 0)),
       digest_(other.digest_),
+      owner_(std::move(other.owner_)),
       bytes_(std::exchange(other.bytes_, nullptr)) {}
 
 FileCopy::~FileCopy() {
@@ -205,8 +214,8 @@ Result<FileCopy> FolderFiles::copy(const Entry& seen, const std::filesystem::pat
   const Descriptor file(::openat(folder_.get(), seen.name.c_str(),
                                  O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!file) return fail(system_error("it cannot be read", errno));
+  struct stat facts {};  // of the file that is read, whatever has its name meanwhile
   const auto is_as_seen = [&] {
-    struct stat facts {};
     return ::fstat(file.get(), &facts) == 0 && entry_of(seen.name, facts).is_unchanged(seen);
   };
   if (!is_as_seen()) return fail(Errc::Busy, "it has changed");
@@ -215,21 +224,14 @@ Result<FileCopy> FolderFiles::copy(const Entry& seen, const std::filesystem::pat
   if (!to) return fail(to.error());
   auto copy = copy_bytes(file.get(), *std::move(to), seen.name, max_bytes);
   if (!copy) return copy;
-  const auto now = look_at(seen.name);
-  const bool is_there = now && now->is_unchanged(seen);
+  struct stat named {};
+  const bool is_there =
+      ::fstatat(folder_.get(), seen.name.c_str(), &named, AT_SYMLINK_NOFOLLOW) == 0 &&
+      named.st_dev == facts.st_dev && named.st_ino == facts.st_ino;
   if (!is_as_seen() || !is_there) return fail(Errc::Busy, "it changed while it was read");
+  copy->set_owner(account_name(facts.st_uid));
   if (auto mapped = copy->map(); !mapped) return fail(mapped.error());
   return copy;
-}
-
-std::string FolderFiles::owner_of(const std::string& name) const {
-  struct stat facts {};
-  if (::fstatat(folder_.get(), name.c_str(), &facts, AT_SYMLINK_NOFOLLOW) != 0) return {};
-  std::array<char, 4096> room{};
-  passwd account{};
-  passwd* found = nullptr;
-  if (::getpwuid_r(facts.st_uid, &account, room.data(), room.size(), &found) != 0) return {};
-  return found == nullptr ? std::string() : std::string(found->pw_name);
 }
 
 bool FolderFiles::has(const std::string& path) const {

@@ -38,6 +38,9 @@ class FileCopy {
 
   std::string_view text() const { return {bytes_, size_}; }
   const Digest& digest() const { return digest_; }
+  /// The account that owned the very file that was read; empty: not known.
+  const std::string& owner() const { return owner_; }
+  void set_owner(std::string owner) { owner_ = std::move(owner); }
   /// Errors: Io.
   Result<void> map();
 
@@ -45,6 +48,7 @@ class FileCopy {
   Descriptor file_;
   std::uint64_t size_ = 0;
   Digest digest_;
+  std::string owner_;
   const char* bytes_ = nullptr;
 };
 
@@ -64,8 +68,6 @@ class FolderFiles {
   /// for writing, or has changed: try again), Denied (it cannot be read), LimitExceeded, Io.
   Result<FileCopy> copy(const Entry& seen, const std::filesystem::path& spool,
                         std::uint64_t max_bytes) const;
-  /// The account that owns the file; empty: not known.
-  std::string owner_of(const std::string& name) const;
 
   /// A name below `folder` (done or failed) that no file has: `name`, else with a number.
   Result<std::string> free_target(const std::string& folder, const std::string& name) const;

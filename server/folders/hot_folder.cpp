@@ -232,7 +232,7 @@ Result<FolderFile> HotFolder::judge(const Taken& taken, const std::stop_token& s
 
 /// With the control that the program is for: the machine's, or the one that its text shows.
 Result<NamedProgram> HotFolder::name(const Taken& taken) const {
-  auto named = name_program(settings_, taken.entry.name, files_->owner_of(taken.entry.name));
+  auto named = name_program(settings_, taken.entry.name, taken.copy->owner());
   if (!named) return named;
   if (!named->machine.empty()) {
     const auto machine = parts_.sources.store.machines.find(named->machine);
