@@ -5,6 +5,7 @@
 
 #include "clients/lib/api_json.hpp"
 #include "clients/lib/impl/request.hpp"
+#include "clients/lib/request_age.hpp"
 #include "clients/lib/shared_http.hpp"
 
 namespace dripline::client {
@@ -353,7 +354,11 @@ Reply<void> Client::command(std::string_view run, const CommandRequest& request)
 }
 
 Reply<void> Client::send_command(const std::string& path, const CommandRequest& request) {
-  return perform(with_method("POST", path + "/commands"), command_body(request));
+  HttpRequest post = with_method("POST", path + "/commands");
+  if (request.asked)
+    add_age(post.headers,
+            std::chrono::ceil<RequestAge>(std::chrono::steady_clock::now() - *request.asked));
+  return perform(std::move(post), command_body(request));
 }
 
 Reply<std::vector<Record>> Client::records(std::string_view run, std::string_view kind, Page page) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -157,6 +158,8 @@ struct CommandRequest {
   std::string action;
   std::optional<std::string> text, name;
   std::optional<double> value;
+  /// When it was asked for; absent: now. What is done at the machine's panel since is not undone.
+  std::optional<std::chrono::steady_clock::time_point> asked = {};
 };
 
 struct SetupRequest {

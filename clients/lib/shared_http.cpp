@@ -1,9 +1,12 @@
 #include "clients/lib/shared_http.hpp"
 
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "clients/lib/request_age.hpp"
 
 namespace dripline::client {
 namespace {
@@ -61,10 +64,36 @@ class Noted {
 
 }  // namespace
 
-SharedHttp::SharedHttp(std::vector<Member> members) : members_(std::move(members)) {}
+SharedHttp::SharedHttp(std::vector<Member> members, std::chrono::milliseconds patience)
+    : members_(std::move(members)), patience_(patience) {}
 
 Reply<HttpResponse> SharedHttp::send(const HttpRequest& request) {
-  Reasons reasons(members_.size());
+  const auto begun = std::chrono::steady_clock::now(), end = begun + patience_;
+  has_standby_ = false;
+  HttpRequest again = request;
+  for (;;) {
+    Reasons reasons(members_.size());
+    if (auto answer = send_once(again, reasons)) return *std::move(answer);
+    active_.reset();
+    if (!has_standby_ || !wait_before_the_next_round(end)) return failed(without_library(reasons));
+    again.headers = request.headers;
+    add_age(again.headers, std::chrono::ceil<RequestAge>(std::chrono::steady_clock::now() - begun));
+  }
+}
+
+/// False: there is none.
+bool SharedHttp::wait_before_the_next_round(std::chrono::steady_clock::time_point end) {
+  constexpr auto kRound = 500ms, kLook = 50ms;
+  const auto next = std::chrono::steady_clock::now() + kRound;
+  if (next > end) return false;
+  while (!is_stopped_ && std::chrono::steady_clock::now() < next)
+    std::this_thread::sleep_for(kLook);
+  return !is_stopped_;
+}
+
+/// Nothing: no server has taken it.
+std::optional<Reply<HttpResponse>> SharedHttp::send_once(const HttpRequest& request,
+                                                         Reasons& reasons) {
   while (const auto chosen = choose(reasons)) {
     active_ = chosen;
     const Member& member = members_[*chosen];
@@ -72,6 +101,7 @@ Reply<HttpResponse> SharedHttp::send(const HttpRequest& request) {
     auto response = member.http->send(noted.request());
     if (response && !stands_by(*response)) return response;
     if (response) {
+      has_standby_ = true;
       reasons[*chosen] = member.address.url + " stands by";
       continue;
     }
@@ -83,8 +113,7 @@ Reply<HttpResponse> SharedHttp::send(const HttpRequest& request) {
       failure.what += "; it may have done what it was asked for, so no other server was asked";
     return failed(std::move(failure));
   }
-  active_.reset();
-  return failed(without_library(reasons));
+  return std::nullopt;
 }
 
 /// The one that answered last, or else the first that says that it has the library.
@@ -117,6 +146,7 @@ SharedHttp::Role SharedHttp::ask_role(std::size_t member, std::string& reason) {
     return Role::Other;
   }
   if (stands_by(*answer)) {
+    has_standby_ = true;
     reason = url + " stands by";
     return Role::Other;
   }
@@ -124,6 +154,7 @@ SharedHttp::Role SharedHttp::ask_role(std::size_t member, std::string& reason) {
 }
 
 void SharedHttp::stop() {
+  is_stopped_ = true;
   for (const auto& member : members_) {
     member.probe->stop();
     member.http->stop();

@@ -1,11 +1,27 @@
 #include "server/api/api.hpp"
 
+#include <charconv>
+
 #include <nlohmann/json.hpp>
 
 #include "protocol/process/log.hpp"
 #include "server/api/views.hpp"
 
 namespace dripline::api {
+namespace {
+
+/// A client that found no server at once says for how long it has tried: it can only make what it
+/// asks for older.
+std::chrono::milliseconds age_of(const Request& head) {
+  const auto found = head.headers.find("dripline-age");
+  if (found == head.headers.end()) return {};
+  const std::string& text = found->second;
+  std::uint32_t age = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), age);
+  return std::chrono::milliseconds(read.ec == std::errc() ? age : 0);
+}
+
+}  // namespace
 
 Api::Api(Services services)
     : services_(std::move(services)),
@@ -63,7 +79,7 @@ void Api::protect(Router::Route& route) {
 }
 
 std::optional<Response> Api::judge(Request& head) const {
-  if (head.given == SteadyTime{}) head.given = services_.clock.steady_now();
+  if (head.given == SteadyTime{}) head.given = services_.clock.steady_now() - age_of(head);
   const Router::Route* const found = router_.find(head);
   if (auto refused = access_.judge(head, found)) return refused;
   const bool is_open =

@@ -73,7 +73,10 @@ std::optional<int> stop_reported_run(client::Client& client, Context& context,
 
 /// Gives the orders one after the other, as long as the machine takes them.
 int give(Context& context, const std::string& reference,
-         const std::vector<client::CommandRequest>& commands) {
+         std::vector<client::CommandRequest> commands) {
+  // The run is looked up first, which waits while the database is away.
+  for (auto& command : commands)
+    if (!is_stop(command)) command.asked = std::chrono::steady_clock::now();
   auto client = context.connect();
   if (!client) return context.status;
   const bool is_latest = reference == kLatest;

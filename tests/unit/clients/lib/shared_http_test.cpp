@@ -12,7 +12,8 @@ struct Server {
   std::optional<Failure> next;  ///< of its next request, and it is down afterwards
   std::string piece;            ///< passed on before that
   std::vector<std::string> requests;
-  int probes = 0;
+  int probes = 0, age = 0;
+  std::function<void()> on_probe = {};
 };
 
 class ServerHttp final : public Http {
@@ -23,9 +24,12 @@ class ServerHttp final : public Http {
     using State = Server::State;
     if (is_probe_) {
       ++server_.probes;
+      if (server_.on_probe) server_.on_probe();
     } else {
       server_.requests.push_back(request.method + " " + request.path);
     }
+    for (const auto& [name, value] : request.headers)
+      if (name == "Dripline-Age") server_.age = std::stoi(value);
     if (server_.state == State::Down)
       return failed(Failure{Failure::Kind::Unreachable, Errc::Timeout,
                             fmt::format("server {} is not reachable", url_), true});
@@ -51,7 +55,8 @@ class ServerHttp final : public Http {
 class SharedServers : public testing::Test {
  protected:
   using State = Server::State;
-  SharedServers() {
+  SharedServers() { begin(std::chrono::milliseconds(0)); }
+  void begin(std::chrono::milliseconds patience) {
     std::vector<SharedHttp::Member> members;
     for (std::size_t i = 0; i < servers_.size(); ++i) {
       const std::string url = fmt::format("http://srv-{}:1", i + 1);
@@ -59,7 +64,7 @@ class SharedServers : public testing::Test {
                          std::make_unique<ServerHttp>(servers_[i], url, false),
                          std::make_unique<ServerHttp>(servers_[i], url, true)});
     }
-    http_.emplace(std::move(members));
+    http_.emplace(std::move(members), patience);
   }
   Reply<HttpResponse> send(const std::string& method) {
     HttpRequest request;
@@ -99,6 +104,27 @@ TEST_F(SharedServers, AreNamedWithTheirReasonsWhenNoneHasTheLibrary) {
             "none of the servers has the library now: server http://srv-1:1 is not reachable; "
             "http://srv-2:1 stands by; http://srv-3:1 answered with status 404; is it a Dripline "
             "server?");
+}
+
+/// The first one is frozen, and its standby is between waiting and being ready.
+TEST_F(SharedServers, AreAskedAgainInTheMiddleOfATakeover) {
+  begin(std::chrono::seconds(10));
+  servers_[0].state = State::Down;
+  servers_[2].state = State::Down;
+  servers_[1].on_probe = [this] {
+    if (servers_[1].probes == 1) servers_[1].state = State::Standby;
+    if (servers_[1].probes == 2) servers_[1].state = State::Down;
+    if (servers_[1].probes == 3) servers_[1].state = State::Active;
+  };
+  ASSERT_TRUE(send("POST"));
+  EXPECT_EQ(servers_[1].requests.size(), 1u);
+  EXPECT_GE(servers_[1].age, 500) << "what was done meanwhile is later than this request";
+}
+
+TEST_F(SharedServers, ThatAreAllDownAreNotWaitedFor) {
+  begin(std::chrono::hours(1));
+  for (Server& server : servers_) server.state = State::Down;
+  EXPECT_FALSE(send("POST"));
 }
 
 TEST_F(SharedServers, AreFollowedAfterAHandOver) {

@@ -93,6 +93,21 @@ TEST_F(ApiHandlers, PassOnWhenAnOrderWasGiven) {
   EXPECT_EQ(machines_.positions.back().given, begun + std::chrono::seconds(5));
 }
 
+/// By the header of a client that found no server at once, or looked its run up before.
+TEST_F(ApiHandlers, TakeOrdersForAsOldAsTheirClientSays) {
+  const std::string path = "/api/v1/runs/" + stored_run(0) + "/commands";
+  const auto begun = clock_.steady_now();
+  clock_.advance(std::chrono::seconds(5));
+  const auto order = [&](const std::string& age) {
+    const Call posted{.body = R"({"action":"resume"})", .headers = {{"dripline-age", age}}};
+    EXPECT_EQ(call("POST", path, posted).status, 200) << age;
+    return machines_.commands.back().given;
+  };
+  EXPECT_EQ(order("3000"), begun + std::chrono::seconds(2));
+  for (const char* nothing : {"", "-3000", "soon", "99999999999999999999"})
+    EXPECT_EQ(order(nothing), begun + std::chrono::seconds(5)) << nothing;
+}
+
 /// HD-195: the emergency stop is pressed and released where no run is.
 TEST_F(ApiHandlers, PassOrdersToAMachinesPanelOn) {
   show_machine("lathe-1");
