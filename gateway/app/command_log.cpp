@@ -71,7 +71,15 @@ std::optional<std::string> CommandValidity::refusal(const dds::Command& command,
   }
   if (command.server == server_ && command.number < last_stop_)
     return "a later command has stopped the machine meanwhile";
+  if (command.given != microseconds{0} && command.given < last_panel_) {
+    return fmt::format("the machine's panel was used {:.1f} s after the command was given",
+                       std::chrono::duration<double>(last_panel_ - command.given).count());
+  }
   return std::nullopt;
+}
+
+void CommandValidity::note_panel(SteadyTime now) {
+  last_panel_ = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch());
 }
 
 void CommandValidity::note_stop(const dds::Command& command) {

@@ -67,9 +67,12 @@ class CommandValidity {
   /// A command that was given before this one and arrives after it moves nothing any more: a
   /// repeated resume must not undo a hold.
   void note_stop(const dds::Command& command);
+  /// Something was done at the machine's panel: who gave a command before has not seen that.
+  void note_panel(SteadyTime now);
 
  private:
   std::uint64_t session_;
+  std::chrono::microseconds last_panel_{0};
   std::uint64_t server_ = 0, last_stop_ = 0;
 };
 

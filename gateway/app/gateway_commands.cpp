@@ -273,6 +273,7 @@ Reply Gateway::resume() {
 void Gateway::on(const PanelRequest& request, SteadyTime) {
   if (request.command.verb == PanelCommand::Verb::Status)
     return request.answer("ok " + panel_status(status()));
+  validity_.note_panel(parts_.clock.steady_now());
   const Reply reply = carry_out(request.command);
   process::log_info("panel {}{}{} {}", reply.is_accepted ? "accepted" : "refused",
                     reply.reason.empty() ? "" : ": ", reply.reason, run_.label());

@@ -312,6 +312,7 @@ void members(V&& v, Is<Command> auto& m) {
   v(DRIPLINE_MEMBER(number));
   v(DRIPLINE_MEMBER_AS(deadline, deadline_us));
   v(DRIPLINE_MEMBER(term), Internal{});
+  v(DRIPLINE_MEMBER_AS(given, given_us));
 }
 
 template <class V>

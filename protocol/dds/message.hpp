@@ -220,6 +220,8 @@ struct Command {
   std::uint64_t server = 0, number = 0;
   std::chrono::microseconds deadline{0};  ///< by the gateway's steady clock; 0: none
   std::uint64_t term = 0;                 ///< of the server, set by its endpoint; 0: none
+  std::chrono::microseconds given{
+      0};  ///< when the server got it, by the gateway's steady clock; 0: not known
   friend bool operator==(const Command&, const Command&) = default;
 };
 

@@ -71,14 +71,15 @@ bool CommandDispatcher::is_replaced(const dds::Command& command) const {
          options_.gateway_of(command.machine).session != command.session;
 }
 
-SteadyTime CommandDispatcher::stamp(dds::Command& command) {
+CommandDispatcher::Times CommandDispatcher::stamp(dds::Command& command, const Origin& origin) {
   const auto life = life_of(command);
   command.id = make_command_id();
   command.expires = may_stop(command) ? UtcTime::max() : clock_.now() + life;
   if (command.session == 0 && is_for_one_gateway(command) && options_.gateway_of)
     command.session = options_.gateway_of(command.machine).session;
   command.server = session_;
-  return clock_.steady_now() + life;
+  const SteadyTime now = clock_.steady_now();
+  return {.given = origin.given.value_or(now), .deadline = now + life};
 }
 
 /// Its number: the gateway carries out nothing with one below that of the last stop.
@@ -112,25 +113,28 @@ void CommandDispatcher::note_stop(const std::string& machine, dds::CommandAction
 }
 
 Result<void> CommandDispatcher::send(dds::Command command) {
-  const SteadyTime deadline = stamp(command);
+  const Times times = stamp(command, {});
   {
     const std::lock_guard lock(mutex_);
     command.number = ++last_number_;
   }
-  return write_in_time(command, deadline);
+  return write_in_time(command, times);
 }
 
 /// To the present gateway of the machine, in terms of its clock.
-Result<void> CommandDispatcher::send_to_present(dds::Command command, SteadyTime deadline) {
+Result<void> CommandDispatcher::send_to_present(dds::Command command, const Times& times) {
   if (options_.gateway_of) {
     const auto gateway = options_.gateway_of(command.machine);
     if (is_for_one_gateway(command) && command.session != gateway.session)
       return fail(Errc::Conflict, "{}", text_of_replaced(command));
     command.session = gateway.session;
     if (gateway.steady_ahead) {
-      command.deadline =
-          std::chrono::duration_cast<std::chrono::microseconds>(deadline.time_since_epoch()) +
-          *gateway.steady_ahead;
+      const auto by_its_clock = [&](SteadyTime time) {
+        return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()) +
+               *gateway.steady_ahead;
+      };
+      command.given = by_its_clock(times.given);
+      command.deadline = by_its_clock(times.deadline);
     } else if (!may_stop(command)) {
       return fail(Errc::Timeout, "machine {} has not reported its status yet", command.machine);
     }
@@ -152,14 +156,14 @@ Result<std::string> CommandDispatcher::ask(dds::Command query) {
 
 Result<dds::CommandResult> CommandDispatcher::send_and_await(dds::Command command,
                                                              const Origin& origin) {
-  const SteadyTime deadline = stamp(command);
+  const Times times = stamp(command, origin);
   if (auto turn = take_turn(command, origin); !turn) return fail(turn.error());
   const std::string id = command.id;
   {
     const std::lock_guard lock(mutex_);
-    waiting_[id] = {.command = command, .result = {}, .deadline = deadline};
+    waiting_[id] = {.command = command, .result = {}, .times = times};
   }
-  const auto written = write_in_time(command, deadline);
+  const auto written = write_in_time(command, times);
   auto outcome = written ? await(id) : Result<dds::CommandResult>(fail(written.error()));
   const std::lock_guard lock(mutex_);
   const bool is_unknown = !outcome && outcome.error().code == Errc::Timeout;
@@ -171,10 +175,10 @@ Result<dds::CommandResult> CommandDispatcher::send_and_await(dds::Command comman
   return outcome;
 }
 
-Result<void> CommandDispatcher::write_in_time(const dds::Command& command, SteadyTime deadline) {
+Result<void> CommandDispatcher::write_in_time(const dds::Command& command, const Times& times) {
   const auto limit = std::chrono::steady_clock::now() + life_of(command);
   for (;;) {
-    auto written = send_to_present(command, deadline);
+    auto written = send_to_present(command, times);
     if (written || written.error().code != Errc::Timeout) return written;
     if (std::chrono::steady_clock::now() >= limit) return written;
     std::this_thread::sleep_for(kRetry);
@@ -194,7 +198,7 @@ Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
     dds::Command again = waiting.command;
     lock.unlock();
     // A full queue or a disconnected machine: the next round tries again, until the limit.
-    const auto written = send_to_present(std::move(again), waiting.deadline);
+    const auto written = send_to_present(std::move(again), waiting.times);
     lock.lock();
     if (waiting.is_seen) break;
     if (!written && written.error().code == Errc::Conflict && !waiting.result)

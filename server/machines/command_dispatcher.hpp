@@ -75,18 +75,22 @@ class CommandDispatcher {
   void stop();
 
  private:
+  /// By the server's clock.
+  struct Times {
+    SteadyTime given, deadline;
+  };
   struct Waiting {
     dds::Command command;
     std::optional<dds::CommandResult> result;
-    SteadyTime deadline;   ///< by the server's clock
+    Times times;
     bool is_seen = false;  ///< the machine shows the run that this starts
   };
   std::chrono::milliseconds life_of(const dds::Command& command) const;
   bool is_replaced(const dds::Command& command) const;
-  SteadyTime stamp(dds::Command& command);
+  Times stamp(dds::Command& command, const Origin& origin);
   Result<void> take_turn(dds::Command& command, const Origin& origin);
-  Result<void> send_to_present(dds::Command command, SteadyTime deadline);
-  Result<void> write_in_time(const dds::Command& command, SteadyTime deadline);
+  Result<void> send_to_present(dds::Command command, const Times& times);
+  Result<void> write_in_time(const dds::Command& command, const Times& times);
   Result<dds::CommandResult> await(const std::string& id);
   Result<dds::CommandResult> send_and_await(dds::Command command, const Origin& origin);
 

@@ -117,6 +117,7 @@ Reply SerialGateway::set_emergency_stop(bool is_pressed, bool is_at_panel) {
 void SerialGateway::on(const PanelRequest& request, SteadyTime) {
   if (request.command.verb == PanelCommand::Verb::Status)
     return request.answer("ok " + panel_status(status()));
+  validity_.note_panel(parts_.clock.steady_now());
   const Reply reply = carry_out(request.command);
   process::log_info("panel {}{}{} {}", reply.is_accepted ? "accepted" : "refused",
                     reply.reason.empty() ? "" : ": ", reply.reason, label());

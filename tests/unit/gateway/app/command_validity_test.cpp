@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/gateway/app/gateway_fixture.hpp"
@@ -28,6 +29,10 @@ class Commands : public testing::Test {
     ASSERT_TRUE(fixture.start("O1").accepted);
     ASSERT_TRUE(fixture.run_until([&] { return fixture.status->feed_mm_per_min > 0; }));
   }
+  void pass_a_second() {
+    const auto end = fixture.steady_time() + seconds(1);
+    ASSERT_TRUE(fixture.run_until([&] { return fixture.steady_time() >= end; }));
+  }
   bool comes_to(Execution execution) {
     return fixture.run_until([&] { return fixture.status->execution == execution; });
   }
@@ -46,6 +51,30 @@ TEST_F(Commands, ThatStopNeverComeTooLate) {
   run_long_program();
   EXPECT_TRUE(fixture.send(late(make(CommandAction::Abort))).accepted);
   EXPECT_EQ(fixture.ended().outcome, dds::RunOutcome::Aborted);
+}
+
+/// One that waited in the server, as for its audit entry: its sender has not seen what was done at
+/// the machine meanwhile.
+TEST_F(Commands, ThatWereGivenBeforeThePanelWasUsedDoNothing) {
+  run_long_program();
+  const auto given = [&](dds::Command command, std::chrono::microseconds time) {
+    command.given = time;
+    return command;
+  };
+  const auto before = fixture.steady_time();
+  pass_a_second();
+  ASSERT_THAT(fixture.panel("hold"), testing::StartsWith("ok"));
+  ASSERT_TRUE(comes_to(Execution::FeedHold));
+  const auto refused = fixture.send(given(make(CommandAction::Resume), before));
+  EXPECT_FALSE(refused.accepted);
+  EXPECT_THAT(refused.reason, testing::HasSubstr("the machine's panel was used"));
+  EXPECT_FALSE(fixture.send(given(make(CommandAction::FeedOverride, 1.2), before)).accepted);
+  EXPECT_FALSE(
+      fixture.send(given(make(CommandAction::Switch, 0, "single_block"), before)).accepted);
+  EXPECT_TRUE(fixture.send(given(make(CommandAction::Hold), before)).accepted) << "a stop always";
+  EXPECT_EQ(fixture.status->execution, Execution::FeedHold);
+  pass_a_second();
+  EXPECT_TRUE(fixture.send(given(make(CommandAction::Resume), fixture.steady_time())).accepted);
 }
 
 TEST_F(Commands, ThatMoveSomethingDoNotComeAfterTheirDeadline) {
