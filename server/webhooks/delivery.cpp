@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include "protocol/base/digest.hpp"
 #include "protocol/base/utf8.hpp"
@@ -26,6 +27,21 @@ bool is_host_character(char c) {
   const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
   return is_letter || (c >= '0' && c <= '9') ||
          std::string_view(".-_:[]").find(c) != std::string_view::npos;
+}
+
+/// "host", "host:1" ... "host:65535"; an address of IPv6 in brackets.
+bool has_good_port(std::string_view host) {
+  constexpr unsigned kMaxPort = 65'535;
+  const auto name_end = host.starts_with('[') ? host.find(']') : host.find(':');
+  if (host.starts_with('[') && name_end == host.npos) return false;
+  std::string_view port = name_end == host.npos ? "" : host.substr(name_end);
+  if (port.starts_with(']')) port.remove_prefix(1);
+  if (port.empty()) return true;
+  unsigned number = 0;
+  const char* const end = port.data() + port.size();
+  const auto read = std::from_chars(port.data() + 1, end, number);
+  return port.front() == ':' && read.ec == std::errc() && read.ptr == end && number >= 1 &&
+         number <= kMaxPort;
 }
 
 }  // namespace
@@ -79,7 +95,7 @@ Result<void> check_url(std::string_view url) {
   const bool is_plain = std::ranges::all_of(
       url, [](char c) { return c > ' ' && c < '\x7f' && c != '#' && c != '\\' && c != '"'; });
   const bool is_good = rest.size() < url.size() && !host.empty() && is_plain &&
-                       std::ranges::all_of(host, is_host_character);
+                       std::ranges::all_of(host, is_host_character) && has_good_port(host);
   if (is_good) return {};
   return fail(Errc::Syntax, "URL '{}' must be http:// or https://, a host, and a path", url);
 }

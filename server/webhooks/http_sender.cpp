@@ -1,32 +1,41 @@
 #include <httplib.h>
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
+#include "server/webhooks/connection_bytes.hpp"
 #include "server/webhooks/delivery.hpp"
 
 namespace dripline::webhooks {
 namespace {
 
-/// While it lives, an exchange that takes too long, or is not wanted any more, is cut off. The
-/// library's own timeouts begin again with each byte of an answer.
+/// While it lives, an exchange that takes too long, has a head without an end, or is not wanted
+/// any more, is cut off. The library's own timeouts begin again with each byte of an answer, and
+/// its lines have no limit.
 class Deadline {
  public:
-  Deadline(httplib::Client& client, std::chrono::milliseconds limit, const std::stop_token& stop)
-      : watch_([&client, limit, stop](const std::stop_token& over) {
-          constexpr std::chrono::milliseconds kLook{50};
+  Deadline(httplib::Client& client, const std::atomic<int>& socket, std::chrono::milliseconds limit,
+           std::uint64_t max_bytes, const std::stop_token& stop)
+      : watch_([this, &client, &socket, limit, max_bytes, stop](const std::stop_token& over) {
+          constexpr std::chrono::milliseconds kLook{20};
           const auto end = std::chrono::steady_clock::now() + limit;
           std::mutex mutex;
           std::condition_variable_any never;
           std::unique_lock lock(mutex);
           while (!over.stop_requested()) {
+            if (bytes_received(socket) > max_bytes) is_too_long_ = true;
+            const bool is_late = std::chrono::steady_clock::now() >= end;
             // Again at every look: before the connection is there, nothing can be cut off.
-            if (stop.stop_requested() || std::chrono::steady_clock::now() >= end) client.stop();
+            if (stop.stop_requested() || is_late || is_too_long_) client.stop();
             never.wait_for(lock, over, kLook, [] { return false; });
           }
         }) {}
 
+  bool is_too_long() const { return is_too_long_; }
+
  private:
+  std::atomic<bool> is_too_long_ = false;
   std::jthread watch_;
 };
 
@@ -45,6 +54,8 @@ class HttplibSender final : public Sender {
     client.set_connection_timeout(timeout_);
     client.set_read_timeout(timeout_);
     client.set_write_timeout(timeout_);
+    std::atomic<int> socket = -1;
+    client.set_socket_options([&socket](int made) { socket = made; });
     const httplib::Headers headers{{"Dripline-Event", delivery.kind},
                                    {"Dripline-Delivery", delivery.id},
                                    {"Dripline-Timestamp", delivery.timestamp},
@@ -68,10 +79,16 @@ class HttplibSender final : public Sender {
       status = head.status;
       return true;
     };
+    bool is_too_long = false;
     const auto answer = [&] {
-      const Deadline deadline(client, 3 * timeout_, stop);
-      return client.send(request);
+      const Deadline deadline(client, socket, 3 * timeout_, kMaxExchange, stop);
+      auto sent = client.send(request);
+      is_too_long = deadline.is_too_long();
+      return sent;
     }();
+    if (is_too_long && status == 0)
+      return fail(Errc::LimitExceeded, "{}: the head of its answer has more than {} bytes", origin,
+                  kMaxExchange);
     if (!answer && received <= kMaxAnswer) return fail(refusal(answer.error(), origin));
     if (answer) status = answer->status;
     if (status >= 200 && status < 300) return {};
@@ -80,6 +97,9 @@ class HttplibSender final : public Sender {
 
  private:
   static constexpr std::size_t kMaxAnswer = 64 * 1024;
+  /// All bytes of the connection, those of TLS and of the answer's head with them: far more than
+  /// any receiver has to say.
+  static constexpr std::uint64_t kMaxExchange = 1024 * 1024;
 
   static Error refusal(httplib::Error error, const std::string& origin) {
     const bool is_untrusted = error == httplib::Error::SSLServerVerification;

@@ -1,10 +1,14 @@
 #include "server/webhooks/webhooks.hpp"
 
+#include <arpa/inet.h>
 #include <httplib.h>
+#include <sys/socket.h>
+#include <atomic>
 #include <deque>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "protocol/base/descriptor.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
@@ -29,8 +33,10 @@ TEST(WebhookUrl, IsHttpOrHttpsWithAHost) {
   for (const char* good : {"http://erp", "https://erp.example:8443/a/b?c=d", "http://[::1]:80/x",
                            "http://127.0.0.1:9/"})
     EXPECT_TRUE(check_url(good)) << good;
-  for (const char* bad : {"", "erp", "ftp://erp/", "file:///etc/passwd", "http://", "http:///x",
-                          "https://user:pw@erp/", "http://erp/#x", "http://erp/ x", "HTTP://erp"})
+  for (const char* bad :
+       {"", "erp", "ftp://erp/", "file:///etc/passwd", "http://", "http:///x",
+        "https://user:pw@erp/", "http://erp/#x", "http://erp/ x", "HTTP://erp", "http://erp:0/",
+        "http://erp:99999/", "http://erp:80:80/", "http://erp:/", "http://[::1", "http://[::1]x/"})
     EXPECT_FALSE(check_url(bad)) << bad;
   EXPECT_EQ(check_url("http://" + std::string(600, 'a')).error().code, Errc::LimitExceeded);
 }
@@ -195,6 +201,41 @@ TEST_F(WebhooksTest, ATestIsDeliveredAtOnce) {
   EXPECT_EQ(hooks_->test("none").error().code, Errc::NotFound);
 }
 
+/// Answers with a status line that never ends.
+class EndlessReceiver {
+ public:
+  EndlessReceiver() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in own{};
+    own.sin_family = AF_INET;
+    own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof own;
+    auto* const address = reinterpret_cast<sockaddr*>(&own);
+    EXPECT_EQ(::bind(listener_.get(), address, size), 0);
+    EXPECT_EQ(::listen(listener_.get(), 1), 0);
+    EXPECT_EQ(::getsockname(listener_.get(), address, &size), 0);
+    port_ = ntohs(own.sin_port);
+    thread_ = std::thread([this] { answer(); });
+  }
+  ~EndlessReceiver() { thread_.join(); }
+  int port() const { return port_; }
+  std::size_t written() const { return written_; }
+
+ private:
+  void answer() {
+    const Descriptor connection(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    const std::string piece(65536, 'x');
+    for (;;) {
+      const auto sent = ::send(connection.get(), piece.data(), piece.size(), MSG_NOSIGNAL);
+      if (sent < 0) return;
+      written_ += static_cast<std::size_t>(sent);
+    }
+  }
+  Descriptor listener_;
+  int port_ = 0;
+  std::atomic<std::size_t> written_ = 0;
+  std::thread thread_;
+};
+
 /// The real sender, against a real receiver.
 class HttpSenderTest : public testing::Test {
  protected:
@@ -271,6 +312,19 @@ TEST_F(HttpSenderTest, AReceiverThatDripsIsCutOff) {
   std::stop_source stop;
   stop.request_stop();
   EXPECT_FALSE(send("/drip", stop.get_token()));
+}
+
+/// A head without an end: nothing of it is a reason to grow.
+TEST_F(HttpSenderTest, AHeadWithoutAnEndIsCutOff) {
+  const auto begun = std::chrono::steady_clock::now();
+  EndlessReceiver receiver;
+  Delivery delivery;
+  delivery.url = fmt::format("http://127.0.0.1:{}/", receiver.port());
+  const auto sent = make_http_sender(std::chrono::seconds(5))->send(delivery, {});
+  ASSERT_FALSE(sent);
+  EXPECT_EQ(sent.error().code, Errc::LimitExceeded) << sent.error().what;
+  EXPECT_LT(receiver.written(), 64u * 1024 * 1024);
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
 }
 
 TEST_F(HttpSenderTest, NobodyThereIsATimeout) {
