@@ -18,7 +18,14 @@ Result<std::string> restore_backup(const Settings& settings) {
     if (!listed) return fail(listed.error());
     if (listed->backups.empty())
       return fail(Errc::NotFound, "there is no backup in {}", settings.backups);
-    id = listed->backups.back().id;
+    const backup::Backup* const newest = backup::newest(listed->backups, SystemClock().now());
+    if (newest == nullptr)
+      return fail(Errc::NotFound, "every backup in {} is of a time that has not come: name one",
+                  settings.backups);
+    id = newest->id;
+    if (listed->backups.back().id != id)
+      fmt::print("{} is of a time that has not come, and is passed over\n",
+                 listed->backups.back().id);
   }
   std::uint64_t shown = 0;
   const auto watch = [&](backup::Phase, std::uint64_t done, std::uint64_t total) {

@@ -97,15 +97,16 @@ void Backups::run(const std::stop_token& stop) {
 /// With the mutex taken.
 std::optional<Backups::Order> Backups::due() const {
   const UtcTime now = parts_.clock.now();
-  if (options_.every.count() == 0 || (failed_ && now < *failed_ + kRetry)) return std::nullopt;
-  const auto& known = list_.backups;
-  if (known.empty() || now >= known.back().made + options_.every) return Order{};
-  const bool is_read = known.back().verified.has_value();
-  const bool was_read_lately = std::ranges::any_of(known, [&](const auto& backup) {
-    return backup.verified && now < *backup.verified + options_.verify_every;
+  if (options_.every.count() == 0 || (failed_ && *failed_ <= now && now < *failed_ + kRetry))
+    return std::nullopt;
+  const auto* const last = backup::newest(list_.backups, now);
+  if (last == nullptr || now >= last->made + options_.every) return Order{};
+  const bool was_read_lately = std::ranges::any_of(list_.backups, [&](const auto& backup) {
+    return backup.verified && *backup.verified <= now &&
+           now < *backup.verified + options_.verify_every;
   });
-  if (is_read || was_read_lately) return std::nullopt;
-  return Order{.kind = Kind::Verify, .id = known.back().id};
+  if (last->verified || was_read_lately) return std::nullopt;
+  return Order{.kind = Kind::Verify, .id = last->id};
 }
 
 void Backups::carry_out(const Order& order, const std::stop_token& stop) {
@@ -165,8 +166,9 @@ void Backups::refresh() {
 /// a backup that is missing unnoticed.
 bool Backups::is_overdue() const {
   if (options_.every.count() == 0) return false;
-  const UtcTime newest = list_.backups.empty() ? started_ : list_.backups.back().made;
-  return parts_.clock.now() > newest + 2 * options_.every;
+  const UtcTime now = parts_.clock.now();
+  const auto* const last = backup::newest(list_.backups, now);
+  return now > (last == nullptr ? started_ : last->made) + 2 * options_.every;
 }
 
 /// With the mutex taken.
@@ -181,7 +183,11 @@ void Backups::report() {
     finding.detail = last_->error;
   } else if (is_overdue()) {
     finding.what = "the newest backup is older than it should be";
-    finding.detail = list_.backups.empty() ? "there is none" : list_.backups.back().id;
+    const auto* const last = backup::newest(list_.backups, parts_.clock.now());
+    finding.detail = last == nullptr ? "there is none" : last->id;
+  } else if (!list_.backups.empty() && list_.backups.back().made > parts_.clock.now()) {
+    finding.what = "a backup is of a time that has not come: look at the clock, then remove it";
+    finding.detail = list_.backups.back().id;
   }
   if (!finding.what.empty()) finding.level = Health::Level::Degraded;
   parts_.health.report("", std::move(finding));

@@ -295,11 +295,20 @@ Result<void> BackupFolder::remove(const std::string& id) {
   return fail(Errc::NotFound, "there is no backup '{}'", id);
 }
 
+const Backup* newest(std::span<const Backup> backups, UtcTime now) {
+  const auto end = std::ranges::find_if(backups, [&](const Backup& one) { return one.made > now; });
+  return end == backups.begin() ? nullptr : &*std::prev(end);
+}
+
 Result<BackupFolder::Pruned> BackupFolder::prune(const Retention& retention, UtcTime now) {
   const auto listed = list();
   if (!listed) return fail(listed.error());
   std::vector<UtcTime> made;
   for (const auto& backup : listed->backups) made.push_back(backup.made);
+  // After so long a pause all would go at once, or the clock is wrong: the next one decides.
+  constexpr std::chrono::weeks kLongPause{26};
+  const auto past = std::ranges::count_if(made, [&](UtcTime time) { return time <= now; });
+  if (past >= 2 && now - made[static_cast<std::size_t>(past) - 2] > kLongPause) return Pruned{};
   const auto out = expired(made, retention, now);
   Pruned pruned;
   std::set<Digest> wanted;

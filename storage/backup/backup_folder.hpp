@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,10 @@ struct Backup {
   std::uint64_t added = 0;               ///< bytes on the backup's disk that no earlier backup had
   std::optional<UtcTime> verified = {};  ///< when its bytes were last read and found good
 };
+
+/// The newest of `backups`, which begin with the oldest, that was made by `now`; none: null. One of
+/// a time that has not come is from before the clock was set.
+const Backup* newest(std::span<const Backup> backups, UtcTime now);
 
 /// A folder of backups. Each is a whole picture of a state folder at one moment; equal bytes are
 /// stored once for all of them, in chunks of 256 KiB, so a backup costs what has changed. One

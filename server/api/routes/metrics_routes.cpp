@@ -61,16 +61,17 @@ void add_health(MetricsText& out, const library::Health::State& state) {
   for (const auto& [subject, count] : subjects) out.sample(count, {{"subject", subject}});
 }
 
-void add_backups(MetricsText& out, const library::Backups::State& state) {
+void add_backups(MetricsText& out, const library::Backups::State& state, UtcTime now) {
   const auto& known = state.list.backups;
   out.gauge("dripline_backups", "Backups in the folder.", static_cast<double>(known.size()));
   out.gauge("dripline_backups_damaged", "Backups that cannot be read.",
             static_cast<double>(state.list.damaged.size()));
   out.gauge("dripline_backup_overdue", "1: the newest backup is older than it should be.",
             number(state.is_overdue));
-  if (known.empty()) return;
+  const backup::Backup* const newest = backup::newest(known, now);
+  if (newest == nullptr) return;
   out.gauge("dripline_backup_newest_timestamp_seconds", "When the newest backup was made.",
-            seconds(known.back().made));
+            seconds(newest->made));
 }
 
 void add_sharing(MetricsText& out, const SharedLibrary& shared) {
@@ -278,7 +279,8 @@ Response list_metrics(Services& services, const RequestTimes& times, const Reque
   if (services.ports != nullptr) add_ports(out, services.ports->ports());
   add_requests(out, times);
   add_certificates(out, services);
-  if (services.backups != nullptr) add_backups(out, services.backups->state());
+  if (services.backups != nullptr)
+    add_backups(out, services.backups->state(), services.clock.now());
   add_audit(out, services.chain.state());
   if (services.retention != nullptr) add_archives(out, *services.retention);
   if (services.webhooks != nullptr) add_webhooks(out, *services.webhooks);

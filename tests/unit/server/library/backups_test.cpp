@@ -1,5 +1,7 @@
 #include "server/library/backups.hpp"
 
+#include <algorithm>
+
 #include "tests/support/child_process.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
@@ -115,6 +117,22 @@ TEST_F(BackupsTest, ThatAreOverdueAreAFinding) {
   clock_.advance(hours(49));
   ASSERT_TRUE(eventually([&] { return backups_->state().is_overdue; }));
   EXPECT_TRUE(eventually([&] { return !finding().empty(); }));
+}
+
+/// The clock was a year ahead for one backup.
+TEST_F(BackupsTest, OfATimeThatHasNotComeReplaceNoneAndAreAFinding) {
+  begin();
+  ASSERT_TRUE(reaches(1));
+  clock_.advance(hours(24 * 400));
+  ASSERT_TRUE(reaches(2)) << "the one before is still there";
+  clock_.advance(-hours(24 * 400));
+  ASSERT_TRUE(eventually([&] { return finding().find("has not come") != std::string::npos; }));
+  clock_.advance(hours(24));
+  ASSERT_TRUE(reaches(3)) << "they are made beside it";
+  EXPECT_FALSE(backups_->state().is_overdue);
+  const std::string ahead = backups_->state().list.backups.back().id;
+  ASSERT_TRUE(backups_->remove(storage::Actor("cam", "test"), ahead));
+  EXPECT_TRUE(eventually([&] { return finding().empty(); })) << finding();
 }
 
 TEST_F(BackupsTest, ThatAreDamagedAreFoundByTheWeeklyReading) {
