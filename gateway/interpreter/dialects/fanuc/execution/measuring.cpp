@@ -11,29 +11,24 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-bool refuse_measuring(Run& run, const DiagnosticRow& code, std::string_view why) {
-  return run.fail(code, run.block.parts.g_column, why);
-}
-
 bool check(Run& run) {
   const ModalState& state = run.state;
   const ControlOptions& options = run.options;
   const AddressSet axes = run.block.words.present() & kAxisWords;
   if (!(options.measuring_rapid_end > 0 && options.measuring_feed > 0)) {
-    return refuse_measuring(run, ErrorCode::ImproperG,
-                            "G37 needs g37_clearance, g37_tolerance and g37_feed in the setup");
+    return run.fail_at_g(ErrorCode::ImproperG,
+                         "G37 needs g37_clearance, g37_tolerance and g37_feed in the setup");
   }
-  if (run.block.words.has(H)) return refuse_measuring(run, ErrorCode::MeasuringWords, {});
+  if (run.block.words.has(H)) return run.fail_at_g(ErrorCode::MeasuringWords, {});
   if (std::popcount(axes) != 1 || (axes & set_of(X, Y, Z)) == 0) {
-    return refuse_measuring(run, ErrorCode::MeasuringFormat, "one of X, Y and Z");
+    return run.fail_at_g(ErrorCode::MeasuringFormat, "one of X, Y and Z");
   }
-  if (state.is_incremental())
-    return refuse_measuring(run, ErrorCode::MeasuringFormat, "G37 in G91");
-  if (state.h_number == 0) return refuse_measuring(run, ErrorCode::MeasuringAxis, "no H before it");
-  if (state.is_compensating()) return refuse_measuring(run, ErrorCode::SkipInCompensation, "G37");
-  if (state.is_cycle()) return refuse_measuring(run, ErrorCode::HomeInCycle, "G37");
+  if (state.is_incremental()) return run.fail_at_g(ErrorCode::MeasuringFormat, "G37 in G91");
+  if (state.h_number == 0) return run.fail_at_g(ErrorCode::MeasuringAxis, "no H before it");
+  if (state.is_compensating()) return run.fail_at_g(ErrorCode::SkipInCompensation, "G37");
+  if (state.is_cycle()) return run.fail_at_g(ErrorCode::HomeInCycle, "G37");
   if (state.is_transformed || state.is_polar())
-    return refuse_measuring(run, ErrorCode::RotationHome, "G37");
+    return run.fail_at_g(ErrorCode::RotationHome, "G37");
   return true;
 }
 
@@ -53,7 +48,7 @@ bool start_measuring(Run& run) {
   const double travel = at.raw(axis) - run.state.position.raw(axis);
   const double sign = travel < 0 ? -1 : 1;
   if (!(std::fabs(travel) > run.options.measuring_tolerance)) {
-    return refuse_measuring(run, ErrorCode::NotMeasured, "the tool is at the position already");
+    return run.fail_at_g(ErrorCode::NotMeasured, "the tool is at the position already");
   }
   Position before = at;
   before.set_raw(axis, at.raw(axis) - sign * run.options.measuring_rapid_end);
@@ -83,10 +78,10 @@ bool finish_measuring(Run& run, const ProbeResult& result) {
       run.state.origin[i] + run.coordinate(axis, run.block.words[kWordOfAxis[i]]);
   const double off = at.raw(axis) - expected;
   if (!result.tripped || std::fabs(off) > run.options.measuring_tolerance) {
-    return refuse_measuring(run, ErrorCode::NotMeasured,
-                            result.tripped
-                                ? fmt::format("{:.6g} from the position", run.in_units(axis, off))
-                                : std::string("no signal"));
+    return run.fail_at_g(ErrorCode::NotMeasured,
+                         result.tripped
+                             ? fmt::format("{:.6g} from the position", run.in_units(axis, off))
+                             : std::string("no signal"));
   }
   // G44 has the offset with the other sign.
   const double change = run.state.g[kLengthGroup] == 44 ? -off : off;

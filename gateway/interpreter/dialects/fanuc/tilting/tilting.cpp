@@ -10,10 +10,6 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-bool refuse(Run& run, const DiagnosticRow& row, std::string_view why) {
-  return run.fail(row, run.block.parts.g_column, why);
-}
-
 /// Why the mode cannot begin, or nothing.
 std::string_view hindrance(const Run& run) {
   const ModalState& state = run.state;
@@ -139,8 +135,8 @@ bool refuse_excluded(Run& run, std::string_view excluded) {
   const std::string_view mode = is_plane                                  ? "G68.2"
                                 : run.state.g[kLengthGroup] == kTipVector ? "G43.5"
                                                                           : "G43.4";
-  return refuse(run, is_plane ? ErrorCode::ImproperCommand : ErrorCode::TipControl,
-                fmt::format("{} while {} is in force", excluded, mode));
+  return run.fail_at_g(is_plane ? ErrorCode::ImproperCommand : ErrorCode::TipControl,
+                       fmt::format("{} while {} is in force", excluded, mode));
 }
 
 }  // namespace
@@ -187,8 +183,8 @@ bool check_tilted_block(Run& run) {
 
 bool begin_tilted_plane(Run& run) {
   if (const std::string_view why = hindrance(run); !why.empty())
-    return refuse(run, ErrorCode::PlaneFormat, why);
-  if (is_beside(run)) return refuse(run, ErrorCode::PlaneFormat, "U, V or W is not at 0");
+    return run.fail_at_g(ErrorCode::PlaneFormat, why);
+  if (is_beside(run)) return run.fail_at_g(ErrorCode::PlaneFormat, "U, V or W is not at 0");
   Tilt tilt{.kind = Tilt::Kind::Plane};
   if (!read_plane(run, tilt) || !flush_stages(run)) return false;
   begin(run, tilt);
@@ -197,8 +193,8 @@ bool begin_tilted_plane(Run& run) {
 
 bool end_tilted_plane(Run& run) {
   if (run.state.is_compensating() || run.state.is_cycle()) {
-    return refuse(run, ErrorCode::ImproperCommand,
-                  "G69 of a tilted plane needs G40 and G80 before it");
+    return run.fail_at_g(ErrorCode::ImproperCommand,
+                         "G69 of a tilted plane needs G40 and G80 before it");
   }
   if (!flush_stages(run)) return false;
   end(run);
@@ -207,16 +203,16 @@ bool end_tilted_plane(Run& run) {
 
 bool begin_tip_control(Run& run) {
   const Words& words = run.block.words;
-  if (!words.has(H)) return refuse(run, ErrorCode::TipControl, "H is needed");
+  if (!words.has(H)) return run.fail_at_g(ErrorCode::TipControl, "H is needed");
   if (words.has_any(kParallelWords)) return refuse_parallel(run, ErrorCode::TipControl);
-  if (is_beside(run)) return refuse(run, ErrorCode::TipControl, "U, V or W is not at 0");
+  if (is_beside(run)) return run.fail_at_g(ErrorCode::TipControl, "U, V or W is not at 0");
   if (words.has(P) && run.block.parts.m_count == 0 && run.whole(words[P]) != 0) {
     return run.fail(
         ErrorCode::TipControl, words.column(P),
         fmt::format("P{}: the tool's posture is not controlled here", run.whole(words[P])));
   }
   if (const std::string_view why = hindrance(run); !why.empty())
-    return refuse(run, ErrorCode::TipControl, why);
+    return run.fail_at_g(ErrorCode::TipControl, why);
   if (!flush_stages(run)) return false;
   Tilt tilt{.kind = Tilt::Kind::TipControl};
   for (std::size_t i = 0; i < 3; ++i) tilt.at[i] = run.state.origin[i];
@@ -234,15 +230,15 @@ bool end_tip_control(Run& run) {
 
 bool follow_length_offset(Run& run) {
   if (run.state.length_axis != Axis::Z && run.state.length_offset != 0) {
-    return refuse(run, ErrorCode::ImproperCommand,
-                  "in a tilted plane the tool's length is compensated along Z");
+    return run.fail_at_g(ErrorCode::ImproperCommand,
+                         "in a tilted plane the tool's length is compensated along Z");
   }
   if (run.state.length_offset == run.tilted.length_in_force()) return true;
   // Moves that still wait are those of the length before.
   if (run.options.kinematics.type != KinematicType::TableTable) {
     if (run.state.is_compensating())
-      return refuse(run, ErrorCode::ImproperCommand,
-                    "the tool's length changes in cutter compensation; G40 comes before it");
+      return run.fail_at_g(ErrorCode::ImproperCommand,
+                           "the tool's length changes in cutter compensation; G40 comes before it");
     if (!flush_stages(run)) return false;
   }
   run.tilted.set_length(run.state.length_offset);
@@ -255,8 +251,8 @@ bool take_length_offset(Run& run) {
   if (run.tilted.kind() != Tilt::Kind::Plane || waits || !run.tilted.lags()) return true;
   const std::uint8_t mode = state.g[kMotionGroup];
   if (mode > 1 && !state.is_cycle()) {
-    return refuse(run, ErrorCode::ImproperCommand,
-                  "G00 or G01 is needed for the move by the tool's length");
+    return run.fail_at_g(ErrorCode::ImproperCommand,
+                         "G00 or G01 is needed for the move by the tool's length");
   }
   const bool is_fed = mode == 1 && !state.is_cycle();
   if (is_fed && !check_feed(run)) return false;
@@ -295,21 +291,21 @@ bool direct_tool_axis(Run& run) {
   const Words& words = run.block.words;
   constexpr AddressSet kOthers = kAxisWords | kCenterWords | set_of(P, Q, R, H, D, L);
   if (run.tilted.kind() != Tilt::Kind::Plane)
-    return refuse(run, ErrorCode::AxisDirection, "G68.2 is not in force");
+    return run.fail_at_g(ErrorCode::AxisDirection, "G68.2 is not in force");
   if (words.has_any(kOthers)) {
     return run.fail(ErrorCode::AxisDirection, words.first_column(kOthers),
                     "a word beside G53.1, which takes none");
   }
   if (state.is_compensating() || state.is_cycle())
-    return refuse(run, ErrorCode::AxisDirection, "G40 and G80 come before it");
+    return run.fail_at_g(ErrorCode::AxisDirection, "G40 and G80 come before it");
   if (state.g[kMotionGroup] > 1)
-    return refuse(run, ErrorCode::AxisDirection, "G00 or G01 is needed for its move");
+    return run.fail_at_g(ErrorCode::AxisDirection, "G00 or G01 is needed for its move");
   const bool is_fed = state.g[kMotionGroup] == 1;
   if (is_fed && !check_feed(run)) return false;
   const auto pose = run.tilted.pose_for({0, 0, 1});
   if (!pose) {
-    return refuse(run, ErrorCode::AxisDirection,
-                  "no position of the rotary axes brings the tool normal to the plane");
+    return run.fail_at_g(ErrorCode::AxisDirection,
+                         "no position of the rotary axes brings the tool normal to the plane");
   }
   if (!flush_stages(run)) return false;
   const std::optional<Feed> feed = is_fed ? std::optional(run.active_feed()) : std::nullopt;
