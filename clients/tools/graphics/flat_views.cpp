@@ -6,7 +6,6 @@
 namespace dripline::graphics {
 namespace {
 
-constexpr Shade kBackground = 24;
 constexpr Shade kMaterial = 200;
 constexpr Shade kAir = 48;
 constexpr Shade kMark = 255;

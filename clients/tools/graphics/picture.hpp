@@ -14,6 +14,7 @@ namespace dripline::graphics {
 using Shade = std::uint8_t;  ///< 0 black, 255 white
 inline constexpr Shade kBlack = 0;
 inline constexpr Shade kWhite = 255;
+inline constexpr Shade kBackground = 24;  ///< of views
 
 /// What a pixel is drawn with; shades of gray print, colors are for screens alone.
 enum class Ink : std::uint8_t { Gray, Red, Green, Yellow };

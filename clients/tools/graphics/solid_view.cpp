@@ -7,7 +7,6 @@
 namespace dripline::graphics {
 namespace {
 
-constexpr Shade kSolidBackground = 24;
 constexpr double kBodyShare = 0.94;  ///< of the picture that the body may fill
 
 struct Vector {
@@ -47,7 +46,7 @@ class Ray {
       : part_(part), from_(from), along_(along) {}
 
   Shade look() {
-    if (!enter()) return kSolidBackground;
+    if (!enter()) return kBackground;
     while (is_inside()) {
       const double leave = std::min(next_u_, next_v_);
       const double height =
@@ -61,10 +60,10 @@ class Ray {
         }
         if (w_out <= height && w_in > height) return lit(normal_at(), depth_of(height));
       }
-      if (w_out < low) return kSolidBackground;
+      if (w_out < low) return kBackground;
       step();
     }
-    return kSolidBackground;
+    return kBackground;
   }
 
  private:
@@ -211,7 +210,7 @@ Picture draw_solid(const HeightField& part, const SolidView& view) {
   const double far = extent.width() + extent.depth() + extent.height();
   const Vector middle{(extent.low.u + extent.high.u) / 2, (extent.low.v + extent.high.v) / 2,
                       (extent.low.w + extent.high.w) / 2};
-  Picture picture(view.width, view.height, kSolidBackground);
+  Picture picture(view.width, view.height, kBackground);
   for (std::size_t y = 0; y < view.height; ++y) {
     const double up = (height / 2 - static_cast<double>(y) - 0.5) * scale;
     for (std::size_t x = 0; x < view.width; ++x) {

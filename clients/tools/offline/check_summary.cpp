@@ -9,8 +9,6 @@ namespace dripline::interpreter {
 
 namespace {
 
-constexpr double kSecondsPerMinute = 60;
-
 /// Over the linear axes; a move of rotary axes alone takes its degrees as millimeters, which is
 /// how controls read the feed of such a move.
 Length distance(const Position& from, const Position& to) {

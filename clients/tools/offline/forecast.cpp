@@ -5,7 +5,6 @@
 namespace dripline::interpreter {
 namespace {
 
-constexpr double kOneMinute = 60;
 constexpr double kNoWait = 1e-9;
 
 bool waits_longer(const StarvedBlock& a, const StarvedBlock& b) {
@@ -124,7 +123,8 @@ void Forecast::note(const Block& before, std::uint64_t characters, double wait, 
   starved.wait_seconds = wait;
   starved.moved = before.fed;
   starved.move_seconds = before.seconds;
-  starved.feed_that_would_do = before.fed * (kOneMinute / std::max(reading, before.seconds + wait));
+  starved.feed_that_would_do =
+      before.fed * (kSecondsPerMinute / std::max(reading, before.seconds + wait));
   auto& worst = result_.worst;
   if (worst.size() < ForecastResult::kMaxWorst) {
     worst.push_back(starved);

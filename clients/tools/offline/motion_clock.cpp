@@ -9,7 +9,6 @@ namespace {
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// Of axes that state none: so high that no ramp is seen.
 constexpr double kInstant = 1e12;
-constexpr double kMinuteSeconds = 60;
 
 double product(const TimedMove::Coordinates& a, const TimedMove::Coordinates& b) {
   double sum = 0;
@@ -33,7 +32,7 @@ MotionClock::MotionClock(const MachineData& machine, OnTimed on_timed)
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     const auto& axis = machine.axes[i];
     acceleration_[i] = axis ? axis->acceleration.value_or(kInstant) : kInstant;
-    rate_[i] = axis && axis->max_rate ? *axis->max_rate / kMinuteSeconds : kUnlimited;
+    rate_[i] = axis && axis->max_rate ? *axis->max_rate / kSecondsPerMinute : kUnlimited;
   }
 }
 

@@ -11,6 +11,8 @@
 
 namespace dripline::interpreter {
 
+inline constexpr double kSecondsPerMinute = 60;
+
 /// A move as the clock needs it. By axis: millimeters, or degrees of a rotary one.
 struct TimedMove {
   using Coordinates = std::array<double, kAxisCount>;
