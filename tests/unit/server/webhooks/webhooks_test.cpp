@@ -3,7 +3,9 @@
 #include <arpa/inet.h>
 #include <httplib.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <atomic>
+#include <cerrno>
 #include <deque>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -216,23 +218,30 @@ class EndlessReceiver {
     port_ = ntohs(own.sin_port);
     thread_ = std::thread([this] { answer(); });
   }
-  ~EndlessReceiver() { thread_.join(); }
+  ~EndlessReceiver() {
+    is_over_ = true;
+    thread_.join();
+  }
   int port() const { return port_; }
   std::size_t written() const { return written_; }
 
  private:
   void answer() {
     const Descriptor connection(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    // A peer that closed with its window full answers the kernel's probes only now and then.
+    const timeval patience{.tv_sec = 0, .tv_usec = 20'000};
+    ::setsockopt(connection.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     const std::string piece(65536, 'x');
-    for (;;) {
+    while (!is_over_) {
       const auto sent = ::send(connection.get(), piece.data(), piece.size(), MSG_NOSIGNAL);
-      if (sent < 0) return;
-      written_ += static_cast<std::size_t>(sent);
+      if (sent < 0 && errno != EAGAIN) return;
+      if (sent > 0) written_ += static_cast<std::size_t>(sent);
     }
   }
   Descriptor listener_;
   int port_ = 0;
   std::atomic<std::size_t> written_ = 0;
+  std::atomic<bool> is_over_ = false;
   std::thread thread_;
 };
 
