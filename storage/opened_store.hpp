@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "protocol/base/clock.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::storage {
@@ -47,6 +49,9 @@ class OpenedStore : public Store {
   virtual Result<bool> copy_to(
       const std::filesystem::path& file,
       const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) = 0;
+
+  /// Now, by the clock of the computer that keeps the store; nullopt: this one does. Errors: Io.
+  virtual Result<std::optional<UtcTime>> time() { return std::optional<UtcTime>{}; }
 
   /// Made together with the database and never changed: 32 hexadecimal digits.
   virtual Result<std::string> identity() = 0;

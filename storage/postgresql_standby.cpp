@@ -81,8 +81,8 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
   const auto row = sql::first_row(
       database,
       fmt::format("SELECT holder IN ('', ?1), until <= clock_timestamp(), described, {}, "
-                  "holder = ?1, {} FROM store_holder WHERE id = 1",
-                  facts, settings),
+                  "holder = ?1, {}, {} FROM store_holder WHERE id = 1",
+                  facts, settings, postgresql::kClockMicroseconds),
       [&](const sql::Statement& found) {
         view.is_lapsed = found.integer(0) == 0 && found.integer(1) != 0;
         view.is_free = found.integer(0) != 0 || (view.is_lapsed && settled);
@@ -92,6 +92,7 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
         view.term = static_cast<std::uint64_t>(found.integer(5));
         view.is_own = found.integer(6) != 0;
         view.settings = found.text(7);
+        view.time = UtcTime(std::chrono::microseconds(found.integer(8)));
         return true;
       },
       options_.holder);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::storage {
@@ -37,6 +38,7 @@ class PostgresqlStandby {
     std::uint64_t term = 0;   ///< of the last holder
     bool has_others = false;  ///< other servers wait too
     std::string identity;     ///< of the database; empty: it has none
+    UtcTime time{};           ///< by the database's clock; only where it has tables
   };
   /// Connects when it is not connected. A lease that is over counts only after `kSettle` of a
   /// connection: after an outage of the database its holder comes first. Errors: Io, Denied,

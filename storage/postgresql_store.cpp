@@ -3,6 +3,7 @@
 #include "storage/impl/all_repositories.hpp"
 #include "storage/impl/postgresql_connections.hpp"
 #include "storage/impl/waiting_rows.hpp"
+#include "storage/postgresql/database.hpp"
 #include "storage/postgresql/url.hpp"
 
 namespace dripline::storage {
@@ -36,6 +37,14 @@ Result<void> PostgresqlStore::probe() {
   if (auto written = parts_->connections->renew(); !written) return written;
   const auto read = identity();
   return read ? Result<void>() : fail(read.error());
+}
+
+Result<std::optional<UtcTime>> PostgresqlStore::time() {
+  const auto now = parts_->connections->read([](sql::Database& database) {
+    return database.integer(fmt::format("SELECT {}", postgresql::kClockMicroseconds));
+  });
+  if (!now) return fail(now.error());
+  return UtcTime(std::chrono::microseconds(*now));
 }
 
 Result<bool> PostgresqlStore::copy_to(const std::filesystem::path&,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -60,6 +61,7 @@ class PostgresqlStore final : public OpenedStore {
   /// its answer. Errors: Io.
   Result<bool> check(std::chrono::milliseconds limit, const std::stop_token& stop) override;
   Result<void> probe() override;
+  Result<std::optional<UtcTime>> time() override;
   /// Unsupported: pg_basebackup and pg_dump are PostgreSQL's own.
   Result<bool> copy_to(const std::filesystem::path& file,
                        const std::function<bool(std::uint64_t, std::uint64_t)>& proceed) override;

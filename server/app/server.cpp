@@ -141,7 +141,9 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   parts.watch = std::make_unique<library::HealthWatch>(
       library::HealthWatch::Parts{.health = parts.health,
                                   .probe = [&parts] { return parts.look(); },
-                                  .folder = parts.folder.path()});
+                                  .folder = parts.folder.path(),
+                                  .clock = parts.clock,
+                                  .store_time = [&parts] { return parts.store->time(); }});
   if (!*is_checked) parts.check_on();
   if (*agent) {
     if (auto opened = parts.open_mtconnect(**agent); !opened) {

@@ -157,6 +157,7 @@ bool Standby::is_for_others(const View& view) const {
 }
 
 Result<bool> Standby::look() {
+  const UtcTime before = parts_->clock.now();
   auto view = parts_->database.look();
   if (!view) {
     const bool is_final = view.error().code == Errc::Unsupported;
@@ -171,6 +172,7 @@ Result<bool> Standby::look() {
     if (auto fits = check(*view); !fits) return fail(fits.error());
   }
   look_at_settings(*view);
+  look_at_clock(before, *view);
   const bool is_free = view->is_free && !is_for_others(*view) && faults_.network.empty();
   const bool is_due = has_ports(is_free) && is_free;
   const std::lock_guard lock(mutex_);
@@ -237,6 +239,16 @@ void Standby::look_at_disk() {
   set_fault(&StandbyFaults::disk,
             is_well ? "" : fmt::format("{} ({})", finding.what, parts_->folder.path().string()),
             "the disk has room again");
+}
+
+void Standby::look_at_clock(UtcTime before, const View& view) {
+  if (!view.has_tables) return;
+  const auto finding =
+      library::judge_clock(before, view.time, parts_->clock.now(), !faults_.clock.empty());
+  const bool is_well = finding.level == library::Health::Level::Ok;
+  set_fault(&StandbyFaults::clock,
+            is_well ? "" : fmt::format("{}: {}", finding.what, finding.detail),
+            "the clocks of this server and of its database agree again");
 }
 
 /// With those of the server that has the place, or was killed with it. A place that is given back

@@ -67,6 +67,7 @@ class Standby {
   bool has_ports(bool is_due);
   void look_at_agent();
   void look_at_settings(const storage::PostgresqlStandby::View& view);
+  void look_at_clock(UtcTime before, const storage::PostgresqlStandby::View& view);
   void look_at_disk();
   void set_fault(std::string StandbyFaults::*which, std::string now, const char* cleared);
   api::Response answer(const api::Request& request) const;

@@ -37,6 +37,8 @@ constexpr std::array kFaultRows{
         "this server's settings are not those of the active one: after a takeover it would work "
         "differently",
         "its settings are not the active server's"},
+    FaultRow{"clock", &StandbyFaults::clock, "the clocks of this server and of its database differ",
+             "its clock differs from the database's"},
     FaultRow{"disk", &StandbyFaults::disk, "the disk of this server is full or nearly full",
              "its disk is full or nearly full"},
 };
@@ -56,6 +58,7 @@ std::string StandbyFaults::note() const {
   };
   if (!agent.empty()) add(agent);
   if (!settings.empty()) add(settings);
+  if (!clock.empty()) add(clock);
   if (!disk.empty()) add(disk);
   return note;
 }

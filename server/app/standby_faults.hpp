@@ -15,6 +15,7 @@ struct StandbyFaults {
       {};                  ///< the active server's gateways would not find it: it cannot take over
   std::string agent = {};  ///< without its MTConnect agent
   std::string settings = {};  ///< differ from the active server's
+  std::string clock = {};     ///< differs from the database's
   std::string disk = {};      ///< full, or nearly
   bool is_disk_full = false;
 

@@ -18,7 +18,7 @@ constexpr unsigned kReloadSeconds = 5;
 
 struct Words {
   std::string_view language, waits, has_library, unknown, database_lost, blocked, lacks_agent,
-      other_network, other_settings, lacks_disk, reloads;
+      other_network, other_settings, other_clock, lacks_disk, reloads;
 };
 constexpr Words kEnglish{
     "en",
@@ -31,6 +31,7 @@ constexpr Words kEnglish{
     "agent.",
     "Its DDS settings are not those of the server that has the library: it cannot take over.",
     "Its settings are not those of the server that has the library: see its log.",
+    "Its clock is not that of the database.",
     "Its disk is full or nearly full.",
     "This page loads itself again, and becomes the usual one when this server has the library."};
 constexpr Words kGerman{
@@ -45,6 +46,7 @@ constexpr Words kGerman{
     "Seine DDS-Einstellungen sind andere als die des Servers mit der Bibliothek: er kann nicht "
     "übernehmen.",
     "Seine Einstellungen sind andere als die des Servers mit der Bibliothek: siehe sein Protokoll.",
+    "Seine Uhr geht anders als die der Datenbank.",
     "Sein Datenträger ist voll oder fast voll.",
     "Diese Seite lädt sich selbst neu und wird zur gewohnten, sobald dieser Server die Bibliothek "
     "hat."};
@@ -117,6 +119,7 @@ api::Response standby_page(const ActiveServer& active, const StandbyFaults& faul
   add(faults.network, words.other_network);
   add(faults.agent, words.lacks_agent);
   add(faults.settings, words.other_settings);
+  add(faults.clock, words.other_clock);
   add(faults.disk, words.lacks_disk);
   response.body += fmt::format("<p>{}</p>\n</html>\n", words.reloads);
   response.headers.emplace_back("Cache-Control", "no-store");

@@ -75,6 +75,19 @@ Health::Finding judge_disk(std::uint64_t size, std::uint64_t free) {
   return finding;
 }
 
+Health::Finding judge_clock(UtcTime before, UtcTime store, UtcTime after, bool did_differ) {
+  Health::Finding finding{.level = Health::Level::Ok, .subject = "clock", .what = {}, .detail = {}};
+  const auto ahead = before - store, late = store - after;
+  const auto difference = std::max(ahead, late);
+  if (difference < kClockTolerance - std::chrono::seconds(did_differ ? 1 : 0)) return finding;
+  finding.level = Health::Level::Degraded;
+  finding.what = "the clocks of this server and of its database differ";
+  finding.detail = fmt::format("this server's is {} s {}",
+                               std::chrono::duration_cast<std::chrono::seconds>(difference).count(),
+                               ahead > late ? "ahead" : "late");
+  return finding;
+}
+
 HealthWatch::HealthWatch(Parts parts) : parts_(std::move(parts)) {
   look();
   thread_ = std::thread([this] { run(); });
@@ -111,6 +124,7 @@ void HealthWatch::look() {
     process::log_error("{}: {}", finding.what, finding.detail);
   }
   parts_.health.report("", std::move(finding));
+  if (done) look_at_clock();
   parts_.health.looked();
 }
 
@@ -119,6 +133,20 @@ void HealthWatch::look_at_disk() {
   if (::statvfs(parts_.folder.c_str(), &disk) != 0) return;  // the probe reports more
   parts_.health.report("",
                        judge_disk(disk.f_blocks * disk.f_frsize, disk.f_bavail * disk.f_frsize));
+}
+
+void HealthWatch::look_at_clock() {
+  if (!parts_.store_time) return;
+  const UtcTime before = parts_.clock.now();
+  const auto store = parts_.store_time();
+  if (!store || !*store) return;  // the probe reports more
+  auto finding = judge_clock(before, **store, parts_.clock.now(), does_clock_differ_);
+  const bool differs = finding.level != Health::Level::Ok;
+  if (differs && !does_clock_differ_) process::log_warning("{}: {}", finding.what, finding.detail);
+  if (!differs && does_clock_differ_)
+    process::log_info("the clocks of this server and of its database agree again");
+  does_clock_differ_ = differs;
+  parts_.health.report("", std::move(finding));
 }
 
 }  // namespace dripline::library

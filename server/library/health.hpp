@@ -65,6 +65,9 @@ class HealthWatch {
     /// Writes something small onto the disk and reads it again.
     std::function<Result<void>()> probe;
     std::filesystem::path folder;
+    /// This computer's clock, and the store's where it is another computer's.
+    const Clock& clock;
+    std::function<Result<std::optional<UtcTime>>()> store_time{};
   };
   /// Returns after the first check.
   explicit HealthWatch(Parts parts);
@@ -75,9 +78,11 @@ class HealthWatch {
  private:
   void look();
   void look_at_disk();
+  void look_at_clock();
   void run();
 
   Parts parts_;
+  bool does_clock_differ_ = false;  ///< of the watch's thread
   std::mutex mutex_;
   std::condition_variable changed_;
   bool is_stopping_ = false;
@@ -87,5 +92,12 @@ class HealthWatch {
 /// How a disk of `size` bytes with `free` left is: Failed when hardly a commit fits, Degraded when
 /// the operator should make room. Pure.
 Health::Finding judge_disk(std::uint64_t size, std::uint64_t free);
+
+/// This computer's clock, which showed `before` and `after` the store's showed `store`: Degraded
+/// from kClockTolerance of difference, until it is a second less (`did_differ`). Where the clocks
+/// of servers differ, a takeover makes times go back, and tokens begin or end at the wrong time.
+/// Pure.
+Health::Finding judge_clock(UtcTime before, UtcTime store, UtcTime after, bool did_differ);
+inline constexpr std::chrono::seconds kClockTolerance{5};
 
 }  // namespace dripline::library

@@ -10,6 +10,10 @@ namespace dripline::storage::postgresql {
 
 class Link;
 
+/// An expression of SQL: now by the database's clock, in microseconds since 1970.
+inline constexpr const char* kClockMicroseconds =
+    "CAST(extract(epoch FROM clock_timestamp()) * 1000000 AS bigint)";
+
 struct ConnectOptions {
   std::string url;  ///< postgresql://... or libpq's "host=... dbname=..."
   std::chrono::seconds connect_timeout{5};

@@ -194,6 +194,10 @@ TEST_F(PostgresqlPlaceTest, AStandbySeesWhoHasThePlaceAndIsSeen) {
     EXPECT_EQ(view->settings, "dds-domain 0\n");
     EXPECT_EQ(view->term, store_->term());
     EXPECT_EQ(view->identity, *store_->identity());
+    EXPECT_LT(std::chrono::abs(SystemClock().now() - view->time), std::chrono::seconds(30));
+    const auto time = store_->time();
+    ASSERT_TRUE(time && *time);
+    EXPECT_GE(**time, view->time);
     const auto waiting = store_->waiting();
     ASSERT_TRUE(waiting) << waiting.error().what;
     ASSERT_EQ(waiting->size(), 1u);

@@ -86,6 +86,11 @@ TEST(StandbyFaults, KeepItFromWhatTheyConcern) {
   EXPECT_EQ(faults.note(), faults.settings);
   EXPECT_EQ(faults.health()["reasons"].size(), 1u);
   EXPECT_EQ(faults.health().dump().find("sha256"), std::string::npos) << "for any client";
+  faults.clock = "the clocks differ: this server's is 40 s late";
+  EXPECT_FALSE(faults.is_unfit()) << "the machines are fed all the same";
+  EXPECT_EQ(faults.note(), faults.settings + "; " + faults.clock);
+  EXPECT_EQ(faults.summary(),
+            ", its settings are not the active server's, its clock differs from the database's");
   faults.is_disk_full = true;
   EXPECT_TRUE(faults.is_unfit());
   EXPECT_FALSE(faults.is_blocked());

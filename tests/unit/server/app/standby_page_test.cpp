@@ -42,10 +42,12 @@ TEST(StandbyPage, SaysWhatItCouldNotTakeOver) {
   EXPECT_TRUE(holds(standby_page({.name = "dncd 812"}, {.agent = "used"}, browser("de")),
                     "ohne den Agenten"));
   const auto other = standby_page(
-      {.name = "dncd 812"}, {.network = "other", .settings = "other", .disk = "full"}, browser());
+      {.name = "dncd 812"},
+      {.network = "other", .settings = "other", .clock = "late", .disk = "full"}, browser());
   EXPECT_TRUE(holds(other, "Its DDS settings are not those"));
   EXPECT_TRUE(holds(other, "see its log"));
   EXPECT_TRUE(holds(other, "nearly full"));
+  EXPECT_TRUE(holds(other, "Its clock is not that of the database"));
 }
 
 TEST(StandbyPage, LinksToTheServerThatHasTheLibraryAndLoadsItselfAgain) {

@@ -54,18 +54,54 @@ TEST_F(HealthState, TheWatchReportsTheErrorOfTheStore) {
     auto opened = storage::SqliteStore::open({.file = folder.path() / "store.sqlite"}, clock_);
     ASSERT_TRUE(opened);
     const auto store = *std::move(opened);
-    const library::HealthWatch watch(
-        {.health = health_, .probe = [&] { return store->probe(); }, .folder = folder.path()});
+    const library::HealthWatch watch({.health = health_,
+                                      .probe = [&] { return store->probe(); },
+                                      .folder = folder.path(),
+                                      .clock = clock_});
     for (const auto& finding : health_.state().findings) EXPECT_NE(finding.subject, "store");
   }
   const library::HealthWatch watch(
       {.health = health_,
        .probe = []() -> Result<void> { return fail(Errc::Io, "disk full: /somewhere"); },
-       .folder = folder.path()});
+       .folder = folder.path(),
+       .clock = clock_});
   const auto state = health_.state();
   EXPECT_EQ(state.level, Level::Failed);
   EXPECT_EQ(state.findings.back().detail, "disk full: /somewhere");
   EXPECT_EQ(state.findings.back().what.find('/'), std::string::npos);
+}
+
+TEST_F(HealthState, TheWatchReportsAClockThatIsNotTheStores) {
+  const test_support::TemporaryFolder folder;
+  const auto watch = [&](std::optional<UtcTime> store) {
+    const library::HealthWatch looked({.health = health_,
+                                       .probe = [] { return Result<void>(); },
+                                       .folder = folder.path(),
+                                       .clock = clock_,
+                                       .store_time = [store] { return store; }});
+    for (const auto& finding : health_.state().findings)
+      if (finding.subject == "clock") return finding.detail;
+    return std::string("agrees");
+  };
+  EXPECT_EQ(watch(std::nullopt), "agrees") << "a store on this computer";
+  EXPECT_EQ(watch(clock_.now()), "agrees");
+  EXPECT_EQ(watch(clock_.now() - std::chrono::hours(1)), "this server's is 3600 s ahead");
+  EXPECT_EQ(watch(clock_.now() + std::chrono::seconds(40)), "this server's is 40 s late");
+  EXPECT_EQ(watch(clock_.now()), "agrees") << "it is set right";
+}
+
+TEST(HealthClock, HasATolerance) {
+  constexpr UtcTime kNow{std::chrono::hours(500'000)};
+  const auto level = [&](auto before, auto after, bool did_differ = false) {
+    return library::judge_clock(kNow + before, kNow, kNow + after, did_differ).level;
+  };
+  using namespace std::chrono_literals;
+  EXPECT_EQ(level(4900ms, 4950ms), Level::Ok);
+  EXPECT_EQ(level(5s, 5s), Level::Degraded);
+  EXPECT_EQ(level(-5s, -5s), Level::Degraded);
+  EXPECT_EQ(level(-30s, 30s), Level::Ok) << "the answer took a minute: nothing is known";
+  EXPECT_EQ(level(4500ms, 4500ms, true), Level::Degraded) << "not to and fro";
+  EXPECT_EQ(level(3900ms, 3900ms, true), Level::Ok);
 }
 
 TEST(HealthDisk, WarnsBeforeItIsFull) {
