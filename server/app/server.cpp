@@ -110,7 +110,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   parts.programs.on_held([&parts](const auto& revision) { parts.imports.note(revision); });
   if (auto loaded_holds = parts.hold_reasons.load(); !loaded_holds)
     return fail(loaded_holds.error());
-  parts.audit.write_kept();
+  parts.write_kept_audit();
   parts.imports.begin();
   parts.folders.begin();
   parts.webhooks.begin();

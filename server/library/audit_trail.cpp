@@ -35,13 +35,15 @@ void AuditTrail::write_late(const storage::AuditEntry& entry, const std::string&
                       add, name.empty() ? LateWriter::AtEnd::Lost : LateWriter::AtEnd::Kept);
 }
 
-void AuditTrail::write_kept() {
-  if (!late_) return;
-  for (const auto& [name, entry] : late_->kept.read()) {
+std::size_t AuditTrail::write_kept() {
+  if (!late_) return 0;
+  const auto read = late_->kept.read();
+  for (const auto& [name, entry] : read.kept) {
     process::log_info("audit entry of a former life of the server: who={} action={} subject={}",
                       entry.who.name, entry.action, entry.subject);
     write_late(entry, name);
   }
+  return read.failures;
 }
 
 Result<void> AuditTrail::write_before(Change change) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -32,8 +33,8 @@ class AuditTrail {
   /// Of a machine that was stopped: written when the store is there again, by the server's next
   /// life if need be, with the present time.
   void write_late(const Change& change);
-  /// What a former life of the server could not write.
-  void write_kept();
+  /// What a former life of the server could not write. Returns how many of it cannot be read.
+  std::size_t write_kept();
   /// Of what is about to be done. Errors: those of the store; then it must not be done.
   Result<void> write_before(Change change);
   Result<std::vector<storage::AuditEntry>> entries(storage::Page page) { return store_.list(page); }

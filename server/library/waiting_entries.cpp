@@ -77,7 +77,12 @@ void WaitingEntries::drop(const std::string& name) const {
   ::unlink((folder_ / name).c_str());
 }
 
-std::vector<WaitingEntries::Kept> WaitingEntries::read() const {
+WaitingEntries::Read WaitingEntries::read() const {
+  Read read;
+  const auto log_failure = [&](const std::string& name, const char* why) {
+    ++read.failures;
+    process::log_error("audit entry not read: {}: {}", (folder_ / name).string(), why);
+  };
   std::vector<std::string> names;
   std::error_code ec;
   for (fs::directory_iterator at(folder_, ec); !ec && at != fs::directory_iterator();
@@ -89,20 +94,19 @@ std::vector<WaitingEntries::Kept> WaitingEntries::read() const {
     if (std::error_code unknown; file.is_regular_file(unknown)) {
       names.push_back(std::move(name));
     } else {
-      process::log_error("audit entry not read: {}: it is no file", file.path().string());
+      log_failure(name, "it is no file");
     }
   }
   std::ranges::sort(names);
-  std::vector<Kept> kept;
   for (std::string& name : names) {
     auto entry = decode(text_of(folder_ / name));
     if (entry) {
-      kept.push_back({std::move(name), *std::move(entry)});
+      read.kept.push_back({std::move(name), *std::move(entry)});
     } else {
-      process::log_error("audit entry not read: {}: it is no entry", (folder_ / name).string());
+      log_failure(name, "it is no entry");
     }
   }
-  return kept;
+  return read;
 }
 
 }  // namespace dripline::library

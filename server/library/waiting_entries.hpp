@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -28,8 +29,11 @@ class WaitingEntries {
     std::string name;
     storage::AuditEntry entry;
   };
-  /// In the order in which they were kept. What cannot be read is logged, and left where it is.
-  std::vector<Kept> read() const;
+  struct Read {
+    std::vector<Kept> kept;    ///< in the order in which they were kept
+    std::size_t failures = 0;  ///< what cannot be read: logged, and left where it is
+  };
+  Read read() const;
 
  private:
   const std::filesystem::path folder_;

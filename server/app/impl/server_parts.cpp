@@ -290,6 +290,16 @@ Result<void> ServerParts::look() {
   return sound;
 }
 
+void ServerParts::write_kept_audit() {
+  const std::size_t failures = audit.write_kept();
+  using Level = library::Health::Level;
+  health.report("waiting", {.level = failures == 0 ? Level::Ok : Level::Degraded,
+                            .subject = "audit",
+                            .what = "entries of the audit trail that waited cannot be read",
+                            .detail = fmt::format("{} in {}, see the log", failures,
+                                                  folder.waiting_entries().string())});
+}
+
 Result<void> ServerParts::revoke_certificates() {
   if (revoked_file.empty()) return {};
   auto serials = identity::read_revoked(revoked_file);

@@ -110,6 +110,8 @@ struct ServerParts {
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
   /// again.
   Result<void> look();
+  /// Audit entries of a former life of the server; what cannot be read is a finding.
+  void write_kept_audit();
   /// What the file has now; of a file that cannot be read what it had last stays in force.
   Result<void> revoke_certificates();
   /// The machines that are known and their tools, then the sockets.
