@@ -22,8 +22,13 @@ enum Cycle : std::uint8_t {
   kTap = 206,
   kRigidTap = 207,
   kBoreMill = 208,
-  kChipTap = 209
+  kChipTap = 209,
+  kCenter = 240
 };
+/// One that a pattern repeats.
+constexpr bool is_at_a_point(int cycle) {
+  return (cycle >= kDrill && cycle <= kChipTap) || cycle == kCenter;
+}
 /// The spindle runs with the feed, and the cycle starts it itself.
 constexpr bool is_rigid(int cycle) {
   return cycle == kRigidTap || cycle == kChipTap;

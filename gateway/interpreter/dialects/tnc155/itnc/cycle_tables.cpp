@@ -50,6 +50,8 @@ constexpr std::array kPeckingWords{kClearance,
                                    P{253, Feed, false},
                                    P{208, Feed, false},
                                    kReference};
+constexpr std::array kCenteringWords{kClearance, P{343, Zero}, kDepth,   P{344, Length, false},
+                                     kPlunge,    kAtBottom,    kSurface, kSecond};
 constexpr std::array kTappingWords{kClearance, kDepth, kPlunge, kAtBottom, kSurface, kSecond};
 constexpr std::array kRigidWords{kClearance, kDepth, P{239, Length}, kSurface, kSecond};
 constexpr std::array kBoringWords{kClearance, kDepth,           kPlunge,
@@ -108,6 +110,8 @@ std::span<const CycleParameter> cycle_table(int cycle) {
       return kPolarWords;
     case kCartesianPattern:
       return kCartesianWords;
+    case 240:
+      return kCenteringWords;
     case 247:
       return kPresetWords;
     default:

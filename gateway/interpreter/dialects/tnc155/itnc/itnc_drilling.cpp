@@ -9,8 +9,8 @@
 #include "gateway/interpreter/dialects/tnc155/itnc/cycle_table_run.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
-/// Cycles 200 to 209. Source: iTNC 530 (and TNC 426/430), User's Manual, Cycles: drilling, tapping
-/// and thread milling; the steps of each are in this folder's README.
+/// Cycles 200 to 209 and 240. Source: iTNC 530 (and TNC 426/430), User's Manual, Cycles: drilling,
+/// tapping and thread milling; the steps of each are in this folder's README.
 namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
@@ -34,6 +34,12 @@ void ream(const Table& table) {
   table.cut(table.bottom(), table.feed(206));
   table.dwell(table.of(211));
   table.retract(table.clearance());
+  table.rapid(table.last());
+}
+
+void center(const Table& table) {
+  table.cut(table.bottom(), table.feed(206));
+  table.dwell(table.of(211));
   table.rapid(table.last());
 }
 
@@ -261,6 +267,8 @@ void make_cycle(const Table& table, int cycle) {
       return bore(table);
     case kBackBore:
       return bore_back(table);
+    case kCenter:
+      return center(table);
     case kChipTap:
       return tap_with_breaks(table);
     case kUniversal:

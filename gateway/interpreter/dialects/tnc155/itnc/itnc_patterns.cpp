@@ -159,9 +159,9 @@ bool run_pattern(Run& run, int cycle, const std::vector<double>& words) {
   State& state = run.state;
   const int called = state.cycle.machining.number;
   const Pattern pattern(run, cycle, words);
-  if (called < kDrill || called > kChipTap) {
+  if (!is_at_a_point(called)) {
     return run.fail(ErrorCode::CycleIncomplete,
-                    fmt::format("CYCL DEF {} without a cycle from 200 to 209 before it", cycle));
+                    fmt::format("CYCL DEF {} without a cycle 200 to 209 or 240 before it", cycle));
   }
   if (state.cycle.is_modal_call) {
     return run.fail(ErrorCode::NotSupported,
