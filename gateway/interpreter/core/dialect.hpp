@@ -39,7 +39,6 @@ struct SwitchRules {
   int skip_levels = 1;           ///< up to 9: the highest number after a slash
   bool dry_run_at_rest = false;  ///< dry run is changed only while the program is halted
   bool machine_lock = false;
-  std::string_view test_mode = {};  ///< option `mode` in a test run; empty: the control has none
 };
 
 /// How the text of a control reads where it is searched and not interpreted.
