@@ -27,6 +27,15 @@ Result<void> check_account_name(std::string_view what, std::string_view name) {
               what, name.substr(0, kMaxName), kMaxName);
 }
 
+Result<void> check_unlimited(const Caller& by, const User& user) {
+  if (by.user != user.name || (by.role >= user.role && !by.groups)) return {};
+  return fail(Errc::Denied,
+              "credential {} of user {} is limited ({}{}): it changes none but itself. Use one "
+              "that has all of the user's rights, or ask an administrator",
+              by.credential, by.user, storage::to_string(by.role),
+              by.groups ? fmt::format(", groups {}", names_text(*by.groups)) : "");
+}
+
 bool is_session(const Credential& credential) {
   return credential.kind != CredentialKind::Token;
 }

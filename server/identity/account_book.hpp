@@ -65,6 +65,10 @@ class AccountBook {
   Directory directory_;  ///< changed with both taken; only note_use needs mutex_ alone
 };
 
+/// A token or session of `user` that is limited, to a lower role or to groups, gives itself nothing
+/// and takes nothing from others: that would be more than it has. Errors: Denied.
+Result<void> check_unlimited(const Caller& by, const User& user);
+
 /// A name of a user, a token or a group: 1 to 64 characters, lower-case letters, digits, `.`, `-`
 /// and `_`, beginning with a letter or digit. Errors: Syntax.
 Result<void> check_account_name(std::string_view what, std::string_view name);

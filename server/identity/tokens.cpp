@@ -89,7 +89,11 @@ Result<Issued> Tokens::add(const Caller& by, const std::string& user, const NewT
 
 Result<void> Tokens::revoke(const Caller& by, const std::string& user, const std::string& name) {
   const auto changing = book_.begin_change();
-  if (auto good = book_.manageable(by, user); !good) return fail(good.error());
+  const auto owner = book_.manageable(by, user);
+  if (!owner) return fail(owner.error());
+  if (by.user != user || by.credential != name) {
+    if (auto good = check_unlimited(by, *owner); !good) return good;
+  }
   if (user == Accounts::kFirstUser && name == Accounts::kLocalToken) {
     return fail(Errc::Conflict,
                 "token {} is the one of the state folder: remove its file there and start the "

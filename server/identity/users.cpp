@@ -112,7 +112,9 @@ Result<void> Users::set_password(const Caller& by, const std::string& name,
   const auto before = book_.manageable(by, name);
   if (!before) return fail(before.error());
   if (auto good = Passwords::check(wanted.password); !good) return good;
-  if (by.user == name && !before->password.empty()) {
+  if (before->password.empty()) {
+    if (auto good = check_unlimited(by, *before); !good) return good;
+  } else if (by.user == name) {
     const auto right = passwords_.verify({name, wanted.current, by.address});
     if (!right && right.error().code != Errc::Denied) return fail(right.error());
     if (!right) return fail(Errc::Denied, "the current password is another one");

@@ -82,6 +82,34 @@ TEST_F(TokensTest, ATokenMakesNoGreaterToken) {
   EXPECT_EQ(refused(*find(kLocalSecret), {.name = "b"}), "conflict") << "names are unique";
 }
 
+/// The first user has no password, and its tokens are given to monitoring.
+TEST_F(TokensTest, ALimitedTokenSetsNoPasswordAndEndsNoOther) {
+  add_group("lathes", {"lathe-1"});
+  const auto viewer =
+      find(token(admin(), "admin", {.name = "prometheus", .role = Role::Viewer})).value();
+  const auto set = accounts().users().set_password(viewer, "admin", {.password = "evil-password"});
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().code, Errc::Denied);
+  EXPECT_NE(set.error().what.find("credential prometheus of user admin is limited (viewer)"),
+            std::string::npos)
+      << set.error().what;
+  EXPECT_FALSE(sign_in("admin", "evil-password"));
+  const std::string mes = token(admin(), "admin", {.name = "mes"});
+  EXPECT_EQ(accounts().tokens().revoke(viewer, "admin", "mes").error().code, Errc::Denied);
+  EXPECT_TRUE(find(mes));
+  EXPECT_TRUE(accounts().tokens().revoke(viewer, "admin", "prometheus")) << "itself";
+  ASSERT_TRUE(accounts().users().add(
+      admin(), {.name = "anna", .role = Role::Operator, .groups = {"lathes"}, .password = {}}));
+  const auto of_group =
+      find(token(admin(), "anna", {.name = "cell", .groups = std::set<std::string>{"lathes"}}))
+          .value();
+  EXPECT_EQ(accounts().users().set_password(of_group, "anna", {.password = kPassword}).error().code,
+            Errc::Denied);
+  const auto full = find(token(admin(), "anna", {.name = "full"})).value();
+  EXPECT_TRUE(accounts().tokens().revoke(full, "anna", "cell"));
+  EXPECT_TRUE(accounts().users().set_password(full, "anna", {.password = kPassword}));
+}
+
 TEST_F(TokensTest, AnAdministratorsTokenCannotBeLimitedToGroupsButALowerOneCan) {
   add_group("lathes", {"lathe-1"});
   NewToken wanted{.name = "t", .role = {}, .groups = std::set<std::string>{"lathes"}};
