@@ -49,7 +49,8 @@ void LineOperator::poll(SteadyTime now) {
     }
   }
   release();
-  if (state_ == State::Draining && !parts_.run.session && parts_.line.is_quiet()) listen_at_ = now;
+  const bool is_drained = state_ == State::Draining && !parts_.run.session && now >= drained_from_;
+  if (is_drained && parts_.line.is_quiet()) listen_at_ = now;
   if (!listen_at_ || now < *listen_at_) return;
   if (is_stopped) {
     listen_at_ = now + kListenAgain;
@@ -146,13 +147,16 @@ void LineOperator::end_text() {
   }
 }
 
+/// The host may go on sending: the rest of a text that broke off must not become the next run.
 void LineOperator::fail_text(const std::string& reason) {
   set_fault(reason);
+  drained_from_ = parts_.clock.steady_now() + kListenAgain;
   if (state_ == State::Feeding) {
     feed_->break_off(fault_);
-    state_ = State::Complete;
-  } else if (state_ == State::Listening || (state_ == State::Draining && !parts_.run.session)) {
-    listen_at_ = parts_.clock.steady_now() + kListenAgain;
+    state_ = State::BrokenOff;
+  } else if (state_ == State::Listening) {
+    state_ = State::Draining;
+    listen_at_.reset();
   }
 }
 

@@ -49,8 +49,9 @@ class LineOperator {
     Closed,     ///< the host was not asked yet
     Listening,  ///< it begins a run
     Feeding,    ///< it belongs to the run
-    Complete,   ///< none is expected: the run's text is complete, or broke off
-    Draining,   ///< it was in transit when its run ended, and is dropped
+    Complete,   ///< none is expected: the run's text is complete
+    BrokenOff,  ///< the run's text ended in a fault: the rest of it is dropped
+    Draining,   ///< as that, until the line is quiet: the run has ended
   };
   void take(feed::LineItem& item);
   bool belongs_to_next_run(const feed::LineItem& item) const;
@@ -74,6 +75,7 @@ class LineOperator {
   std::set<std::string> logged_faults_;  ///< since text came, or the line was steady last
   std::string request_;                  ///< still to be asked for; "next": always
   std::optional<SteadyTime> listen_at_;
+  SteadyTime drained_from_{};  ///< quiet counts from here on
   std::vector<feed::LineItem> held_;  ///< of the next run: the emergency stop is pressed
 };
 

@@ -135,7 +135,7 @@ void SerialRun::look_for_beginning(SteadyTime now) {
 void SerialRun::begin(SteadyTime now) {
   if (!current_->start->head().empty())
     port_->note("sent before the program: " + current_->start->head());
-  if (must_wait_for_panel()) {
+  if (current_->is_held || must_wait_for_panel()) {
     parts_.consent.await(now + parts_.options.cycle_start_wait);
   } else {
     begin_on_line();
@@ -219,13 +219,20 @@ Result<void> SerialRun::cycle_start() {
 }
 
 Result<void> SerialRun::hold() {
-  if (!current_->is_on_line) return {};  // nothing of it leaves before cycle start
+  if (!current_->is_on_line) {  // nothing of it leaves before cycle start
+    current_->is_held = true;
+    return {};
+  }
   port_->hold(current_->run.run, [](const Result<void>&) {});
   return {};
 }
 
 Result<void> SerialRun::resume() {
   if (parts_.consent.is_awaited()) return cycle_start();
+  if (is_looking() && current_->is_held) {
+    current_->is_held = false;
+    return {};
+  }
   const auto now = port_->progress();
   if (!now || !now->is_held) return fail(Errc::Conflict, "the run is not held");
   port_->resume(current_->run.run, [](const Result<void>&) {});

@@ -79,6 +79,8 @@ class SerialRun {
   /// The program is looked through for the place where the run begins; nothing has left.
   bool is_looking() const;
   std::uint64_t looked_at() const { return current_->start->looked_at(); }
+  /// Held before anything of it was on the line.
+  bool is_held_before_line() const { return current_ && !is_on_line() && current_->is_held; }
   /// What is sent before the program; empty: nothing.
   std::string head() const;
   /// All of its text is here.
@@ -94,6 +96,7 @@ class SerialRun {
     std::shared_ptr<PulledText> text;
     std::optional<SerialStart> start = {};
     bool is_on_line = false, is_ending = false;
+    bool is_held = false;  ///< before it was on the line: it waits for cycle start
   };
   void look_for_beginning(SteadyTime now);
   void begin(SteadyTime now);

@@ -30,6 +30,7 @@ std::string buffer_text(const SerialState& state) {
 Execution execution_of(const SerialState& state) {
   if (state.is_emergency_stopped) return Execution::Stopped;
   if (!state.run.is_active() || state.run.is_ending()) return state.run.last_execution();
+  if (state.run.is_held_before_line()) return Execution::FeedHold;
   if (!state.run.is_on_line()) return Execution::Waiting;
   switch (line::activity_of(state.view, state.progress)) {
     case line::LineActivity::Held:
@@ -53,8 +54,9 @@ std::string message_of(const SerialState& state) {
     return line::message_of(state.view, state.progress);
   }
   if (state.run.is_looking()) {
-    return fmt::format("looking through the program for where it begins, byte {}{}",
-                       state.run.looked_at(), state.server.is_connected() ? "" : ": no server");
+    return fmt::format("{}looking through the program for where it begins, byte {}{}",
+                       state.run.is_held_before_line() ? "held; " : "", state.run.looked_at(),
+                       state.server.is_connected() ? "" : ": no server");
   }
   std::string words = state.consent.is_awaited() ? std::string(kAwaitsCycleStart)
                                                  : line::message_of(state.view, state.progress);

@@ -138,6 +138,33 @@ TEST(Line, StopsAfterTheLastCompleteBlockWhenTheCableIsPulled) {
   EXPECT_EQ(ending.executed, blocks_of(text.substr(0, ending.content_length)));
 }
 
+/// A host without flow control: the rest of its text is no program that begins in the middle.
+TEST(Line, BeginsNoRunWithTheRestOfATextThatBrokeOff) {
+  PtyCable cable;
+  LineGateway gateway({.address = cable.control(),
+                       .settings = kSettings,
+                       .speed = "100x",
+                       .arguments = {"--line-buffer", "1024"}});
+  auto changes = kSettings;
+  changes.emplace_back("flow=none");
+  HostLine host(cable.host(), host_settings(changes));
+  // Eight seconds of motion: until then the memory of the control is full.
+  host.send("G20 G98\nG0 X3. Z0\nG1 Z-5. F.4\n" + without_name(contour(150'000)));
+  ASSERT_TRUE(gateway.wait_ended(1, 60s));
+  EXPECT_EQ(gateway.endings()[0].outcome, dds::RunOutcome::Alarmed);
+  EXPECT_NE(gateway.endings()[0].reason.find("continues to send although it is held"),
+            std::string::npos)
+      << gateway.endings()[0].reason;
+  EXPECT_FALSE(host.is_idle()) << "the host is in the middle of its text";
+  ASSERT_TRUE(eventually([&] { return host.is_idle(); }, 30s));
+  std::this_thread::sleep_for(2s);
+  EXPECT_EQ(gateway.endings().size(), 1U);
+  host.send(printing(5));
+  ASSERT_TRUE(gateway.wait_ended(2));
+  EXPECT_EQ(gateway.endings()[1].outcome, dds::RunOutcome::Completed);
+  EXPECT_TRUE(eventually([&] { return host.received() == printed(5); }));
+}
+
 TEST(Line, TakesTheNextProgramWhenTheHostsPortIsBack) {
   PtyCable cable;
   LineGateway gateway({.address = cable.control(), .settings = kSettings});
