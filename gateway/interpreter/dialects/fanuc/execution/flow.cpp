@@ -262,7 +262,11 @@ BlockOutcome take_jump(Run& run, TextSearch& search) {
     const bool begins_contour = state.contour.code != 0 && jump.is_return;
     std::string why;
     if (begins_contour) {
-      outcome = search.check_contour(state.at, jump.number, state.contour.last, why);
+      outcome = search.check_contour(state.at,
+                                     {.first = jump.number,
+                                      .last = state.contour.last,
+                                      .is_left_at_its_end = state.contour.code != kTurningCycles},
+                                     why);
       if (outcome == TextSearch::Outcome::Missing) {
         run.fail(ErrorCode::IllegalContour, 0, why);
         return BlockOutcome::Paused;

@@ -88,6 +88,7 @@ BlockHead read_head(const char* begin, const char* end) {
       at = skip_comments(at, end);
     }
   }
+  head.is_bare = head.kind == BlockHead::Kind::Sequence && (at == end || *at == ';');
   const char next = is_letter(*at) ? upper(*at) : '\0';
   if (next == 'W' || next == 'D' || next == 'E') head.loop = read_loop_word(at, end);
   return head;
@@ -179,13 +180,12 @@ TextSearch::Outcome TextSearch::continue_label_search(LabelSearch& search) {
 }
 
 /// The manual forbids a number that is there twice: the control would find one of both.
-TextSearch::Outcome TextSearch::check_contour(const TextPosition& from, std::uint32_t first,
-                                              std::uint32_t last, std::string& why) {
+TextSearch::Outcome TextSearch::check_contour(const TextPosition& from, const Contour& contour,
+                                              std::string& why) {
+  const auto [first, last, is_left_at_its_end] = contour;
   ContourSearch& search = contour_search_;
-  if (!search.is_known || search.first != first || search.last != last ||
-      !same_place(search.from, from)) {
-    search = {
-        .is_known = true, .first = first, .last = last, .from = from, .next = from.segment_head()};
+  if (!search.is_known || search.contour != contour || !same_place(search.from, from)) {
+    search = {.is_known = true, .contour = contour, .from = from, .next = from.segment_head()};
   }
   if (search.is_right) return Outcome::Found;
   for (unsigned blocks = 0; blocks < kBlocksPerCall; ++blocks) {
@@ -203,13 +203,23 @@ TextSearch::Outcome TextSearch::check_contour(const TextPosition& from, std::uin
         why = fmt::format("there is no N{}", last);
       } else if (search.begins == 1 && search.end < search.begin) {
         why = fmt::format("N{} is before N{}", last, first);
+      } else if (is_left_at_its_end && search.begin > from.offset && search.skipped_line > 0) {
+        why = fmt::format(
+            "N{} does not follow its cycle: what is between them, from line {} on, would never be "
+            "executed",
+            first, search.skipped_line);
       } else {
         search.is_known = search.is_right = true;
         return Outcome::Found;  // a missing N`first` is the jump's own alarm
       }
       return outcome;
     }
-    if (head.kind == BlockHead::Kind::Sequence && head.number == first) {
+    const bool is_first = head.kind == BlockHead::Kind::Sequence && head.number == first;
+    const bool is_between = block.offset >= from.offset && search.begins == 0 && !is_first;
+    if (is_between && head.kind != BlockHead::Kind::Empty && !head.is_bare &&
+        search.skipped_line == 0)
+      search.skipped_line = block.line + 1;
+    if (is_first) {
       search.begin = block.offset;
       ++search.begins;
     }

@@ -18,6 +18,7 @@ struct BlockHead {
   std::uint32_t number = 0;
   std::string_view name = {};  ///< of a program that has one; in the text
   int loop = 0;                ///< m of DO m, -m of END m
+  bool is_bare = false;        ///< a sequence number, and nothing more
 };
 /// The text must end with a LF.
 BlockHead read_head(const char* begin, const char* end);
@@ -46,10 +47,15 @@ class TextSearch {
   /// `open` holds the loops around `from`, and afterwards those around what was found.
   Outcome find_label(const TextPosition& from, std::uint32_t label, OpenLoops& open,
                      TextPosition& found);
-  /// Whether the blocks N`first` to N`last` of the program around `from` are one contour: Found, or
-  /// Missing with the reason in `why`.
-  Outcome check_contour(const TextPosition& from, std::uint32_t first, std::uint32_t last,
-                        std::string& why);
+  /// Numbers of the blocks of a contour.
+  struct Contour {
+    std::uint32_t first = 0, last = 0;
+    bool is_left_at_its_end = false;  ///< the program goes on there when the contour comes later
+    friend bool operator==(const Contour&, const Contour&) = default;
+  };
+  /// Whether these blocks of the program around `from` are one contour: Found, or Missing with the
+  /// reason in `why`.
+  Outcome check_contour(const TextPosition& from, const Contour& contour, std::string& why);
   /// The program that a jump calls, in the text that was started.
   Outcome find_program(const Jump& jump, TextPosition& found);
   /// The END of the loop that begins at `head`; `after` is the block after it.
@@ -83,9 +89,10 @@ class TextSearch {
   struct ContourSearch {
     bool is_known = false;  ///< what is asked
     bool is_right = false;  ///< was found: the jump's own search may follow, and wait
-    std::uint32_t first = 0, last = 0;
+    Contour contour;
     TextPosition from;
     TextPosition next;
+    std::uint64_t skipped_line = 0;    ///< of a block between the cycle and N`first`; 0: none yet
     std::uint64_t begin = 0, end = 0;  ///< offsets of what was found
     unsigned begins = 0, ends = 0;
   };

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
@@ -53,36 +54,25 @@ void take_back_modes(Run& run) {
   state.d_number = before.d_number;
 }
 
-template <class Coordinate>
-bool is_monotonic(const std::vector<ContourMove>& moves, double start, Coordinate coordinate) {
+bool is_monotonic(std::span<const ContourMove> moves, double start, double ContourMove::*at) {
   constexpr double kClose = 1e-6;
   bool rises = false;
   bool falls = false;
   double from = start;
   for (const ContourMove& move : moves) {
-    rises |= coordinate(move) > from + kClose;
-    falls |= coordinate(move) < from - kClose;
-    from = coordinate(move);
+    rises |= move.*at > from + kClose;
+    falls |= move.*at < from - kClose;
+    from = move.*at;
   }
   return !(rises && falls);
 }
 
-/// The tool returns to where G70 began. Over a contour with pockets it leaves the work before it
-/// goes back along it: the straight path may lead through a shoulder.
+/// The tool returns to where G70 began.
 bool leave_finished(Run& run, const Position& start) {
-  const ContourCycle& cycle = run.state.contour;
-  if (cycle.is_type_two) {
-    const bool is_turned = is_monotonic(cycle.moves, start.raw(Axis::Z),
-                                        [](const ContourMove& move) { return move.z; });
-    const bool is_faced = is_monotonic(cycle.moves, start.raw(Axis::X),
-                                       [](const ContourMove& move) { return move.x; });
-    const bool has_faced = run.state.turning.has_faced;
-    if (is_turned || is_faced) {
-      const Axis first = is_faced && (has_faced || !is_turned) ? Axis::Z : Axis::X;
-      Position off = run.state.position;
-      off.set_raw(first, start.raw(first));
-      if (!rapid_to(run, off)) return false;
-    }
+  if (const auto first = leaving_axis(run.state, start)) {
+    Position off = run.state.position;
+    off.set_raw(*first, start.raw(*first));
+    if (!rapid_to(run, off)) return false;
   }
   return rapid_to(run, start);
 }
@@ -120,6 +110,21 @@ bool changes(const Run& run, Group group) {
 }
 
 }  // namespace
+
+std::optional<Axis> leaving_axis(const ModalState& state, const Position& start) {
+  const ContourCycle& cycle = state.contour;
+  std::span<const ContourMove> moves = cycle.moves;
+  ContourMove from{.x = start.raw(Axis::X), .z = start.raw(Axis::Z)};
+  if (!cycle.is_type_two && !moves.empty()) {  // the block of P leads to the contour
+    from = moves.front();
+    moves = moves.subspan(1);
+  }
+  const bool is_turned = is_monotonic(moves, from.z, &ContourMove::z);
+  const bool is_faced = is_monotonic(moves, from.x, &ContourMove::x);
+  const bool is_open = !cycle.is_type_two && is_turned && is_faced;
+  if (is_open || (!is_turned && !is_faced)) return std::nullopt;
+  return is_faced && (state.turning.has_faced || !is_turned) ? Axis::Z : Axis::X;
+}
 
 namespace {
 
@@ -184,7 +189,8 @@ bool follow_contour(Run& run) {
   if (run.block.parts.ending != Ending::None || state.jump.kind == JumpKind::Call) {
     return refuse_contour(run, fmt::format("the program ends or calls before N{}", cycle.last));
   }
-  if (cycle.code == kTurningCycles && cycle.is_type_two) {
+  const bool has_room = cycle.is_type_two || cycle.moves.size() < ContourRecorder::kMaxMoves;
+  if (cycle.code == kTurningCycles && has_room) {
     cycle.moves.push_back({.x = state.position.raw(Axis::X), .z = state.position.raw(Axis::Z)});
   }
   if (run.recorder.is_full()) {

@@ -31,7 +31,7 @@ struct ContourCycle {
   TextPosition back;         ///< after the block of the cycle
   double allowance_x = 0;    ///< a radius
   double allowance_z = 0;
-  std::vector<ContourMove> moves;  ///< of G70 with both axes: where its blocks end
+  std::vector<ContourMove> moves;  ///< of G70: where its blocks end
 };
 
 /// What earlier blocks have set for the cycles: the first blocks of G71 to G76. Radii.
