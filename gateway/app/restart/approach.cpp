@@ -34,10 +34,14 @@ bool Approach::differs(Axis axis) const {
   return to.has(axis) && std::fabs(to.raw(axis) - from.raw(axis)) > kSame;
 }
 
-bool Approach::is_only_x_elsewhere() const {
-  for (const Axis axis : kAllAxes)
-    if (axis != Axis::X && differs(axis)) return false;
-  return differs(Axis::X);
+std::optional<Axis> Approach::axis_elsewhere() const {
+  std::optional<Axis> found;
+  for (const Axis axis : kAllAxes) {
+    if (!differs(axis)) continue;
+    if (found) return std::nullopt;
+    found = axis;
+  }
+  return found;
 }
 
 Approach::Plan Approach::plan() const {
@@ -56,8 +60,9 @@ Approach::Plan Approach::plan() const {
   }
   const bool is_there = !is_elsewhere && std::fabs(target - now) <= kSame;
   if (is_there) return plan;
-  if (is_lathe && is_only_x_elsewhere()) {
-    plan.after.push_back({along(Axis::X, to.raw(Axis::X)), plunge_feed()});
+  const auto only = is_lathe ? axis_elsewhere() : std::nullopt;
+  if (only == Axis::X || only == Axis::Z) {
+    plan.after.push_back({along(*only, to.raw(*only)), plunge_feed()});
     return plan;
   }
   if (has_tool_axis && plan.clearance - now > kSame)

@@ -20,8 +20,8 @@ struct ApproachMove {
 ///
 /// A lathe's Z is its tool axis here, as it is for the Centurion's own search (manual: RUN and
 /// VERIFY): it retracts in front of the part, and its path back is a feed from the clearance on. A
-/// tool that has only gone in or out along X goes straight back along it: in a groove, the path
-/// along Z is through its wall.
+/// tool that has only moved along X, or only along Z, goes straight back: at the floor of a groove,
+/// the path in front of the part is through its wall.
 struct Approach {
   bool is_lathe = false;
   interpreter::Axis tool_axis = interpreter::Axis::Z;
@@ -44,7 +44,8 @@ struct Approach {
  private:
   Feed plunge_feed() const;
   bool differs(interpreter::Axis axis) const;
-  bool is_only_x_elsewhere() const;
+  /// Where it is one alone.
+  std::optional<interpreter::Axis> axis_elsewhere() const;
 };
 
 /// What a restart gives to the machine before the program's own events: tool, the moves, spindle

@@ -270,7 +270,10 @@ bool aim_tool(Run& run, Position& to) {
   run.ledger.take(kCenterWords);
   Point3 direction{};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (words.has(kComponents[i])) direction[i] = run.length(words[kComponents[i]]);
+    if (!words.has(kComponents[i])) continue;
+    const Word& word = words[kComponents[i]];  // of a direction: more decimals than a length has
+    direction[i] =
+        word.form == WordForm::Whole ? run.length(word) : word.value * run.increments.mm_per_unit;
   }
   const double size = length(direction);
   const std::uint32_t column = words.first_column(kCenterWords);

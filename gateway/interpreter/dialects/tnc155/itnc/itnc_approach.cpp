@@ -350,6 +350,13 @@ bool approach(Run& run, const Block& block) {
         "APPR without L, LP, C or CP in the plane directly after it: its direction is not "
         "known");
   }
+  const Compensation next = run.contour_begin->compensation;
+  const bool is_compensated = block.compensation != Compensation::NotProgrammed;
+  if (next != Compensation::NotProgrammed &&
+      next != (is_compensated ? block.compensation : Compensation::Off)) {
+    return run.fail(ErrorCode::PathOffsetWronglyStarted,
+                    "the block after APPR states another radius compensation than APPR");
+  }
   const Pace before = pace_before(state);
   if (!before.is_rapid && !(before.feed > 0)) {
     return run.fail(ErrorCode::FeedRateMissing, "no F above 0 before APPR");

@@ -317,6 +317,13 @@ TEST(Approach, GoesStraightBackOutOfAGrooveOnALathe) {
   EXPECT_TRUE(plan.after[0].feed);
   approach.from = at(19.2, 0, -21);
   EXPECT_TRUE(approach.plan().before.front().to.has(Axis::Z)) << "else in front of the part first";
+  approach.from = at(30, 0, -26);
+  const auto floor = approach.plan();
+  EXPECT_TRUE(floor.before.empty()) << "along the floor of a groove";
+  ASSERT_EQ(floor.after.size(), 1u);
+  EXPECT_EQ(floor.after[0].to.raw(Axis::Z), -20);
+  EXPECT_FALSE(floor.after[0].to.has(Axis::X));
+  EXPECT_TRUE(floor.after[0].feed);
   approach.is_lathe = false;
   approach.from = at(19.2, 0, -20);
   EXPECT_TRUE(approach.plan().before.front().to.has(Axis::Z)) << "a mill goes up";

@@ -248,13 +248,12 @@ TEST_P(TipControlMachines, BringTheToolAlongAVector) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(-1, 1);
   for (int n = 0; n < 100; ++n) {
-    const Vector wanted{std::round(part(random) * 1000) / 1000,
-                        std::round(part(random) * 1000) / 1000,
-                        std::round(part(random) * 1000) / 1000};
+    const Vector wanted{std::round(part(random) * 1e6) / 1e6, std::round(part(random) * 1e6) / 1e6,
+                        std::round(part(random) * 1e6) / 1e6};
     const double size = distance(wanted, {0, 0, 0});
     if (size < 0.01) continue;
     char block[120];
-    std::snprintf(block, sizeof block, "X10. Y20. Z5. I%.3f J%.3f K%.3f\n", wanted[0], wanted[1],
+    std::snprintf(block, sizeof block, "X10. Y20. Z5. I%.6f J%.6f K%.6f\n", wanted[0], wanted[1],
                   wanted[2]);
     const MachineLog log =
         run_on(machine,
