@@ -188,10 +188,15 @@ Result<MachineView> MachineService::machine_for_work(const std::string& name) co
   auto view = connected_machine(name);
   if (!view) return view;
   if (auto stored = registry_.view(name); !stored) return stored;
-  if (view->is_contested)
-    return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them", name);
+  if (auto alone = check_alone(*view); !alone) return fail(alone.error());
   if (auto same = check_protocol(*view); !same) return fail(same.error());
   return view;
+}
+
+Result<void> MachineService::check_alone(const MachineView& view) {
+  if (!view.is_contested) return {};
+  return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them",
+              view.machine.name);
 }
 
 /// A gateway of another version keeps its run and its reports, and can only be stopped.
@@ -228,12 +233,21 @@ void MachineService::note_stop(const CommandRequest& request, const std::string&
 Result<void> MachineService::send(dds::Command command, const CommandRequest& request,
                                   const MachineView& view) {
   const bool is_stop = this->is_stop(request, view);
-  if (auto fits = is_stop ? Result<void>() : check_protocol(view); !fits) return fits;
+  if (!is_stop) {
+    if (auto fits = check_protocol(view); !fits) return fits;
+    if (auto alone = check_alone(view); !alone) return alone;
+  }
   command.action = request.action;
   command.argument = request.argument;
   command.value = request.value;
-  return owned_parts_->commands.carry_out(std::move(command),
-                                          {.given = request.given, .is_stop = is_stop});
+  auto done = owned_parts_->commands.carry_out(std::move(command),
+                                               {.given = request.given, .is_stop = is_stop});
+  if (done || !view.is_contested) return done;
+  return fail(
+      done.error().code,
+      "{}. Two gateways claim to be machine '{}', both got it, and one of them has answered: "
+      "look at the machine, and stop one of them",
+      done.error().what, view.machine.name);
 }
 
 namespace {

@@ -84,6 +84,8 @@ class MachineService final : public MachineControl {
   void abort_unwanted(const storage::Run& run);
   void refuse_stranger(const dds::Announce& announce);
   static Result<void> check_protocol(const MachineView& view);
+  /// Errors: Busy (two gateways claim to be the machine).
+  static Result<void> check_alone(const MachineView& view);
   Result<CommandTarget> target_of(const CommandRequest& request) const;
   static bool is_stop(const CommandRequest& request, const MachineView& view);
   void note_stop(const CommandRequest& request, const std::string& machine);

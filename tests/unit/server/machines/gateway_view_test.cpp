@@ -181,6 +181,20 @@ TEST_F(MachineRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
       << "the successor of a killed gateway waits, and the killed is silent";
   heartbeat();
   EXPECT_TRUE(service_->machine("lathe-1")->is_contested);
+  machines::CommandRequest command;
+  command.machine = "lathe-1";
+  command.action = dds::CommandAction::Resume;
+  const auto resumed = service_->command(command);
+  ASSERT_FALSE(resumed);
+  EXPECT_EQ(resumed.error().what, "two gateways claim to be machine 'lathe-1'; stop one of them");
+  command.action = dds::CommandAction::Hold;
+  EXPECT_TRUE(service_->command(command)) << "stopping always works";
+  answer_commands(false, "no run is active");
+  const auto refused = service_->command(command);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("no run is active. Two gateways claim to be machine"),
+            std::string::npos)
+      << refused.error().what;
   network_.on_rival("lathe-1", false);
   clock_.advance(machines::MachineRegistry::kContested);
   EXPECT_FALSE(service_->machine("lathe-1")->is_contested);

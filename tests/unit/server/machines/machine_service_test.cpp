@@ -117,6 +117,9 @@ TEST_F(MachineRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShow
   view.status.edit().outbox = 0;
   EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
   view.is_connected = true;
+  view.is_contested = true;
+  EXPECT_EQ(compare_twice(), storage::RunState::Ordered) << "the other gateway may have it";
+  view.is_contested = false;
   EXPECT_EQ(compare_twice(), storage::RunState::Refused);
 }
 
