@@ -264,6 +264,11 @@ bool CommandDispatcher::is_waiting_for(const std::string& run) const {
   });
 }
 
+bool CommandDispatcher::is_stopping() const {
+  const std::lock_guard lock(mutex_);
+  return is_stopping_;
+}
+
 void CommandDispatcher::stop() {
   {
     const std::lock_guard lock(mutex_);

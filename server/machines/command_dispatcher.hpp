@@ -73,6 +73,7 @@ class CommandDispatcher {
   bool is_waiting_for(const std::string& run) const;
   /// Answers to what has been sent are awaited for a second more.
   void stop();
+  bool is_stopping() const;
 
  private:
   /// By the server's clock.

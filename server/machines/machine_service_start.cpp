@@ -155,7 +155,9 @@ Result<storage::Run> MachineService::conclude_start(const storage::Run& run,
   process::log_warning("run not started machine={} run={} program={}: {}", run.machine, run.id,
                        run.program, outcome.error().what);
   // The server stops before the outcome is known: the next one determines it.
-  if (outcome.error().code == Errc::Io) return fail(outcome.error());
+  const bool is_unknown =
+      outcome.error().code == Errc::Timeout && owned_parts_->commands.is_stopping();
+  if (is_unknown || outcome.error().code == Errc::Io) return fail(outcome.error());
   const auto refused = owned_parts_->reconciler.resolve_ordered(run.id, storage::RunState::Refused,
                                                                 outcome.error().what);
   if (!refused) return fail(refused.error());

@@ -97,6 +97,23 @@ TEST_F(MachineRuns, AreAnsweredWhileTheServerEnds) {
   EXPECT_EQ(run->state, storage::RunState::Active);
 }
 
+/// The next server finds out what has become of it.
+TEST_F(MachineRuns, StayOrderedWhenTheServerEndsBeforeTheAnswer) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  std::thread ending;
+  written_->on_command = [&](const dds::Command&) {
+    if (!ending.joinable()) ending = std::thread([this] { service_->stop_waiting(); });
+  };
+  const auto run = start("O0100");
+  ending.join();
+  ASSERT_FALSE(run);
+  const auto runs = store_->runs.list({}, {});
+  ASSERT_EQ(runs->size(), 1u);
+  EXPECT_EQ(runs->front().state, storage::RunState::Ordered) << run.error().what;
+}
+
 TEST_F(MachineRuns, AreRefusedWithTheGatewaysReason) {
   push("O0100", "M30\n");
   start_service();
