@@ -218,7 +218,7 @@ TextSearch::Outcome TextSearch::check_contour(const TextPosition& from, const Co
     const bool is_between = block.offset >= from.offset && search.begins == 0 && !is_first;
     if (is_between && head.kind != BlockHead::Kind::Empty && !head.is_bare &&
         search.skipped_line == 0)
-      search.skipped_line = block.line + 1;
+      search.skipped_line = block.line;
     if (is_first) {
       search.begin = block.offset;
       ++search.begins;
