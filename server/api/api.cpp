@@ -82,11 +82,25 @@ std::optional<Response> Api::judge(Request& head) const {
   if (head.given == SteadyTime{}) head.given = services_.clock.steady_now() - age_of(head);
   const Router::Route* const found = router_.find(head);
   if (auto refused = access_.judge(head, found)) return refused;
-  const bool is_open =
-      found != nullptr && found->permission->permission == identity::Permission::Open;
+  if (found == nullptr) return route(head);
+  const bool is_open = found->permission->permission == identity::Permission::Open;
   // Health and description do not wait, and are answered when every worker is busy.
   if (is_open && head.method == "GET") return route(head);
   return std::nullopt;
+}
+
+std::uint64_t Api::max_body(const Request& head) const {
+  const Router::Route* const found = router_.find(head);
+  if (found == nullptr) return 0;
+  switch (found->permission->body) {
+    case BodyKind::Text:
+      return kMaxText;
+    case BodyKind::Piece:
+      return kMaxBody;
+    case BodyKind::Command:
+      return kMaxCommand;
+  }
+  return 0;
 }
 
 Response Api::handle(Request request) const {

@@ -101,11 +101,13 @@ class Api {
   Api(const Api&) = delete;  // the handlers refer to our services
   Api& operator=(const Api&) = delete;
   /// The answer that needs only the request's head, before its body is read and without waiting: of
-  /// a caller who is not known or may not, and of health and OpenAPI description, which anybody may
-  /// read. Otherwise nullopt, and the caller is set in `head`.
+  /// a caller who is not known or may not, of health and OpenAPI description, which anybody may
+  /// read, and of what does not exist. Otherwise nullopt, and the caller is set in `head`.
   std::optional<Response> judge(Request& head) const;
   /// Calls `judge`, finds the handler and runs it. Never throws.
   Response handle(Request request) const;
+  /// The largest body of a request that `judge` let pass.
+  std::uint64_t max_body(const Request& head) const;
   /// Whether the request's handler waits for a machine.
   bool waits_for_machine(const Request& head) const { return router_.waits_for_machine(head); }
   const Router& router() const { return router_; }
@@ -113,6 +115,9 @@ class Api {
   /// The largest piece of an upload; a body may be kMaxBody.
   static constexpr std::uint64_t kMaxPiece = 4 * 1024 * 1024;
   static constexpr std::uint64_t kMaxBody = kMaxPiece + 64 * 1024;
+  /// Of any other request: the largest text is a report template.
+  static constexpr std::uint64_t kMaxText = 320 * 1024;
+  static constexpr std::uint64_t kMaxCommand = 16 * 1024;  ///< of one that may stop a machine
 
  private:
   /// Notes how long it took.

@@ -29,8 +29,9 @@ struct HttpLimits {
   std::size_t connections = 512;
   std::size_t per_address = 256;  ///< one IPv4 address or one IPv6 /64, loopback included
   std::size_t reserve = 32;
-  std::size_t event_streams = 256;                  ///< one address: half of per_address
-  std::uint64_t body_memory = 64ull * 1024 * 1024;  ///< request bodies of all connections
+  std::size_t event_streams = 256;  ///< one address: half of per_address
+  /// Request bodies over 16 KiB of all connections; those of one caller: half of it.
+  std::uint64_t body_memory = 64ull * 1024 * 1024;
   std::size_t waiting_commands = 256;  ///< commands that machines have not answered yet
   std::chrono::milliseconds handshake{8000};
   std::chrono::milliseconds head{10000};   ///< since its first byte, or since the connection
@@ -60,6 +61,9 @@ struct HttpHandlers {
   /// Whether `handle` may wait for a machine. Each such request gets a thread, so that a gateway
   /// that hangs delays no other request. On the socket thread.
   std::function<bool(const Request&)> waits_for_machine = {};
+  /// The largest body of a request that was judged, where less than HttpOptions::max_body. On the
+  /// socket thread.
+  std::function<std::uint64_t(const Request&)> max_body = {};
 };
 
 /// The sockets in front of the handlers. One thread moves bytes; handlers and body sources run on

@@ -8,6 +8,7 @@ namespace {
 
 using enum identity::Permission;
 using enum MachineIn;
+using enum BodyKind;
 
 constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/health", Open},
@@ -82,7 +83,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/programs/{name}/check", View},
     RoutePermission{"POST", "/api/v1/uploads", Program},
     RoutePermission{"GET", "/api/v1/uploads/{id}", Program},
-    RoutePermission{"PUT", "/api/v1/uploads/{id}/content", Program},
+    RoutePermission{"PUT", "/api/v1/uploads/{id}/content", Program, Nowhere, Piece},
     RoutePermission{"POST", "/api/v1/uploads/{id}/commit", Program},
     RoutePermission{"POST", "/api/v1/uploads/{id}/attach", Program},
     RoutePermission{"DELETE", "/api/v1/uploads/{id}", Program},
@@ -90,7 +91,7 @@ constexpr std::array kRoutes{
 
     RoutePermission{"GET", "/api/v1/machines", View},
     RoutePermission{"GET", "/api/v1/machines/{name}", View},
-    RoutePermission{"POST", "/api/v1/machines/{name}/commands", Operate, Name},
+    RoutePermission{"POST", "/api/v1/machines/{name}/commands", Operate, Name, Command},
     RoutePermission{"POST", "/api/v1/machines/{name}/mdi", Operate, Name},
     RoutePermission{"POST", "/api/v1/machines/{name}/datum", Operate, Name},
     RoutePermission{"POST", "/api/v1/machines/{name}/touch-off", Operate, Name},
@@ -116,7 +117,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/runs/{id}", View},
     RoutePermission{"GET", "/api/v1/runs/{id}/attestation", View},
     RoutePermission{"POST", "/api/v1/runs/{id}/restart", Operate, Run},
-    RoutePermission{"POST", "/api/v1/runs/{id}/commands", Operate, Run},
+    RoutePermission{"POST", "/api/v1/runs/{id}/commands", Operate, Run, Command},
     RoutePermission{"GET", "/api/v1/runs/{id}/records", View},
     RoutePermission{"GET", "/api/v1/machine-reports", View},
     RoutePermission{"GET", "/api/v1/machines/{name}/report", View},
@@ -164,7 +165,7 @@ constexpr std::array kRoutes{
     RoutePermission{"POST", "/api/v1/ports/{name}/transfers", Operate, Port},
     RoutePermission{"POST", "/api/v1/ports/{name}/receive", Operate, Port},
     RoutePermission{"POST", "/api/v1/ports/{name}/confirm-reset", Operate, Port},
-    RoutePermission{"DELETE", "/api/v1/ports/{name}/transfers", Operate, Port},
+    RoutePermission{"DELETE", "/api/v1/ports/{name}/transfers", Operate, Port, Command},
     RoutePermission{"GET", "/api/v1/ports/{name}/recording", View},
     RoutePermission{"GET", "/api/v1/ports/{name}/traffic", View},
     RoutePermission{"GET", "/api/v1/port-templates", View},

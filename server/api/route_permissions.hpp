@@ -18,10 +18,18 @@ enum class MachineIn : std::uint8_t {
   Subject,  ///< `{subject}` where `{scope}` is machine
 };
 
+/// What a route has a body for.
+enum class BodyKind : std::uint8_t {
+  Text,     ///< JSON, TOML, or none
+  Piece,    ///< of an upload
+  Command,  ///< to a machine, which may be a stop
+};
+
 struct RoutePermission {
   std::string_view method, pattern;
   identity::Permission permission{};
   MachineIn machine = MachineIn::Nowhere;
+  BodyKind body = BodyKind::Text;
 };
 
 /// What every route needs. A route that is not here ends the server when it starts.

@@ -14,14 +14,15 @@ constexpr std::chrono::seconds kCheckBeforeStart{10};
 
 /// The page is asked first: it needs no token.
 api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
-  return {.handle = [&api](api::Request request) { return api.handle(std::move(request)); },
-          .judge =
-              [&api, &page](api::Request& head) {
-                auto answer = page.answer(head);
-                return answer ? answer : api.judge(head);
-              },
-          .waits_for_machine =
-              [&api](const api::Request& head) { return api.waits_for_machine(head); }};
+  return {
+      .handle = [&api](api::Request request) { return api.handle(std::move(request)); },
+      .judge =
+          [&api, &page](api::Request& head) {
+            auto answer = page.answer(head);
+            return answer ? answer : api.judge(head);
+          },
+      .waits_for_machine = [&api](const api::Request& head) { return api.waits_for_machine(head); },
+      .max_body = [&api](const api::Request& head) { return api.max_body(head); }};
 }
 
 /// What a folder stores has one author for all who post there: then four eyes may be those of one.

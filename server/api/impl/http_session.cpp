@@ -8,6 +8,7 @@
 #include <boost/asio/post.hpp>
 
 #include "protocol/process/log.hpp"
+#include "server/api/impl/body_reader.hpp"
 #include "server/api/impl/http_head.hpp"
 #include "server/api/impl/request_reader.hpp"
 #include "server/api/impl/transport.hpp"
@@ -24,10 +25,8 @@ using Clock = std::chrono::steady_clock;
 using State = ConnectionTable::State;
 
 constexpr std::size_t kSmallBody = 16 * 1024;  ///< written together with its head
-constexpr std::uint64_t kSlowestBody = 4096;   ///< bytes a second, over a whole body
-constexpr auto kBodyGrace = 30s;
-constexpr auto kFarewell = 2s;      ///< for TLS to be shut down
-constexpr auto kDiscardLimit = 5s;  ///< for a refused body to be read away
+constexpr auto kFarewell = 2s;                 ///< for TLS to be shut down
+constexpr auto kDiscardLimit = 5s;             ///< for a refused body to be read away
 constexpr std::uint64_t kDiscardSize = 8ull * 1024 * 1024;
 constexpr int kStreamBuffer = 64 * 1024;  ///< bytes that the kernel buffers for a listener
 /// From the first event that waits to the writing of all: those of a round go out together.
@@ -42,6 +41,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
         is_reserve_(is_reserve),
         reader_(*transport_),
         woken_(shared.io),
+        bodies_({shared, *transport_, reader_, woken_, is_closed_}),
         address_(transport_->peer_address()) {}
 
   void close() override {
@@ -105,7 +105,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     seat.set(State::Busy);
     BodyMemory::Share share;
     if (!parser.is_done()) {
-      const auto refused = co_await read_body(parser, share);
+      const auto refused = co_await bodies_.read(parser, *request, share);
       if (refused) {
         if (refused->status != 0) co_await refuse(*refused);
         co_return false;
@@ -124,47 +124,6 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     }
     if (answer->source) co_return co_await send_source(*std::move(answer));
     co_return co_await send(*answer);
-  }
-
-  /// nullopt when the body was read; else the answer, with a status of 0 when the client is gone.
-  awaitable<std::optional<Response>> read_body(Parser& parser, BodyMemory::Share& share) {
-    const std::uint64_t most = shared_.options.max_body;
-    const auto length = parser.content_length();
-    if (length && *length > most) {
-      co_return refusal(413, Errc::LimitExceeded,
-                        fmt::format("a body of {} bytes: at most {}", *length, most));
-    }
-    parser.body_limit(most);
-    const std::uint64_t size = length ? *length : most;
-    if (!co_await take_memory(size, share)) {
-      co_return refusal(503, Errc::Busy, "too many bodies are being received at once");
-    }
-    if (parser.get()[http::field::expect] == "100-continue") {
-      if (!co_await write("HTTP/1.1 100 Continue\r\n\r\n")) co_return client_gone();
-    }
-    const auto end = Clock::now() + kBodyGrace + std::chrono::seconds(size / kSlowestBody);
-    const error_code error = co_await reader_.read_body(parser, limits_.body, end);
-    if (!error) co_return std::nullopt;
-    const auto refused = refusal_of(error);
-    co_return refused ? refused : client_gone();
-  }
-
-  static std::optional<Response> client_gone() {
-    Response response;
-    response.status = 0;
-    return response;
-  }
-
-  awaitable<bool> take_memory(std::uint64_t size, BodyMemory::Share& share) {
-    const auto end = Clock::now() + limits_.body;
-    const auto waiter = shared_.body_memory.wait([this] { woken_.set(); });
-    while (!shared_.body_memory.has(size) && may_continue() && Clock::now() < end) {
-      co_await woken_.wait(end);
-    }
-    shared_.body_memory.remove(waiter);
-    if (!may_continue() || !shared_.body_memory.has(size)) co_return false;
-    share = shared_.body_memory.take(size);
-    co_return true;
   }
 
   /// Runs `work` on a worker or on a thread of its own; nullopt when an answer is no longer needed.
@@ -360,6 +319,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   const bool is_reserve_;
   RequestReader reader_;
   Signal woken_;
+  BodyReader bodies_;
   const std::string address_;                               ///< of the client
   std::optional<identity::ClientCertificate> certificate_;  ///< of the client, verified
   bool is_closed_ = false;

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "server/api/http_server.hpp"
+#include "server/api/impl/body_memory.hpp"
 #include "server/api/impl/command_threads.hpp"
 #include "server/api/impl/connection_table.hpp"
 #include "server/api/impl/transport.hpp"

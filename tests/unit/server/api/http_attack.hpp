@@ -70,13 +70,18 @@ class HttpAttack : public testing::Test {
     server_ = *std::move(started);
   }
 
-  static std::optional<api::Response> judge(const api::Request& head) {
+  static std::optional<api::Response> judge(api::Request& head) {
     api::Response response;
     if (head.target.segments.at(0) == "health") {
       response.body = "fine\n";
       return response;
     }
-    if (head.header("authorization") == "Bearer right") return std::nullopt;
+    const std::string token = head.header("authorization");
+    if (token == "Bearer right" || token == "Bearer other") {
+      head.who.name = token;
+      head.caller.emplace().user = token;
+      return std::nullopt;
+    }
     response.status = 401;
     return response;
   }

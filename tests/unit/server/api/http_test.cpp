@@ -24,8 +24,8 @@ class Http : public ApiTest {
         options,
         {.handle = [this](api::Request request) { return api_->handle(std::move(request)); },
          .judge = [this](api::Request& head) { return api_->judge(head); },
-         .waits_for_machine =
-             [this](const api::Request& r) { return api_->waits_for_machine(r); }});
+         .waits_for_machine = [this](const api::Request& r) { return api_->waits_for_machine(r); },
+         .max_body = [this](const api::Request& r) { return api_->max_body(r); }});
     EXPECT_TRUE(started) << started.error().what;
     server_ = *std::move(started);
   }
@@ -163,6 +163,52 @@ TEST_F(Http, EndsTheConnectionOfABodyBeyondAllBounds) {
                                    std::string(api::Api::kMaxBody + 1, 'X'), "text/plain");
   EXPECT_TRUE(!answer || answer->status >= 400);
   EXPECT_EQ(client().Get("/api/v1/health")->status, 200);
+}
+
+/// What the server says to a head whose body does not come.
+std::string answer_to_head(std::uint16_t port, std::string_view line, const std::string& token,
+                           std::uint64_t size) {
+  RawPeer peer(port);
+  peer.send(fmt::format(
+      "{} HTTP/1.1\r\nHost: h\r\nAuthorization: Bearer {}\r\nContent-Length: {}\r\n\r\n{{", line,
+      token, size));
+  return peer.read_until("\r\n\r\n", std::chrono::seconds(5)).substr(0, 12);
+}
+
+TEST_F(Http, JudgesByTheHeadWhatItCan) {
+  const std::string viewer = token_of("viewer"), operates = token_of("operator");
+  const auto answer = [&](std::string_view line, const std::string& token, std::uint64_t size) {
+    return answer_to_head(server_->port(), line, token, size);
+  };
+  EXPECT_EQ(answer("POST /api/v1/nothing", viewer, 9), "HTTP/1.1 404");
+  EXPECT_EQ(answer("POST /api/v1/machines", viewer, 9), "HTTP/1.1 405");
+  EXPECT_EQ(answer("POST /api/v1/runs/r1/commands", viewer, 9), "HTTP/1.1 403");
+  EXPECT_EQ(answer("POST /api/v1/ports/p1/test-rules", viewer, 4'000'000), "HTTP/1.1 413");
+  EXPECT_EQ(answer("POST /api/v1/runs/r1/commands", operates, 20'000), "HTTP/1.1 413");
+  EXPECT_EQ(answer("PUT /api/v1/uploads/u1/content?offset=0", viewer, 4'000'000), "HTTP/1.1 403");
+}
+
+/// With a stated length and without one.
+TEST_F(Http, CarriesOutAHoldBetweenSlowBodiesOfAViewer) {
+  const std::string viewer = token_of("viewer");
+  const std::string run = stored_run(1);
+  std::vector<RawPeer> slow;
+  for (int i = 0; i < 240; ++i) {
+    slow.emplace_back(server_->port());
+    slow.back().send(
+        fmt::format("POST /api/v1/ports/x/test-rules HTTP/1.1\r\nHost: h\r\nAuthorization: Bearer "
+                    "{}\r\n{}",
+                    viewer,
+                    i % 2 == 0 ? "Transfer-Encoding: chunked\r\n\r\n1\r\n{"
+                               : "Content-Length: 320000\r\n\r\n{"));
+  }
+  EXPECT_EQ(client().Get("/api/v1/health")->status, 200);
+  const auto begun = std::chrono::steady_clock::now();
+  const auto held = client().Post("/api/v1/runs/" + run + "/commands", R"({"action":"hold"})",
+                                  "application/json");
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->status, 200) << held->body;
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(5));
 }
 
 TEST_F(Http, StreamsAReportWhoseLengthIsNotKnown) {
