@@ -103,6 +103,11 @@ std::uint64_t Api::max_body(const Request& head) const {
   return 0;
 }
 
+bool Api::may_stop(const Request& head) const {
+  const Router::Route* const found = router_.find(head);
+  return found != nullptr && found->permission->body == BodyKind::Command;
+}
+
 Response Api::handle(Request request) const {
   if (auto judged = judge(request)) return *std::move(judged);
   const auto caller = request.caller;

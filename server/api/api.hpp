@@ -108,6 +108,8 @@ class Api {
   Response handle(Request request) const;
   /// The largest body of a request that `judge` let pass.
   std::uint64_t max_body(const Request& head) const;
+  /// Whether it is a command to a machine that may be a stop.
+  bool may_stop(const Request& head) const;
   /// Whether the request's handler waits for a machine.
   bool waits_for_machine(const Request& head) const { return router_.waits_for_machine(head); }
   const Router& router() const { return router_; }

@@ -204,9 +204,9 @@ class BeastServer final : public HttpServer {
       if (error) return;
       const auto admission = shared_.table.admit(address_key(peer.address()));
       if (admission.evicted || admission.is_reserve) {
-        complain(fmt::format(
-            "connections are full address={}: {}", peer.address().to_string(),
-            admission.is_reserve ? "only health is answered" : "the longest silent one is closed"));
+        complain(fmt::format("connections are full address={}: {}", peer.address().to_string(),
+                             admission.is_reserve ? "only health and stops are answered"
+                                                  : "the longest silent one is closed"));
       }
       close_evicted(admission.evicted);
       start_session(shared_, std::move(socket), tls_ ? &*tls_ : nullptr, admission);

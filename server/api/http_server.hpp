@@ -23,8 +23,9 @@ struct TlsFiles {
 };
 
 /// Bounds of what hostile and hung clients can consume. A connection without a request in progress
-/// makes room for a new one, the longest silent first; when there is none, the new one gets one of
-/// the `reserve` seats, where only `/health` is served.
+/// makes room for a new one, the longest silent first, and so does one that sends the body of a
+/// request without a caller; when there is none, the new one gets one of the `reserve` seats, where
+/// only `/health` and what may stop a machine is served.
 struct HttpLimits {
   std::size_t connections = 512;
   std::size_t per_address = 256;  ///< one IPv4 address or one IPv6 /64, loopback included
@@ -61,6 +62,9 @@ struct HttpHandlers {
   /// Whether `handle` may wait for a machine. Each such request gets a thread, so that a gateway
   /// that hangs delays no other request. On the socket thread.
   std::function<bool(const Request&)> waits_for_machine = {};
+  /// Whether a request that was judged may stop a machine: it is served in a reserve seat too. On
+  /// the socket thread.
+  std::function<bool(const Request&)> may_stop = {};
   /// The largest body of a request that was judged, where less than HttpOptions::max_body. On the
   /// socket thread.
   std::function<std::uint64_t(const Request&)> max_body = {};

@@ -22,6 +22,7 @@ api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
             return answer ? answer : api.judge(head);
           },
       .waits_for_machine = [&api](const api::Request& head) { return api.waits_for_machine(head); },
+      .may_stop = [&api](const api::Request& head) { return api.may_stop(head); },
       .max_body = [&api](const api::Request& head) { return api.max_body(head); }};
 }
 

@@ -54,9 +54,23 @@ std::optional<ConnectionTable::Id> ConnectionTable::evict_any() {
 
 void ConnectionTable::set(Id id, State state) {
   const auto entry = entries_.find(id);
-  if (entry == entries_.end()) return;
-  entry->second.state = state;
-  entry->second.since = ++ticks_;
+  if (entry != entries_.end()) change(entry->second, state);
+}
+
+bool ConnectionTable::begin_request(Id id) {
+  const auto entry = entries_.find(id);
+  if (entry == entries_.end()) return false;
+  const std::size_t free = (limits_.reserve + 3) / 4;
+  if (entry->second.is_reserve && busy_reserve_ + free >= limits_.reserve) return false;
+  change(entry->second, State::Busy);
+  return true;
+}
+
+void ConnectionTable::change(Entry& entry, State state) {
+  if (entry.is_reserve && entry.state == State::Busy) --busy_reserve_;
+  if (entry.is_reserve && state == State::Busy) ++busy_reserve_;
+  entry.state = state;
+  entry.since = ++ticks_;
 }
 
 bool ConnectionTable::begin_stream(Id id) {
@@ -77,6 +91,7 @@ void ConnectionTable::leave(Id id) {
 void ConnectionTable::erase(Entries::iterator entry) {
   if (entry->second.is_reserve) {
     --reserved_;
+    if (entry->second.state == State::Busy) --busy_reserve_;
   } else {
     Counts& counts = counts_of(entry->second);
     --seats_;

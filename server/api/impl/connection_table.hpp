@@ -12,7 +12,8 @@ namespace dripline::api {
 /// request in progress (Opening, Idle) makes room for a new one: one of the new one's address when
 /// that address has its maximum, any when the server is full; Opening before Idle, the longest
 /// silent first. So clients that only hold a connection never keep out clients that use one. When
-/// none can make room, the new one gets a reserve seat. Pure; one thread.
+/// none can make room, the new one gets a reserve seat: for a request of the health or one that may
+/// stop a machine, of which a quarter of these seats is kept free. Pure; one thread.
 class ConnectionTable {
  public:
   struct Limits {
@@ -21,14 +22,14 @@ class ConnectionTable {
   };
   using Id = std::uint64_t;
   enum class State {
-    Opening,    ///< has sent no whole head yet
-    Idle,       ///< between two requests
+    Opening,    ///< has sent no whole request yet, or nothing that somebody known may send
+    Idle,       ///< of somebody known, between two requests
     Busy,       ///< a request is in progress
     Streaming,  ///< receives events
   };
   struct Admission {
     Id id = 0;
-    bool is_reserve = false;    ///< only for requests of the health
+    bool is_reserve = false;    ///< only for health and stops
     std::optional<Id> evicted;  ///< to be closed; no longer counted
   };
 
@@ -37,6 +38,8 @@ class ConnectionTable {
   Admission admit(const std::string& address);
   /// Has no effect on an evicted one.
   void set(Id id, State state);
+  /// Makes it Busy; false when it was evicted, or has a reserve seat and too many of these are.
+  bool begin_request(Id id);
   /// Makes it Streaming; false when there are too many already.
   bool begin_stream(Id id);
   /// A silent connection to close when the process is out of descriptors.
@@ -61,12 +64,13 @@ class ConnectionTable {
   template <class Condition>
   std::optional<Id> evict(Condition may_go);
   Counts& counts_of(const Entry& entry) { return addresses_[entry.address]; }
+  void change(Entry& entry, State state);
   void erase(Entries::iterator entry);
 
   Limits limits_;
   Entries entries_;
   std::map<std::string, Counts> addresses_;  ///< without reserve seats
-  std::size_t seats_ = 0, reserved_ = 0, streams_ = 0;
+  std::size_t seats_ = 0, reserved_ = 0, busy_reserve_ = 0, streams_ = 0;
   std::uint64_t ticks_ = 0;
   Id last_id_ = 0;
 };
@@ -81,6 +85,7 @@ class Seat {
     if (table_ != nullptr) table_->leave(id_);
   }
   void set(ConnectionTable::State state) { table_->set(id_, state); }
+  bool begin_request() { return table_->begin_request(id_); }
   bool begin_stream() { return table_->begin_stream(id_); }
   ConnectionTable::Id id() const { return id_; }
 

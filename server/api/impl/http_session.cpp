@@ -59,7 +59,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     certificate_ = transport_->certificate();
     bool continues = true;
     for (bool is_first = true; continues && may_continue(); is_first = false) {
-      seat.set(is_first ? State::Opening : State::Idle);
+      seat.set(is_known_ ? State::Idle : State::Opening);
       continues = co_await serve_request(is_first, seat);
     }
     if (may_continue()) co_await transport_->say_goodbye(kFarewell);
@@ -69,6 +69,12 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   using Parser = RequestReader::Parser;
 
   bool may_continue() const { return !is_closed_ && !shared_.is_stopping; }
+  bool may_stop(const Request& request) const {
+    return shared_.handlers.may_stop && shared_.handlers.may_stop(request);
+  }
+  static Response no_seat() {
+    return refusal(503, Errc::Busy, "the server has all the connections it can take");
+  }
 
   /// True: another request may follow.
   awaitable<bool> serve_request(bool is_first, Seat& seat) {
@@ -94,15 +100,16 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     is_head_only_ = request->method == "HEAD";
     std::optional<Response> judged;
     if (shared_.handlers.judge) judged = shared_.handlers.judge(*request);
-    if (!judged && is_reserve_) {
-      judged = refusal(503, Errc::Busy, "the server has all the connections it can take");
-    }
+    if (!judged && is_reserve_ && !may_stop(*request)) judged = no_seat();
     if (judged) {
       if (parser.is_done()) co_return co_await send(*judged);
       co_await refuse(*judged);
       co_return false;
     }
-    seat.set(State::Busy);
+    is_known_ = is_known_ || request->caller || !parser.content_length();
+    // A stranger's connection, and one in the reserve, makes room until its request is whole.
+    const bool is_kept = request->caller && !is_reserve_;
+    if (is_kept) seat.set(State::Busy);
     BodyMemory::Share share;
     if (!parser.is_done()) {
       const auto refused = co_await bodies_.read(parser, *request, share);
@@ -111,6 +118,11 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
         co_return false;
       }
       request->body = std::move(parser.get().body());
+    }
+    if (!is_kept && !seat.begin_request()) {
+      const Response refused = no_seat();
+      co_await refuse(refused);
+      co_return false;
     }
     auto answer = co_await handle(*std::move(request));
     if (!answer) co_return false;
@@ -322,6 +334,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   BodyReader bodies_;
   const std::string address_;                               ///< of the client
   std::optional<identity::ClientCertificate> certificate_;  ///< of the client, verified
+  bool is_known_ = false;  ///< it has sent what is not for strangers
   bool is_closed_ = false;
   bool is_abandoned_ = false;
   bool is_answered_ = false;

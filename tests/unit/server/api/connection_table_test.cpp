@@ -1,6 +1,7 @@
 #include "server/api/impl/connection_table.hpp"
 
 #include <gtest/gtest.h>
+#include <vector>
 
 namespace dripline::api {
 namespace {
@@ -60,6 +61,25 @@ TEST(ConnectionTable, WhenAllAreBusyOnlyTheReserveIsLeft) {
   EXPECT_TRUE(seventh.is_reserve);
   EXPECT_EQ(seventh.evicted, fifth.id);
   EXPECT_EQ(seats.size(), 6u);
+}
+
+TEST(ConnectionTable, AReserveSeatIsKeptWhileARequestIsInProgressAndSomeAreLeft) {
+  ConnectionTable seats({.connections = 1, .per_address = 1, .reserve = 4});
+  EXPECT_TRUE(seats.begin_request(seats.admit("a").id));
+  std::vector<ConnectionTable::Id> stops;
+  for (int i = 0; i < 3; ++i) {
+    stops.push_back(seats.admit("b").id);
+    EXPECT_TRUE(seats.begin_request(stops.back()));
+  }
+  const auto fourth = seats.admit("b");
+  EXPECT_TRUE(fourth.is_reserve);
+  EXPECT_FALSE(seats.begin_request(fourth.id)) << "the last is for health";
+  const auto health = seats.admit("b");
+  EXPECT_EQ(health.evicted, fourth.id);
+  EXPECT_FALSE(seats.begin_request(fourth.id)) << "it was evicted";
+  seats.leave(stops.front());
+  EXPECT_TRUE(seats.begin_request(seats.admit("b").id));
+  EXPECT_EQ(seats.size(), 5u);
 }
 
 TEST(ConnectionTable, StreamsAreFewerThanConnections) {

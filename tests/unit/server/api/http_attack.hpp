@@ -49,8 +49,9 @@ class Gate {
   bool is_open_ = false;
 };
 
-/// `/health` for everybody, the rest with the token: `/wait` (storage), `/machine` (a machine),
-/// `/events`, `/pieces`, and anything else echoes its body.
+/// `/health` and `/session` for everybody, the rest with the token: `/wait` (storage), `/machine`
+/// (a machine), `/stop` (a machine, at once) and `/stop/wait`, `/events`, `/pieces`, and anything
+/// else echoes its body.
 class HttpAttack : public testing::Test {
  protected:
   void TearDown() override {
@@ -65,17 +66,24 @@ class HttpAttack : public testing::Test {
         options_, {.handle = [this](const api::Request& request) { return answer(request); },
                    .judge = [](api::Request& head) { return judge(head); },
                    .waits_for_machine =
-                       [](const api::Request& r) { return r.target.segments.at(0) == "machine"; }});
+                       [](const api::Request& r) {
+                         return r.target.segments.at(0) == "machine" || is_stop(r);
+                       },
+                   .may_stop = is_stop});
     ASSERT_TRUE(started) << started.error().what;
     server_ = *std::move(started);
   }
 
+  static bool is_stop(const api::Request& request) {
+    return request.target.segments.at(0) == "stop";
+  }
   static std::optional<api::Response> judge(api::Request& head) {
     api::Response response;
     if (head.target.segments.at(0) == "health") {
       response.body = "fine\n";
       return response;
     }
+    if (head.target.segments.at(0) == "session") return std::nullopt;
     const std::string token = head.header("authorization");
     if (token == "Bearer right" || token == "Bearer other") {
       head.who.name = token;
@@ -88,7 +96,8 @@ class HttpAttack : public testing::Test {
 
   api::Response answer(const api::Request& request) {
     const std::string what = request.target.segments.at(0);
-    if (what == "wait" || what == "machine") gate_.wait();
+    if (what == "wait" || what == "machine" || request.target.segments.back() == "wait")
+      gate_.wait();
     api::Response response;
     if (what == "events") {
       response.content_type = "text/event-stream";

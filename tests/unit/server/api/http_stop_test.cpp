@@ -45,5 +45,75 @@ TEST_F(HttpStop, WaitsForNoLargeBody) {
   expect_stopped();
 }
 
+TEST_F(HttpStop, IsNotKeptOutByBodiesOfStrangers) {
+  options_.limits.connections = 8;
+  options_.limits.per_address = 8;
+  start();
+  auto strangers = send_each(8, slow_post("/session", 900, ""));
+  settle();
+  for (int i = 0; i < 20; ++i) {
+    expect_served();
+    expect_stopped();
+  }
+  EXPECT_TRUE(strangers.front().wait_for_end(1s)) << "the oldest one made room";
+}
+
+TEST_F(HttpStop, AStrangerWhoWasAnsweredGoesBeforeWhoHasAToken) {
+  options_.limits.connections = 8;
+  options_.limits.per_address = 8;
+  start();
+  RawPeer known = peer();
+  known.send(get("/x"));
+  known.read_until("served");
+  std::vector<RawPeer> strangers = idle(7);
+  for (auto& one : strangers) {
+    one.send(get("/health", ""));
+    one.read_until("fine\n");
+  }
+  const auto more = send_each(50, slow_post("/session", 900, ""));
+  settle();
+  known.send(post("/stop", kHold));
+  EXPECT_NE(known.read_until("served").find("200 OK"), std::string::npos);
+}
+
+TEST_F(HttpStop, HasSeatsWhenAllAreTaken) {
+  options_.limits.connections = 4;
+  options_.limits.per_address = 4;
+  start();
+  const auto peers = send_each(4, get("/machine"));
+  gate_.wait_for(4);
+  expect_stopped();
+  EXPECT_EQ(status_of(post("/stop", kHold, "")), "HTTP/1.1 401");
+  EXPECT_EQ(status_of(post("/x", kHold)), "HTTP/1.1 503");
+  expect_health();
+}
+
+TEST_F(HttpStop, IsNotKeptOutByOthersThatAreSentSlowly) {
+  options_.limits.connections = 4;
+  options_.limits.per_address = 4;
+  start();
+  const auto peers = send_each(4, slow_post("/x", 900));
+  settle();
+  const auto slow = send_each(100, slow_post("/stop", 900));
+  expect_stopped();
+  expect_health();
+}
+
+TEST_F(HttpStop, LeavesSeatsForHealth) {
+  options_.limits.connections = 4;
+  options_.limits.per_address = 4;
+  options_.limits.reserve = 8;
+  start();
+  const auto peers = send_each(4, get("/machine"));
+  gate_.wait_for(4);
+  auto waiting = send_each(6, post("/stop/wait", kHold));
+  gate_.wait_for(10);
+  EXPECT_EQ(status_of(post("/stop", kHold)), "HTTP/1.1 503");
+  expect_health();
+  gate_.open();
+  for (auto& one : waiting) EXPECT_EQ(one.read_until("served").substr(0, 12), "HTTP/1.1 200");
+  expect_stopped();
+}
+
 }  // namespace
 }  // namespace dripline::server_test

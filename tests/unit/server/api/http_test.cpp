@@ -25,6 +25,7 @@ class Http : public ApiTest {
         {.handle = [this](api::Request request) { return api_->handle(std::move(request)); },
          .judge = [this](api::Request& head) { return api_->judge(head); },
          .waits_for_machine = [this](const api::Request& r) { return api_->waits_for_machine(r); },
+         .may_stop = [this](const api::Request& r) { return api_->may_stop(r); },
          .max_body = [this](const api::Request& r) { return api_->max_body(r); }});
     EXPECT_TRUE(started) << started.error().what;
     server_ = *std::move(started);
@@ -209,6 +210,22 @@ TEST_F(Http, CarriesOutAHoldBetweenSlowBodiesOfAViewer) {
   ASSERT_TRUE(held);
   EXPECT_EQ(held->status, 200) << held->body;
   EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(5));
+}
+
+TEST_F(Http, CarriesOutAHoldBetweenSignInsThatDoNotEnd) {
+  const std::string run = stored_run(1);
+  std::vector<RawPeer> strangers;
+  for (int i = 0; i < 300; ++i) {
+    strangers.emplace_back(server_->port());
+    strangers.back().send(
+        "POST /api/v1/session HTTP/1.1\r\nHost: h\r\nContent-Length: 900\r\n\r\n{");
+  }
+  EXPECT_EQ(client().Get("/api/v1/health")->status, 200);
+  const auto held = client().Post("/api/v1/runs/" + run + "/commands", R"({"action":"hold"})",
+                                  "application/json");
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->status, 200) << held->body;
+  EXPECT_EQ(client().Get("/api/v1/machines")->status, 200) << "and everything else";
 }
 
 TEST_F(Http, StreamsAReportWhoseLengthIsNotKnown) {
