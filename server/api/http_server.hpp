@@ -33,7 +33,7 @@ struct HttpLimits {
   std::size_t event_streams = 256;  ///< one address: half of per_address
   /// Request bodies over 16 KiB of all connections; those of one caller: half of it.
   std::uint64_t body_memory = 64ull * 1024 * 1024;
-  std::size_t waiting_commands = 256;  ///< commands that machines have not answered yet
+  std::size_t waiting_commands = 256;  ///< that machines have not answered yet; 64 more of stops
   std::chrono::milliseconds handshake{8000};
   std::chrono::milliseconds head{10000};   ///< since its first byte, or since the connection
   std::chrono::milliseconds idle{75000};   ///< between two requests of one connection

@@ -6,10 +6,10 @@
 
 namespace dripline::api {
 
-bool CommandThreads::run(std::function<void()> command) {
+bool CommandThreads::run(std::function<void()> command, bool may_be_stop) {
   {
     const std::lock_guard lock(mutex_);
-    if (running_ >= limit_) return false;
+    if (running_ >= limit_ + (may_be_stop ? kForStops : 0)) return false;
     ++running_;
   }
   const auto end = [this] {

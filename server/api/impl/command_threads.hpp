@@ -8,7 +8,8 @@ namespace dripline::api {
 
 /// A thread for each command that waits for a machine. Commands wait for seconds when a gateway
 /// hangs, and a fixed number of threads would then delay the commands for all other machines, a
-/// stop among them. Commands are rare, and a waiting thread costs almost nothing.
+/// stop among them. Commands are rare, and a waiting thread costs almost nothing. Some are left for
+/// stops when all others wait.
 class CommandThreads {
  public:
   explicit CommandThreads(std::size_t limit) : limit_(limit) {}
@@ -16,8 +17,10 @@ class CommandThreads {
   CommandThreads(const CommandThreads&) = delete;
   CommandThreads& operator=(const CommandThreads&) = delete;
 
-  /// False when `limit` commands are running, or no thread can be created.
-  bool run(std::function<void()> command);
+  /// False when `limit` commands are running, with stops kForStops more, or no thread can be
+  /// created.
+  bool run(std::function<void()> command, bool may_be_stop);
+  static constexpr std::size_t kForStops = 64;
   /// Waits until no command is running.
   void wait();
 

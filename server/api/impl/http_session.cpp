@@ -138,9 +138,16 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     co_return co_await send(*answer);
   }
 
+  enum class Thread { OfPool, Own, OfStop };
+  Thread thread_of(const Request& request) const {
+    const auto& waits = shared_.handlers.waits_for_machine;
+    if (!waits || !waits(request)) return Thread::OfPool;
+    return may_stop(request) ? Thread::OfStop : Thread::Own;
+  }
+
   /// Runs `work` on a worker or on a thread of its own; nullopt when an answer is no longer needed.
   template <class T>
-  awaitable<std::optional<T>> on_worker(std::function<T()> work, bool waits_for_machine) {
+  awaitable<std::optional<T>> on_worker(std::function<T()> work, Thread thread) {
     const auto result = std::make_shared<std::optional<T>>();
     std::function<void()> task = [self = shared_from_this(), work = std::move(work),
                                   result]() mutable {
@@ -159,9 +166,9 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       });
     };
     is_answered_ = false;
-    if (!waits_for_machine) {
+    if (thread == Thread::OfPool) {
       shared_.pool.post(std::move(task));
-    } else if (!shared_.commands.run(std::move(task))) {
+    } else if (!shared_.commands.run(std::move(task), thread == Thread::OfStop)) {
       co_return std::nullopt;
     }
     while (!is_answered_ && !is_abandoned_) co_await woken_.wait();
@@ -169,13 +176,12 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   }
 
   awaitable<std::optional<Response>> handle(Request request) {
-    const bool waits =
-        shared_.handlers.waits_for_machine && shared_.handlers.waits_for_machine(request);
+    const Thread thread = thread_of(request);
     const auto held = std::make_shared<Request>(std::move(request));
     std::function<Response()> work = [this, held] {
       return shared_.handlers.handle(std::move(*held));
     };
-    auto answer = co_await on_worker<Response>(std::move(work), waits);
+    auto answer = co_await on_worker<Response>(std::move(work), thread);
     if (!answer && may_continue()) {
       answer = refusal(503, Errc::Busy, "the server could not take this request now");
     }
@@ -223,7 +229,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     const auto source = std::make_shared<BodySource>(std::move(response.source));
     std::function<Piece()> pull = [source] { return (*source)(); };
     while (is_sent) {
-      auto piece = co_await on_worker<Piece>(pull, false);
+      auto piece = co_await on_worker<Piece>(pull, Thread::OfPool);
       if (!piece) co_return false;
       if (!*piece) {
         // The client notices the missing end of the body.
@@ -271,7 +277,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
         co_await woken_.wait(due.next);
         continue;
       }
-      const auto part = co_await on_worker<Part>(take, false);
+      const auto part = co_await on_worker<Part>(take, Thread::OfPool);
       if (!part || !*part) break;
       const std::string text = framing.is_chunked ? chunk_text(**part) : **part;
       if (!text.empty()) continues = co_await write(text);

@@ -99,6 +99,15 @@ TEST_F(HttpStop, IsNotKeptOutByOthersThatAreSentSlowly) {
   expect_health();
 }
 
+TEST_F(HttpStop, IsGivenWhenNoOtherCommandMayWait) {
+  options_.limits.waiting_commands = 3;
+  start();
+  const auto peers = send_each(3, get("/machine"));
+  gate_.wait_for(3);
+  EXPECT_EQ(status_of(get("/machine")), "HTTP/1.1 503");
+  expect_stopped();
+}
+
 TEST_F(HttpStop, LeavesSeatsForHealth) {
   options_.limits.connections = 4;
   options_.limits.per_address = 4;
