@@ -1,5 +1,7 @@
 #include "server/api/api.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 
 #include <nlohmann/json.hpp>
@@ -106,6 +108,15 @@ std::uint64_t Api::max_body(const Request& head) const {
 bool Api::may_stop(const Request& head) const {
   const Router::Route* const found = router_.find(head);
   return found != nullptr && found->permission->body == BodyKind::Command;
+}
+
+bool Api::finds_run(const Request& head) const {
+  constexpr std::array<std::string_view, 3> kPatterns{"/api/v1/machines", "/api/v1/runs",
+                                                      "/api/v1/runs/{id}"};
+  if (head.method != "GET" || !head.caller) return false;
+  const Router::Route* const found = router_.find(head);
+  return found != nullptr && std::ranges::find(kPatterns, found->pattern) != kPatterns.end() &&
+         head.caller->role >= *identity::lowest_role(identity::Permission::Operate);
 }
 
 Response Api::handle(Request request) const {

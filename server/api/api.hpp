@@ -110,6 +110,8 @@ class Api {
   std::uint64_t max_body(const Request& head) const;
   /// Whether it is a command to a machine that may be a stop.
   bool may_stop(const Request& head) const;
+  /// Whether it asks for machines or runs, of who may stop them.
+  bool finds_run(const Request& head) const;
   /// Whether the request's handler waits for a machine.
   bool waits_for_machine(const Request& head) const { return router_.waits_for_machine(head); }
   const Router& router() const { return router_; }

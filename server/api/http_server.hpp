@@ -65,6 +65,9 @@ struct HttpHandlers {
   /// Whether a request that was judged may stop a machine: it is served in a reserve seat too. On
   /// the socket thread.
   std::function<bool(const Request&)> may_stop = {};
+  /// Whether it finds out what is to be stopped: likewise, in half of these seats. On the socket
+  /// thread.
+  std::function<bool(const Request&)> finds_run = {};
   /// The largest body of a request that was judged, where less than HttpOptions::max_body. On the
   /// socket thread.
   std::function<std::uint64_t(const Request&)> max_body = {};

@@ -23,6 +23,7 @@ api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
           },
       .waits_for_machine = [&api](const api::Request& head) { return api.waits_for_machine(head); },
       .may_stop = [&api](const api::Request& head) { return api.may_stop(head); },
+      .finds_run = [&api](const api::Request& head) { return api.finds_run(head); },
       .max_body = [&api](const api::Request& head) { return api.max_body(head); }};
 }
 

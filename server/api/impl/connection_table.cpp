@@ -57,10 +57,10 @@ void ConnectionTable::set(Id id, State state) {
   if (entry != entries_.end()) change(entry->second, state);
 }
 
-bool ConnectionTable::begin_request(Id id) {
+bool ConnectionTable::begin_request(Id id, bool may_be_stop) {
   const auto entry = entries_.find(id);
   if (entry == entries_.end()) return false;
-  const std::size_t free = (limits_.reserve + 3) / 4;
+  const std::size_t free = may_be_stop ? (limits_.reserve + 3) / 4 : (limits_.reserve + 1) / 2;
   if (entry->second.is_reserve && busy_reserve_ + free >= limits_.reserve) return false;
   change(entry->second, State::Busy);
   return true;

@@ -38,8 +38,9 @@ class ConnectionTable {
   Admission admit(const std::string& address);
   /// Has no effect on an evicted one.
   void set(Id id, State state);
-  /// Makes it Busy; false when it was evicted, or has a reserve seat and too many of these are.
-  bool begin_request(Id id);
+  /// Makes it Busy; false when it was evicted, or has a reserve seat and too many of these are:
+  /// with what is no stop half of them.
+  bool begin_request(Id id, bool may_be_stop);
   /// Makes it Streaming; false when there are too many already.
   bool begin_stream(Id id);
   /// A silent connection to close when the process is out of descriptors.
@@ -85,7 +86,7 @@ class Seat {
     if (table_ != nullptr) table_->leave(id_);
   }
   void set(ConnectionTable::State state) { table_->set(id_, state); }
-  bool begin_request() { return table_->begin_request(id_); }
+  bool begin_request(bool may_be_stop) { return table_->begin_request(id_, may_be_stop); }
   bool begin_stream() { return table_->begin_stream(id_); }
   ConnectionTable::Id id() const { return id_; }
 

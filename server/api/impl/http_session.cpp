@@ -72,6 +72,9 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   bool may_stop(const Request& request) const {
     return shared_.handlers.may_stop && shared_.handlers.may_stop(request);
   }
+  bool finds_run(const Request& request) const {
+    return shared_.handlers.finds_run && shared_.handlers.finds_run(request);
+  }
   static Response no_seat() {
     return refusal(503, Errc::Busy, "the server has all the connections it can take");
   }
@@ -100,7 +103,8 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     is_head_only_ = request->method == "HEAD";
     std::optional<Response> judged;
     if (shared_.handlers.judge) judged = shared_.handlers.judge(*request);
-    if (!judged && is_reserve_ && !may_stop(*request)) judged = no_seat();
+    const bool may_be_stop = may_stop(*request);
+    if (!judged && is_reserve_ && !may_be_stop && !finds_run(*request)) judged = no_seat();
     if (judged) {
       if (parser.is_done()) co_return co_await send(*judged);
       co_await refuse(*judged);
@@ -119,7 +123,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       }
       request->body = std::move(parser.get().body());
     }
-    if (!is_kept && !seat.begin_request()) {
+    if (!is_kept && !seat.begin_request(may_be_stop)) {
       const Response refused = no_seat();
       co_await refuse(refused);
       co_return false;

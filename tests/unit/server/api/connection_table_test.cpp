@@ -65,20 +65,20 @@ TEST(ConnectionTable, WhenAllAreBusyOnlyTheReserveIsLeft) {
 
 TEST(ConnectionTable, AReserveSeatIsKeptWhileARequestIsInProgressAndSomeAreLeft) {
   ConnectionTable seats({.connections = 1, .per_address = 1, .reserve = 4});
-  EXPECT_TRUE(seats.begin_request(seats.admit("a").id));
+  EXPECT_TRUE(seats.begin_request(seats.admit("a").id, true));
   std::vector<ConnectionTable::Id> stops;
   for (int i = 0; i < 3; ++i) {
     stops.push_back(seats.admit("b").id);
-    EXPECT_TRUE(seats.begin_request(stops.back()));
+    EXPECT_TRUE(seats.begin_request(stops.back(), true));
   }
   const auto fourth = seats.admit("b");
   EXPECT_TRUE(fourth.is_reserve);
-  EXPECT_FALSE(seats.begin_request(fourth.id)) << "the last is for health";
+  EXPECT_FALSE(seats.begin_request(fourth.id, true)) << "the last is for health";
   const auto health = seats.admit("b");
   EXPECT_EQ(health.evicted, fourth.id);
-  EXPECT_FALSE(seats.begin_request(fourth.id)) << "it was evicted";
+  EXPECT_FALSE(seats.begin_request(fourth.id, true)) << "it was evicted";
   seats.leave(stops.front());
-  EXPECT_TRUE(seats.begin_request(seats.admit("b").id));
+  EXPECT_TRUE(seats.begin_request(seats.admit("b").id, true));
   EXPECT_EQ(seats.size(), 5u);
 }
 

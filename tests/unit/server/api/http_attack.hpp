@@ -63,13 +63,15 @@ class HttpAttack : public testing::Test {
     options_.address = api::parse_http_address("127.0.0.1:0").value();
     if (options_.max_body == 0) options_.max_body = 1 << 20;
     auto started = api::HttpServer::start(
-        options_, {.handle = [this](const api::Request& request) { return answer(request); },
-                   .judge = [](api::Request& head) { return judge(head); },
-                   .waits_for_machine =
-                       [](const api::Request& r) {
-                         return r.target.segments.at(0) == "machine" || is_stop(r);
-                       },
-                   .may_stop = is_stop});
+        options_,
+        {.handle = [this](const api::Request& request) { return answer(request); },
+         .judge = [](api::Request& head) { return judge(head); },
+         .waits_for_machine =
+             [](const api::Request& r) {
+               return r.target.segments.at(0) == "machine" || is_stop(r);
+             },
+         .may_stop = is_stop,
+         .finds_run = [](const api::Request& r) { return r.target.segments.at(0) == "runs"; }});
     ASSERT_TRUE(started) << started.error().what;
     server_ = *std::move(started);
   }

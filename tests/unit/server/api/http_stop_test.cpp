@@ -1,4 +1,6 @@
 // Stops between clients that take all they can get. All on loopback.
+#include <thread>
+
 #include "tests/unit/server/api/http_attack.hpp"
 
 namespace dripline::server_test {
@@ -106,6 +108,24 @@ TEST_F(HttpStop, IsGivenWhenNoOtherCommandMayWait) {
   gate_.wait_for(3);
   EXPECT_EQ(status_of(get("/machine")), "HTTP/1.1 503");
   expect_stopped();
+}
+
+TEST_F(HttpStop, MayBePreparedWhenAllSeatsAreTakenButNotKeptOutByThat) {
+  options_.limits.connections = 4;
+  options_.limits.per_address = 4;
+  options_.limits.reserve = 8;
+  start();
+  const auto peers = send_each(4, get("/machine"));
+  gate_.wait_for(4);
+  const auto looks = send_each(4, get("/runs/wait"));
+  gate_.wait_for(8);
+  EXPECT_EQ(status_of(get("/runs")), "HTTP/1.1 503");
+  expect_stopped();
+  gate_.open();
+  for (int i = 0; i < 100 && status_of(get("/runs")) != "HTTP/1.1 200"; ++i) {
+    std::this_thread::sleep_for(50ms);
+  }
+  EXPECT_EQ(status_of(get("/runs")), "HTTP/1.1 200");
 }
 
 TEST_F(HttpStop, LeavesSeatsForHealth) {

@@ -26,6 +26,7 @@ class Http : public ApiTest {
          .judge = [this](api::Request& head) { return api_->judge(head); },
          .waits_for_machine = [this](const api::Request& r) { return api_->waits_for_machine(r); },
          .may_stop = [this](const api::Request& r) { return api_->may_stop(r); },
+         .finds_run = [this](const api::Request& r) { return api_->finds_run(r); },
          .max_body = [this](const api::Request& r) { return api_->max_body(r); }});
     EXPECT_TRUE(started) << started.error().what;
     server_ = *std::move(started);
@@ -226,6 +227,27 @@ TEST_F(Http, CarriesOutAHoldBetweenSignInsThatDoNotEnd) {
   ASSERT_TRUE(held);
   EXPECT_EQ(held->status, 200) << held->body;
   EXPECT_EQ(client().Get("/api/v1/machines")->status, 200) << "and everything else";
+}
+
+TEST_F(Http, FindsARunForWhoMayStopIt) {
+  const std::string viewer = token_of("viewer"), operates = token_of("operator");
+  const auto finds = [&](const std::string& method, const std::string& path,
+                         const std::string& token) {
+    api::Request head;
+    head.method = method;
+    head.target = api::parse_target(path).value();
+    head.headers["authorization"] = "Bearer " + token;
+    head.headers["content-length"] = "9";
+    (void)api_->judge(head);
+    return api_->finds_run(head);
+  };
+  EXPECT_TRUE(finds("GET", "/api/v1/machines", operates));
+  EXPECT_TRUE(finds("GET", "/api/v1/runs?limit=1", operates));
+  EXPECT_TRUE(finds("GET", "/api/v1/runs/r1", operates));
+  EXPECT_FALSE(finds("GET", "/api/v1/runs/r1", viewer));
+  EXPECT_FALSE(finds("GET", "/api/v1/runs/r1", "nobody"));
+  EXPECT_FALSE(finds("POST", "/api/v1/runs", operates));
+  EXPECT_FALSE(finds("GET", "/api/v1/programs", operates));
 }
 
 TEST_F(Http, StreamsAReportWhoseLengthIsNotKnown) {
