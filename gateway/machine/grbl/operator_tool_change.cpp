@@ -9,6 +9,7 @@ using interpreter::SpindleState;
 void OperatorToolChange::begin() {
   spindle_ = {};
   tool_.reset();
+  stopped_for_.reset();
   wants_tool_ = has_stopped_ = false;
 }
 
@@ -24,6 +25,7 @@ void OperatorToolChange::stop_for_tool(const interpreter::Origin& origin) {
   turn_off(origin);
   out().on_stop({origin, interpreter::StopKind::ToolChange});
   has_stopped_ = true;
+  stopped_for_ = tool_;
   if (spindle_.state != SpindleState::Off) out().on_spindle(spindle_);
 }
 
@@ -71,8 +73,12 @@ void OperatorToolChange::on_miscellaneous(const interpreter::Miscellaneous& even
 
 void OperatorToolChange::on_stop(const interpreter::Stop& event) {
   const bool is_for_tool = event.kind == interpreter::StopKind::ToolChange;
-  if (is_for_tool && has_stopped_) return;  // for this tool
-  if (is_for_tool) wants_tool_ = false, has_stopped_ = true;
+  if (is_for_tool && has_stopped_for_tool()) return;
+  if (is_for_tool) {
+    wants_tool_ = false;
+    has_stopped_ = true;
+    stopped_for_ = tool_;
+  }
   out().on_stop(event);
 }
 

@@ -24,14 +24,17 @@ class OperatorToolChange final : public interpreter::EventFilter {
   void on_block_end(const interpreter::Origin& origin) override;
 
  private:
-  void want_tool() { wants_tool_ = !has_stopped_; }
+  /// Without a number nobody knows which tool the stop was for.
+  bool has_stopped_for_tool() const { return has_stopped_ && tool_ && stopped_for_ == tool_; }
+  void want_tool() { wants_tool_ = !has_stopped_for_tool(); }
   void stop_for_tool(const interpreter::Origin& origin);
   void turn_off(const interpreter::Origin& origin);
 
-  interpreter::Spindle spindle_;  ///< as commanded last
-  std::optional<int> tool_;       ///< that the program has changed to
-  bool wants_tool_ = false;       ///< the operator must change it before the axes move
-  bool has_stopped_ = false;      ///< since the last motion: there was time for it
+  interpreter::Spindle spindle_;    ///< as commanded last
+  std::optional<int> tool_;         ///< that the program has changed to
+  bool wants_tool_ = false;         ///< the operator must change it before the axes move
+  bool has_stopped_ = false;        ///< since the last motion: there was time for it
+  std::optional<int> stopped_for_;  ///< the tool of that stop
 };
 
 }  // namespace dripline::machine::grbl

@@ -55,6 +55,18 @@ INSTANTIATE_TEST_SUITE_P(
                  {0, 5}},
         ToolCase{
             "in_the_block_of_a_move", "fanuc", "%\nO1\nG21G90G94\nG0X3.\nG0X7.T4M6\nM30\n%\n", {3}},
+        ToolCase{"two_without_a_move_between",
+                 "fanuc",
+                 "%\nO1\nG21G90G94\nT1M6\nT2M6\nG0X5.\nM3S500\nT3M6\nT1M6\nG0X7.\nM30\n%\n",
+                 {0, 0, 5, 5}},
+        ToolCase{"the_same_again_without_a_move_between",
+                 "fanuc",
+                 "%\nO1\nG21G90G94\nT1M6\nT1M6\nG0X5.\nM30\n%\n",
+                 {0}},
+        ToolCase{"rs274ngc_without_a_move_between",
+                 "rs274ngc",
+                 "G21G90G94\nT3M6\nT1M6\nG0X4\nM2\n",
+                 {0, 0}},
         ToolCase{"rs274ngc", "rs274ngc", "G21G90G94\nT3M6\nM3S500\nG0X2\nT1M6\nG0X4\nM2\n", {0, 2}},
         ToolCase{"tnc155_by_m06",
                  "tnc155",
@@ -75,6 +87,29 @@ TEST(GrblToolStop, TheSpindleTurnsAgainAsBefore) {
   EXPECT_TRUE(shop.machine.resume());
   ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 4; })) << shop.alarm();
   EXPECT_TRUE(shop.board.is_spindle_on());
+}
+
+/// A restart: the tool before it, the spindle, then the block that changes the tool.
+TEST(GrblToolStop, TheStopForTheToolOfARestartIsNotThatOfTheNextTool) {
+  GrblShop shop;
+  shop.begin();
+  interpreter::EventSink& events = shop.machine.events();
+  const interpreter::Origin origin{.block = 1};
+  events.on_tool({.origin = origin, .number = 1, .offset = {}});
+  interpreter::Spindle spindle;
+  spindle.origin = origin;
+  spindle.state = interpreter::SpindleState::Clockwise;
+  spindle.revolutions_per_minute = 1000;
+  events.on_spindle(spindle);
+  events.on_tool({.origin = origin, .number = 2, .offset = {}});
+  events.on_block_end(origin);
+  for (const bool is_second : {false, true}) {
+    const auto is_stopped = [&] { return shop.machine.state() == MachineState::ProgramStop; };
+    ASSERT_TRUE(shop.pass_until(is_stopped)) << "is second: " << is_second;
+    EXPECT_EQ(shop.machine.status().tool, is_second ? 2 : 1);
+    EXPECT_FALSE(shop.board.is_spindle_on());
+    EXPECT_TRUE(shop.machine.resume());
+  }
 }
 
 TEST(GrblToolStop, AToolThatIsInTheSpindleIsNoReasonForOne) {
