@@ -81,6 +81,7 @@ class BoardSession final : public streamed::Device {
   void hold(SteadyTime now) override;
   bool resume(SteadyTime now) override;
   bool is_held() const override { return is_held_; }
+  bool is_resuming() const override { return is_resuming_; }
   /// Feed hold, then a soft reset at rest: the position is kept.
   void stop(bool is_emergency, SteadyTime now) override;
   /// Until a report shows where the reset board is. A board with a fault is believed nothing more.

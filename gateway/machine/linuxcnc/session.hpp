@@ -79,6 +79,7 @@ class Session final : public streamed::Device {
   void hold(SteadyTime now) override;
   bool resume(SteadyTime now) override;
   bool is_held() const override { return is_held_; }
+  bool is_resuming() const override { return is_resuming_; }
   void stop(bool is_emergency, SteadyTime now) override;
   bool is_stopping() const override { return is_stopping_; }
   void restart(SteadyTime now) override;

@@ -78,6 +78,8 @@ class Device {
   /// False: the device cannot continue.
   virtual bool resume(SteadyTime now) = 0;
   virtual bool is_held() const = 0;
+  /// It was commanded to leave the hold, and no report has shown it yet.
+  virtual bool is_resuming() const = 0;
   /// Decelerates and drops what was sent. Ends when `is_stopping` does.
   virtual void stop(bool is_emergency, SteadyTime now) = 0;
   virtual bool is_stopping() const = 0;

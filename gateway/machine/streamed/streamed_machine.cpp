@@ -188,9 +188,9 @@ void StreamedMachine::set_panel(const OperatorPanel& panel) {
 void StreamedMachine::hold_by_override() {
   const bool was_zero =
       std::exchange(is_override_hold_, panel_.feed_override == 0 || panel_.rapid_override == 0);
-  if (is_override_hold_ && !was_zero && is_active_ && !device_.is_held()) {
+  if (is_override_hold_ && !was_zero && is_active_) {
+    is_held_by_override_ = !device_.is_held() || device_.is_resuming();
     device_.hold(now());
-    is_held_by_override_ = true;
   } else if (!is_override_hold_ && std::exchange(is_held_by_override_, false)) {
     (void)device_.resume(now());
   }

@@ -173,6 +173,24 @@ TEST_F(GrblOperator, RaisingTheOverrideEndsNoHoldOfTheOperator) {
   EXPECT_GT(moved_in(1), 1);
 }
 
+TEST_F(GrblOperator, AFeedOverrideOfZeroEndsAResumeThatIsUnderWay) {
+  run();
+  shop.machine.hold();
+  shop.pass(0.5);
+  EXPECT_TRUE(shop.machine.resume());
+  set({.feed_override = 0});
+  EXPECT_EQ(moved_in(3), 0) << "the operator's resume";
+  EXPECT_FALSE(shop.machine.resume());
+  set({.feed_override = 0.15});
+  EXPECT_GT(moved_in(3), 1);
+  for (const double factor : {0.05, 0.15, 0.05, 0.15, 0.05}) set({.feed_override = factor});
+  shop.pass(0.5);
+  EXPECT_EQ(moved_in(3), 0) << "that of the override";
+  set({.feed_override = 1});
+  ASSERT_TRUE(shop.pass_until_over());
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
+}
+
 TEST_F(GrblOperator, AProgramBeginsNothingAtAnOverrideOfZero) {
   set({.feed_override = 0});
   shop.begin();
