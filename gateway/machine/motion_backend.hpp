@@ -170,6 +170,9 @@ class MotionBackend {
   virtual void hold() = 0;
   /// Cycle start: ends a hold, a stop or a single-block stop. False when there was none.
   virtual bool resume() = 0;
+  /// Ends a hold that the owner's own trouble was the reason of. False: this one is left to the
+  /// operator, a safety door was opened meanwhile.
+  virtual bool continue_unattended() { return resume(); }
   /// The handwheel was turned, in handwheel mode: lets `program_time` pass, no faster than by
   /// itself and only forward.
   virtual void turn_handwheel(Seconds program_time) = 0;

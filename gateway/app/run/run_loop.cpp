@@ -173,7 +173,8 @@ bool RunLoop::wait_out_fault(SteadyTime now) {
   next_commit_ = now + kCommitRetry;
   if (!parts_.recorder.commit()) return true;
   process::log_info("reports are kept again {}", parts_.run.label());
-  if (std::exchange(is_held_by_fault_, false) && parts_.consent.is_given()) parts_.machine.resume();
+  if (std::exchange(is_held_by_fault_, false) && parts_.consent.is_given())
+    (void)parts_.machine.continue_unattended();
   return false;
 }
 

@@ -216,6 +216,7 @@ void BoardSession::watch_state(const StatusReport& report, SteadyTime now) {
   const BoardState state = report.state;
   if (state != BoardState::Alarm) last_alarm_.clear();
   if (state == BoardState::Hold || state == BoardState::Door) {
+    if (state == BoardState::Door) has_seen_door_ = true;
     if (door_is_open()) is_resuming_ = false;  // closing the door must not start the axes
     if (is_resuming_ && report.rests()) {
       real_time(kCycleStart);
@@ -227,10 +228,9 @@ void BoardSession::watch_state(const StatusReport& report, SteadyTime now) {
   }
   // A report that was made before the hold arrived does not end it.
   if (is_resuming_ && (cycle_start_is_sent_ || !hold_is_sent_)) is_resuming_ = is_held_ = false;
-  if (!is_active_) {
-    is_held_ = false;
-    return;
-  }
+  if (!is_active_) is_held_ = false;
+  if (!is_held_) has_seen_door_ = false;
+  if (!is_active_) return;
   switch (state) {
     case BoardState::Idle:
     case BoardState::Run:

@@ -52,7 +52,7 @@ void BoardSession::drop_lines() {
   counter_.reset();
   tracker_.drop();
   preamble_ = Preamble::None;
-  is_held_ = is_resuming_ = hold_is_sent_ = false;
+  is_held_ = is_resuming_ = hold_is_sent_ = has_seen_door_ = false;
   resting_since_.reset();
   homing_limit_.reset();
   overrides_.reset();

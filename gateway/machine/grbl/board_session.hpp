@@ -82,6 +82,7 @@ class BoardSession final : public streamed::Device {
   bool resume(SteadyTime now) override;
   bool is_held() const override { return is_held_; }
   bool is_resuming() const override { return is_resuming_; }
+  bool needs_operator() const override { return has_seen_door_; }
   /// Feed hold, then a soft reset at rest: the position is kept.
   void stop(bool is_emergency, SteadyTime now) override;
   /// Until a report shows where the reset board is. A board with a fault is believed nothing more.
@@ -194,6 +195,7 @@ class BoardSession final : public streamed::Device {
   std::string not_ready_ = "the board is not connected";
 
   bool is_active_ = false, is_held_ = false, is_resuming_ = false;
+  bool has_seen_door_ = false;  ///< since the hold began
   bool hold_is_sent_ = false, cycle_start_is_sent_ = false, wants_reopen_ = false;
   std::size_t identified_ = 0;  ///< commands of the identification that are answered
   int garbage_ = 0;

@@ -80,6 +80,8 @@ class Device {
   virtual bool is_held() const = 0;
   /// It was commanded to leave the hold, and no report has shown it yet.
   virtual bool is_resuming() const = 0;
+  /// A safety door was opened since the hold began: it is left by the operator alone.
+  virtual bool needs_operator() const { return false; }
   /// Decelerates and drops what was sent. Ends when `is_stopping` does.
   virtual void stop(bool is_emergency, SteadyTime now) = 0;
   virtual bool is_stopping() const = 0;

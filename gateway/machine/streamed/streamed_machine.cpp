@@ -192,7 +192,7 @@ void StreamedMachine::hold_by_override() {
     is_held_by_override_ = !device_.is_held() || device_.is_resuming();
     device_.hold(now());
   } else if (!is_override_hold_ && std::exchange(is_held_by_override_, false)) {
-    (void)device_.resume(now());
+    if (!device_.needs_operator()) (void)device_.resume(now());
   }
 }
 
@@ -236,6 +236,14 @@ bool StreamedMachine::resume() {
   }
   wake();
   return has_resumed;
+}
+
+bool StreamedMachine::continue_unattended() {
+  {
+    const Lock lock(mutex_);
+    if (device_.needs_operator()) return false;
+  }
+  return resume();
 }
 
 void StreamedMachine::abort() {

@@ -191,6 +191,43 @@ TEST_F(GrblOperator, AFeedOverrideOfZeroEndsAResumeThatIsUnderWay) {
   EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
 }
 
+TEST_F(GrblOperator, RaisingTheOverrideStartsNothingAfterADoorWasOpen) {
+  run();
+  set({.feed_override = 0});
+  shop.pass(0.5);
+  shop.board.open_door();
+  shop.pass(1);
+  shop.board.close_door();
+  shop.pass(0.5);
+  set({.feed_override = 0.5});
+  EXPECT_EQ(moved_in(3), 0);
+  EXPECT_EQ(shop.machine.state(), MachineState::Held);
+  EXPECT_TRUE(shop.machine.resume());
+  EXPECT_GT(moved_in(1), 1);
+  set({.feed_override = 0});
+  shop.pass(0.5);
+  set({.feed_override = 0.5});
+  EXPECT_GT(moved_in(1), 1) << "a hold after that one";
+}
+
+TEST_F(GrblOperator, NothingContinuesUnattendedAfterADoorWasOpen) {
+  run();
+  shop.machine.hold();
+  shop.pass(0.5);
+  EXPECT_TRUE(shop.machine.continue_unattended());
+  EXPECT_GT(moved_in(1), 1);
+  shop.machine.hold();
+  shop.pass(0.5);
+  shop.board.open_door();
+  shop.pass(1);
+  shop.board.close_door();
+  shop.pass(0.5);
+  EXPECT_FALSE(shop.machine.continue_unattended());
+  EXPECT_EQ(moved_in(3), 0);
+  EXPECT_TRUE(shop.machine.resume());
+  EXPECT_GT(moved_in(1), 1);
+}
+
 TEST_F(GrblOperator, AProgramBeginsNothingAtAnOverrideOfZero) {
   set({.feed_override = 0});
   shop.begin();
