@@ -117,8 +117,9 @@ void ExecutionRecorder::on_block_executed(const interpreter::Origin& origin) {
   }
 }
 
-void ExecutionRecorder::on_motion_starts(const interpreter::Origin&) {
+bool ExecutionRecorder::on_motion_starts(const interpreter::Origin&) {
   if (is_between_blocks_ && fault_.empty() && parts_.outbox.has_staged_records()) (void)commit();
+  return fault_.empty();
 }
 
 void ExecutionRecorder::append(const interpreter::Origin& origin, Report report) {

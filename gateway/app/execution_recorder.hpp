@@ -86,7 +86,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
 
   void on_given(const machine::GivenAction& action) override;
   void on_block_executed(const interpreter::Origin& origin) override;
-  void on_motion_starts(const interpreter::Origin& origin) override;
+  bool on_motion_starts(const interpreter::Origin& origin) override;
   void on_output(const interpreter::Output& output) override;
   void on_open(const interpreter::Open& open) override;
   void on_close(const interpreter::Close& close) override;

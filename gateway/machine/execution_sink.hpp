@@ -15,8 +15,9 @@ class ExecutionSink {
   /// half a second of motion more than it may have.
   virtual void on_given(const GivenAction&) {}
   /// A move, a dwell or a probe is about to begin: the last moment to write to disk what was
-  /// reported before it.
-  virtual void on_motion_starts(const interpreter::Origin&) {}
+  /// reported before it. False: that cannot be written. From rest nothing begins then, and it is
+  /// announced again.
+  virtual bool on_motion_starts(const interpreter::Origin&) { return true; }
   /// The block is done: all its moves have ended. This is the *executed* counter.
   virtual void on_block_executed(const interpreter::Origin&) {}
   virtual void on_output(const interpreter::Output&) {}

@@ -77,7 +77,7 @@ double Executor::pass(double by, std::size_t max_actions) {
       if (!pass_dwell(by, used)) return used;
     } else if ((max_actions > 0 || continues_regardless()) && may_start()) {
       if (max_actions > 0) --max_actions;
-      start_front();
+      if (!start_front()) return used;
     } else {
       if (may_discard() && speed_ == 0) discard();
       return used;
@@ -124,18 +124,20 @@ bool Executor::pass_dwell(double by, double& used) {
   return true;
 }
 
-void Executor::start_front() {
+/// False: what was reported before it cannot be written. From rest nothing begins then.
+bool Executor::start_front() {
   Action& action = queue_.front();
   enter(action);
   if (skips(action)) {
     speed_ = 0;
-    return finish_action();
+    finish_action();
+    return true;
   }
   const bool takes_time = std::holds_alternative<Move>(action.body) ||
                           std::holds_alternative<Wait>(action.body) ||
                           std::holds_alternative<ProbeMarker>(action.body);
   if (takes_time) return_spindle();
-  if (takes_time) sink_.on_motion_starts(origin_);
+  if (takes_time && !sink_.on_motion_starts(origin_) && speed_ == 0) return false;
   if (const auto* move = std::get_if<Move>(&action.body)) {
     planner_.ensure(queue_, panel_);
     start(*move);
@@ -148,6 +150,7 @@ void Executor::start_front() {
   } else {
     report(action);
   }
+  return true;
 }
 
 void Executor::start(const Move& move) {

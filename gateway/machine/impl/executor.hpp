@@ -115,7 +115,7 @@ class Executor {
   bool continues_regardless() const;
   bool delays_hold(const Lock& lock) const;
   bool is_over() const;
-  void start_front();
+  bool start_front();
   void enter(const Action& action);
   bool skips(const Action& action) const;
   void start(const Move& move);

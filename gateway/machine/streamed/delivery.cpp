@@ -149,12 +149,14 @@ bool StreamedMachine::deliver_front(Lock& lock) {
   return deliver_stop(lock);
 }
 
-/// The last moment to write what was reported before the motion. False: it was announced before.
+/// The last moment to write what was reported before the motion. False: it cannot be written, and
+/// nothing begins.
 bool StreamedMachine::start_front(Lock& lock) {
-  if (std::exchange(has_started_, true)) return false;
   const Origin origin = origin_;
-  tell(lock, [&](ExecutionSink& sink) { sink.on_motion_starts(origin); });
-  return true;
+  bool may_start = false;
+  tell(lock, [&](ExecutionSink& sink) { may_start = sink.on_motion_starts(origin); });
+  has_started_ = may_start;
+  return has_started_;
 }
 
 bool StreamedMachine::deliver_motion(Lock& lock) {
@@ -164,7 +166,7 @@ bool StreamedMachine::deliver_motion(Lock& lock) {
   shown_.motion = motion.kind;
   if (!is_released_) {
     if (!may_begin()) return false;
-    if (start_front(lock)) return true;  // meanwhile a fault may have come
+    if (!has_started_) return start_front(lock);  // meanwhile a fault may have come
     is_released_ = true;
     pump(lock);
   }
@@ -196,7 +198,7 @@ bool may_have_moved(const Command& command) {
 bool StreamedMachine::deliver_command(Lock& lock) {
   auto& command = std::get<Command>(queue_.front().body);
   if (command.sent < command.lines.size()) {
-    if (start_front(lock)) return true;
+    if (!has_started_) return start_front(lock);
     if (!has_begun_ && !check_position(expected_)) return device_.fault().has_value();
     has_begun_ = true;
     if (!device_.prepare(now())) return false;

@@ -26,7 +26,7 @@ bool is_on_path(const Coordinates& point, const Coordinates& from, const Coordin
 
 /// The move ends at the contact, as programs take it: the device brakes past it, and is moved back.
 bool StreamedMachine::deliver_probe(Lock& lock) {
-  if (start_front(lock)) return true;
+  if (!has_started_) return start_front(lock);
   auto& move = std::get<ProbeMove>(queue_.front().body);
   if (!has_begun_ && !check_position(expected_)) return device_.fault().has_value();
   has_begun_ = true;

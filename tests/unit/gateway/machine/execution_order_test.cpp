@@ -98,8 +98,9 @@ TEST(Execution, AlarmEndsEverythingAfterIt) {
 TEST(Execution, MotionIsAnnouncedAfterWhatWasToldBeforeIt) {
   struct Announcer final : ExecutionSink {
     std::vector<std::string> lines;
-    void on_motion_starts(const Origin& o) override {
+    bool on_motion_starts(const Origin& o) override {
       lines.push_back(fmt::format("motion {}", o.block));
+      return true;
     }
     void on_output(const interpreter::Output& o) override { lines.emplace_back(o.text); }
   } announcer;
@@ -111,6 +112,24 @@ TEST(Execution, MotionIsAnnouncedAfterWhatWasToldBeforeIt) {
   program.dwell(1);
   machine.poll_all();
   EXPECT_EQ(announcer.lines, (std::vector<std::string>{"a", "motion 2", "b", "motion 4"}));
+}
+
+TEST(Execution, NothingBeginsBeforeWhatWasToldIsWritten) {
+  TestMachine test;
+  test.recorder.is_disk_full = true;
+  test.program.line(0, 1, 600);
+  test.program.dwell(1);
+  EXPECT_EQ(test.run_all(), 0);
+  EXPECT_TRUE(test.recorder.blocks.empty());
+  test.recorder.is_disk_full = false;
+  EXPECT_GT(test.run_all(), 1);
+  EXPECT_EQ(test.recorder.blocks.size(), 2u);
+  test.recorder.is_disk_full = true;
+  test.program.line(0, 2, 600);
+  EXPECT_EQ(test.run_all(), 0);
+  test.machine.abort();
+  test.run_all();
+  EXPECT_EQ(test.machine.state(), MachineState::Aborted);
 }
 
 TEST(Execution, BudgetOfActionsIsKept) {

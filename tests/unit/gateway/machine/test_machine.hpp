@@ -24,6 +24,7 @@ class Recorder final : public ExecutionSink {
     blocks.push_back(origin.block);
     if (writes_blocks) lines.push_back(fmt::format("block {}", origin.block));
   }
+  bool on_motion_starts(const Origin&) override { return !is_disk_full; }
   void on_output(const interpreter::Output& e) override { add("output", e.text); }
   void on_open(const interpreter::Open& e) override { add("open", e.name.value_or("-")); }
   void on_close(const interpreter::Close&) override { lines.push_back("close"); }
@@ -56,6 +57,7 @@ class Recorder final : public ExecutionSink {
   void on_aborted() override { lines.push_back("aborted"); }
 
   bool writes_blocks = true;
+  bool is_disk_full = false;  ///< nothing begins
 
  private:
   void add(const char* what, std::string_view text) {

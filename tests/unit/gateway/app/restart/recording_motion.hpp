@@ -51,7 +51,9 @@ class BlockWatch final : public machine::ExecutionSink {
     out_.on_block_executed(origin);
     on_block_(origin.block);
   }
-  void on_motion_starts(const interpreter::Origin& at) override { out_.on_motion_starts(at); }
+  bool on_motion_starts(const interpreter::Origin& at) override {
+    return out_.on_motion_starts(at);
+  }
   void on_output(const interpreter::Output& event) override { out_.on_output(event); }
   void on_open(const interpreter::Open& event) override { out_.on_open(event); }
   void on_close(const interpreter::Close& event) override { out_.on_close(event); }

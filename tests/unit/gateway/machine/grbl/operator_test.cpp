@@ -251,6 +251,25 @@ TEST_F(GrblOperator, TheEmergencyStopReportsSpindleAndCoolantOff) {
   EXPECT_FALSE(shop.board.is_spindle_on());
 }
 
+TEST_F(GrblOperator, NothingBeginsBeforeWhatWasToldIsWritten) {
+  shop.recorder.is_disk_full = true;
+  shop.begin();
+  shop.program.line(5, 0, 1200);
+  shop.program.spindle(1200);
+  shop.program.line(9, 0, 1200);
+  shop.program.end();
+  EXPECT_EQ(moved_in(3), 0);
+  shop.recorder.is_disk_full = false;
+  ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 1; }));
+  shop.recorder.is_disk_full = true;
+  shop.pass(3);
+  EXPECT_NEAR(shop.x(), 5, 1e-3);
+  EXPECT_FALSE(shop.board.is_spindle_on());
+  shop.recorder.is_disk_full = false;
+  ASSERT_TRUE(shop.pass_until_over(10));
+  EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
+}
+
 TEST_F(GrblOperator, SingleBlockStopsAfterEveryBlock) {
   set({.single_block = true});
   shop.begin();
